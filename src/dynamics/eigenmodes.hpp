@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/error.hpp"
+#include "fe/parametric_system.hpp"
+#include "linalg/cholesky.hpp"
+
+namespace twindeck::dynamics {
+
+/// Undamped modes over the free degrees of freedom.
+struct EigenModes {
+  Eigen::VectorXd frequency_Hz;   ///< (n_modes) ascending
+  Eigen::VectorXd eigenvalue;     ///< (n_modes) [rad²/s²]
+  Eigen::MatrixXd shapes;         ///< (n × n_modes) mass-normalised, entry of largest magnitude positive
+  Status status;
+};
+
+/// Modes of a parametric system at given parameter values; keeps the symbolic factorisation and warm-starts from the last modes.
+class ModalSolver {
+ public:
+  explicit ModalSolver(const fe::ParametricSystem& system);
+  /// @param theta (n_parameters) in the parameters' units
+  [[nodiscard]] EigenModes solve(const Eigen::VectorXd& theta, int n_modes);
+  [[nodiscard]] const fe::ParametricSystem& system() const { return system_; }
+  /// Mass matrix (lower triangle) of the last `solve`.
+  [[nodiscard]] const linalg::SparseMatrix& mass() const { return mass_; }
+
+ private:
+  const fe::ParametricSystem& system_;
+  linalg::Cholesky factor_;
+  linalg::SparseMatrix mass_;
+  Eigen::MatrixXd last_;
+};
+
+}  // namespace twindeck::dynamics

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/error.hpp"
+#include "fe/model.hpp"
+#include "fe/parametric_system.hpp"
+
+namespace twindeck::fe {
+
+/// Static state under dead load and pulls: what stiffens the structure.
+struct PrestressState {
+  Eigen::VectorXd stay_pull_N;     ///< (n_elements), 0 for what is not a stay
+  Eigen::VectorXd axial_force_N;   ///< (n_elements), beams and bars; tension positive
+  Eigen::VectorXd displacement;    ///< (6 n_nodes) under dead load and pulls [m, rad]
+  Status status;
+};
+
+/// Sizes and cross references of a model: every beam has length, every name exists, moduli are positive, every node is reached.
+/// @throws InputError that names the source, the part, what was expected and how to mend it
+void validate(const Model& model);
+
+/// Stay pulls and the axial forces that balance them, linear statics (FE.md section 1; prestress rule of the model).
+/// `theta` are the parameter values (a density changes the dead load). Stay stiffness is left out of this state.
+/// @throws InputError for a mechanism, naming a node and its free degrees of freedom
+[[nodiscard]] PrestressState find_prestress(const Model& model, const Eigen::VectorXd& theta);
+
+/// Assembles K = sum a_g K_g and M = sum b_g M_g over the free degrees of freedom. Geometric stiffness of stays and members is a
+/// term without parameters: the prestress is frozen until `assemble` is called again.
+/// @param state  pulls and axial forces; a default-constructed one (empty vectors) means none
+[[nodiscard]] ParametricSystem assemble(const Model& model, const PrestressState& state);
+
+/// Values of the model's parameters as they stand in materials, sections, springs.
+[[nodiscard]] Eigen::VectorXd initial_parameters(const Model& model);
+
+/// The model with parameter values written into its materials, sections, springs and masses (initial values follow).
+[[nodiscard]] Model with_parameters(const Model& model, const Eigen::VectorXd& theta);
+
+/// @throws InputError if K(theta) is singular: names a node and the directions in which it moves freely
+void check_no_mechanism(const ParametricSystem& system, const Eigen::VectorXd& theta, const std::string& source);
+
+}  // namespace twindeck::fe

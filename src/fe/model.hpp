@@ -1,0 +1,142 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace twindeck::fe {
+
+/// A finite element model as data: what a model folder holds (DESIGN section 3), nothing computed. SI units throughout.
+/// References between parts are positions in the vectors below (0-based), -1 = none.
+
+struct Node {
+  long id = 0;            ///< as in nodes.csv
+  Eigen::Vector3d x_m;    ///< coordinates [m]
+};
+
+struct Material {
+  std::string name;
+  double youngs_modulus_Pa = 0.0;
+  double shear_modulus_Pa = 0.0;    ///< follows E in proportion when E is a parameter
+  double poisson_ratio = 0.0;
+  double density_kg_m3 = 0.0;
+};
+
+struct Section {
+  std::string name;
+  // beams and bars
+  double area_m2 = 0.0;
+  double inertia_y_m4 = 0.0;        ///< bending in the local x-z plane
+  double inertia_z_m4 = 0.0;        ///< bending in the local x-y plane
+  double inertia_yz_m4 = 0.0;       ///< product of inertia (unsymmetric sections)
+  double torsion_m4 = 0.0;          ///< St Venant
+  double shear_area_y_m2 = 0.0;     ///< 0: rigid in shear (Euler)
+  double shear_area_z_m2 = 0.0;
+  // shells
+  double thickness_m = 0.0;
+  double bending_inertia_ratio = 1.0;  ///< multiplies t³/12 alone (RMI): not membrane, not mass
+};
+
+enum class ElementType { beam, bar, stay, shell };
+
+struct Element {
+  long id = 0;
+  ElementType type = ElementType::beam;
+  std::string name;                 ///< stays: "NE8"; else ""
+  std::string group;                ///< "foot_top_chord", "slab_foot_B", "stay_44": the unit of parameters and of diagnosis
+  int material = -1;
+  int section = -1;
+  std::vector<int> nodes;           ///< 2 (beam, bar, stay) or 4 (shell, anticlockwise)
+  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near to it as can be; 0 = global Z (X for vertical beams)
+  std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< node -> beam end, global axes
+  std::uint16_t releases = 0;       ///< beams: bit i set = local end degree of freedom i (0-11) carries no force
+  double pull_N = 0.0;              ///< stays: pretension (given, or the site value that shape finding blends with; 0 = none)
+};
+
+/// Spring, dashpot or friction element between a node and ground, or two nodes, along a direction.
+struct Spring {
+  std::string name, group;
+  int node = -1, node2 = -1;        ///< node2 = -1: ground
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  bool rotation = false;            ///< acts on rotations about `direction`
+  double stiffness = 0.0;           ///< [N/m] or [N m/rad]
+  double damping = 0.0;             ///< [N s/m] or [N m s/rad]
+  double friction_N = 0.0;          ///< Coulomb threshold; 0 = none
+  bool series = false;              ///< true: spring and dashpot in series (Maxwell); false: in parallel (Kelvin)
+};
+
+struct RigidLink { std::string name; int master = -1; int slave = -1; };  ///< slave moves as a rigid body with master (6 dof)
+
+struct PointMass {
+  std::string group;
+  int node = -1;
+  double mass_kg = 0.0;
+  Eigen::Vector3d inertia_kg_m2 = Eigen::Vector3d::Zero();  ///< rotary, global axes
+};
+
+struct Support { std::string name; int node = -1; std::array<bool, 6> fixed{}; };  ///< x y z rx ry rz
+
+/// What a parameter scales.
+enum class Target {
+  youngs_modulus, density,                 ///< of a material
+  thickness, bending_inertia_ratio, area,  ///< of a section (area: axial stiffness and mass of bars, stays and beams)
+  spring_stiffness, point_mass,            ///< of a group of springs, of point masses (a factor, initial 1)
+  matrix_stiffness, matrix_mass            ///< of a matrix model: coefficient of K_i, M_i
+};
+
+struct Parameter {
+  std::string name;                 ///< "E_c1"
+  Target target = Target::youngs_modulus;
+  std::vector<std::string> of;      ///< names of materials, sections or groups it applies to
+  std::string unit;                 ///< "Pa", "kg/m3", "-"
+  double initial = 0.0;
+  double lower = 0.0;               ///< bounds; equal to `initial` on both sides means fixed
+  double upper = 0.0;
+};
+
+enum class PullRule {
+  none,           ///< no prestress
+  given,          ///< Element::pull_N as they stand
+  shape_finding   ///< least pulls for zero displacement at the conditions, blended with site pulls (Element::pull_N)
+};
+
+struct Prestress {
+  PullRule rule = PullRule::none;
+  bool geometric_stiffness = true;
+  double minimum_pull_N = 30e3;              ///< no stay goes slack below it
+  double ridge = 1e-3;                       ///< weight of least pulls against zero displacement (dimensionless)
+  double site_weight = 0.0;                  ///< weight of the site pulls against zero displacement (dimensionless), 0 = ignored
+  struct Condition { int node; int dof; };   ///< displacement that should be zero (dof 0-2)
+  std::vector<Condition> conditions;
+};
+
+/// Options of element formulation; the default is the product's.
+struct Formulation {
+  bool shear_flexible = true;         ///< false: Euler-Bernoulli whatever the shear areas
+  bool shell_rotary_inertia = true;   ///< false: translational mass only
+  enum class Drilling { penalty, diagonal } drilling = Drilling::penalty;  ///< penalty: Hughes-Brezzi; diagonal: factor E t A
+  double drilling_factor = 0.0;       ///< 0 = the formulation's own default
+};
+
+struct Model {
+  std::string title;
+  double gravity_m_s2 = 9.81;
+  Formulation formulation;
+  Prestress prestress;
+  std::vector<Node> nodes;
+  std::vector<Material> materials;
+  std::vector<Section> sections;
+  std::vector<Element> elements;
+  std::vector<Spring> springs;
+  std::vector<RigidLink> links;
+  std::vector<PointMass> masses;
+  std::vector<Support> supports;
+  std::vector<Parameter> parameters;
+  std::map<std::string, int> monitoring_points;  ///< "M1" -> node
+  std::string source;                            ///< folder or generator it came from, for messages
+};
+
+}  // namespace twindeck::fe

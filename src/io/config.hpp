@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace twindeck::io {
+
+/// Closed interval that a number must lie in.
+struct Range {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool open_lower = false;  ///< true: the lower end itself is not allowed (a modulus is > 0)
+};
+[[nodiscard]] inline Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
+[[nodiscard]] inline Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false}; }
+
+/// The one description of a configuration struct: each key bound to a member, with unit, range, default (the member's value
+/// when it is bound) and a sentence. Reading TOML, `--set`, `--print-config`, `--describe` and the reference page all walk it.
+///
+///     UpdatingConfig c;
+///     FieldTable t;
+///     t.number("trust_radius", c.trust_radius, "", positive(), "initial trust radius of the dogleg, in normalised parameters");
+///     t.number("added_mass", c.added_mass_kg, "kg", non_negative(), "...");   // TOML: 120.0 or "0.12 t"
+///     t.load("workflows/ponte_del_mare/s6_updating.toml");
+///
+/// Numbers may be given in TOML as a number in the SI unit of the field or as a string with unit ("210 GPa").
+/// Keys may be dotted ("solver.max_iterations" is [solver] max_iterations).
+class FieldTable {
+ public:
+  FieldTable();
+  FieldTable& number(const std::string& key, double& target, const std::string& unit, Range range,
+                     const std::string& meaning, bool required = false);
+  FieldTable& integer(const std::string& key, long& target, Range range, const std::string& meaning, bool required = false);
+  FieldTable& boolean(const std::string& key, bool& target, const std::string& meaning);
+  FieldTable& text(const std::string& key, std::string& target, const std::string& meaning, bool required = false);
+  /// A text that must be one of `allowed`.
+  FieldTable& choice(const std::string& key, std::string& target, const std::vector<std::string>& allowed,
+                     const std::string& meaning);
+  FieldTable& numbers(const std::string& key, std::vector<double>& target, const std::string& unit, Range range,
+                      const std::string& meaning);
+  FieldTable& texts(const std::string& key, std::vector<std::string>& target, const std::string& meaning);
+  /// `[[key]]` array of tables: for each table, `add` appends an element to the caller's list and returns the FieldTable
+  /// bound to that element. `example` is the FieldTable of one default element, for --describe.
+  FieldTable& tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning);
+
+  /// Reads a TOML file into the bound members.
+  /// @throws InputError for an unknown key (naming the nearest known one), a wrong type or unit, a value out of range,
+  ///         a required key that is missing; each with file, line, key, value and what is allowed.
+  void load(const std::filesystem::path& file);
+  /// Applies one `key=value` of the command line; the value is TOML (a bare word is taken as text).
+  void set(const std::string& key_equals_value);
+  /// The resolved configuration as TOML, in SI units.
+  [[nodiscard]] std::string print() const;
+  /// Meaning, unit, range and default of one key, or of all.
+  [[nodiscard]] std::string describe(const std::string& key = "") const;
+
+  struct Field;
+
+ private:
+  std::vector<std::shared_ptr<Field>> fields_;
+};
+
+}  // namespace twindeck::io

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "core/error.hpp"
+#include "linalg/types.hpp"
+
+namespace twindeck::linalg {
+
+/// Sparse LDL'/Cholesky of a symmetric matrix (CHOLMOD, supernodal where it pays; one thread so that results do not depend on
+/// the number of threads). One symbolic factorisation per pattern: `factorize` may be called again with new values.
+class Cholesky {
+ public:
+  Cholesky();
+  ~Cholesky();
+  Cholesky(Cholesky&&) noexcept;
+  Cholesky& operator=(Cholesky&&) noexcept;
+
+  /// Fill-reducing ordering and symbolic factorisation. @param lower  lower triangle (n × n), only its pattern is used
+  void analyze(const SparseMatrix& lower);
+  /// Numeric factorisation (calls `analyze` if that was not done). Not positive definite: status says so and
+  /// `failed_column()` gives the row of the matrix at which it broke down (a mechanism lies there).
+  Status factorize(const SparseMatrix& lower);
+  [[nodiscard]] Eigen::Index failed_column() const;
+  /// Solves A X = B. @param b (n × m) @return (n × m)
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace twindeck::linalg

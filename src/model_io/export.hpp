@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "dynamics/eigenmodes.hpp"
+#include "fe/model.hpp"
+#include "fe/parametric_system.hpp"
+#include "modal/modes.hpp"
+
+namespace twindeck::model_io {
+
+/// K.mtx and M.mtx (Matrix Market, symmetric, lower triangle, 17 digits) with dofs.csv (`dof,node,direction,x_m,y_m,z_m`, dof from 1).
+void write_matrices(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, const std::filesystem::path& folder);
+/// Unstructured grid for ParaView: one point field per mode (vector, largest translation 1), one cell field `group`, `type`.
+void write_vtu(const fe::Model& model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes,
+               const std::filesystem::path& file);
+
+/// modes.csv and shapes.csv (DESIGN section 3) in a folder.
+void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folder);
+[[nodiscard]] modal::ModeSet read_modes(const std::filesystem::path& folder);
+/// Model modes as a ModeSet: all six directions at every node (FE), or node and direction of each dof (matrix model).
+[[nodiscard]] modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& system,
+                                         const dynamics::EigenModes& modes);
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+
+/// The parametric generator of the Ponte del Mare: the only place that knows that there are two decks.
+namespace twindeck::ponte {
+
+/// A change between variants of bridge.toml, one that can be switched on alone.
+struct Change {
+  std::string name;         ///< "light_concrete"
+  std::string paper_item;   ///< "4.1 (1)" or "" when section 4.1 does not name it (a fitted difference)
+  std::string meaning;      ///< a sentence
+};
+
+/// The as-built changes that lead from `preliminary` to `refined`, in the order in which they are applied.
+[[nodiscard]] std::vector<Change> as_built_changes(const std::filesystem::path& bridge_toml);
+/// Names of the variants in bridge.toml.
+[[nodiscard]] std::vector<std::string> variants(const std::filesystem::path& bridge_toml);
+/// A variant of the bridge: preliminary, refined, refined_table8, fitted_to_measured.
+/// @throws InputError for an unknown variant or a bad value, naming file, line and key
+[[nodiscard]] fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant);
+/// The preliminary variant with the named changes switched on.
+[[nodiscard]] fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes);
+/// For the verification against the prototype alone: Euler beams, listed pulls, its drilling and mass rules.
+[[nodiscard]] fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant);
+
+}  // namespace twindeck::ponte
