@@ -66,6 +66,7 @@ struct Spring {
   double damping = 0.0;             ///< [N s/m] or [N m s/rad]
   double friction_N = 0.0;          ///< Coulomb threshold; 0 = none
   bool series = false;              ///< true: spring and dashpot in series (Maxwell); false: in parallel (Kelvin)
+  bool active = true;               ///< false: carried as data (a damper that is not fitted), not assembled
 };
 
 struct RigidLink { std::string name; int master = -1; int slave = -1; };  ///< slave moves as a rigid body with master (6 dof)
