@@ -1,0 +1,123 @@
+"""The layers hold: src/layers.toml is the truth, includes answer to it.
+
+Oracle: the declared graph itself. The second class plants violations in a temporary tree and requires that they are found, so the
+check is known to be able to fail.
+"""
+import pathlib
+import re
+import tempfile
+import tomllib
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
+ANY_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
+CROSSING = re.compile(r"^(ceres|Spectra|cholmod|toml\+\+|nlohmann|openssl|CLI|fmt|fftw|hdf5|matio)")
+MAX_MAIN_LINES = 80
+MAX_FILE_LINES = 500
+
+
+def violations(src):
+    """Every breach of the layer rules below the folder `src`, as sentences."""
+    declared = tomllib.loads((src / "layers.toml").read_text())
+    layer, uses = declared["layer"], declared["uses"]
+    found, used = [], set()
+    for name, targets in uses.items():
+        for target in targets:
+            if layer[target] > layer[name] or (layer[target] == layer[name] and target in uses and name in uses[target]):
+                found.append(f"layers.toml: {name} (L{layer[name]}) uses {target} (L{layer[target]}), which climbs")
+    for file in sorted(src.rglob("*.[hc]pp")):
+        library = file.relative_to(src).parts[0]
+        if library not in layer:
+            found.append(f"{file.relative_to(src)}: folder {library} is not in layers.toml")
+            continue
+        text = file.read_text()
+        for include in INCLUDE.findall(text):
+            target = include.split("/")[0]
+            if target == library or "/" not in include:
+                continue
+            used.add((library, target))
+            if target not in uses[library]:
+                found.append(f"{file.relative_to(src)}: includes {include}, an edge {library} -> {target} that layers.toml lacks")
+        if file.suffix == ".hpp":
+            for include in ANY_INCLUDE.findall(text):
+                if CROSSING.match(include):
+                    found.append(f"{file.relative_to(src)}: a third-party header ({include}) crosses a library's header")
+    for name, targets in uses.items():
+        for target in targets:
+            if (src / name).is_dir() and any((src / name).iterdir()) and (name, target) not in used:
+                found.append(f"layers.toml: the edge {name} -> {target} is not used")
+    return found
+
+
+class Layers(unittest.TestCase):
+    def test_includes_answer_to_the_declared_layers(self):
+        self.assertEqual(violations(ROOT / "src"), [])
+
+    def test_ceres_stays_in_one_file(self):
+        files = [f.name for f in (ROOT / "src").rglob("*.[hc]pp") if re.search(r"#\s*include\s*<ceres", f.read_text())]
+        self.assertEqual(len(files), 1, files)
+
+    def test_libraries_neither_print_nor_exit(self):
+        bad = []
+        for file in (ROOT / "src").rglob("*.[hc]pp"):
+            if file.relative_to(ROOT / "src").parts[0] == "steps":
+                continue
+            if re.search(r"std::c(out|err)\b|\bprintf\(|\bexit\(", file.read_text()):
+                bad.append(str(file.relative_to(ROOT)))
+        self.assertEqual(bad, [])
+
+    def test_numerics_never_read_files(self):
+        bad = []
+        for library in ("linalg", "modal", "fe", "dynamics", "updating"):
+            for file in (ROOT / "src" / library).rglob("*.[hc]pp"):
+                if re.search(r"#\s*include\s*<(fstream|filesystem)>", file.read_text()):
+                    bad.append(str(file.relative_to(ROOT)))
+        self.assertEqual(bad, [])
+
+    def test_mains_are_tables_of_contents(self):
+        long = {f.name: n for f in (ROOT / "src/steps").glob("s[0-9]_*.cpp")
+                if (n := len(f.read_text().splitlines())) > MAX_MAIN_LINES}
+        self.assertEqual(long, {})
+
+    def test_files_stay_small(self):
+        long = {str(f.relative_to(ROOT)): n for part in ("src", "tests", "paper") for f in (ROOT / part).rglob("*")
+                if f.suffix in (".cpp", ".hpp", ".py") and (n := len(f.read_text().splitlines())) > MAX_FILE_LINES}
+        self.assertEqual(long, {})
+
+
+class TheCheckCanFail(unittest.TestCase):
+    def tree(self, files):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for name, text in files.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text)
+        return folder
+
+    LAYERS = "[layer]\ncore = 0\nfe = 2\n[uses]\ncore = []\nfe = ['core']\n"
+    USED = {"core/a.hpp": "", "fe/b.cpp": '#include "core/a.hpp"\n'}
+
+    def test_a_sound_tree_passes(self):
+        self.assertEqual(violations(self.tree({"layers.toml": self.LAYERS} | self.USED)), [])
+
+    def test_a_climbing_include_is_found(self):
+        found = violations(self.tree({"layers.toml": self.LAYERS} | self.USED | {"core/c.cpp": '#include "fe/x.hpp"\n'}))
+        self.assertEqual(len(found), 1)
+        self.assertIn("core -> fe", found[0])
+
+    def test_a_climbing_declaration_is_found(self):
+        layers = self.LAYERS.replace("core = []", "core = ['fe']")
+        found = violations(self.tree({"layers.toml": layers} | self.USED | {"core/c.cpp": '#include "fe/x.hpp"\n'}))
+        self.assertTrue(any("climbs" in f for f in found), found)
+
+    def test_an_unused_edge_is_found(self):
+        found = violations(self.tree({"layers.toml": self.LAYERS, "core/a.hpp": "", "fe/b.cpp": "int x;\n"}))
+        self.assertTrue(any("not used" in f for f in found), found)
+
+    def test_a_third_party_header_in_a_header_is_found(self):
+        found = violations(self.tree({"layers.toml": self.LAYERS} | self.USED | {"fe/c.hpp": "#include <ceres/ceres.h>\n"}))
+        self.assertTrue(any("crosses" in f for f in found), found)
+
+
+if __name__ == "__main__":
+    unittest.main()

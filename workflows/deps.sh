@@ -1,0 +1,33 @@
+#!/bin/sh
+# Says which packages twindeck needs, and installs those that are missing through apt (as root, or with sudo).
+# Does nothing when all are there.
+set -eu
+list=$(dirname "$0")/debian-packages.txt
+wanted=$(sed -e 's/#.*//' "$list" | tr -s ' \n' ' ')
+missing=
+for package in $wanted; do
+  state=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
+  [ "$state" = "install ok installed" ] || missing="$missing $package"
+done
+if [ "${1:-}" = "--list" ]; then
+  for package in $wanted; do
+    printf '%-28s %s\n' "$package" "$(dpkg-query -W -f='${Version}' "$package" 2>/dev/null || echo 'missing')"
+  done
+  exit 0
+fi
+[ -n "$missing" ] || exit 0
+if ! command -v apt-get >/dev/null 2>&1; then
+  echo "deps: missing:$missing; this system has no apt-get, install them with its own package manager" >&2
+  exit 2
+fi
+as_root=
+if [ "$(id -u)" != 0 ]; then
+  command -v sudo >/dev/null 2>&1 || { echo "deps: missing:$missing; run 'make deps' as root, or install sudo" >&2; exit 2; }
+  as_root=sudo
+fi
+echo "deps: installing with apt-get:$missing"
+export DEBIAN_FRONTEND=noninteractive
+$as_root apt-get update -qq
+# shellcheck disable=SC2086  # the list is meant to be split
+$as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null
+echo "deps: done"

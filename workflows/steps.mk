@@ -1,0 +1,30 @@
+# One rule a step, for every study. A step's target is its manifest, which is written last; it depends on its configuration, the
+# study's, its executable, and the manifests of the steps that it reads. A step without a configuration file runs on its defaults.
+
+# The steps of the study as study.toml lists them.
+STEPS := $(shell sed -n '/^steps *=/,/\]/p' $(WORKFLOW)/study.toml 2>/dev/null | grep -o 's[0-9]_[a-z]*')
+STEP_MANIFESTS := $(STEPS:%=$(RESULTS)/%/manifest.json)
+STUDY_INPUTS := $(WORKFLOW)/study.toml $(wildcard data/$(STUDY)/bridge.toml data/$(STUDY)/features/*)
+
+# What each step reads of earlier ones.
+READS_s1_model :=
+READS_s4_refinement := s1_model
+READS_s5_sensitivity := s4_refinement
+READS_s6_updating := s4_refinement s5_sensitivity
+
+# Somebody's own measured modes: make s6 MODES=dir
+MEASURED := $(if $(MODES),--modes $(MODES)) $(if $(FEATURES),--features $(FEATURES))
+OPTIONS_s4_refinement := $(MEASURED)
+OPTIONS_s6_updating := $(MEASURED)
+
+# An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
+$(STEPS:%=$(BIN)/%): build ; @:
+
+define step_rule
+.PHONY: $(firstword $(subst _, ,$(1))) $(1)
+$(firstword $(subst _, ,$(1))) $(1): $(RESULTS)/$(1)/manifest.json
+$(RESULTS)/$(1)/manifest.json: $(STUDY_INPUTS) $(wildcard $(WORKFLOW)/$(1).toml) $(BIN)/$(1) \
+    $(foreach read,$(filter $(READS_$(1)),$(STEPS)),$(RESULTS)/$(read)/manifest.json)
+	@$(BIN)/$(1) --study $(WORKFLOW) --results $(RESULTS) --out $(RESULTS)/$(1) --threads $(THREADS) $$(OPTIONS_$(1))
+endef
+$(foreach step,$(STEPS),$(eval $(call step_rule,$(step))))
