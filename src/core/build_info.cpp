@@ -1,0 +1,95 @@
+#include "core/build_info.hpp"
+
+#include <dlfcn.h>
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <fstream>
+
+// Version headers hold macros only, so that core does not come to depend on the libraries themselves.
+#if __has_include(<ceres/version.h>)
+#include <ceres/version.h>
+#endif
+#if __has_include(<Spectra/Util/Version.h>)
+#include <Spectra/Util/Version.h>
+#endif
+#if __has_include(<SuiteSparse_config.h>)
+#include <SuiteSparse_config.h>
+#elif __has_include(<suitesparse/SuiteSparse_config.h>)
+#include <suitesparse/SuiteSparse_config.h>
+#endif
+
+namespace twindeck {
+namespace fs = std::filesystem;
+namespace {
+
+std::string first_line(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+std::string dotted(int major, int minor, int patch) {
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+/// The folder that holds HEAD: .git itself, or for a linked work tree the folder named in the file .git.
+fs::path git_folder(const fs::path& root) {
+  const fs::path git = root / ".git";
+  std::error_code ignored;
+  if (fs::is_directory(git, ignored)) return git;
+  const std::string line = first_line(git);
+  if (!line.starts_with("gitdir: ")) return {};
+  const fs::path linked = line.substr(8);
+  return linked.is_absolute() ? linked : root / linked;
+}
+
+std::string resolve(const fs::path& git, const std::string& reference) {
+  fs::path common = git;
+  if (const std::string line = first_line(git / "commondir"); !line.empty()) common = git / line;
+  for (const fs::path& folder : {git, common}) {
+    if (const std::string hash = first_line(folder / reference); !hash.empty()) return hash;
+  }
+  std::ifstream packed(common / "packed-refs");
+  for (std::string line; std::getline(packed, line);) {
+    if (line.size() > 41 && line.substr(41) == reference) return line.substr(0, 40);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string version() { return "0.1.0"; }
+
+std::string source_commit() {
+  const fs::path git = git_folder(fs::path(__FILE__).parent_path().parent_path().parent_path());
+  if (git.empty()) return "";
+  const std::string head = first_line(git / "HEAD");
+  const std::string hash = head.starts_with("ref: ") ? resolve(git, head.substr(5)) : head;
+  return hash.size() == 40 ? hash : "";
+}
+
+std::map<std::string, std::string> library_versions() {
+  std::map<std::string, std::string> versions;
+  versions["Eigen"] = dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+#ifdef __VERSION__
+  versions["compiler"] = __VERSION__;
+#endif
+#ifdef CERES_VERSION_STRING
+  versions["Ceres"] = dotted(CERES_VERSION_MAJOR, CERES_VERSION_MINOR, CERES_VERSION_REVISION);
+#endif
+#ifdef SPECTRA_MAJOR_VERSION
+  versions["Spectra"] = dotted(SPECTRA_MAJOR_VERSION, SPECTRA_MINOR_VERSION, SPECTRA_PATCH_VERSION);
+#endif
+#ifdef SUITESPARSE_MAIN_VERSION
+  versions["SuiteSparse"] = dotted(SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION);
+#endif
+  // OpenBLAS comes in through the system's BLAS alternative, so only the running program knows it.
+  if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_get_config"); symbol != nullptr) {
+    versions["BLAS"] = reinterpret_cast<const char* (*)()>(symbol)();
+  }
+  return versions;
+}
+
+}  // namespace twindeck
