@@ -68,7 +68,7 @@ smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
 
 why: ## make why STEP=s6: why that step would run again
-	@$(MAKE) --no-print-directory -n --debug=b $(STEP) STUDY=$(STUDY) 2>/dev/null | grep -E "newer than target|does not exist" || echo "$(STEP): up to date"
+	@$(MAKE) --no-print-directory -n --debug=b $(STEP) STUDY=$(STUDY) NO_BUILD=1 2>/dev/null | grep -E "newer than target|does not exist" || echo "$(STEP): up to date"
 
 clean: ## remove the build and all results
 	@rm -rf $(BUILD) && find results -mindepth 1 -not -name README.md -delete

@@ -1,0 +1,67 @@
+"""The chain through make: what reruns, and that its bytes do not depend on the number of threads.
+
+Oracle: modification times of the manifests (a step that did not run left its manifest alone) and the bytes of every CSV.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin"))
+
+
+class Chain(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.workflow = cls.folder / "workflow"
+        shutil.copytree(ROOT / "workflows" / "smoke", cls.workflow)
+        cls.results = cls.folder / "results"
+        cls.run_steps(cls.results)
+
+    @classmethod
+    def run_steps(cls, results, jobs=1, threads=2):
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+        done = subprocess.run(
+            ["make", "--no-print-directory", "steps", "STUDY=smoke", "NO_BUILD=1", f"-j{jobs}", f"THREADS={threads}", f"BIN={BIN}",
+             f"WORKFLOW={cls.workflow}", f"RESULTS={results}"], cwd=ROOT, capture_output=True, text=True, env=environment)
+        if done.returncode:
+            raise AssertionError(f"make failed with {done.returncode}:\n{done.stdout}\n{done.stderr}")
+
+    def stamps(self):
+        return {m.parent.name: m.stat().st_mtime_ns for m in self.results.glob("*/manifest.json")}
+
+    def reruns_after_touching(self, path):
+        before = self.stamps()
+        path.touch()
+        self.run_steps(self.results)
+        after = self.stamps()
+        return {step for step in after if after[step] != before[step]}
+
+    def test_every_step_has_a_manifest(self):
+        self.assertEqual(set(self.stamps()), {"s1_model", "s4_refinement", "s5_sensitivity", "s6_updating"})
+
+    def test_a_second_run_runs_no_step(self):
+        before = self.stamps()
+        self.run_steps(self.results)
+        self.assertEqual(self.stamps(), before)
+
+    def test_touching_one_configuration_reruns_that_step_and_what_depends_on_it(self):
+        self.assertEqual(self.reruns_after_touching(self.workflow / "s6_updating.toml"), {"s6_updating"})
+        self.assertEqual(self.reruns_after_touching(self.workflow / "s5_sensitivity.toml"), {"s5_sensitivity", "s6_updating"})
+
+    def test_same_bytes_whatever_the_jobs_and_threads(self):
+        other = self.folder / "other"
+        self.run_steps(other, jobs=2, threads=1)
+        names = {p.relative_to(self.results) for p in self.results.rglob("*.csv")}
+        self.assertEqual(names, {p.relative_to(other) for p in other.rglob("*.csv")})
+        self.assertTrue(names)
+        different = [str(n) for n in sorted(names) if (self.results / n).read_bytes() != (other / n).read_bytes()]
+        self.assertEqual(different, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
