@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,18 +24,24 @@ struct UpdatingOptions {
   int starts = 8;                       ///< the initial values first, then seeded points inside the bounds
   int max_iterations = 100;
   int n_modes = 20;                     ///< modes solved for, so that followed modes are among them
-  int outer_iterations = 4;             ///< prestress refreshes: pulls are fixed inside a solve
+  int outer_iterations = 12;            ///< most prestress states per start: pulls are fixed inside a solve
+  double outer_tolerance = 1e-6;        ///< change of normalised parameters between prestress states below which they agree
   double optimality_tolerance = 1e-6;   ///< relative norm of the projected gradient
   double bound_tolerance = 1e-6;        ///< of the range, within which a parameter counts as on its bound
   std::uint64_t seed = 1;
 };
 
+/// One accepted step of a search. `theta` are the active parameters divided by their initial values (by their range where the
+/// initial value is 0), `gradient` the norm of the projected gradient with respect to them.
 struct IterationRecord { int start, outer, iteration; double cost, gradient, step, radius; Eigen::VectorXd theta; };
 
 struct StartResult {
-  Eigen::VectorXd initial, theta;       ///< (n_active)
+  Eigen::VectorXd initial, theta;       ///< (n_active) in the parameters' units
   double cost = 0.0, projected_gradient = 0.0, relative_projected_gradient = 0.0;
   int iterations = 0;
+  int solves = 0;                       ///< eigen-solves spent
+  int outer = 0;                        ///< prestress states used
+  int optimum = -1;                     ///< start that represents the optimum it ended in, -1 if it did not converge
   bool converged = false;
   std::string message;
 };
@@ -47,20 +54,36 @@ struct UpdatingResult {
   std::vector<int> on_bound;            ///< (n_active) -1 lower, +1 upper, 0 inside
   Eigen::VectorXd frequency_before_Hz, frequency_after_Hz;  ///< (n_targets) of the followed modes
   std::vector<int> mode_before, mode_after;                 ///< (n_targets) positions
+  Eigen::VectorXd followed_mac;                             ///< (n_targets) MAC of the followed mode with the start model's
   std::vector<IterationRecord> history;
   Status status;
 };
 
 /// Assembles the system with the prestress of given parameter values: called once an outer iteration, so that residuals and
-/// Jacobian of an inner solve belong to the same function.
+/// Jacobian of an inner solve belong to the same function. Must be callable from several threads at once.
 using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)>;
 
 /// Bounded nonlinear least squares on relative frequency residuals, paper Eq. (5): F = 1/2 sum ((f_N - f_X)/f_X)².
-/// Powell's dogleg (Ceres) on parameters divided by their initial values, bounds by projection, exact Jacobian; modes are
-/// followed by mass-weighted MAC with the start model's.
-/// @param active  positions of the parameters to update
-[[nodiscard]] UpdatingResult update(const Refresh& refresh, const std::vector<int>& active,
+/// Powell's dogleg (Ceres, see problem.hpp) on parameters divided by their initial values, exact Jacobian; modes are followed by
+/// mass-weighted MAC with the start model's.
+///
+/// Each start is a whole search: all begin with the prestress of the initial values; when a search has ended, the prestress is
+/// found anew at its own end point and it goes on from there, until the parameters no longer change. So the costs of the starts
+/// are comparable, each being that of a structure in balance. What is found is a point at which the gradient at frozen prestress
+/// vanishes (inside the bounds): the modulus and density do not act through a change of pulls within a solve.
+/// The starts run in parallel; results do not depend on the number of threads.
+///
+/// @param start    the model as it is before the updating, with the prestress of its initial parameter values
+/// @param refresh  see `Refresh`; empty for a system whose prestress does not depend on parameters
+/// @param active   positions of the parameters to update; each with lower < initial < upper (or on one of them)
+/// @param targets  measured frequencies [Hz] with the start model's modes they belong to
+/// @param progress called when a start has ended; may be empty
+/// @return the cheapest converged start; status not converged if no start converged
+/// @throws InputError  for a parameter that is fixed or starts outside its bounds, no parameter or target, a frequency that is
+///                     not positive, or a mode that does not exist
+/// Reference: Powell (1970); Madsen, Nielsen and Tingleff (2004), Methods for non-linear least squares problems, section 3.3.
+[[nodiscard]] UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh, const std::vector<int>& active,
                                     const std::vector<FrequencyTarget>& targets, const UpdatingOptions& options,
-                                    const std::function<void(int start, int of)>& progress);
+                                    const std::function<void(int done, int of)>& progress);
 
 }  // namespace twindeck::updating

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/eigenmodes.hpp"
+#include "linalg/types.hpp"
+
+namespace twindeck::updating {
+
+/// Where the reference modes are found in another parameter set.
+struct FollowedModes {
+  std::vector<int> position;  ///< (n_reference) position among the new modes, -1 where none is left
+  Eigen::VectorXd mac;        ///< (n_reference) mass-weighted MAC of each pair [-], 0 where none is left
+};
+
+/// Follows the modes of a start model through changed parameters by shape, not by order: frequencies that cross during the
+/// updating would otherwise exchange their measured partners.
+///
+///   MAC_ij = (phi_i' M phi_j)² / ((phi_i' M phi_i)(phi_j' M phi_j)),  M = mass of the start model,
+///
+/// assigned one-to-one so that the sum of MAC is largest. The new shapes are normalised with the mass of their own parameters,
+/// so they are scaled to M first: a density that falls by 30 % would otherwise look like a change of shape.
+class ModeFollower {
+ public:
+  /// @param mass_lower  lower triangle of the start model's mass (n × n)
+  /// @param reference   its modes, mass-normalised
+  ModeFollower(const linalg::SparseMatrix& mass_lower, const dynamics::EigenModes& reference);
+
+  /// @param shapes (n × n_new)
+  [[nodiscard]] FollowedModes follow(const Eigen::Ref<const Eigen::MatrixXd>& shapes) const;
+
+ private:
+  linalg::SparseMatrix mass_;
+  Eigen::MatrixXd mass_reference_;  // M phi (n × n_reference)
+};
+
+}  // namespace twindeck::updating

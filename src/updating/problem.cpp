@@ -1,0 +1,186 @@
+#include "updating/problem.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace twindeck::updating {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+class Residuals : public ceres::CostFunction {
+ public:
+  Residuals(const ResidualFunction& function, int n_residuals, int n) : function_(function) {
+    set_num_residuals(n_residuals);
+    mutable_parameter_block_sizes()->push_back(n);
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::Index n = parameter_block_sizes()[0];
+    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], n);
+    Eigen::VectorXd residual(num_residuals());
+    Eigen::MatrixXd jacobian;
+    if (!function_(x, residual, wants_jacobian ? &jacobian : nullptr)) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = residual;
+    if (wants_jacobian) Eigen::Map<RowMajor>(jacobians[0], num_residuals(), n) = jacobian;
+    return true;
+  }
+
+ private:
+  const ResidualFunction& function_;
+};
+
+// Where a search stands between two rounds.
+struct Point {
+  Eigen::VectorXd x, residual;
+  Eigen::MatrixXd jacobian;
+  bool valid = false;
+  [[nodiscard]] double cost() const { return 0.5 * residual.squaredNorm(); }
+  [[nodiscard]] Eigen::VectorXd gradient() const { return jacobian.transpose() * residual; }
+};
+
+Point evaluate(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& x) {
+  Point point{x, Eigen::VectorXd(n_residuals), {}, false};
+  point.valid = function(x, point.residual, &point.jacobian);
+  return point;
+}
+
+// Reports accepted steps and ends the round when a component meets a bound that it was not on.
+class RoundWatcher : public ceres::IterationCallback {
+ public:
+  RoundWatcher(const Eigen::VectorXd& x, std::function<double(const Eigen::VectorXd&)> projected, const Box& box,
+               double bound_tolerance, int first_iteration, const std::function<void(const AcceptedStep&)>& accepted)
+      : x_(x), projected_(std::move(projected)), box_(box), bound_tolerance_(bound_tolerance), first_iteration_(first_iteration),
+        accepted_(accepted), side_(on_bound(x, box, bound_tolerance)) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    tried = summary.iteration;
+    if (summary.iteration == 0 || !summary.step_is_successful) return ceres::SOLVER_CONTINUE;
+    ++accepted_steps;
+    if (accepted_) {
+      accepted_({first_iteration_ + summary.iteration, summary.cost, projected_(x_), summary.step_norm,
+                 summary.trust_region_radius, x_});
+    }
+    const std::vector<int> side = on_bound(x_, box_, bound_tolerance_);
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      if (side[i] != 0 && side[i] != side_[i]) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
+    return ceres::SOLVER_CONTINUE;
+  }
+
+  int tried = 0, accepted_steps = 0;
+
+ private:
+  const Eigen::VectorXd& x_;
+  std::function<double(const Eigen::VectorXd&)> projected_;
+  const Box& box_;
+  double bound_tolerance_;
+  int first_iteration_;
+  const std::function<void(const AcceptedStep&)>& accepted_;
+  std::vector<int> side_;
+};
+
+ceres::Solver::Options solver_options(const BoundedOptions& options, int iterations_left, double max_norm_tolerance) {
+  ceres::Solver::Options solver;
+  solver.trust_region_strategy_type = ceres::DOGLEG;
+  solver.dogleg_type = ceres::TRADITIONAL_DOGLEG;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.initial_trust_region_radius = options.trust_radius;
+  solver.max_trust_region_radius = std::max(1e3, options.trust_radius);
+  // Ceres measures the region in units of the Jacobian's column norms; equal limits make it the sphere of the paper.
+  solver.min_lm_diagonal = solver.max_lm_diagonal = 1.0;
+  solver.jacobi_scaling = false;
+  solver.max_num_iterations = iterations_left;
+  solver.gradient_tolerance = max_norm_tolerance;
+  solver.function_tolerance = 0.0;
+  solver.parameter_tolerance = 1e-13;
+  solver.max_num_consecutive_invalid_steps = 20;
+  solver.max_num_line_search_step_size_iterations = 6;
+  solver.num_threads = 1;
+  solver.update_state_every_iteration = true;
+  solver.logging_type = ceres::SILENT;
+  return solver;
+}
+
+// One Ceres solve with the held components constant; `x` moves. Returns accepted and tried steps.
+std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals, Eigen::VectorXd& x, const std::vector<bool>& is_held,
+                              const Box& box, const BoundedOptions& options, int used,
+                              const std::function<void(const AcceptedStep&)>& accepted) {
+  const auto n = static_cast<int>(x.size());
+  ceres::Problem problem;
+  problem.AddParameterBlock(x.data(), n);
+  std::vector<int> constant;
+  for (int i = 0; i < n; ++i) {
+    problem.SetParameterLowerBound(x.data(), i, box.lower(i));
+    problem.SetParameterUpperBound(x.data(), i, box.upper(i));
+    if (is_held[static_cast<std::size_t>(i)]) constant.push_back(i);
+  }
+  if (!constant.empty()) problem.SetManifold(x.data(), new ceres::SubsetManifold(n, constant));
+  problem.AddResidualBlock(new Residuals(function, n_residuals, n), nullptr, x.data());
+
+  const auto projected = [&](const Eigen::VectorXd& at) {
+    return projected_gradient(at, evaluate(function, n_residuals, at).gradient(), box, options.bound_tolerance).norm();
+  };
+  RoundWatcher watcher(x, projected, box, options.bound_tolerance, used, accepted);
+  ceres::Solver::Options solver =
+      solver_options(options, options.max_iterations - used, options.gradient_tolerance / std::sqrt(static_cast<double>(n)));
+  solver.callbacks.push_back(&watcher);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  return {watcher.accepted_steps, std::max(watcher.tried, 1)};
+}
+
+void snap_to_bounds(Eigen::VectorXd& x, const std::vector<bool>& is_held, const Box& box) {
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (!is_held[static_cast<std::size_t>(i)]) continue;
+    x(i) = x(i) - box.lower(i) < box.upper(i) - x(i) ? box.lower(i) : box.upper(i);
+  }
+}
+
+}  // namespace
+
+BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start, const Box& box,
+                              const BoundedOptions& options, const std::function<void(const AcceptedStep&)>& accepted) {
+  TWINDECK_ASSERT(start.size() == box.lower.size() && start.size() == box.upper.size());
+  TWINDECK_ASSERT((box.lower.array() < box.upper.array()).all());
+  BoundedResult result;
+  result.x = start.cwiseMax(box.lower).cwiseMin(box.upper);
+  int last_accepted = 1;
+  for (bool first = true;; first = false) {
+    const Point point = evaluate(function, n_residuals, result.x);
+    if (!point.valid) {
+      result.message = "the residuals cannot be evaluated at the starting point";
+      return result;
+    }
+    const Eigen::VectorXd gradient = point.gradient();
+    result.cost = point.cost();
+    result.projected_gradient = projected_gradient(result.x, gradient, box, options.bound_tolerance).norm();
+    if (first && accepted) accepted({0, result.cost, result.projected_gradient, 0.0, options.trust_radius, result.x});
+    if (result.projected_gradient <= options.gradient_tolerance) {
+      result.converged = true;
+      result.message = "projected gradient below its tolerance";
+      return result;
+    }
+    if (last_accepted == 0) {
+      result.message = "no step lowers the cost although the projected gradient is above its tolerance";
+      return result;
+    }
+    if (result.iterations >= options.max_iterations) {
+      result.message = "iteration limit reached with the projected gradient above its tolerance";
+      return result;
+    }
+    const std::vector<bool> is_held = held(result.x, gradient, box, options.bound_tolerance);
+    snap_to_bounds(result.x, is_held, box);
+    const auto [steps, tried] =
+        run_round(function, n_residuals, result.x, is_held, box, options, result.iterations, accepted);
+    last_accepted = steps;
+    result.iterations += tried;
+  }
+}
+
+}  // namespace twindeck::updating

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "updating/optimality.hpp"
+
+namespace twindeck::updating {
+
+/// Residuals r(x) and, when asked for (not null), their Jacobian. Returns false where they do not exist: the step is refused.
+/// @param x (n) @param residual (n_residuals) @param jacobian (n_residuals × n)
+using ResidualFunction = std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian)>;
+
+struct BoundedOptions {
+  double trust_radius = 2.0;
+  int max_iterations = 100;           ///< accepted and refused steps together, over all rounds
+  double gradient_tolerance = 1e-6;   ///< absolute norm of the projected gradient at which the search ends
+  double bound_tolerance = 1e-6;      ///< see `on_bound`
+};
+
+/// One accepted step (number 0: the starting point).
+struct AcceptedStep {
+  int iteration = 0;
+  double cost = 0.0, projected_gradient = 0.0, step = 0.0, radius = 0.0;
+  Eigen::VectorXd x;
+};
+
+struct BoundedResult {
+  Eigen::VectorXd x;                  ///< (n) inside the box
+  double cost = 0.0;                  ///< 1/2 ‖r‖²
+  double projected_gradient = 0.0;
+  int iterations = 0;
+  bool converged = false;
+  std::string message;
+};
+
+/// min 1/2 ‖r(x)‖² on a box by Powell's dogleg (Ceres, TRADITIONAL_DOGLEG), spherical trust region in x as in Madsen, Nielsen and
+/// Tingleff (2004), algorithm 3.21.
+///
+/// Ceres projects each dogleg step onto the box. With several bounds active such a step need not descend, and the search ends
+/// short of the optimum although the trust region has collapsed. Hence rounds: components that a bound holds (`held`) are
+/// constants of the round (SubsetManifold); a round ends as soon as a component meets a bound, and the next one decides anew who
+/// is held, releasing those whose multiplier has changed sign. The search has converged when the projected gradient says so,
+/// whatever Ceres says. Cost never rises from one accepted step to the next.
+/// @param accepted  called for each accepted step, may be empty
+[[nodiscard]] BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start,
+                                            const Box& box, const BoundedOptions& options,
+                                            const std::function<void(const AcceptedStep&)>& accepted);
+
+}  // namespace twindeck::updating

@@ -1,0 +1,244 @@
+#include "updating/updating.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+
+#include "updating/multi_start.hpp"
+#include "updating/optimality.hpp"
+#include "updating/problem.hpp"
+#include "updating/residuals.hpp"
+
+namespace twindeck::updating {
+namespace {
+
+using SharedSystem = std::shared_ptr<const fe::ParametricSystem>;
+
+// The search in normalised parameters, common to all starts.
+struct Search {
+  const Refresh& refresh;
+  const UpdatingOptions& options;
+  ResidualDefinition definition;
+  Box box;
+  SharedSystem initial_system;  // prestress of the initial values
+};
+
+struct SearchEnd {
+  StartResult result;
+  EndPoint end;
+  Evaluation evaluation;
+  std::vector<IterationRecord> history;
+};
+
+void check_input(const fe::ParametricSystem& system, const std::vector<int>& active, const std::vector<FrequencyTarget>& targets) {
+  if (active.empty()) throw InputError({}, "no parameter to update", "name at least one parameter of the model");
+  if (targets.empty()) throw InputError({}, "no frequency to update against", "give at least one pair of modes");
+  for (const int p : active) {
+    TWINDECK_ASSERT(p >= 0 && p < static_cast<int>(system.parameters.size()));
+    const fe::Parameter& parameter = system.parameters[static_cast<std::size_t>(p)];
+    if (!(std::isfinite(parameter.lower) && std::isfinite(parameter.upper) && parameter.lower < parameter.upper)) {
+      throw InputError({"", 0, parameter.name},
+                       fmt::format("has the bounds [{}, {}], expected a finite lower bound below the upper one", parameter.lower,
+                                   parameter.upper),
+                       "give it a range in the model, or leave it out of the update");
+    }
+    if (parameter.initial < parameter.lower || parameter.initial > parameter.upper) {
+      throw InputError({"", 0, parameter.name},
+                       fmt::format("starts at {}, outside its bounds [{}, {}]", parameter.initial, parameter.lower, parameter.upper),
+                       "move the initial value or the bounds");
+    }
+  }
+  for (const FrequencyTarget& target : targets) {
+    if (!(target.measured_Hz > 0.0)) {
+      throw InputError({"", 0, target.label}, fmt::format("is {} Hz, expected a frequency above 0", target.measured_Hz));
+    }
+    if (target.reference_mode < 0 || target.reference_mode >= system.size()) {
+      throw InputError({"", 0, target.label},
+                       fmt::format("asks for mode {} of a model with {} degrees of freedom", target.reference_mode + 1, system.size()));
+    }
+  }
+}
+
+ResidualDefinition define_residuals(const fe::ParametricSystem& system, const std::vector<int>& active,
+                                    const std::vector<FrequencyTarget>& targets, const UpdatingOptions& options) {
+  ResidualDefinition definition;
+  definition.targets = targets;
+  definition.active = active;
+  definition.initial = system.initial();
+  definition.scale.resize(static_cast<Eigen::Index>(active.size()));
+  for (std::size_t j = 0; j < active.size(); ++j) {
+    const fe::Parameter& parameter = system.parameters[static_cast<std::size_t>(active[j])];
+    const double size = std::abs(parameter.initial);
+    definition.scale(static_cast<Eigen::Index>(j)) = size > 0.0 ? size : parameter.upper - parameter.lower;
+  }
+  int highest = 0;
+  for (const FrequencyTarget& target : targets) highest = std::max(highest, target.reference_mode + 1);
+  definition.n_modes = std::min(std::max(options.n_modes, highest), static_cast<int>(system.size()));
+  return definition;
+}
+
+// (n_active) of a bound or the initial value, in normalised parameters.
+Eigen::VectorXd normalised(const fe::ParametricSystem& system, const ResidualDefinition& definition, double fe::Parameter::*member) {
+  Eigen::VectorXd x(definition.scale.size());
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const int p = definition.active[static_cast<std::size_t>(j)];
+    x(j) = system.parameters[static_cast<std::size_t>(p)].*member / definition.scale(j);
+  }
+  return x;
+}
+
+ResidualFunction as_function(FrequencyResiduals& residuals) {
+  return [&residuals](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
+    const Evaluation& evaluation = residuals.at(x, jacobian != nullptr);
+    if (!evaluation.valid) return false;
+    residual = evaluation.residual;
+    if (jacobian != nullptr) *jacobian = evaluation.jacobian;
+    return true;
+  };
+}
+
+// One start: bounded solves at frozen prestress, the prestress found anew in between, until the parameters stay.
+SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start) {
+  const auto n_targets = static_cast<int>(search.definition.targets.size());
+  SearchEnd out;
+  StartResult& result = out.result;
+  result.initial = first.cwiseProduct(search.definition.scale);
+  Eigen::VectorXd x = first.cwiseMax(search.box.lower).cwiseMin(search.box.upper);
+  SharedSystem system = search.initial_system;
+  double reference = 0.0;
+  for (int outer = 0;; ++outer) {
+    result.outer = outer + 1;
+    FrequencyResiduals residuals(system, search.definition);
+    if (outer == 0) {
+      const Evaluation& begin = residuals.at(x, true);
+      if (begin.valid) reference = gradient_reference(begin.gradient(), begin.jacobian);
+    }
+    const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
+                                 search.options.optimality_tolerance * reference, search.options.bound_tolerance};
+    const BoundedResult inner =
+        minimise_on_box(as_function(residuals), n_targets, x, search.box, options, [&](const AcceptedStep& step) {
+          out.history.push_back({start, outer, step.iteration, step.cost, step.projected_gradient, step.step, step.radius, step.x});
+        });
+    const double change = (inner.x - x).cwiseAbs().maxCoeff();
+    x = inner.x;
+    result.iterations += inner.iterations;
+    result.solves += residuals.solves();
+    result.cost = inner.cost;
+    result.projected_gradient = inner.projected_gradient;
+    result.relative_projected_gradient = reference > 0.0 ? inner.projected_gradient / reference : 0.0;
+    result.message = inner.message;
+    const bool settled = !search.refresh || (outer > 0 && change < search.options.outer_tolerance);
+    if (settled || !inner.converged || result.outer >= search.options.outer_iterations) {
+      result.converged = inner.converged && settled;
+      if (inner.converged && !result.converged) {
+        result.message = fmt::format("parameters still change by {:.1e} after {} prestress states", change, result.outer);
+      }
+      const bool evaluable = residuals.at(x, true).valid;
+      out.evaluation = residuals.at(x, evaluable);
+      break;
+    }
+    system = std::make_shared<const fe::ParametricSystem>(search.refresh(search.definition.theta(x)));
+  }
+  result.theta = x.cwiseProduct(search.definition.scale);
+  out.end = {x, result.cost, result.converged, out.evaluation.jacobian};
+  return out;
+}
+
+std::vector<SearchEnd> run_starts(const Search& search, const Eigen::MatrixXd& points,
+                                  const std::function<void(int, int)>& progress) {
+  const auto starts = static_cast<int>(points.cols());
+  std::vector<SearchEnd> ends(static_cast<std::size_t>(starts));
+  std::exception_ptr failure;
+  int done = 0;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int k = 0; k < starts; ++k) {
+    try {
+      SearchEnd end = run_start(search, points.col(k), k);
+#pragma omp critical(twindeck_updating_start)
+      {
+        ends[static_cast<std::size_t>(k)] = std::move(end);
+        if (progress) progress(++done, starts);
+      }
+    } catch (...) {  // must not leave the parallel region
+#pragma omp critical(twindeck_updating_start)
+      if (!failure) failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  return ends;
+}
+
+int best_start(const std::vector<SearchEnd>& ends) {
+  const auto better = [](const SearchEnd& a, const SearchEnd& b) {
+    if (a.evaluation.valid != b.evaluation.valid) return a.evaluation.valid;
+    if (a.result.converged != b.result.converged) return a.result.converged;
+    return a.result.cost < b.result.cost;
+  };
+  return static_cast<int>(std::min_element(ends.begin(), ends.end(), better) - ends.begin());
+}
+
+void collect(const Search& search, std::vector<SearchEnd>& ends, UpdatingResult& result) {
+  std::vector<EndPoint> end_points;
+  for (const SearchEnd& end : ends) end_points.push_back(end.end);
+  const std::vector<int> optimum = distinct_optima(end_points, search.box);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    ends[k].result.optimum = optimum[k];
+    if (optimum[k] == static_cast<int>(k)) result.optima.push_back(static_cast<int>(k));
+    result.starts.push_back(ends[k].result);
+    result.history.insert(result.history.end(), ends[k].history.begin(), ends[k].history.end());
+  }
+  std::stable_sort(result.optima.begin(), result.optima.end(), [&](int a, int b) {
+    return ends[static_cast<std::size_t>(a)].result.cost < ends[static_cast<std::size_t>(b)].result.cost;
+  });
+  result.best = best_start(ends);
+  const SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
+  result.theta = search.definition.theta(best.end.x);
+  result.on_bound = on_bound(best.end.x, search.box, search.options.bound_tolerance);
+  result.frequency_after_Hz = best.evaluation.frequency_Hz;
+  result.mode_after = best.evaluation.mode;
+  result.followed_mac = best.evaluation.mac;
+  if (!best.result.converged) {
+    result.status = {false, fmt::format("none of {} starts converged; the best (start {}) stopped with a relative projected gradient of "
+                                        "{:.1e}: {}",
+                                        ends.size(), result.best, best.result.relative_projected_gradient, best.result.message)};
+  }
+}
+
+}  // namespace
+
+UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh, const std::vector<int>& active,
+                      const std::vector<FrequencyTarget>& targets, const UpdatingOptions& options,
+                      const std::function<void(int done, int of)>& progress) {
+  TWINDECK_ASSERT(options.starts >= 1 && options.outer_iterations >= 1 && options.max_iterations >= 1);
+  check_input(start, active, targets);
+  Search search{refresh, options, define_residuals(start, active, targets, options), {},
+                std::make_shared<const fe::ParametricSystem>(start)};
+  ResidualDefinition& definition = search.definition;
+  search.box = {normalised(start, definition, &fe::Parameter::lower), normalised(start, definition, &fe::Parameter::upper)};
+  const Eigen::VectorXd x0 = normalised(start, definition, &fe::Parameter::initial);
+
+  // The start model's modes: what all later modes are followed from.
+  UpdatingResult result;
+  dynamics::ModalSolver solver(*search.initial_system);
+  const dynamics::EigenModes reference = solver.solve(definition.initial, definition.n_modes);
+  if (!reference.status.converged) {
+    result.theta = definition.initial;
+    result.status = {false, "modes of the start model: " + reference.status.message};
+    return result;
+  }
+  definition.follower = std::make_shared<const ModeFollower>(solver.mass(), reference);
+  result.frequency_before_Hz.resize(static_cast<Eigen::Index>(targets.size()));
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    result.mode_before.push_back(targets[i].reference_mode);
+    result.frequency_before_Hz(static_cast<Eigen::Index>(i)) = reference.frequency_Hz(targets[i].reference_mode);
+  }
+
+  std::vector<SearchEnd> ends = run_starts(search, starting_points(x0, search.box, options.starts, options.seed), progress);
+  collect(search, ends, result);
+  return result;
+}
+
+}  // namespace twindeck::updating
