@@ -26,9 +26,12 @@ struct Manifest {
 void write_manifest(const Manifest& manifest, const std::filesystem::path& folder);
 [[nodiscard]] Manifest read_manifest(const std::filesystem::path& folder);
 /// Refuses results that are not those of their manifest.
-/// @throws InputError  if `file` (inside a step's folder) has another hash than the manifest above it says; a folder without
-///                     a manifest (a user's own data) is accepted.
-void check_against_manifest(const std::filesystem::path& file);
+/// @param path         a file, or a folder with all that is in it
+/// @throws InputError  if a file inside a step's folder has another hash than the manifest above it says, is not listed there, or
+///                     is listed and gone; a folder without a manifest (a user's own data) is accepted.
+void check_against_manifest(const std::filesystem::path& path);
+/// True if the folder holds a manifest.json of ours.
+[[nodiscard]] bool is_step_folder(const std::filesystem::path& folder);
 /// SHA-256 of a file, lower-case hexadecimal.
 [[nodiscard]] std::string sha256(const std::filesystem::path& file);
 

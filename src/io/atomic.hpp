@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace twindeck::io {
+
+/// Writes a whole file under a temporary name beside it and renames it, so that a reader sees the old content or the new, never
+/// half of it. Makes the folder if it is not there.
+/// @throws InputError  if it cannot be written (no permission, disk full)
+void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+/// A folder that is built beside its final place and put there at once when it is finished:
+///
+///     FolderReplacement replacement("results/x/s1_model");   // makes results/x/s1_model.partial-<pid>
+///     ... write into replacement.partial() ...
+///     replacement.publish();                                 // swaps; only now are the earlier results removed
+///
+/// Without `publish` the partial folder is removed and the earlier results stay whole.
+class FolderReplacement {
+ public:
+  /// @throws InputError  if the folder cannot be made
+  explicit FolderReplacement(const std::filesystem::path& final_place);
+  ~FolderReplacement();
+  FolderReplacement(const FolderReplacement&) = delete;
+  FolderReplacement& operator=(const FolderReplacement&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
+  /// Puts the partial folder at its final place, or at `elsewhere` if given.
+  void publish();
+  void publish(const std::filesystem::path& elsewhere);
+
+ private:
+  std::filesystem::path final_;
+  std::filesystem::path partial_;
+};
+
+/// "dir/" -> "dir": a path that can be given a suffix.
+[[nodiscard]] std::filesystem::path without_trailing_slash(const std::filesystem::path& path);
+
+}  // namespace twindeck::io
