@@ -1,0 +1,25 @@
+#include "fe/shell_frame.hpp"
+
+namespace twindeck::fe {
+
+/// Translations are interpolated from the nodes themselves (no rigid arms), so that the mass of a warped element stays where
+/// its nodes are. Drilling rotations carry no mass.
+Matrix24 shell_mass(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area) {
+  const shell::Frame frame = shell::frame_of(geometry);
+  Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
+  for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
+    const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
+    products += at.determinant * at.value * at.value.transpose();
+  }
+  const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - frame.axes.row(2).transpose() * frame.axes.row(2);
+  Matrix24 m = Matrix24::Zero();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      m.block<3, 3>(6 * i, 6 * j) = mass_per_area * products(i, j) * Eigen::Matrix3d::Identity();
+      m.block<3, 3>(6 * i + 3, 6 * j + 3) = rotary_per_area * products(i, j) * in_plane;
+    }
+  }
+  return m;
+}
+
+}  // namespace twindeck::fe

@@ -1,0 +1,88 @@
+#include <Eigen/Dense>
+
+#include "fe/shell_frame.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+using Matrix3x12 = Eigen::Matrix<double, 3, 12>;  // columns u v rz of the four corners
+using Matrix3x4 = Eigen::Matrix<double, 3, 4>;    // columns u and v of the modes 1-ξ², then 1-η²
+using Row12 = Eigen::Matrix<double, 1, 12>;
+using Row4 = Eigen::Matrix<double, 1, 4>;
+
+/// d/dx, d/dy of the modes 1-ξ² and 1-η². The Jacobian is that of the centre, scaled by its determinant (Taylor, Beresford and
+/// Wilson 1976): the integrals of these derivatives then vanish whatever the shape, which is what the patch test asks for.
+Eigen::Matrix2d incompatible_gradient(const shell::Bilinear& centre, double determinant, double xi, double eta) {
+  Eigen::Matrix2d natural;  // columns: the two modes; rows: d/dξ, d/dη
+  natural << -2.0 * xi, 0.0, 0.0, -2.0 * eta;
+  return centre.determinant / determinant * centre.inverse * natural;
+}
+
+void add_strain(double dx, double dy, int column, auto& strain) {
+  strain(0, column) = dx;
+  strain(1, column + 1) = dy;
+  strain(2, column) = dy;
+  strain(2, column + 1) = dx;
+}
+
+/// QM6 with, for the penalty rule, the term ½ gamma ∫ (rz - ½ (dv/dx - du/dy))² dA of Hughes and Brezzi (1989). The
+/// incompatible modes take part in the rotation too, so that in-plane bending is exact on parallelograms and rz is its true
+/// rotation. Unit E and thickness.
+Eigen::Matrix<double, 12, 12> membrane(const shell::Frame& frame, double poisson_ratio, double gamma) {
+  const Eigen::Matrix3d d = shell::plane_stress(poisson_ratio);
+  const shell::Bilinear centre = shell::bilinear_at(frame, 0.0, 0.0);
+  Eigen::Matrix<double, 12, 12> k = Eigen::Matrix<double, 12, 12>::Zero();
+  Eigen::Matrix<double, 12, 4> coupling = Eigen::Matrix<double, 12, 4>::Zero();
+  Eigen::Matrix4d inner = Eigen::Matrix4d::Zero();
+  for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
+    const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
+    const Eigen::Matrix2d mode = incompatible_gradient(centre, at.determinant, point.x(), point.y());
+    Matrix3x12 b = Matrix3x12::Zero();
+    Matrix3x4 g = Matrix3x4::Zero();
+    Row12 spin = Row12::Zero();
+    Row4 mode_spin = Row4::Zero();
+    for (int i = 0; i < 4; ++i) {
+      add_strain(at.gradient(0, i), at.gradient(1, i), 3 * i, b);
+      spin(3 * i) = 0.5 * at.gradient(1, i);
+      spin(3 * i + 1) = -0.5 * at.gradient(0, i);
+      spin(3 * i + 2) = at.value[i];
+    }
+    for (int m = 0; m < 2; ++m) {
+      add_strain(mode(0, m), mode(1, m), 2 * m, g);
+      mode_spin(2 * m) = 0.5 * mode(1, m);
+      mode_spin(2 * m + 1) = -0.5 * mode(0, m);
+    }
+    k += at.determinant * (b.transpose() * d * b + gamma * spin.transpose() * spin);
+    coupling += at.determinant * (b.transpose() * d * g + gamma * spin.transpose() * mode_spin);
+    inner += at.determinant * (g.transpose() * d * g + gamma * mode_spin.transpose() * mode_spin);
+  }
+  return k - coupling * inner.ldlt().solve(coupling.transpose());
+}
+
+}  // namespace
+
+Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProperties& properties, DrillingRule drilling,
+                                  double drilling_factor) {
+  const shell::Frame frame = shell::frame_of(geometry);
+  const bool penalty = drilling == DrillingRule::penalty;
+  const double shear_modulus = 0.5 / (1.0 + properties.poisson_ratio);  // for E = 1
+  const double gamma = penalty ? (drilling_factor > 0.0 ? drilling_factor : 1.0) * shear_modulus : 0.0;
+  Eigen::Matrix<double, 12, 12> plane = membrane(frame, properties.poisson_ratio, gamma);
+  if (!penalty) {
+    // factor·E·t·A on each corner's drilling rotation, grounded: it also resists a rigid turn in the plane.
+    const double factor = drilling_factor > 0.0 ? drilling_factor : 0.03;
+    for (int i = 0; i < 4; ++i) plane(3 * i + 2, 3 * i + 2) += factor * shell_area(geometry);
+  }
+  constexpr std::array<int, 3> place = {0, 1, 5};
+  Matrix24 local = Matrix24::Zero();
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j)
+      local(6 * (i / 3) + place[static_cast<std::size_t>(i % 3)], 6 * (j / 3) + place[static_cast<std::size_t>(j % 3)]) =
+          plane(i, j);
+  const Matrix24 t = shell::corner_displacements(frame);
+  const Matrix24 k = properties.youngs_modulus_Pa * properties.thickness_m * (t.transpose() * local * t);
+  return 0.5 * (k + k.transpose());
+}
+
+}  // namespace twindeck::fe
