@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "fe/model.hpp"
+#include "io/csv.hpp"
+
+/// Inside of the library: a model folder is read one file at a time, in the order in which the files refer to one another.
+/// Each function throws InputError with file, line and column.
+namespace twindeck::model_io {
+
+/// Finds parts by the names that the files use; fills the 0-based positions of fe::Model.
+struct NameIndex {
+  std::map<long, int> nodes;
+  std::map<std::string, int> materials, sections;
+  /// Node position of an id in a cell. @throws InputError if nodes.csv has no such node
+  [[nodiscard]] int node(const io::CsvTable& table, std::size_t row, const std::string& column) const;
+};
+
+void read_nodes(const std::filesystem::path& folder, fe::Model& model, NameIndex& index);
+void read_materials(const std::filesystem::path& folder, fe::Model& model, NameIndex& index);
+void read_sections(const std::filesystem::path& folder, fe::Model& model, NameIndex& index);
+void read_elements(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+
+/// supports.csv, springs.csv, links.csv, masses.csv, points.csv: each may be missing.
+void read_supports(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+void read_springs(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+void read_links(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+void read_masses(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+void read_points(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+
+/// model.toml: title, gravity, formulation, prestress, parameters. Called last, since parameters name parts of the others.
+void read_model_toml(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+void write_model_toml(const fe::Model& model, const std::filesystem::path& folder);
+
+/// 1-based line of the first line of `file` that holds `text`, 0 if there is none.
+[[nodiscard]] long line_of(const std::filesystem::path& file, const std::string& text);
+/// `text` as a TOML basic string, quotes included.
+[[nodiscard]] std::string toml_text(const std::string& text);
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,187 @@
+#include "model_io/matrix_market.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+struct Entry {
+  int row, column;
+  double value;
+  long line;
+};
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Reads line by line and knows where it stands.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file.string()), stream_(file) {
+    if (!stream_) fail("cannot be read", "check that the file is there");
+  }
+
+  [[noreturn]] void fail(const std::string& problem, const std::string& mend, long line = -1) const {
+    throw InputError({file_, line < 0 ? line_ : line, ""}, problem, mend);
+  }
+
+  /// Banner line; true if symmetric.
+  bool banner() {
+    std::string line, mark, object, format, field, symmetry;
+    next(line);
+    std::istringstream(line) >> mark >> object >> format >> field >> symmetry;
+    if (lower_case(mark) != "%%matrixmarket") fail("is no Matrix Market file", "its first line must begin with %%MatrixMarket");
+    const std::string kind = lower_case(object + " " + format + " " + field + " " + symmetry);
+    if (kind == "matrix coordinate real symmetric" || kind == "matrix coordinate integer symmetric") return true;
+    if (kind == "matrix coordinate real general" || kind == "matrix coordinate integer general") return false;
+    fail("holds a '" + kind + "'", "write it as 'matrix coordinate real symmetric' (or general with symmetric numbers)");
+  }
+
+  /// The next line that is neither empty nor a comment, split at white space.
+  bool fields(std::vector<std::string>& words) {
+    std::string line;
+    while (next(line)) {
+      if (line.empty() || line[0] == '%') continue;
+      words.clear();
+      std::istringstream stream(line);
+      for (std::string word; stream >> word;) words.push_back(word);
+      if (!words.empty()) return true;
+    }
+    return false;
+  }
+
+  template <class Number>
+  Number number(const std::string& word) const {
+    Number value{};
+    const char* first = word.c_str() + (word[0] == '+' ? 1 : 0);
+    const auto [end, error] = std::from_chars(first, word.c_str() + word.size(), value);
+    if (error != std::errc() || end != word.c_str() + word.size()) fail("'" + word + "' is no number", "check the entry");
+    if constexpr (std::is_floating_point_v<Number>) {
+      if (!std::isfinite(value)) fail("'" + word + "' is not finite", "replace NaN and infinity by numbers");
+    }
+    return value;
+  }
+
+ private:
+  bool next(std::string& line) {
+    ++line_;
+    if (!std::getline(stream_, line)) return false;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return true;
+  }
+
+  std::string file_;
+  std::ifstream stream_;
+  long line_ = 0;
+};
+
+std::vector<Entry> read_entries(Reader& reader, int n, long count) {
+  std::vector<Entry> entries;
+  std::vector<std::string> words;
+  while (reader.fields(words)) {
+    if (words.size() != 3) reader.fail(fmt::format("has {} words, expected row, column and value", words.size()), "mend the line");
+    const Entry entry{reader.number<int>(words[0]), reader.number<int>(words[1]), reader.number<double>(words[2]), 0};
+    if (entry.row < 1 || entry.row > n || entry.column < 1 || entry.column > n) {
+      reader.fail(fmt::format("entry ({}, {}) lies outside the {} x {} matrix", entry.row, entry.column, n, n), "indices count from 1");
+    }
+    entries.push_back({entry.row - 1, entry.column - 1, entry.value, 0});
+  }
+  if (static_cast<long>(entries.size()) != count) {
+    reader.fail(fmt::format("holds {} entries, but its size line says {}", entries.size(), count), "the file was cut off or edited", 0);
+  }
+  return entries;
+}
+
+linalg::SparseMatrix from_entries(const std::vector<Eigen::Triplet<double, int>>& entries, int n) {
+  linalg::SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Lower triangle of a general matrix whose numbers must be symmetric.
+std::vector<Eigen::Triplet<double, int>> symmetric_part(const Reader& reader, const std::vector<Entry>& entries, int n) {
+  std::map<std::pair<int, int>, double> value;
+  std::vector<double> diagonal(static_cast<std::size_t>(n), 0.0);
+  for (const Entry& e : entries) {
+    value[{e.row, e.column}] = e.value;
+    if (e.row == e.column) diagonal[static_cast<std::size_t>(e.row)] = e.value;
+  }
+  std::vector<Eigen::Triplet<double, int>> lower;
+  for (const auto& [at, a] : value) {
+    const auto [row, column] = at;
+    const auto mirrored = value.find({column, row});
+    const double b = mirrored == value.end() ? 0.0 : mirrored->second;
+    const double scale = std::max({std::abs(a), std::abs(b), std::sqrt(std::abs(diagonal[static_cast<std::size_t>(row)] *
+                                                                                diagonal[static_cast<std::size_t>(column)]))});
+    if (std::abs(a - b) > 1e-9 * scale) {
+      reader.fail(fmt::format("is not symmetric: entry ({0}, {1}) is {2:.9g}, entry ({1}, {0}) is {3:.9g}", row + 1, column + 1, a, b),
+                  "stiffness and mass matrices must be symmetric", 0);
+    }
+    if (row >= column) lower.emplace_back(row, column, 0.5 * (a + b));
+    if (row < column && mirrored == value.end()) lower.emplace_back(column, row, 0.5 * a);
+  }
+  return lower;
+}
+
+}  // namespace
+
+linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
+  Reader reader(file);
+  const bool symmetric = reader.banner();
+  std::vector<std::string> words;
+  if (!reader.fields(words) || words.size() != 3) reader.fail("the size line is missing", "expected 'rows columns entries'");
+  const int n = reader.number<int>(words[0]);
+  if (reader.number<int>(words[1]) != n || n < 1) reader.fail(fmt::format("is {} x {}", words[0], words[1]), "a square matrix is expected");
+  const long count = reader.number<long>(words[2]);
+  const std::vector<Entry> entries = read_entries(reader, n, count);
+
+  std::vector<std::pair<int, int>> seen;
+  for (const Entry& e : entries) seen.emplace_back(e.row, e.column);
+  std::sort(seen.begin(), seen.end());
+  const auto twice = std::adjacent_find(seen.begin(), seen.end());
+  if (twice != seen.end()) {
+    reader.fail(fmt::format("entry ({}, {}) stands twice", twice->first + 1, twice->second + 1), "sum or remove one of the two", 0);
+  }
+  if (!symmetric) return from_entries(symmetric_part(reader, entries, n), n);
+
+  std::vector<Eigen::Triplet<double, int>> lower;
+  for (const Entry& e : entries) {
+    if (e.row < e.column) {
+      reader.fail(fmt::format("entry ({}, {}) lies above the diagonal of a symmetric matrix", e.row + 1, e.column + 1),
+                  "write the lower triangle only, or call the matrix general", 0);
+    }
+    lower.emplace_back(e.row, e.column, e.value);
+  }
+  return from_entries(lower, n);
+}
+
+void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file) {
+  TWINDECK_ASSERT(lower.rows() == lower.cols());
+  std::string body;
+  long count = 0;
+  for (int column = 0; column < lower.outerSize(); ++column) {
+    for (linalg::SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
+      TWINDECK_ASSERT(entry.row() >= entry.col());
+      if (entry.value() == 0.0) continue;
+      fmt::format_to(std::back_inserter(body), "{} {} {:.17g}\n", entry.row() + 1, entry.col() + 1, entry.value());
+      ++count;
+    }
+  }
+  std::ofstream stream(file, std::ios::binary);
+  stream << "%%MatrixMarket matrix coordinate real symmetric\n" << lower.rows() << ' ' << lower.cols() << ' ' << count << '\n' << body;
+  if (!stream.flush()) throw InputError({file.string(), 0, ""}, "cannot be written", "check the folder and the space on the disk");
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "linalg/types.hpp"
+
+namespace twindeck::model_io {
+
+/// Symmetric matrices in Matrix Market coordinate form (Boisvert, Pozo and Remington 1996, NISTIR 5935).
+///
+/// Reads `matrix coordinate real|integer symmetric|general`. A general matrix must be symmetric in its numbers, to 1e-9 of
+/// the larger of |a_ij| and sqrt(|a_ii a_jj|); the mean of the two entries is taken.
+/// @return lower triangle (n × n)
+/// @throws InputError with file and line for another kind of matrix, a bad or missing entry, an index outside the matrix,
+///         an entry that stands twice, a symmetric file with entries above the diagonal, a general one that is not symmetric
+[[nodiscard]] linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file);
+
+/// Writes the lower triangle as `coordinate real symmetric` with 17 digits: what is read back is the same to the last bit.
+/// Entries that are exactly zero are left out.
+/// @param lower  lower triangle (n × n)
+void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file);
+
+}  // namespace twindeck::model_io

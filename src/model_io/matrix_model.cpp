@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <set>
+
+#include "core/error.hpp"
+#include "io/config.hpp"
+#include "io/csv.hpp"
+#include "model_io/folder_parts.hpp"
+#include "model_io/matrix_market.hpp"
+#include "model_io/model_folder.hpp"
+#include "model_io/names.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+/// [[parameter]] of a matrix model: K gains theta · matrix (or M does).
+struct MatrixParameter {
+  std::string name, matrix, target = "stiffness", group, unit = "-";
+  double initial = 0.0, lower = 0.0, upper = 0.0;
+
+  io::FieldTable fields() {
+    io::FieldTable table;
+    table.text("name", name, "name of the parameter", true)
+        .text("matrix", matrix, "Matrix Market file of K_i or M_i", true)
+        .choice("target", target, {"stiffness", "mass"}, "which matrix the parameter adds to")
+        .text("group", group, "name of what the parameter stands for (default: its own name)")
+        .text("unit", unit, "unit of initial, lower and upper")
+        .number("initial", initial, "", {}, "value as the model stands", true)
+        .number("lower", lower, "", {}, "lower bound", true)
+        .number("upper", upper, "", {}, "upper bound", true);
+    return table;
+  }
+};
+
+struct MatrixModelEntry {
+  std::string title, stiffness, mass;
+  std::deque<MatrixParameter> parameters;
+
+  io::FieldTable fields() {
+    io::FieldTable table;
+    table.text("title", title, "what the model is")
+        .text("matrices.K", stiffness, "Matrix Market file of K0", true)
+        .text("matrices.M", mass, "Matrix Market file of M0", true)
+        .tables("parameter", [this] { return parameters.emplace_back().fields(); }, "K = K0 + sum theta_i K_i, M likewise");
+    return table;
+  }
+};
+
+std::vector<fe::DofLabel> read_dofs(const std::filesystem::path& folder) {
+  const auto table = io::CsvTable::read(folder / "dofs.csv", {"dof", "node", "direction"}, {"x_m", "y_m", "z_m"});
+  std::vector<fe::DofLabel> dofs;
+  std::set<std::pair<std::string, int>> seen;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.integer(row, "dof") != static_cast<long>(row) + 1) {
+      table.fail(row, "dof", fmt::format("is {}, expected {}", table.text(row, "dof"), row + 1),
+                 "rows stand in the order of the matrices and count from 1");
+    }
+    fe::DofLabel dof;
+    dof.node = table.text(row, "node");
+    if (dof.node.empty()) table.fail(row, "node", "is empty", "name the node that the degree of freedom belongs to");
+    const std::string direction = table.text(row, "direction");
+    dof.direction = position_of(direction, direction_names());
+    if (dof.direction < 0) {
+      table.fail(row, "direction", fmt::format("unknown direction '{}'", direction), "use " + one_of(direction_names()));
+    }
+    if (!seen.emplace(dof.node, dof.direction).second) {
+      table.fail(row, "direction", fmt::format("node {} has direction {} twice", dof.node, direction), "each may appear once");
+    }
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    dof.x_m = {table.number_or(row, "x_m", unknown), table.number_or(row, "y_m", unknown), table.number_or(row, "z_m", unknown)};
+    dofs.push_back(dof);
+  }
+  if (dofs.empty()) throw InputError({table.file().string(), 0, ""}, "holds no degree of freedom", "give each one a row");
+  return dofs;
+}
+
+/// Position of the parameter in the system; a name may stand once for the stiffness and once for the mass.
+int add_parameter(const std::filesystem::path& file, const MatrixParameter& entry, fe::ParametricSystem& system,
+                  std::set<std::pair<std::string, std::string>>& seen) {
+  const auto refuse = [&](const std::string& problem, const std::string& mend) {
+    return InputError({file.string(), line_of(file, "\"" + entry.name + "\""), "parameter " + entry.name}, problem, mend);
+  };
+  if (!seen.emplace(entry.name, entry.target).second) {
+    throw refuse("appears twice with target " + entry.target, "give each parameter a name of its own");
+  }
+  if (!(entry.lower <= entry.initial && entry.initial <= entry.upper)) {
+    throw refuse(fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper", io::format_number(entry.lower),
+                             io::format_number(entry.initial), io::format_number(entry.upper)),
+                 "put the bounds around the initial value");
+  }
+  const fe::Target target = entry.target == "mass" ? fe::Target::matrix_mass : fe::Target::matrix_stiffness;
+  for (std::size_t i = 0; i < system.parameters.size(); ++i) {
+    const auto& known = system.parameters[i];
+    if (known.name != entry.name) continue;
+    if (known.initial != entry.initial || known.lower != entry.lower || known.upper != entry.upper) {
+      throw refuse("has other values for the mass than for the stiffness", "give both entries the same initial value and bounds");
+    }
+    return static_cast<int>(i);
+  }
+  system.parameters.push_back({entry.name, target, {entry.group.empty() ? entry.name : entry.group}, entry.unit, entry.initial,
+                               entry.lower, entry.upper});
+  return static_cast<int>(system.parameters.size()) - 1;
+}
+
+linalg::SparseMatrix read_sized(const std::filesystem::path& file, std::size_t n) {
+  linalg::SparseMatrix matrix = read_matrix_market(file);
+  if (matrix.rows() == static_cast<Eigen::Index>(n)) return matrix;
+  throw InputError({file.string(), 0, ""}, fmt::format("is {0} x {0}, but dofs.csv has {1} rows", matrix.rows(), n),
+                   "matrices and dofs.csv must be of one model");
+}
+
+/// A matrix waiting for its place in the common pattern.
+struct LooseTerm {
+  fe::Term term;
+  linalg::SparseMatrix matrix;
+  bool mass;
+};
+
+/// Union of the patterns with a full diagonal: every matrix of the family, and any K - sigma M, fits into it.
+linalg::SparseMatrix union_pattern(const std::vector<LooseTerm>& terms, int n) {
+  std::vector<Eigen::Triplet<double, int>> entries;
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 0.0);
+  for (const auto& loose : terms) {
+    for (int column = 0; column < n; ++column) {
+      for (linalg::SparseMatrix::InnerIterator e(loose.matrix, column); e; ++e) entries.emplace_back(e.row(), e.col(), 0.0);
+    }
+  }
+  linalg::SparseMatrix pattern(n, n);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  pattern.makeCompressed();
+  return pattern;
+}
+
+void place_in_pattern(const linalg::SparseMatrix& matrix, const linalg::SparseMatrix& pattern, fe::Term& term) {
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    const int* first = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column];
+    const int* last = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column + 1];
+    for (linalg::SparseMatrix::InnerIterator e(matrix, column); e; ++e) {
+      const int* at = std::lower_bound(first, last, static_cast<int>(e.row()));
+      TWINDECK_ASSERT(at != last && *at == e.row());
+      term.position.push_back(static_cast<int>(at - pattern.innerIndexPtr()));
+      term.value.push_back(e.value());
+    }
+  }
+}
+
+}  // namespace
+
+fe::ParametricSystem read_matrix_model(const std::filesystem::path& folder) {
+  const auto file = folder / "model.toml";
+  MatrixModelEntry entry;
+  entry.fields().load(file);
+  fe::ParametricSystem system;
+  system.dofs = read_dofs(folder);
+  const std::size_t n = system.dofs.size();
+
+  std::vector<LooseTerm> terms;
+  terms.push_back({{"K0", {}, {}, {}}, read_sized(folder / entry.stiffness, n), false});
+  terms.push_back({{"M0", {}, {}, {}}, read_sized(folder / entry.mass, n), true});
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const auto& parameter : entry.parameters) {
+    fe::Term term;
+    term.label = parameter.name + " " + parameter.target;
+    // theta itself is the coefficient: base 1 times (theta / 1)^1.
+    term.coefficient.factors.push_back({add_parameter(file, parameter, system, seen), 1.0, 1.0});
+    terms.push_back({term, read_sized(folder / parameter.matrix, n), parameter.target == "mass"});
+  }
+  system.pattern = union_pattern(terms, static_cast<int>(n));
+  for (auto& loose : terms) {
+    place_in_pattern(loose.matrix, system.pattern, loose.term);
+    (loose.mass ? system.mass_terms : system.stiffness_terms).push_back(std::move(loose.term));
+  }
+  return system;
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <fstream>
+#include <set>
+
+#include "core/error.hpp"
+#include "io/config.hpp"
+#include "model_io/folder_parts.hpp"
+#include "model_io/names.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+/// [[parameter]] as it stands in the file.
+struct ParameterEntry {
+  std::string name, target = "youngs_modulus", unit;
+  std::vector<std::string> of;
+  double initial = 0.0, lower = 0.0, upper = 0.0;
+
+  io::FieldTable fields() {
+    io::FieldTable table;
+    table.text("name", name, "name of the parameter", true)
+        .choice("target", target, target_names(), "what it scales")
+        .texts("of", of, "names of the materials, sections or groups that it applies to")
+        .text("unit", unit, "unit of initial, lower and upper: SI, or - for a factor")
+        .number("initial", initial, "", {}, "value as the model stands", true)
+        .number("lower", lower, "", {}, "lower bound", true)
+        .number("upper", upper, "", {}, "upper bound", true);
+    return table;
+  }
+};
+
+/// Everything of model.toml in the words of the file.
+struct ModelEntry {
+  std::string title;
+  double gravity_m_s2 = fe::Model{}.gravity_m_s2;
+  fe::Formulation formulation;
+  std::string drilling = "penalty", rule = "none";
+  fe::Prestress prestress;
+  std::vector<std::string> conditions;
+  std::deque<ParameterEntry> parameters;  // a deque: the field tables keep references while it grows
+
+  io::FieldTable fields() {
+    io::FieldTable table;
+    table.text("title", title, "what the model is")
+        .number("gravity", gravity_m_s2, "m/s2", io::non_negative(), "acceleration of gravity, along -Z")
+        .boolean("formulation.shear_flexible", formulation.shear_flexible, "false: Euler-Bernoulli beams whatever the shear areas")
+        .boolean("formulation.shell_rotary_inertia", formulation.shell_rotary_inertia, "false: shells with translational mass only")
+        .choice("formulation.drilling", drilling, {"penalty", "diagonal"}, "stiffness of shell rotations about the normal")
+        .number("formulation.drilling_factor", formulation.drilling_factor, "", io::non_negative(), "0: the formulation's default")
+        .choice("prestress.rule", rule, pull_rule_names(), "where the pulls of the stays come from")
+        .boolean("prestress.geometric_stiffness", prestress.geometric_stiffness, "axial forces stiffen stays and members")
+        .number("prestress.minimum_pull", prestress.minimum_pull_N, "N", io::non_negative(), "no stay goes slack below it")
+        .number("prestress.ridge", prestress.ridge, "", io::non_negative(), "weight of least pulls against zero displacement")
+        .number("prestress.site_weight", prestress.site_weight, "", io::non_negative(),
+                "weight of the pulls of elements.csv against zero displacement")
+        .texts("prestress.conditions", conditions, "displacements that the pulls should bring to zero: \"node:direction\"")
+        .tables("parameter", [this] { return parameters.emplace_back().fields(); }, "what may be updated, and between which bounds");
+    return table;
+  }
+};
+
+InputError at(const std::filesystem::path& file, const std::string& anchor, const std::string& key, const std::string& problem,
+              const std::string& mend) {
+  return InputError({file.string(), line_of(file, anchor), key}, problem, mend);
+}
+
+/// Names that a target may apply to.
+std::vector<std::string> known_names(const fe::Model& model, fe::Target target) {
+  std::set<std::string> names;
+  switch (target) {
+    case fe::Target::youngs_modulus:
+    case fe::Target::density:
+      for (const auto& m : model.materials) names.insert(m.name);
+      break;
+    case fe::Target::thickness:
+    case fe::Target::bending_inertia_ratio:
+    case fe::Target::area:
+      for (const auto& s : model.sections) names.insert(s.name);
+      break;
+    case fe::Target::spring_stiffness:
+      for (const auto& s : model.springs) names.insert(s.group);
+      break;
+    default:
+      for (const auto& m : model.masses) names.insert(m.group);
+  }
+  return {names.begin(), names.end()};
+}
+
+const char* kind_of(fe::Target target) {
+  if (target == fe::Target::youngs_modulus || target == fe::Target::density) return "material";
+  if (target == fe::Target::spring_stiffness) return "group of springs";
+  return target == fe::Target::point_mass ? "group of masses" : "section";
+}
+
+fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& model, const ParameterEntry& entry) {
+  const std::string anchor = "\"" + entry.name + "\"";
+  const std::string key = "parameter " + entry.name;
+  fe::Parameter p{entry.name, static_cast<fe::Target>(position_of(entry.target, target_names())), entry.of, entry.unit,
+                  entry.initial, entry.lower, entry.upper};
+  if (p.of.empty()) {
+    throw at(file, anchor, key, "'of' is missing or empty", fmt::format("name the {} that it applies to", kind_of(p.target)));
+  }
+  const auto known = known_names(model, p.target);
+  for (const auto& name : p.of) {
+    if (position_of(name, known) >= 0) continue;
+    throw at(file, anchor, key, fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
+             "'of' lists names of the model's own files");
+  }
+  if (!(p.lower <= p.initial && p.initial <= p.upper)) {
+    throw at(file, anchor, key,
+             fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper", io::format_number(p.lower),
+                         io::format_number(p.initial), io::format_number(p.upper)),
+             "put the bounds around the initial value");
+  }
+  for (const auto& other : model.parameters) {
+    if (other.name == p.name) throw at(file, anchor, key, "appears twice", "give each parameter a name of its own");
+  }
+  return p;
+}
+
+fe::Prestress::Condition to_condition(const std::filesystem::path& file, const NameIndex& index, const std::string& text) {
+  const auto colon = text.find(':');
+  const std::string node = text.substr(0, colon);
+  const int dof = colon == std::string::npos ? -1 : position_of(text.substr(colon + 1), direction_names());
+  const bool number = !node.empty() && node.size() < 18 && node.find_first_not_of("0123456789") == std::string::npos;
+  const auto found = number ? index.nodes.find(std::stol(node)) : index.nodes.end();
+  if (found == index.nodes.end() || dof < 0 || dof > 2) {
+    throw at(file, "\"" + text + "\"", "prestress.conditions",
+             fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z", text),
+             "write for example \"17:z\"");
+  }
+  return {found->second, dof};
+}
+
+std::string text_list(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const auto& text : texts) list += (list.empty() ? "" : ", ") + toml_text(text);
+  return "[" + list + "]";
+}
+
+}  // namespace
+
+std::string toml_text(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n') {
+      out += "\\n";
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+void read_model_toml(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  const auto file = folder / "model.toml";
+  ModelEntry entry;
+  entry.fields().load(file);
+  model.title = entry.title;
+  model.gravity_m_s2 = entry.gravity_m_s2;
+  model.formulation = entry.formulation;
+  model.formulation.drilling = entry.drilling == "penalty" ? fe::Formulation::Drilling::penalty : fe::Formulation::Drilling::diagonal;
+  model.prestress = entry.prestress;
+  model.prestress.rule = static_cast<fe::PullRule>(position_of(entry.rule, pull_rule_names()));
+  for (const auto& text : entry.conditions) model.prestress.conditions.push_back(to_condition(file, index, text));
+  for (const auto& parameter : entry.parameters) model.parameters.push_back(to_parameter(file, model, parameter));
+}
+
+void write_model_toml(const fe::Model& model, const std::filesystem::path& folder) {
+  const auto number = [](double value) { return io::format_number(value); };
+  std::string text;
+  text += "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
+  text += fmt::format("title = {}\ngravity = {}\n\n", toml_text(model.title), number(model.gravity_m_s2));
+  const auto& f = model.formulation;
+  text += fmt::format("[formulation]\nshear_flexible = {}\nshell_rotary_inertia = {}\ndrilling = \"{}\"\ndrilling_factor = {}\n\n",
+                      f.shear_flexible, f.shell_rotary_inertia,
+                      f.drilling == fe::Formulation::Drilling::penalty ? "penalty" : "diagonal", number(f.drilling_factor));
+  const auto& p = model.prestress;
+  std::vector<std::string> conditions;
+  for (const auto& c : p.conditions) {
+    conditions.push_back(fmt::format("{}:{}", model.nodes[static_cast<std::size_t>(c.node)].id,
+                                     direction_names()[static_cast<std::size_t>(c.dof)]));
+  }
+  text += fmt::format("[prestress]\nrule = \"{}\"\ngeometric_stiffness = {}\nminimum_pull = {}\nridge = {}\nsite_weight = {}\nconditions = {}\n",
+                      pull_rule_names()[static_cast<std::size_t>(p.rule)], p.geometric_stiffness, number(p.minimum_pull_N),
+                      number(p.ridge), number(p.site_weight), text_list(conditions));
+  for (const auto& q : model.parameters) {
+    TWINDECK_ASSERT(static_cast<std::size_t>(q.target) < target_names().size());
+    text += fmt::format("\n[[parameter]]\nname = {}\ntarget = \"{}\"\nof = {}\nunit = {}\ninitial = {}\nlower = {}\nupper = {}\n",
+                        toml_text(q.name), target_names()[static_cast<std::size_t>(q.target)], text_list(q.of), toml_text(q.unit),
+                        number(q.initial), number(q.lower), number(q.upper));
+  }
+  std::ofstream(folder / "model.toml", std::ios::binary) << text;
+}
+
+}  // namespace twindeck::model_io

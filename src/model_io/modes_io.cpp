@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "io/csv.hpp"
+#include "model_io/export.hpp"
+#include "model_io/names.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<double> known(double value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; }
+std::optional<double> percent(double ratio) { return known(100.0 * ratio); }
+
+/// 1 where it can be: the component of largest magnitude; the first of equals, so that rounding does not choose.
+std::complex<double> largest_component(const Eigen::Ref<const Eigen::VectorXcd>& shape) {
+  Eigen::Index at = 0;
+  for (Eigen::Index i = 1; i < shape.size(); ++i) {
+    if (std::abs(shape[i]) > std::abs(shape[at]) * (1.0 + 1e-9)) at = i;
+  }
+  return shape.size() == 0 || shape[at] == 0.0 ? 1.0 : shape[at];
+}
+
+void write_shapes(const modal::ModeSet& modes, const std::filesystem::path& file) {
+  const bool complex = (modes.shapes.imag().array() != 0.0).any();
+  std::vector<std::string> columns = {"mode", "point", "direction", "value"};
+  if (complex) columns.emplace_back("value_imag");
+  io::CsvWriter writer(columns);
+  for (Eigen::Index mode = 0; mode < modes.size(); ++mode) {
+    const Eigen::VectorXcd shape = modes.shapes.col(mode) / largest_component(modes.shapes.col(mode));
+    for (std::size_t i = 0; i < modes.dofs.size(); ++i) {
+      const std::complex<double> value = shape[static_cast<Eigen::Index>(i)];
+      std::vector<io::Cell> row = {modes.names[static_cast<std::size_t>(mode)], modes.dofs[i].point, modes.dofs[i].direction, value.real()};
+      if (complex) row.emplace_back(value.imag());
+      writer.row(row);
+    }
+  }
+  writer.save(file);
+}
+
+void read_shapes(const std::filesystem::path& file, modal::ModeSet& modes) {
+  const auto table = io::CsvTable::read(file, {"mode", "point", "direction", "value"}, {"value_imag"}, true);
+  std::map<std::string, Eigen::Index> mode_at;
+  for (std::size_t i = 0; i < modes.names.size(); ++i) mode_at.emplace(modes.names[i], static_cast<Eigen::Index>(i));
+  std::map<std::pair<std::string, std::string>, Eigen::Index> dof_at;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const modal::ShapeDof dof{table.text(row, "point"), table.text(row, "direction")};
+    if (dof_at.emplace(std::pair{dof.point, dof.direction}, static_cast<Eigen::Index>(modes.dofs.size())).second) modes.dofs.push_back(dof);
+  }
+  const auto n = static_cast<Eigen::Index>(modes.dofs.size());
+  modes.shapes = Eigen::MatrixXcd::Constant(n, modes.size(), kUnknown);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto mode = mode_at.find(table.text(row, "mode"));
+    if (mode == mode_at.end()) {
+      table.fail(row, "mode", fmt::format("mode '{}' is not in modes.csv{}", table.text(row, "mode"), did_you_mean(table.text(row, "mode"), modes.names)),
+                 "shapes.csv lists modes of modes.csv");
+    }
+    auto& value = modes.shapes(dof_at.at({table.text(row, "point"), table.text(row, "direction")}), mode->second);
+    if (!std::isnan(value.real())) table.fail(row, "point", "this component of the mode stands twice", "remove one of the two rows");
+    value = {table.number(row, "value"), table.number_or(row, "value_imag", 0.0)};
+  }
+  for (Eigen::Index mode = 0; mode < modes.size(); ++mode) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!std::isnan(modes.shapes(i, mode).real())) continue;
+      const auto& dof = modes.dofs[static_cast<std::size_t>(i)];
+      throw InputError({file.string(), 0, "mode " + modes.names[static_cast<std::size_t>(mode)]},
+                       fmt::format("has no value at point {} direction {}, which another mode has", dof.point, dof.direction),
+                       "give every mode the same components");
+    }
+  }
+}
+
+}  // namespace
+
+void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  io::CsvWriter writer({"mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"});
+  const auto at = [](const Eigen::VectorXd& v, Eigen::Index i) { return i < v.size() ? v[i] : kUnknown; };
+  for (Eigen::Index i = 0; i < modes.size(); ++i) {
+    writer.row({modes.names[static_cast<std::size_t>(i)], modes.frequency_Hz[i], known(at(modes.frequency_std_Hz, i)),
+                percent(at(modes.damping_ratio, i)), percent(at(modes.damping_ratio_std, i))});
+  }
+  writer.save(folder / "modes.csv");
+  if (modes.has_shapes()) write_shapes(modes, folder / "shapes.csv");
+}
+
+modal::ModeSet read_modes(const std::filesystem::path& folder) {
+  const auto table = io::CsvTable::read(folder / "modes.csv", {"mode", "frequency_Hz"},
+                                        {"frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"}, true);
+  const auto n = static_cast<Eigen::Index>(table.rows());
+  modal::ModeSet modes;
+  modes.frequency_Hz.resize(n);
+  modes.frequency_std_Hz.resize(n);
+  modes.damping_ratio.resize(n);
+  modes.damping_ratio_std.resize(n);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string name = table.text(row, "mode");
+    if (name.empty()) table.fail(row, "mode", "is empty", "name the mode");
+    if (position_of(name, modes.names) >= 0) table.fail(row, "mode", fmt::format("mode '{}' appears twice", name), "give each mode a name of its own");
+    modes.names.push_back(name);
+    const auto i = static_cast<Eigen::Index>(row);
+    modes.frequency_Hz[i] = table.number(row, "frequency_Hz");
+    if (modes.frequency_Hz[i] < 0.0) {
+      table.fail(row, "frequency_Hz", fmt::format("is {}, expected a value of at least 0", table.text(row, "frequency_Hz")), "frequencies are in Hz");
+    }
+    modes.frequency_std_Hz[i] = table.number_or(row, "frequency_std_Hz", kUnknown);
+    modes.damping_ratio[i] = table.number_or(row, "damping_ratio_pct", kUnknown) / 100.0;
+    modes.damping_ratio_std[i] = table.number_or(row, "damping_ratio_std_pct", kUnknown) / 100.0;
+  }
+  if (std::filesystem::exists(folder / "shapes.csv")) read_shapes(folder / "shapes.csv", modes);
+  return modes;
+}
+
+modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes) {
+  const Eigen::Index n = modes.frequency_Hz.size();
+  modal::ModeSet set;
+  for (Eigen::Index i = 0; i < n; ++i) set.names.push_back(std::to_string(i + 1));
+  set.frequency_Hz = modes.frequency_Hz;
+  set.frequency_std_Hz = set.damping_ratio = set.damping_ratio_std = Eigen::VectorXd::Constant(n, kUnknown);
+  if (model == nullptr) {
+    for (const auto& dof : system.dofs) set.dofs.push_back({dof.node, direction_names()[static_cast<std::size_t>(dof.direction)]});
+    set.shapes = modes.shapes.cast<std::complex<double>>();
+    return set;
+  }
+  set.shapes = system.expand(modes.shapes).cast<std::complex<double>>();
+  for (const auto& node : model->nodes) {
+    for (const auto& direction : direction_names()) set.dofs.push_back({std::to_string(node.id), direction});
+  }
+  TWINDECK_ASSERT(set.shapes.rows() == static_cast<Eigen::Index>(set.dofs.size()));
+  return set;
+}
+
+}  // namespace twindeck::model_io

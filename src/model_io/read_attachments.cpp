@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "model_io/folder_parts.hpp"
+#include "model_io/names.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+/// What hangs on the elements may be left out altogether.
+bool is_there(const std::filesystem::path& folder, const char* file) { return std::filesystem::exists(folder / file); }
+
+bool read_flag(const io::CsvTable& table, std::size_t row, const std::string& column, bool fallback) {
+  const auto value = table.integer_if(row, column);
+  if (!value) return fallback;
+  if (*value != 0 && *value != 1) table.fail(row, column, fmt::format("is {}, expected 0 or 1", *value), "1 means yes, 0 no");
+  return *value == 1;
+}
+
+double not_negative(const io::CsvTable& table, std::size_t row, const std::string& column) {
+  const double value = table.number_or(row, column, 0.0);
+  if (value < 0.0) {
+    table.fail(row, column, fmt::format("is {}, expected a value of at least 0", io::format_number(value)), "check the sign");
+  }
+  return value;
+}
+
+/// One of two words; the first where the cell is empty.
+bool is_second_word(const io::CsvTable& table, std::size_t row, const std::string& column, const std::string& first,
+                    const std::string& second) {
+  const std::string word = table.text(row, column);
+  if (word.empty() || word == first) return false;
+  if (word == second) return true;
+  const std::vector<std::string> known = {first, second};
+  table.fail(row, column, fmt::format("unknown {} '{}'{}", column, word, did_you_mean(word, known)), "use " + one_of(known));
+}
+
+}  // namespace
+
+void read_supports(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  if (!is_there(folder, "supports.csv")) return;
+  const auto table = io::CsvTable::read(folder / "supports.csv", {"node", "x", "y", "z", "rx", "ry", "rz"}, {"support"});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    fe::Support support;
+    support.name = table.text(row, "support");
+    support.node = index.node(table, row, "node");
+    for (std::size_t i = 0; i < 6; ++i) support.fixed[i] = read_flag(table, row, direction_names()[i], false);
+    model.supports.push_back(support);
+  }
+}
+
+void read_springs(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  if (!is_there(folder, "springs.csv")) return;
+  const auto table = io::CsvTable::read(
+      folder / "springs.csv", {"spring", "node", "direction_x", "direction_y", "direction_z", "stiffness_N_m"},
+      {"group", "node2", "quantity", "damping_N_s_m", "friction_N", "arrangement", "active"});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    fe::Spring s;
+    s.name = table.text(row, "spring");
+    s.group = table.text(row, "group");
+    s.node = index.node(table, row, "node");
+    s.node2 = table.text(row, "node2").empty() ? -1 : index.node(table, row, "node2");
+    if (s.node == s.node2) table.fail(row, "node2", "is the node itself", "leave it empty for a spring to the ground");
+    s.direction = {table.number(row, "direction_x"), table.number(row, "direction_y"), table.number(row, "direction_z")};
+    if (s.direction.norm() < 1e-12) {
+      table.fail(row, "direction_x", "the direction has no length", "give the direction cosines of the spring's axis");
+    }
+    // Rescaled only when it is not of unit length to the twelve digits of the file, so that a round trip changes nothing.
+    if (std::abs(s.direction.norm() - 1.0) > 1e-11) s.direction.normalize();
+    s.rotation = is_second_word(table, row, "quantity", "translation", "rotation");
+    s.stiffness = not_negative(table, row, "stiffness_N_m");
+    s.damping = not_negative(table, row, "damping_N_s_m");
+    s.friction_N = not_negative(table, row, "friction_N");
+    s.series = is_second_word(table, row, "arrangement", "parallel", "series");
+    s.active = read_flag(table, row, "active", true);
+    model.springs.push_back(std::move(s));
+  }
+}
+
+void read_links(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  if (!is_there(folder, "links.csv")) return;
+  const auto table = io::CsvTable::read(folder / "links.csv", {"master", "slave"}, {"link"});
+  std::map<int, std::size_t> slaves;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    fe::RigidLink link{table.text(row, "link"), index.node(table, row, "master"), index.node(table, row, "slave")};
+    if (link.master == link.slave) table.fail(row, "slave", "is the master itself", "link two nodes that differ");
+    if (!slaves.emplace(link.slave, row).second) {
+      table.fail(row, "slave", fmt::format("node {} is the slave of two links", table.text(row, "slave")),
+                 "a node follows one master; turn one of the links around");
+    }
+    model.links.push_back(std::move(link));
+  }
+}
+
+void read_masses(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  if (!is_there(folder, "masses.csv")) return;
+  const auto table = io::CsvTable::read(folder / "masses.csv", {"node", "mass_kg"},
+                                        {"group", "inertia_x_kg_m2", "inertia_y_kg_m2", "inertia_z_kg_m2"});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    fe::PointMass mass;
+    mass.group = table.text(row, "group");
+    mass.node = index.node(table, row, "node");
+    mass.mass_kg = not_negative(table, row, "mass_kg");
+    mass.inertia_kg_m2 = {not_negative(table, row, "inertia_x_kg_m2"), not_negative(table, row, "inertia_y_kg_m2"),
+                          not_negative(table, row, "inertia_z_kg_m2")};
+    model.masses.push_back(std::move(mass));
+  }
+}
+
+void read_points(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  if (!is_there(folder, "points.csv")) return;
+  const auto table = io::CsvTable::read(folder / "points.csv", {"point", "node"});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string point = table.text(row, "point");
+    if (!model.monitoring_points.emplace(point, index.node(table, row, "node")).second) {
+      table.fail(row, "point", fmt::format("point '{}' appears twice", point), "give each point a name of its own");
+    }
+  }
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <set>
+
+#include "core/error.hpp"
+#include "model_io/folder_parts.hpp"
+#include "model_io/names.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+const std::array<const char*, 4> kNodeColumns = {"node1", "node2", "node3", "node4"};
+
+int position_by_name(const io::CsvTable& table, std::size_t row, const std::string& column,
+                     const std::map<std::string, int>& known) {
+  const std::string name = table.text(row, column);
+  const auto found = known.find(name);
+  if (found != known.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known_name, position] : known) names.push_back(known_name);
+  table.fail(row, column, fmt::format("{} '{}' is not in {}s.csv{}", column, name, column, did_you_mean(name, names)),
+             fmt::format("add it there or use one that is there"));
+}
+
+fe::ElementType read_type(const io::CsvTable& table, std::size_t row) {
+  const std::string type = table.text(row, "type");
+  const int position = position_of(type, element_type_names());
+  if (position < 0) {
+    table.fail(row, "type", fmt::format("unknown element type '{}'{}", type, did_you_mean(type, element_type_names())),
+               "use " + one_of(element_type_names()));
+  }
+  return static_cast<fe::ElementType>(position);
+}
+
+void read_element_nodes(const io::CsvTable& table, std::size_t row, const NameIndex& index, fe::Element& element) {
+  const std::size_t wanted = element.type == fe::ElementType::shell ? 4 : 2;
+  for (std::size_t i = 0; i < wanted; ++i) element.nodes.push_back(index.node(table, row, kNodeColumns[i]));
+  for (std::size_t i = wanted; i < 4; ++i) {
+    if (!table.text(row, kNodeColumns[i]).empty()) {
+      table.fail(row, kNodeColumns[i], fmt::format("is filled, but a {} has two nodes", name_of(element.type)),
+                 "leave the cell empty or make the element a shell");
+    }
+  }
+  if (std::set<int>(element.nodes.begin(), element.nodes.end()).size() != wanted) {
+    table.fail(row, "node1", fmt::format("element {} has the same node twice", element.id), "give it nodes that differ");
+  }
+}
+
+Eigen::Vector3d read_vector(const io::CsvTable& table, std::size_t row, const std::string& prefix, const std::string& suffix) {
+  return {table.number_or(row, prefix + "_x" + suffix, 0.0), table.number_or(row, prefix + "_y" + suffix, 0.0),
+          table.number_or(row, prefix + "_z" + suffix, 0.0)};
+}
+
+/// Two nodes at one place: said here, where the line is known.
+void check_length(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
+  if (element.type == fe::ElementType::shell) return;
+  const auto& a = model.nodes[static_cast<std::size_t>(element.nodes[0])];
+  const auto& b = model.nodes[static_cast<std::size_t>(element.nodes[1])];
+  const double length = (b.x_m + element.offset_m[1] - a.x_m - element.offset_m[0]).norm();
+  if (length > 1e-9) return;
+  table.fail(row, "node2",
+             fmt::format("{} {} has no length: nodes {} and {} lie at one place ({}, {}, {})", name_of(element.type), element.id, a.id,
+                         b.id, io::format_number(a.x_m.x()), io::format_number(a.x_m.y()), io::format_number(a.x_m.z())),
+             "move one of the nodes in nodes.csv, or join them by a row of links.csv instead");
+}
+
+void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
+  const fe::Section& section = model.sections[static_cast<std::size_t>(element.section)];
+  if (element.type == fe::ElementType::shell && section.thickness_m <= 0.0) {
+    table.fail(row, "section", fmt::format("section '{}' has no thickness, which a shell needs", section.name),
+               "fill thickness_m in sections.csv");
+  }
+  if (element.type != fe::ElementType::shell && section.area_m2 <= 0.0) {
+    table.fail(row, "section", fmt::format("section '{}' has no area, which a {} needs", section.name, name_of(element.type)),
+               "fill area_m2 in sections.csv");
+  }
+}
+
+}  // namespace
+
+void read_elements(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  const auto table = io::CsvTable::read(
+      folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
+      {"name", "group", "node3", "node4", "orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m",
+       "offset1_z_m", "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
+  std::set<long> ids;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    fe::Element e;
+    e.id = table.integer(row, "element");
+    if (!ids.insert(e.id).second) {
+      table.fail(row, "element", fmt::format("element {} appears twice", e.id), "give each element a number of its own");
+    }
+    e.type = read_type(table, row);
+    e.name = table.text(row, "name");
+    e.group = table.text(row, "group");
+    e.material = position_by_name(table, row, "material", index.materials);
+    e.section = position_by_name(table, row, "section", index.sections);
+    read_element_nodes(table, row, index, e);
+    e.orientation = read_vector(table, row, "orientation", "");
+    e.offset_m = {read_vector(table, row, "offset1", "_m"), read_vector(table, row, "offset2", "_m")};
+    const long releases = table.integer_if(row, "releases").value_or(0);
+    if (releases < 0 || releases > 4095) {
+      table.fail(row, "releases", fmt::format("is {}, expected a sum of powers of two from 0 to 4095", releases),
+                 "bit 0-5 releases local x y z rx ry rz of the first end, bit 6-11 those of the second");
+    }
+    e.releases = static_cast<std::uint16_t>(releases);
+    e.pull_N = table.number_or(row, "pull_N", 0.0);
+    if (e.pull_N < 0.0) {
+      table.fail(row, "pull_N", fmt::format("is {}, expected a pull of at least 0", io::format_number(e.pull_N)), "a stay cannot push");
+    }
+    check_length(table, row, model, e);
+    check_section(table, row, model, e);
+    model.elements.push_back(std::move(e));
+  }
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,80 @@
+#include <fstream>
+#include <toml++/toml.h>
+
+#include "core/error.hpp"
+#include "model_io/folder_parts.hpp"
+#include "model_io/model_folder.hpp"
+
+namespace twindeck::model_io {
+
+fe::Model read_model(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError({folder.string(), 0, ""}, "is no folder", "give the folder of a model: model.toml, nodes.csv, elements.csv, …");
+  }
+  if (is_matrix_model(folder)) {
+    throw InputError({(folder / "model.toml").string(), line_of(folder / "model.toml", "[matrices]"), "matrices"},
+                     "this is a matrix model, which has no elements", "give a model folder with elements.csv to this step");
+  }
+  fe::Model model;
+  model.source = folder.string();
+  NameIndex index;
+  read_nodes(folder, model, index);
+  read_materials(folder, model, index);
+  read_sections(folder, model, index);
+  read_elements(folder, model, index);
+  read_supports(folder, model, index);
+  read_springs(folder, model, index);
+  read_links(folder, model, index);
+  read_masses(folder, model, index);
+  read_points(folder, model, index);
+  read_model_toml(folder, model, index);
+  return model;
+}
+
+bool is_matrix_model(const std::filesystem::path& folder) {
+  const auto file = folder / "model.toml";
+  if (!std::filesystem::exists(file)) {
+    throw InputError({file.string(), 0, ""}, "is not there, but every model folder has one",
+                     "write model.toml with at least a title, or point --model at another folder");
+  }
+  try {
+    return toml::parse_file(file.string()).contains("matrices");
+  } catch (const toml::parse_error& error) {
+    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""}, std::string(error.description()),
+                     "see https://toml.io for the syntax");
+  }
+}
+
+std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {"model.toml", "nodes.csv", "elements.csv", "materials.csv", "sections.csv", "supports.csv", "springs.csv",
+                           "links.csv", "masses.csv", "points.csv", "dofs.csv"}) {
+    if (std::filesystem::exists(folder / name)) files.push_back(folder / name);
+  }
+  if (!is_matrix_model(folder)) return files;
+  // The matrices have the names that model.toml gives them.
+  const auto root = toml::parse_file((folder / "model.toml").string());
+  for (const char* key : {"K", "M"}) {
+    if (const auto name = root["matrices"][key].value<std::string>()) files.push_back(folder / *name);
+  }
+  if (const auto* parameters = root["parameter"].as_array()) {
+    for (const auto& entry : *parameters) {
+      const auto* table = entry.as_table();
+      if (table == nullptr) continue;
+      if (const auto name = (*table)["matrix"].value<std::string>()) files.push_back(folder / *name);
+    }
+  }
+  std::erase_if(files, [](const auto& file) { return !std::filesystem::exists(file); });
+  return files;
+}
+
+long line_of(const std::filesystem::path& file, const std::string& text) {
+  std::ifstream stream(file);
+  std::string line;
+  for (long number = 1; std::getline(stream, line); ++number) {
+    if (line.find(text) != std::string::npos) return number;
+  }
+  return 0;
+}
+
+}  // namespace twindeck::model_io

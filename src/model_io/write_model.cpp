@@ -1,0 +1,102 @@
+#include <system_error>
+
+#include "core/error.hpp"
+#include "io/csv.hpp"
+#include "model_io/folder_parts.hpp"
+#include "model_io/model_folder.hpp"
+#include "model_io/names.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+using Row = std::vector<io::Cell>;
+
+io::Cell node_id(const fe::Model& model, int node) {
+  if (node < 0) return "";
+  return model.nodes[static_cast<std::size_t>(node)].id;
+}
+
+void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
+  io::CsvWriter nodes({"node", "x_m", "y_m", "z_m"});
+  for (const auto& n : model.nodes) nodes.row({n.id, n.x_m.x(), n.x_m.y(), n.x_m.z()});
+  nodes.save(folder / "nodes.csv");
+
+  io::CsvWriter materials({"material", "youngs_modulus_Pa", "shear_modulus_Pa", "poisson_ratio", "density_kg_m3"});
+  for (const auto& m : model.materials) {
+    materials.row({m.name, m.youngs_modulus_Pa, m.shear_modulus_Pa, m.poisson_ratio, m.density_kg_m3});
+  }
+  materials.save(folder / "materials.csv");
+
+  io::CsvWriter sections({"section", "area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4", "shear_area_y_m2",
+                          "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
+  for (const auto& s : model.sections) {
+    sections.row({s.name, s.area_m2, s.inertia_y_m4, s.inertia_z_m4, s.inertia_yz_m4, s.torsion_m4, s.shear_area_y_m2,
+                  s.shear_area_z_m2, s.thickness_m, s.bending_inertia_ratio});
+  }
+  sections.save(folder / "sections.csv");
+}
+
+void write_elements(const fe::Model& model, const std::filesystem::path& folder) {
+  io::CsvWriter elements({"element", "type", "name", "group", "material", "section", "node1", "node2", "node3", "node4",
+                          "orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m", "offset1_z_m",
+                          "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
+  for (const auto& e : model.elements) {
+    Row row = {e.id, name_of(e.type), e.name, e.group, model.materials[static_cast<std::size_t>(e.material)].name,
+               model.sections[static_cast<std::size_t>(e.section)].name};
+    for (std::size_t i = 0; i < 4; ++i) row.push_back(node_id(model, i < e.nodes.size() ? e.nodes[i] : -1));
+    for (const Eigen::Vector3d& v : {e.orientation, e.offset_m[0], e.offset_m[1]}) {
+      for (int i = 0; i < 3; ++i) row.emplace_back(v[i]);
+    }
+    row.emplace_back(static_cast<int>(e.releases));
+    row.emplace_back(e.pull_N);
+    elements.row(row);
+  }
+  elements.save(folder / "elements.csv");
+}
+
+void write_attachments(const fe::Model& model, const std::filesystem::path& folder) {
+  io::CsvWriter supports({"support", "node", "x", "y", "z", "rx", "ry", "rz"});
+  for (const auto& s : model.supports) {
+    Row row = {s.name, node_id(model, s.node)};
+    for (const bool fixed : s.fixed) row.emplace_back(fixed ? 1 : 0);
+    supports.row(row);
+  }
+  supports.save(folder / "supports.csv");
+
+  io::CsvWriter springs({"spring", "group", "node", "node2", "direction_x", "direction_y", "direction_z", "quantity", "stiffness_N_m",
+                         "damping_N_s_m", "friction_N", "arrangement", "active"});
+  for (const auto& s : model.springs) {
+    springs.row({s.name, s.group, node_id(model, s.node), node_id(model, s.node2), s.direction.x(), s.direction.y(), s.direction.z(),
+                 s.rotation ? "rotation" : "translation", s.stiffness, s.damping, s.friction_N, s.series ? "series" : "parallel",
+                 s.active ? 1 : 0});
+  }
+  springs.save(folder / "springs.csv");
+
+  io::CsvWriter links({"link", "master", "slave"});
+  for (const auto& l : model.links) links.row({l.name, node_id(model, l.master), node_id(model, l.slave)});
+  links.save(folder / "links.csv");
+
+  io::CsvWriter masses({"group", "node", "mass_kg", "inertia_x_kg_m2", "inertia_y_kg_m2", "inertia_z_kg_m2"});
+  for (const auto& m : model.masses) {
+    masses.row({m.group, node_id(model, m.node), m.mass_kg, m.inertia_kg_m2.x(), m.inertia_kg_m2.y(), m.inertia_kg_m2.z()});
+  }
+  masses.save(folder / "masses.csv");
+
+  io::CsvWriter points({"point", "node"});
+  for (const auto& [name, node] : model.monitoring_points) points.row({name, node_id(model, node)});
+  points.save(folder / "points.csv");
+}
+
+}  // namespace
+
+void write_model(const fe::Model& model, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError({folder.string(), 0, ""}, "cannot be made: " + error.message(), "choose a folder that can be written");
+  write_parts(model, folder);
+  write_elements(model, folder);
+  write_attachments(model, folder);
+  write_model_toml(model, folder);
+}
+
+}  // namespace twindeck::model_io
