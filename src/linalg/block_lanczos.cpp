@@ -1,0 +1,142 @@
+#include "linalg/block_lanczos.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace twindeck::linalg {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A block W = Q R with Q M-orthonormal; Q has fewer columns than W where W is rank-deficient.
+struct OrthonormalBlock {
+  MatrixXd q, mass_q, r;
+};
+
+/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding. `scale`: the norm of
+/// the columns before they were made orthogonal to the basis, below 1e-11 of which nothing but rounding is left.
+OrthonormalBlock orthonormalise(const SelfAdjointOperator& op, const MatrixXd& w, double scale) {
+  OrthonormalBlock out{w, op.times_mass(w), MatrixXd::Identity(w.cols(), w.cols())};
+  for (int pass = 0; pass < 2 && out.q.cols() > 0; ++pass) {
+    MatrixXd gram = out.q.transpose() * out.mass_q;
+    gram = 0.5 * (gram + gram.transpose()).eval();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
+    const double floor = pass == 0 ? std::max(1e-22 * scale * scale, 1e-14 * eig.eigenvalues().maxCoeff()) : 0.25;
+    Index keep = 0;
+    while (keep < gram.cols() && eig.eigenvalues()[gram.cols() - 1 - keep] > floor) ++keep;
+    const VectorXd root = eig.eigenvalues().tail(keep).cwiseSqrt();
+    const MatrixXd basis = eig.eigenvectors().rightCols(keep);
+    out.q = out.q * (basis * root.cwiseInverse().asDiagonal());
+    out.mass_q = op.times_mass(out.q);
+    out.r = root.asDiagonal() * basis.transpose() * out.r;
+  }
+  return out;
+}
+
+/// The Lanczos basis with its projected operator.
+struct Basis {
+  MatrixXd v, mass_v;     ///< (n × capacity), `size` columns in use
+  MatrixXd projected;     ///< (capacity × capacity)
+  Index size = 0;
+
+  void append(const OrthonormalBlock& block) {
+    v.middleCols(size, block.q.cols()) = block.q;
+    mass_v.middleCols(size, block.q.cols()) = block.mass_q;
+    size += block.q.cols();
+  }
+  /// Makes `w` orthogonal to the basis, twice. @return what was taken off, (size × columns of w)
+  MatrixXd remove_from(MatrixXd& w) const {
+    MatrixXd total = MatrixXd::Zero(size, w.cols());
+    for (int pass = 0; pass < 2; ++pass) {
+      const MatrixXd c = mass_v.leftCols(size).transpose() * w;
+      w.noalias() -= v.leftCols(size) * c;
+      total += c;
+    }
+    return total;
+  }
+};
+
+double mass_norm(const SelfAdjointOperator& op, const MatrixXd& w) {
+  return std::sqrt(std::max(0.0, w.cwiseProduct(op.times_mass(w)).colwise().sum().maxCoeff()));
+}
+
+}  // namespace
+
+BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::function<MatrixXd(int)>& start,
+                                 const BlockLanczosOptions& options) {
+  const Index wanted = options.n_pairs;
+  const MatrixXd first_block = start(0);
+  const Index width = first_block.cols();
+  // Room for the wanted pairs, as many again to hasten them, and the last block.
+  const Index capacity = std::min(op.size, std::max<Index>(2 * wanted + 2 * width, wanted + 6 * width)) + width;
+  Basis basis{MatrixXd(op.size, capacity), MatrixXd(op.size, capacity), MatrixXd::Zero(capacity, capacity), 0};
+
+  BlockLanczosResult result;
+  OrthonormalBlock next = orthonormalise(op, first_block, mass_norm(op, first_block));
+  int restarts = 0, draws = 0;
+  while (next.q.cols() > 0) {
+    const Index first = basis.size, columns = next.q.cols();
+    basis.append(next);
+
+    // One step: T's new columns are what the image of the last block has in common with the basis.
+    MatrixXd w = op.from_mass(next.mass_q);
+    result.operations += static_cast<int>(columns);
+    const double scale = mass_norm(op, w);
+    const MatrixXd c = basis.remove_from(w);
+    basis.projected.block(0, first, basis.size, columns) = c;
+    basis.projected.block(first, 0, columns, first) = c.topRows(first).transpose();
+    next = orthonormalise(op, w, scale);
+
+    MatrixXd coupling_r = next.r;
+    bool exhausted = next.q.cols() == 0;
+    if (exhausted && basis.size < std::min(op.size, wanted + width)) {
+      // An invariant subspace: what lies outside it (further copies of its eigenvalues, say) needs a new start.
+      MatrixXd fresh = start(++draws);
+      const double fresh_scale = mass_norm(op, fresh);
+      basis.remove_from(fresh);
+      next = orthonormalise(op, fresh, fresh_scale);
+      coupling_r = MatrixXd::Zero(next.q.cols(), columns);
+      exhausted = next.q.cols() == 0;
+    }
+    const bool full = basis.size + next.q.cols() + width > capacity;
+    if (!exhausted && !full && basis.size < wanted + width) continue;
+
+    MatrixXd t = basis.projected.topLeftCorner(basis.size, basis.size);
+    t = 0.5 * (t + t.transpose()).eval();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(t);
+    const VectorXd values = eig.eigenvalues().reverse();
+    const MatrixXd s = eig.eigenvectors().rowwise().reverse();
+    // Residuals (A^-1 M - theta) V s = Q R s(last block), Q orthonormal.
+    const MatrixXd coupling = coupling_r * s.bottomRows(columns);
+    const Index count = std::min(wanted, basis.size);
+    Index converged = 0;
+    while (converged < count && coupling.col(converged).norm() <= options.tolerance * std::abs(values[converged])) ++converged;
+
+    const bool out_of_patience = full && restarts >= options.max_restarts;
+    if (converged == wanted || exhausted || out_of_patience) {
+      result.converged = static_cast<int>(exhausted ? count : converged);
+      result.values = values.head(count);
+      result.vectors = basis.v.leftCols(basis.size) * s.leftCols(count);
+      return result;
+    }
+    if (!full) continue;
+
+    // Thick restart: the best Ritz vectors stay; the coupling to the next block comes back with its own step.
+    ++restarts;
+    const Index keep = std::min(basis.size - width, wanted + std::max<Index>(width, wanted / 2));
+    basis.v.leftCols(keep) = (basis.v.leftCols(basis.size) * s.leftCols(keep)).eval();
+    basis.mass_v.leftCols(keep) = (basis.mass_v.leftCols(basis.size) * s.leftCols(keep)).eval();
+    basis.projected.setZero();
+    basis.projected.diagonal().head(keep) = values.head(keep);
+    basis.size = keep;
+  }
+  return result;
+}
+
+}  // namespace twindeck::linalg

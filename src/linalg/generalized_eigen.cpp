@@ -1,0 +1,161 @@
+#include "linalg/generalized_eigen.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "linalg/block_lanczos.hpp"
+
+namespace twindeck::linalg {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kBlock = 4;
+
+MatrixXd times(const SparseMatrix& lower, const MatrixXd& x) { return lower.selfadjointView<Eigen::Lower>() * x; }
+
+/// Dofs that carry mass: rows of M with an entry other than zero.
+std::vector<Index> dofs_with_mass(const SparseMatrix& mass) {
+  Eigen::ArrayXi carries = Eigen::ArrayXi::Zero(mass.rows());
+  for (Index j = 0; j < mass.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(mass, j); it; ++it) {
+      if (it.value() != 0.0) carries[it.row()] = carries[j] = 1;
+    }
+  }
+  std::vector<Index> dofs;
+  for (Index i = 0; i < carries.size(); ++i) {
+    if (carries[i] != 0) dofs.push_back(i);
+  }
+  return dofs;
+}
+
+/// Numbers in [-1, 1[ from a fixed sequence (splitmix64), the same on every machine; another sequence for each `draw`.
+MatrixXd fixed_block(Index rows, Index columns, int draw) {
+  MatrixXd block(rows, columns);
+  std::uint64_t state = 20130917 + static_cast<std::uint64_t>(draw) * 0x632be59bd9b4e019ULL;
+  for (Index j = 0; j < columns; ++j) {
+    for (Index i = 0; i < rows; ++i) {
+      std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
+      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+      z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+      z ^= z >> 31;
+      block(i, j) = static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
+    }
+  }
+  return block;
+}
+
+/// Pairs of the operator, 1/(lambda - sigma) descending, not yet purified.
+struct Candidates {
+  MatrixXd vectors;
+  int converged = 0;
+  int operations = 0;
+};
+
+/// Exact condensation to the few dofs with mass: G = E' A^-1 E = C C', then C' M C z = mu z, x = A^-1 E M C z.
+Candidates condensed(const SparseMatrix& mass, const std::vector<Index>& dofs, int n_pairs, const Cholesky& factor) {
+  const auto m = static_cast<Index>(dofs.size());
+  MatrixXd unit = MatrixXd::Zero(mass.rows(), m);
+  for (Index j = 0; j < m; ++j) unit(dofs[static_cast<std::size_t>(j)], j) = 1.0;
+  const MatrixXd mass_unit = times(mass, unit);
+  const MatrixXd flexibility = factor.solve(unit);
+  MatrixXd small_mass(m, m), small_flexibility(m, m);
+  for (Index i = 0; i < m; ++i) {
+    small_mass.row(i) = mass_unit.row(dofs[static_cast<std::size_t>(i)]);
+    small_flexibility.row(i) = flexibility.row(dofs[static_cast<std::size_t>(i)]);
+  }
+  small_flexibility = 0.5 * (small_flexibility + small_flexibility.transpose()).eval();
+  const MatrixXd c = small_flexibility.llt().matrixL();
+  const MatrixXd projected = c.transpose() * small_mass * c;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(0.5 * (projected + projected.transpose()));
+  Candidates out;
+  const double floor = 1e-13 * eig.eigenvalues().maxCoeff();
+  while (out.converged < std::min<Index>(n_pairs, m) && eig.eigenvalues()[m - 1 - out.converged] > floor) ++out.converged;
+  out.vectors = flexibility * (small_mass * (c * eig.eigenvectors().rightCols(out.converged).rowwise().reverse()));
+  out.operations = static_cast<int>(m);
+  return out;
+}
+
+Candidates by_lanczos(const SparseMatrix& mass, int n_pairs, const Cholesky& factor, const Eigen::Ref<const MatrixXd>& start) {
+  SelfAdjointOperator op;
+  op.size = mass.rows();
+  op.times_mass = [&](const MatrixXd& x) { return times(mass, x); };
+  op.from_mass = [&](const MatrixXd& y) { return factor.solve(y); };
+  const auto start_block = [&](int draw) {
+    // One application puts the block into the range of the operator, away from the null space of M.
+    MatrixXd block = op.from_mass(times(mass, fixed_block(op.size, kBlock, draw)));
+    if (draw > 0 || start.rows() != op.size || start.cols() == 0) return block;
+    // Warm: the known modes fill the block, each column a sum of several; a little of the fixed block stays in so that a mode
+    // that was not among them is found.
+    const VectorXd norm = block.cwiseProduct(times(mass, block)).colwise().sum().cwiseSqrt();
+    block = (block * (1e-3 * norm.cwiseInverse()).asDiagonal()).eval();
+    for (Index i = 0; i < start.cols(); ++i) block.col(i % kBlock) += start.col(i);
+    return block;
+  };
+  BlockLanczosOptions options;
+  options.n_pairs = n_pairs;
+  const BlockLanczosResult found = block_lanczos(op, start_block, options);
+  return {found.vectors, found.converged, found.operations + kBlock};
+}
+
+void largest_entry_positive(MatrixXd& vectors) {
+  for (Index j = 0; j < vectors.cols(); ++j) {
+    Index at = 0;
+    vectors.col(j).cwiseAbs().maxCoeff(&at);
+    if (vectors(at, j) < 0.0) vectors.col(j) *= -1.0;
+  }
+}
+
+}  // namespace
+
+EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& mass, int n_pairs, double shift, Cholesky& factor,
+                             const Eigen::Ref<const MatrixXd>& start) {
+  TWINDECK_ASSERT(n_pairs > 0 && stiffness.rows() == mass.rows());
+  EigenPairs out;
+  out.values.resize(0);
+  out.vectors.resize(stiffness.rows(), 0);
+  if (shift == 0.0) {
+    out.status = factor.factorize(stiffness);
+  } else {
+    SparseMatrix shifted = stiffness - shift * mass;
+    shifted.makeCompressed();
+    out.status = factor.factorize(shifted);
+  }
+  if (!out.status.converged) return out;
+
+  const std::vector<Index> massive = dofs_with_mass(mass);
+  if (massive.empty()) {
+    out.status = {false, "no degree of freedom carries mass, so that there are no modes"};
+    return out;
+  }
+  const bool few = static_cast<Index>(massive.size()) <= std::max<Index>(60, 3 * n_pairs);
+  const Candidates found = few ? condensed(mass, massive, n_pairs, factor) : by_lanczos(mass, n_pairs, factor, start);
+
+  // Purification, then Rayleigh and Ritz on the purified block y = A^-1 M x: y'Ay = y'Mx and y'My give lambda - sigma.
+  const MatrixXd mass_x = times(mass, found.vectors);
+  const MatrixXd y = factor.solve(mass_x);
+  const MatrixXd mass_y = times(mass, y);
+  const MatrixXd a = y.transpose() * mass_x, b = y.transpose() * mass_y;
+  out.operations = found.operations + static_cast<int>(found.vectors.cols());
+  if (found.vectors.cols() > 0) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (a + a.transpose()), 0.5 * (b + b.transpose()));
+    out.values = ritz.eigenvalues().array() + shift;
+    out.vectors = y * ritz.eigenvectors();
+    largest_entry_positive(out.vectors);
+  }
+  if (found.converged < n_pairs) {
+    out.status = {false, fmt::format("{} of {} modes converged{}", found.converged, n_pairs,
+                                     few ? ": the structure has no more (degrees of freedom with mass)" : "")};
+  }
+  return out;
+}
+
+}  // namespace twindeck::linalg
