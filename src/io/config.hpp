@@ -44,7 +44,7 @@ class FieldTable {
                       const std::string& meaning);
   FieldTable& texts(const std::string& key, std::vector<std::string>& target, const std::string& meaning);
   /// `[[key]]` array of tables: for each table, `add` appends an element to the caller's list and returns the FieldTable
-  /// bound to that element. `example` is the FieldTable of one default element, for --describe.
+  /// bound to that element. `describe` calls `add` once for the keys of an element, so it is for programs that end after it.
   FieldTable& tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning);
 
   /// Reads a TOML file into the bound members.
@@ -53,7 +53,9 @@ class FieldTable {
   void load(const std::filesystem::path& file);
   /// Applies one `key=value` of the command line; the value is TOML (a bare word is taken as text).
   void set(const std::string& key_equals_value);
-  /// The resolved configuration as TOML, in SI units.
+  /// For a run without a file: @throws InputError  if a required key was given neither by `load` nor by `set`.
+  void require() const;
+  /// The resolved configuration as TOML, in SI units. `load` reads it back to the same values.
   [[nodiscard]] std::string print() const;
   /// Meaning, unit, range and default of one key, or of all.
   [[nodiscard]] std::string describe(const std::string& key = "") const;
@@ -61,6 +63,9 @@ class FieldTable {
   struct Field;
 
  private:
+  friend struct FieldAccess;
+  [[nodiscard]] std::vector<std::string> lines(const std::string& above = "") const;
+
   std::vector<std::shared_ptr<Field>> fields_;
 };
 
