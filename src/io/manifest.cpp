@@ -138,7 +138,13 @@ void check_against_manifest(const fs::path& path) {
   }
 }
 
-bool is_step_folder(const fs::path& folder) { return parse_ours(folder / "manifest.json").has_value(); }
+bool is_step_folder(const fs::path& folder) {
+  try {
+    return parse_ours(folder / "manifest.json").has_value();
+  } catch (const InputError&) {
+    return false;
+  }
+}
 
 std::string sha256(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ class StepContext {
   void progress(const std::string& what, double done, double total) const;
 
   std::vector<std::filesystem::path> inputs_;
+  std::map<std::string, std::string> input_hashes_;  ///< path as given -> SHA-256 when it was registered
   std::vector<std::pair<std::string, std::string>> flags_;
   std::string token_;
 };

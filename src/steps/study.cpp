@@ -1,0 +1,40 @@
+#include "steps/study.hpp"
+
+#include "core/error.hpp"
+#include "io/config.hpp"
+
+namespace twindeck::steps {
+
+Study read_study(const std::filesystem::path& folder) {
+  Study study;
+  long seed = static_cast<long>(study.seed);
+  std::string file, model_folder, features;
+  io::FieldTable fields;
+  fields.text("title", study.title, "one line that names the study in reports", true)
+      .integer("seed", seed, io::non_negative(), "seed of everything random in the study")
+      .choice("measured", study.measured, {"published", "virtual"}, "where the measured modes come from")
+      .text("features", features, "folder of measured features: rows.csv, conditions.toml, channels.csv")
+      .texts("steps", study.steps, "tokens of the steps in the order in which they run")
+      .choice("model.generator", study.model_generator, {"ponte"}, "parametric generator that writes the model")
+      .text("model.file", file, "what the generator reads")
+      .text("model.folder", model_folder, "a model folder, instead of a generator");
+  const std::filesystem::path path = folder / "study.toml";
+  fields.load(path);
+  const bool generated = !study.model_generator.empty() || !file.empty();
+  if (generated && !model_folder.empty()) {
+    throw InputError({path.string(), 0, "model"}, "names both a generator and a folder", "keep one of the two");
+  }
+  if (!generated && model_folder.empty()) {
+    throw InputError({path.string(), 0, "model"}, "names no model", "give [model] generator and file, or folder");
+  }
+  if (generated && (study.model_generator.empty() || file.empty())) {
+    throw InputError({path.string(), 0, "model"}, "names only one of generator and file", "give both");
+  }
+  study.seed = static_cast<std::uint64_t>(seed);
+  study.model_file = file;
+  study.model_folder = model_folder;
+  study.features = features;
+  return study;
+}
+
+}  // namespace twindeck::steps
