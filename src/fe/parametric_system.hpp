@@ -23,6 +23,7 @@ struct DofLabel {
 struct Dischinger {
   double weight_density_N_m3 = 0.0, horizontal_length_m = 0.0, stress_Pa = 0.0;
   [[nodiscard]] double modulus(double youngs_modulus_Pa) const;
+  [[nodiscard]] double modulus_derivative(double youngs_modulus_Pa) const;
 };
 
 /// Coefficient of one matrix term: base * prod (theta_p / reference_p)^power_p, or E_eq(theta_p)/E_eq(reference_p) for a stay.
@@ -30,7 +31,9 @@ struct Coefficient {
   struct Factor { int parameter; double power; double reference; };
   double base = 1.0;
   std::vector<Factor> factors;
-  std::optional<Dischinger> stay;   ///< when set, factors with index of the modulus parameter go through E_eq
+  std::optional<Dischinger> stay;   ///< when set, the factor of `stay_modulus_parameter` goes through E_eq; stress and weight are
+                                    ///< those of the prestress state and stay frozen with it
+  int stay_modulus_parameter = -1;
   [[nodiscard]] double value(const Eigen::VectorXd& theta) const;
   [[nodiscard]] double derivative(const Eigen::VectorXd& theta, int parameter) const;
 };

@@ -1,0 +1,56 @@
+#include "core/error.hpp"
+#include "fe/assembly.hpp"
+#include "fe/assembly_pattern.hpp"
+#include "fe/assembly_terms.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+/// Geometric stiffness of members and the string stiffness T/L of stays, one term without parameters.
+Term assemble_geometric_stiffness(const Model& model, const PrestressState& state, Scatter& scatter) {
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const Element& e = model.elements[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    const double force = e.type == ElementType::stay ? state.stay_pull_N[row] : state.axial_force_N[row];
+    if (force == 0.0 || e.type == ElementType::shell) continue;
+    if (e.type == ElementType::beam)
+      scatter.add({six_per_node(e), beam_geometric_stiffness(beam_geometry(model, e), force)});
+    else
+      scatter.add({three_per_node(e), string_stiffness(end_nodes(model, e), force)});
+  }
+  Term term;
+  term.label = "geometric stiffness";
+  scatter.take(term);
+  return term;
+}
+
+}  // namespace
+
+ParametricSystem assemble(const Model& model, const PrestressState& state) {
+  validate(model);
+  const auto n_elements = static_cast<Eigen::Index>(model.elements.size());
+  const bool prestressed = state.stay_pull_N.size() > 0;
+  TWINDECK_ASSERT(!prestressed || (state.stay_pull_N.size() == n_elements && state.axial_force_N.size() == n_elements));
+
+  DofMap map = make_dof_map(model);
+  ParametricSystem system;
+  system.parameters = model.parameters;
+  system.pattern = make_pattern(model, map);
+
+  Scatter scatter(system.pattern, map);
+  system.stiffness_terms = assemble_terms(model, plan_stiffness(model), scatter);
+  for (Term& stay : assemble_terms(model, plan_stays(model, state.stay_pull_N), scatter))
+    system.stiffness_terms.push_back(std::move(stay));
+  if (prestressed && model.prestress.geometric_stiffness) {
+    Term geometric = assemble_geometric_stiffness(model, state, scatter);
+    if (!geometric.position.empty()) system.stiffness_terms.push_back(std::move(geometric));
+  }
+  system.mass_terms = assemble_terms(model, plan_mass(model), scatter);
+
+  system.dofs = std::move(map.dofs);
+  system.expansion = std::move(map.expansion);
+  return system;
+}
+
+}  // namespace twindeck::fe

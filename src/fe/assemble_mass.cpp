@@ -1,0 +1,68 @@
+#include "fe/assembly_terms.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
+
+ElementMatrix whole(const Model& model, int i) { return element_mass(model, element_at(model, i)); }
+
+/// Part of a beam's mass that goes with its area: everything but the inertia of the section about its own axes.
+ElementMatrix beam_translational(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  BeamStiffnessProperties p = beam_properties(model, e);
+  p.inertia_y_m4 = p.inertia_z_m4 = p.inertia_yz_m4 = p.torsion_m4 = 0.0;
+  return {six_per_node(e), beam_mass(beam_geometry(model, e), p, material_of(model, e).density_kg_m3, false)};
+}
+
+ElementMatrix beam_rotary(const Model& model, int i) {
+  ElementMatrix m = whole(model, i);
+  m.matrix -= beam_translational(model, i).matrix;
+  return m;
+}
+
+ElementMatrix shell_translational(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  const double mass_per_area = material_of(model, e).density_kg_m3 * section_of(model, e).thickness_m;
+  return {six_per_node(e), shell_mass(shell_geometry(model, e), mass_per_area, 0.0)};
+}
+
+ElementMatrix shell_rotary(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  const double t = section_of(model, e).thickness_m;
+  return {six_per_node(e), shell_mass(shell_geometry(model, e), 0.0, material_of(model, e).density_kg_m3 * t * t * t / 12.0)};
+}
+
+ElementMatrix mass_at_node(const Model& model, int i) { return point_mass(model.masses[static_cast<std::size_t>(i)]); }
+
+}  // namespace
+
+std::vector<TermPlan> plan_mass(const Model& model) {
+  TermGroups groups;
+  for (int i = 0; i < static_cast<int>(model.elements.size()); ++i) {
+    const Element& e = element_at(model, i);
+    const std::string& section = section_of(model, e).name;
+    const std::string of = " of " + material_of(model, e).name;
+    if (e.type == ElementType::shell) {
+      groups.add_element(model, i, section + of + " mass", {.density = 1, .thickness = 1}, shell_translational);
+      if (model.formulation.shell_rotary_inertia)
+        groups.add_element(model, i, section + of + " rotary mass", {.density = 1, .thickness = 3}, shell_rotary);
+    } else if (e.type != ElementType::beam) {
+      groups.add_element(model, i, e.group + of + " mass " + section, {.density = 1, .area = 1}, whole);
+    } else if (is_parameter(model, Target::area, section)) {
+      groups.add_element(model, i, e.group + of + " mass " + section, {.density = 1, .area = 1}, beam_translational);
+      groups.add_element(model, i, e.group + of + " rotary mass " + section, {.density = 1}, beam_rotary);
+    } else {
+      groups.add_element(model, i, e.group + of + " mass", {.density = 1}, whole);
+    }
+  }
+  for (int i = 0; i < static_cast<int>(model.masses.size()); ++i) {
+    const PointMass& mass = model.masses[static_cast<std::size_t>(i)];
+    TermPlan& term = groups.add("point masses " + mass.group, i, mass_at_node);
+    if (term.parts.size() == 1) add_factors(model, Target::point_mass, mass.group, 1.0, term.coefficient);
+  }
+  return groups.take();
+}
+
+}  // namespace twindeck::fe

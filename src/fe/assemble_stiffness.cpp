@@ -1,0 +1,106 @@
+#include "fe/assembly_terms.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+constexpr std::uint16_t axial_releases = (1U << 0) | (1U << 6);
+
+const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
+
+ElementMatrix beam_whole(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  return {six_per_node(e), beam_stiffness(beam_geometry(model, e), beam_properties(model, e))};
+}
+
+/// Stiffness along the beam's axis alone; releases of the other directions do not touch it.
+ElementMatrix beam_axial(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  BeamGeometry geometry = beam_geometry(model, e);
+  geometry.releases &= axial_releases;
+  const BeamStiffnessProperties p = beam_properties(model, e);
+  return {six_per_node(e), beam_stiffness(geometry, {p.youngs_modulus_Pa, p.shear_modulus_Pa, p.area_m2, 0, 0, 0, 0, 0, 0})};
+}
+
+/// The rest: bending, shear and torsion.
+ElementMatrix beam_transverse(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  BeamGeometry geometry = beam_geometry(model, e);
+  geometry.releases &= static_cast<std::uint16_t>(~axial_releases);
+  BeamStiffnessProperties p = beam_properties(model, e);
+  p.area_m2 = 0.0;
+  return {six_per_node(e), beam_stiffness(geometry, p)};
+}
+
+ElementMatrix bar_axial(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  return {three_per_node(e),
+          bar_stiffness(end_nodes(model, e), material_of(model, e).youngs_modulus_Pa, section_of(model, e).area_m2)};
+}
+
+ElementMatrix membrane(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  const DrillingRule rule =
+      model.formulation.drilling == Formulation::Drilling::penalty ? DrillingRule::penalty : DrillingRule::diagonal;
+  return {six_per_node(e), shell_membrane_stiffness(shell_geometry(model, e), shell_properties(model, e), rule,
+                                                    model.formulation.drilling_factor)};
+}
+
+ElementMatrix bending(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  return {six_per_node(e), shell_bending_stiffness(shell_geometry(model, e), shell_properties(model, e))};
+}
+
+ElementMatrix spring(const Model& model, int i) { return spring_stiffness(model.springs[static_cast<std::size_t>(i)]); }
+
+}  // namespace
+
+std::vector<TermPlan> plan_stiffness(const Model& model) {
+  TermGroups groups;
+  for (int i = 0; i < static_cast<int>(model.elements.size()); ++i) {
+    const Element& e = element_at(model, i);
+    if (e.type == ElementType::stay) continue;
+    const std::string& section = section_of(model, e).name;
+    const std::string of = " of " + material_of(model, e).name;
+    if (e.type == ElementType::shell) {
+      groups.add_element(model, i, section + of + " membrane", {.modulus = 1, .thickness = 1}, membrane);
+      groups.add_element(model, i, section + of + " bending", {.modulus = 1, .thickness = 3, .ratio = 1}, bending);
+    } else if (e.type == ElementType::bar) {
+      groups.add_element(model, i, e.group + of + " bars " + section, {.modulus = 1, .area = 1}, bar_axial);
+    } else if (is_parameter(model, Target::area, section)) {
+      groups.add_element(model, i, e.group + of + " axial " + section, {.modulus = 1, .area = 1}, beam_axial);
+      groups.add_element(model, i, e.group + of + " transverse " + section, {.modulus = 1}, beam_transverse);
+    } else {
+      groups.add_element(model, i, e.group + of, {.modulus = 1}, beam_whole);
+    }
+  }
+  for (int i = 0; i < static_cast<int>(model.springs.size()); ++i) {
+    const Spring& s = model.springs[static_cast<std::size_t>(i)];
+    if (!carries_stiffness(s)) continue;
+    TermPlan& term = groups.add("springs " + s.group, i, spring);
+    if (term.parts.size() == 1) add_factors(model, Target::spring_stiffness, s.group, 1.0, term.coefficient);
+  }
+  return groups.take();
+}
+
+std::vector<TermPlan> plan_stays(const Model& model, const Eigen::VectorXd& stay_pull_N) {
+  std::vector<TermPlan> plans;
+  for (int i = 0; i < static_cast<int>(model.elements.size()); ++i) {
+    const Element& e = element_at(model, i);
+    if (e.type != ElementType::stay) continue;
+    TermPlan term{"stay " + e.name, {}, {i}, bar_axial};
+    add_factors(model, Target::youngs_modulus, material_of(model, e).name, 1.0, term.coefficient);
+    const double pull = stay_pull_N.size() > 0 ? stay_pull_N[i] : 0.0;
+    if (pull > 0.0) {
+      const double E = material_of(model, e).youngs_modulus_Pa;
+      term.coefficient.stay = sag_of(model, e, pull);
+      term.coefficient.base = term.coefficient.stay->modulus(E) / E;  // the matrix holds E A / L, the term E_eq A / L
+      if (!term.coefficient.factors.empty()) term.coefficient.stay_modulus_parameter = term.coefficient.factors[0].parameter;
+    }
+    add_factors(model, Target::area, section_of(model, e).name, 1.0, term.coefficient);
+    plans.push_back(std::move(term));
+  }
+  return plans;
+}
+
+}  // namespace twindeck::fe

@@ -1,0 +1,112 @@
+#include "fe/assembly_elements.hpp"
+
+#include "core/error.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+const Eigen::Vector3d& position(const Model& model, int node) { return model.nodes[static_cast<std::size_t>(node)].x_m; }
+
+std::vector<int> dofs_per_node(const Element& element, int count) {
+  std::vector<int> dofs;
+  for (const int node : element.nodes)
+    for (int d = 0; d < count; ++d) dofs.push_back(6 * node + d);
+  return dofs;
+}
+
+}  // namespace
+
+const Material& material_of(const Model& model, const Element& element) {
+  return model.materials[static_cast<std::size_t>(element.material)];
+}
+
+const Section& section_of(const Model& model, const Element& element) {
+  return model.sections[static_cast<std::size_t>(element.section)];
+}
+
+std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element) {
+  return {position(model, element.nodes[0]), position(model, element.nodes[1])};
+}
+
+double axial_length(const Model& model, const Element& element) {
+  const auto ends = end_nodes(model, element);
+  return (ends[1] - ends[0]).norm();
+}
+
+BeamGeometry beam_geometry(const Model& model, const Element& element) {
+  return {end_nodes(model, element), element.offset_m, element.orientation, element.releases};
+}
+
+BeamStiffnessProperties beam_properties(const Model& model, const Element& element) {
+  const Material& m = material_of(model, element);
+  const Section& s = section_of(model, element);
+  const double shear = model.formulation.shear_flexible ? 1.0 : 0.0;
+  return {m.youngs_modulus_Pa, m.shear_modulus_Pa, s.area_m2,    s.inertia_y_m4,           s.inertia_z_m4,
+          s.inertia_yz_m4,     s.torsion_m4,       shear * s.shear_area_y_m2, shear * s.shear_area_z_m2};
+}
+
+ShellGeometry shell_geometry(const Model& model, const Element& element) {
+  ShellGeometry geometry;
+  for (std::size_t i = 0; i < 4; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
+  return geometry;
+}
+
+ShellProperties shell_properties(const Model& model, const Element& element) {
+  const Material& m = material_of(model, element);
+  const Section& s = section_of(model, element);
+  return {m.youngs_modulus_Pa, m.poisson_ratio, s.thickness_m, s.bending_inertia_ratio};
+}
+
+std::vector<int> six_per_node(const Element& element) { return dofs_per_node(element, 6); }
+std::vector<int> three_per_node(const Element& element) { return dofs_per_node(element, 3); }
+
+ElementMatrix element_mass(const Model& model, const Element& element) {
+  const double density = material_of(model, element).density_kg_m3;
+  const Section& s = section_of(model, element);
+  switch (element.type) {
+    case ElementType::beam:
+      return {six_per_node(element), beam_mass(beam_geometry(model, element), beam_properties(model, element), density,
+                                               model.formulation.beam_rotary_inertia)};
+    case ElementType::bar:
+      return {three_per_node(element), bar_mass_consistent(end_nodes(model, element), density * s.area_m2)};
+    case ElementType::stay:
+      return {three_per_node(element), bar_mass_lumped(end_nodes(model, element), density * s.area_m2)};
+    case ElementType::shell: {
+      const double t = s.thickness_m;
+      const double rotary = model.formulation.shell_rotary_inertia ? density * t * t * t / 12.0 : 0.0;
+      return {six_per_node(element), shell_mass(shell_geometry(model, element), density * t, rotary)};
+    }
+  }
+  TWINDECK_ASSERT(false);
+  return {};
+}
+
+bool carries_stiffness(const Spring& spring) { return spring.active && !spring.series && spring.stiffness != 0.0; }
+
+ElementMatrix spring_stiffness(const Spring& spring) {
+  ElementMatrix k;
+  const int first = spring.rotation ? 3 : 0;
+  const Eigen::Vector3d d = spring.direction.normalized();
+  const bool two = spring.node2 >= 0;
+  Eigen::VectorXd b(two ? 6 : 3);
+  b.head<3>() = d;
+  for (int i = 0; i < 3; ++i) k.dofs.push_back(6 * spring.node + first + i);
+  if (two) {
+    b.tail<3>() = -d;
+    for (int i = 0; i < 3; ++i) k.dofs.push_back(6 * spring.node2 + first + i);
+  }
+  k.matrix = spring.stiffness * b * b.transpose();
+  return k;
+}
+
+ElementMatrix point_mass(const PointMass& mass) {
+  ElementMatrix m;
+  Eigen::Matrix<double, 6, 1> diagonal;
+  diagonal << mass.mass_kg, mass.mass_kg, mass.mass_kg, mass.inertia_kg_m2;
+  for (int d = 0; d < 6; ++d) m.dofs.push_back(6 * mass.node + d);
+  m.matrix = diagonal.asDiagonal();
+  return m;
+}
+
+}  // namespace twindeck::fe

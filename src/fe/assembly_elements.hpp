@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fe/elements.hpp"
+#include "fe/model.hpp"
+
+/// From the model's data to the arguments of the element functions, and a matrix with the places where it is added.
+namespace twindeck::fe {
+
+/// A small symmetric matrix over full degrees of freedom (6·node + direction).
+struct ElementMatrix {
+  std::vector<int> dofs;  ///< (n)
+  Eigen::MatrixXd matrix; ///< (n × n)
+};
+
+[[nodiscard]] BeamGeometry beam_geometry(const Model& model, const Element& element);
+/// Section and material of a beam; shear areas are zero for a formulation that is rigid in shear.
+[[nodiscard]] BeamStiffnessProperties beam_properties(const Model& model, const Element& element);
+[[nodiscard]] ShellGeometry shell_geometry(const Model& model, const Element& element);
+[[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
+[[nodiscard]] std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element);
+[[nodiscard]] double axial_length(const Model& model, const Element& element);
+
+[[nodiscard]] const Material& material_of(const Model& model, const Element& element);
+[[nodiscard]] const Section& section_of(const Model& model, const Element& element);
+
+/// All six degrees of freedom of the element's nodes; the first three of each.
+[[nodiscard]] std::vector<int> six_per_node(const Element& element);
+[[nodiscard]] std::vector<int> three_per_node(const Element& element);
+
+/// Mass of an element of whatever type: beams and bars consistent, stays half at each end, shells as the formulation says.
+[[nodiscard]] ElementMatrix element_mass(const Model& model, const Element& element);
+/// Stiffness k d d' of a spring; rotations where it acts on them.
+[[nodiscard]] ElementMatrix spring_stiffness(const Spring& spring);
+/// Diagonal of a point mass and its rotary inertia.
+[[nodiscard]] ElementMatrix point_mass(const PointMass& mass);
+/// Whether a spring takes part in K: active and not in series with a dashpot, which lets go of a steady force.
+[[nodiscard]] bool carries_stiffness(const Spring& spring);
+
+}  // namespace twindeck::fe

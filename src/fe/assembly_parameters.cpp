@@ -1,0 +1,98 @@
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "fe/assembly.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+bool names(const Parameter& parameter, const std::string& name) {
+  return std::find(parameter.of.begin(), parameter.of.end(), name) != parameter.of.end();
+}
+
+double of_material(const Model& model, const Parameter& parameter, double Material::* value) {
+  for (const Material& material : model.materials)
+    if (names(parameter, material.name)) return material.*value;
+  return parameter.initial;
+}
+
+double of_section(const Model& model, const Parameter& parameter, double Section::* value) {
+  for (const Section& section : model.sections)
+    if (names(parameter, section.name)) return section.*value;
+  return parameter.initial;
+}
+
+/// The value of the first thing that a parameter names; the other things keep their ratio to it. Factors of groups stand for
+/// themselves.
+double standing_value(const Model& model, const Parameter& parameter) {
+  switch (parameter.target) {
+    case Target::youngs_modulus:
+      return of_material(model, parameter, &Material::youngs_modulus_Pa);
+    case Target::density:
+      return of_material(model, parameter, &Material::density_kg_m3);
+    case Target::thickness:
+      return of_section(model, parameter, &Section::thickness_m);
+    case Target::bending_inertia_ratio:
+      return of_section(model, parameter, &Section::bending_inertia_ratio);
+    case Target::area:
+      return of_section(model, parameter, &Section::area_m2);
+    case Target::spring_stiffness:
+    case Target::point_mass:
+    case Target::matrix_stiffness:
+    case Target::matrix_mass:
+      return parameter.initial;
+  }
+  TWINDECK_ASSERT(false);
+  return 0.0;
+}
+
+void scale(Model& model, const Parameter& parameter, double ratio) {
+  for (Material& material : model.materials) {
+    if (!names(parameter, material.name)) continue;
+    if (parameter.target == Target::youngs_modulus) {
+      material.youngs_modulus_Pa *= ratio;
+      material.shear_modulus_Pa *= ratio;
+    } else if (parameter.target == Target::density) {
+      material.density_kg_m3 *= ratio;
+    }
+  }
+  for (Section& section : model.sections) {
+    if (!names(parameter, section.name)) continue;
+    if (parameter.target == Target::thickness) section.thickness_m *= ratio;
+    if (parameter.target == Target::bending_inertia_ratio) section.bending_inertia_ratio *= ratio;
+    if (parameter.target == Target::area) section.area_m2 *= ratio;
+  }
+  if (parameter.target == Target::spring_stiffness)
+    for (Spring& spring : model.springs)
+      if (names(parameter, spring.group)) spring.stiffness *= ratio;
+  if (parameter.target == Target::point_mass)
+    for (PointMass& mass : model.masses)
+      if (names(parameter, mass.group)) {
+        mass.mass_kg *= ratio;
+        mass.inertia_kg_m2 *= ratio;
+      }
+}
+
+}  // namespace
+
+Eigen::VectorXd initial_parameters(const Model& model) {
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(model.parameters.size()));
+  for (std::size_t p = 0; p < model.parameters.size(); ++p)
+    theta[static_cast<Eigen::Index>(p)] = standing_value(model, model.parameters[p]);
+  return theta;
+}
+
+Model with_parameters(const Model& model, const Eigen::VectorXd& theta) {
+  const Eigen::VectorXd standing = initial_parameters(model);
+  TWINDECK_ASSERT(theta.size() == standing.size());
+  Model changed = model;
+  for (std::size_t p = 0; p < model.parameters.size(); ++p) {
+    const auto row = static_cast<Eigen::Index>(p);
+    if (theta[row] != standing[row]) scale(changed, model.parameters[p], theta[row] / standing[row]);
+    changed.parameters[p].initial = theta[row];
+  }
+  return changed;
+}
+
+}  // namespace twindeck::fe

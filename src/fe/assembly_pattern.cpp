@@ -1,0 +1,106 @@
+#include "fe/assembly_pattern.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Neighbours (self included) of every root node, by anything that couples two nodes.
+std::vector<std::vector<int>> couple_nodes(const Model& model, const DofMap& map) {
+  std::vector<std::vector<int>> neighbours(model.nodes.size());
+  const auto couple = [&](const std::vector<int>& nodes) {
+    for (const int a : nodes)
+      for (const int b : nodes) neighbours[at(map.root[at(a)])].push_back(map.root[at(b)]);
+  };
+  for (int node = 0; node < static_cast<int>(model.nodes.size()); ++node) couple({node});
+  for (const Element& element : model.elements) couple(element.nodes);
+  for (const Spring& spring : model.springs)
+    if (spring.node2 >= 0) couple({spring.node, spring.node2});
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return neighbours;
+}
+
+}  // namespace
+
+linalg::SparseMatrix make_pattern(const Model& model, const DofMap& map) {
+  const int n = static_cast<int>(map.dofs.size());
+  std::vector<std::vector<int>> dofs_of(model.nodes.size());  // free degrees of freedom of a root node, ascending
+  std::vector<int> node_of(at(n));
+  for (int node = 0; node < static_cast<int>(model.nodes.size()); ++node) {
+    if (map.root[at(node)] != node) continue;
+    for (int d = 0; d < 6; ++d)
+      for (const DofMap::Entry& entry : map.rows[at(6 * node + d)]) {
+        dofs_of[at(node)].push_back(entry.dof);
+        node_of[at(entry.dof)] = node;
+      }
+  }
+  const auto neighbours = couple_nodes(model, map);
+
+  linalg::SparseMatrix pattern(n, n);
+  std::vector<int> outer{0}, inner;
+  for (int column = 0; column < n; ++column) {
+    for (const int node : neighbours[at(node_of[at(column)])])
+      for (const int row : dofs_of[at(node)])
+        if (row >= column) inner.push_back(row);
+    outer.push_back(static_cast<int>(inner.size()));
+  }
+  // Nodes and their degrees of freedom are numbered in the same order, so rows ascend within a column already.
+  pattern.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
+  std::copy(outer.begin(), outer.end(), pattern.outerIndexPtr());
+  std::copy(inner.begin(), inner.end(), pattern.innerIndexPtr());
+  std::fill_n(pattern.valuePtr(), inner.size(), 0.0);
+  return pattern;
+}
+
+Scatter::Scatter(const linalg::SparseMatrix& pattern, const DofMap& map)
+    : pattern_(pattern), map_(map), sum_(static_cast<std::size_t>(pattern.nonZeros()), 0.0), is_touched_(sum_.size(), 0) {}
+
+int Scatter::position(int row, int column) const {
+  const int* inner = pattern_.innerIndexPtr();
+  const int* first = inner + pattern_.outerIndexPtr()[column];
+  const int* last = inner + pattern_.outerIndexPtr()[column + 1];
+  const int* found = std::lower_bound(first, last, row);
+  TWINDECK_ASSERT(found != last && *found == row);
+  return static_cast<int>(found - inner);
+}
+
+void Scatter::add(const ElementMatrix& element) {
+  for (std::size_t i = 0; i < element.dofs.size(); ++i)
+    for (std::size_t j = 0; j < element.dofs.size(); ++j) {
+      const double k = element.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (k == 0.0) continue;
+      for (const DofMap::Entry& row : map_.rows[at(element.dofs[i])])
+        for (const DofMap::Entry& column : map_.rows[at(element.dofs[j])]) {
+          if (row.dof < column.dof) continue;
+          const int p = position(row.dof, column.dof);
+          if (!is_touched_[at(p)]) {
+            is_touched_[at(p)] = 1;
+            touched_.push_back(p);
+          }
+          sum_[at(p)] += row.factor * column.factor * k;
+        }
+    }
+}
+
+void Scatter::take(Term& term) {
+  std::sort(touched_.begin(), touched_.end());
+  for (const int p : touched_) {
+    if (sum_[at(p)] != 0.0) {
+      term.position.push_back(p);
+      term.value.push_back(sum_[at(p)]);
+    }
+    sum_[at(p)] = 0.0;
+    is_touched_[at(p)] = 0;
+  }
+  touched_.clear();
+}
+
+}  // namespace twindeck::fe

@@ -1,0 +1,67 @@
+#include "fe/assembly_terms.hpp"
+
+#include <algorithm>
+
+#include "fe/assembly_pattern.hpp"
+
+namespace twindeck::fe {
+
+bool is_parameter(const Model& model, Target target, const std::string& name) {
+  Coefficient coefficient;
+  add_factors(model, target, name, 1.0, coefficient);
+  return !coefficient.factors.empty();
+}
+
+void add_factors(const Model& model, Target target, const std::string& name, double power, Coefficient& coefficient) {
+  for (std::size_t p = 0; p < model.parameters.size(); ++p) {
+    const Parameter& parameter = model.parameters[p];
+    if (parameter.target != target) continue;
+    if (std::find(parameter.of.begin(), parameter.of.end(), name) == parameter.of.end()) continue;
+    coefficient.factors.push_back({static_cast<int>(p), power, parameter.initial});
+  }
+}
+
+Dischinger sag_of(const Model& model, const Element& stay, double pull_N) {
+  const auto ends = end_nodes(model, stay);
+  const Eigen::Vector3d chord = ends[1] - ends[0];
+  return {material_of(model, stay).density_kg_m3 * model.gravity_m_s2, chord.head<2>().norm(),
+          pull_N / section_of(model, stay).area_m2};
+}
+
+TermPlan& TermGroups::add(const std::string& label, int part, ElementMatrix (*matrix)(const Model&, int)) {
+  const auto [found, is_new] = index_.try_emplace(label, plans_.size());
+  if (is_new) plans_.push_back({label, {}, {}, matrix});
+  TermPlan& plan = plans_[found->second];
+  plan.parts.push_back(part);
+  return plan;
+}
+
+void TermGroups::add_element(const Model& model, int i, const std::string& label, const Powers& powers,
+                             ElementMatrix (*matrix)(const Model&, int)) {
+  TermPlan& plan = add(label, i, matrix);
+  if (plan.parts.size() > 1) return;
+  const Element& e = model.elements[static_cast<std::size_t>(i)];
+  const auto factor = [&](Target target, const std::string& name, double power) {
+    if (power != 0.0) add_factors(model, target, name, power, plan.coefficient);
+  };
+  factor(Target::youngs_modulus, material_of(model, e).name, powers.modulus);
+  factor(Target::density, material_of(model, e).name, powers.density);
+  factor(Target::area, section_of(model, e).name, powers.area);
+  factor(Target::thickness, section_of(model, e).name, powers.thickness);
+  factor(Target::bending_inertia_ratio, section_of(model, e).name, powers.ratio);
+}
+
+std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans, Scatter& scatter) {
+  std::vector<Term> terms;
+  for (const TermPlan& plan : plans) {
+    Term term;
+    term.label = plan.label;
+    term.coefficient = plan.coefficient;
+    for (const int part : plan.parts) scatter.add(plan.matrix(model, part));
+    scatter.take(term);
+    if (!term.position.empty()) terms.push_back(std::move(term));  // empty: all of it lies on supports
+  }
+  return terms;
+}
+
+}  // namespace twindeck::fe

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "fe/model.hpp"
+#include "fe/parametric_system.hpp"
+#include "linalg/types.hpp"
+
+namespace twindeck::fe {
+
+/// Free degrees of freedom of a model after supports and rigid links have been eliminated.
+///
+/// Displacements of all nodes follow from the free ones by u = E q. A slave moves with the end of its chain of links as a rigid
+/// body, u_s = u_m + theta_m × (x_s - x_m), theta_s = theta_m; a supported degree of freedom has an empty row. Degrees of freedom
+/// that no element and no spring reaches (rotations of a node where only bars meet) are left out, for they would be singular.
+struct DofMap {
+  linalg::SparseMatrix expansion;  ///< E (6 n_nodes × n)
+  std::vector<DofLabel> dofs;      ///< (n) in the order of nodes, then x y z rx ry rz
+  std::vector<int> root;           ///< (n_nodes) the node that carries a node's motion: itself or the end of its chain of links
+
+  /// Row of E: which free degrees of freedom move full degree of freedom 6·node + direction, and how much.
+  struct Entry {
+    int dof;
+    double factor;
+  };
+  std::vector<std::vector<Entry>> rows;  ///< (6 n_nodes)
+};
+
+/// @throws InputError  for links that form a circle, a node that is slave twice, a support on a slave
+[[nodiscard]] DofMap make_dof_map(const Model& model);
+
+}  // namespace twindeck::fe

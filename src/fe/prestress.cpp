@@ -1,0 +1,146 @@
+#include <cmath>
+
+#include "fe/assembly.hpp"
+#include "fe/assembly_pattern.hpp"
+#include "fe/assembly_terms.hpp"
+#include "fe/dead_load.hpp"
+#include "fe/mechanism.hpp"
+#include "fe/prestress_least_squares.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+std::vector<int> find_stays(const Model& model) {
+  std::vector<int> stays;
+  for (std::size_t i = 0; i < model.elements.size(); ++i)
+    if (model.elements[i].type == ElementType::stay) stays.push_back(static_cast<int>(i));
+  return stays;
+}
+
+const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
+
+/// Elastic stiffness of everything but the stays, at the model's own values.
+linalg::SparseMatrix stiffness_without_stays(const Model& model, const DofMap& map) {
+  ParametricSystem system;
+  system.pattern = make_pattern(model, map);
+  Scatter scatter(system.pattern, map);
+  system.stiffness_terms = assemble_terms(model, plan_stiffness(model), scatter);
+  return system.stiffness(initial_parameters(model));
+}
+
+/// Loads of one newton of pull in each stay: its ends are drawn together. (6 n_nodes × n_stays)
+Eigen::MatrixXd unit_pull_loads(const Model& model, const std::vector<int>& stays) {
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()), std::ssize(stays));
+  for (std::size_t s = 0; s < stays.size(); ++s) {
+    const Element& stay = element_at(model, stays[s]);
+    const auto ends = end_nodes(model, stay);
+    const Eigen::Vector3d direction = (ends[1] - ends[0]).normalized();
+    loads.col(static_cast<Eigen::Index>(s)).segment<3>(6 * stay.nodes[0]) += direction;
+    loads.col(static_cast<Eigen::Index>(s)).segment<3>(6 * stay.nodes[1]) -= direction;
+  }
+  return loads;
+}
+
+/// Least pulls for zero displacement at the conditions, blended with site pulls: minimises over T >= T_min
+///   |w_0 + W T|² / |w_0|² + ridge |T|² / (n T_ref²) + site_weight |T - T_site|² / (n_site T_ref²),
+/// T_ref = weight / n, n the number of stays; stays without a site pull are left out of the last sum.
+/// @param w         (n_conditions × n_stays) displacement of one newton of pull [m/N]
+/// @param w_dead_m  (n_conditions) displacement of the dead load
+BoundedLeastSquares find_shape(const Model& model, const std::vector<int>& stays, const Eigen::MatrixXd& w,
+                               const Eigen::VectorXd& w_dead_m, double weight_N) {
+  const Prestress& rule = model.prestress;
+  const Eigen::Index n = w.cols(), m = w.rows();
+  const double T_ref = weight_N / static_cast<double>(n);
+  const double displacement = w_dead_m.norm();
+  Eigen::Index n_site = 0;
+  for (const int s : stays) n_site += element_at(model, s).pull_N > 0.0 ? 1 : 0;
+
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(m + 2 * n, n);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(m + 2 * n);
+  a.topRows(m) = w / displacement;
+  b.head(m) = -w_dead_m / displacement;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    a(m + i, i) = std::sqrt(rule.ridge / static_cast<double>(n)) / T_ref;
+    const double site = element_at(model, stays[static_cast<std::size_t>(i)]).pull_N;
+    if (site <= 0.0) continue;
+    a(m + n + i, i) = std::sqrt(rule.site_weight / static_cast<double>(n_site)) / T_ref;
+    b[m + n + i] = a(m + n + i, i) * site;
+  }
+  return solve_bounded_least_squares(a, b, rule.minimum_pull_N);
+}
+
+/// Axial forces of beams and bars at mid-length.
+Eigen::VectorXd axial_forces(const Model& model, const Eigen::VectorXd& u) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.elements.size()));
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const Element& e = model.elements[i];
+    if (e.type == ElementType::beam) {
+      Vector12 ends;
+      ends << u.segment<6>(6 * e.nodes[0]), u.segment<6>(6 * e.nodes[1]);
+      force[static_cast<Eigen::Index>(i)] = beam_axial_force(beam_geometry(model, e), beam_properties(model, e), ends);
+    } else if (e.type == ElementType::bar) {
+      const auto x = end_nodes(model, e);
+      const Eigen::Vector3d chord = x[1] - x[0];
+      const double stretch = chord.normalized().dot(u.segment<3>(6 * e.nodes[1]) - u.segment<3>(6 * e.nodes[0]));
+      force[static_cast<Eigen::Index>(i)] =
+          material_of(model, e).youngs_modulus_Pa * section_of(model, e).area_m2 * stretch / chord.norm();
+    }
+  }
+  return force;
+}
+
+}  // namespace
+
+PrestressState find_prestress(const Model& base, const Eigen::VectorXd& theta) {
+  validate(base);
+  const Model model = with_parameters(base, theta);
+  PrestressState state;
+  state.stay_pull_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.elements.size()));
+  state.axial_force_N = state.stay_pull_N;
+  state.displacement = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()));
+  if (model.prestress.rule == PullRule::none) return state;
+
+  // 1. One factorisation of the structure without stays, one solution a load: dead load and each stay's pull.
+  const DofMap map = make_dof_map(model);
+  const std::vector<int> stays = find_stays(model);
+  const linalg::Cholesky factor =
+      factorize_or_refuse(stiffness_without_stays(model, map), map.dofs, model.source, " without its stays");
+  const Eigen::VectorXd load = dead_load(model);
+  const bool shape_finding = model.prestress.rule == PullRule::shape_finding;
+  Eigen::VectorXd pull(std::ssize(stays));
+  for (std::size_t s = 0; s < stays.size(); ++s) pull[static_cast<Eigen::Index>(s)] = element_at(model, stays[s]).pull_N;
+  const Eigen::MatrixXd unit_loads = unit_pull_loads(model, stays);
+
+  // 2. Pulls.
+  Eigen::MatrixXd q;  // columns: dead load, then (for shape finding) one newton in each stay
+  if (shape_finding) {
+    Eigen::MatrixXd loads(load.size(), 1 + unit_loads.cols());
+    loads << load, unit_loads;
+    q = factor.solve(map.expansion.transpose() * loads);
+    const Eigen::Index m = std::ssize(model.prestress.conditions);
+    Eigen::MatrixXd w(m, q.cols());
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const auto& condition = model.prestress.conditions[static_cast<std::size_t>(i)];
+      w.row(i).setZero();
+      for (const DofMap::Entry& entry : map.rows[static_cast<std::size_t>(6 * condition.node + condition.dof)])
+        w.row(i) += entry.factor * q.row(entry.dof);
+    }
+    double weight = 0.0;
+    for (Eigen::Index i = 2; i < load.size(); i += 6) weight -= load[i];
+    BoundedLeastSquares found = find_shape(model, stays, w.rightCols(w.cols() - 1), w.col(0), weight);
+    pull = std::move(found.x);
+    state.status = std::move(found.status);
+  } else {
+    q = factor.solve(map.expansion.transpose() * (load + unit_loads * pull));
+  }
+  for (std::size_t s = 0; s < stays.size(); ++s) state.stay_pull_N[stays[s]] = pull[static_cast<Eigen::Index>(s)];
+
+  // 3. The state that they make.
+  const Eigen::VectorXd total = shape_finding ? Eigen::VectorXd(q.col(0) + q.rightCols(q.cols() - 1) * pull) : q.col(0);
+  state.displacement = map.expansion * total;
+  state.axial_force_N = axial_forces(model, state.displacement);
+  return state;
+}
+
+}  // namespace twindeck::fe

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/error.hpp"
+
+namespace twindeck::fe {
+
+/// Minimiser of |A x - b|² over x >= lower.
+struct BoundedLeastSquares {
+  Eigen::VectorXd x;
+  Status status;
+};
+
+/// Active-set method for a few tens of unknowns: start on the bounds, free the unknown with the steepest descent, solve for the
+/// free ones, step back to the first bound that is crossed. Ends when no bound holds back a descent (Karush-Kuhn-Tucker).
+/// @param a  (m × n), full column rank
+/// Reference: Lawson and Hanson (1974), chapter 23.
+[[nodiscard]] BoundedLeastSquares solve_bounded_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double lower);
+
+}  // namespace twindeck::fe

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "fe/assembly.hpp"
+#include "fe/assembly_elements.hpp"
+#include "fe/dof_map.hpp"
+#include "fe/validate_parts.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+[[noreturn]] void refuse(const Model& model, const std::string& part, const std::string& problem, const std::string& mend) {
+  throw InputError({model.source, 0, part}, problem, mend);
+}
+
+std::string label(const Element& e) {
+  return fmt::format("element {}{}", e.id, e.name.empty() ? "" : " (" + e.name + ")");
+}
+
+/// A position in one of the model's lists; `what` says which ("material").
+void require_position(const Model& model, const std::string& part, const char* what, int position, std::size_t count) {
+  if (position >= 0 && static_cast<std::size_t>(position) < count) return;
+  refuse(model, part, fmt::format("{} has number {} in the list of {}, expected 0 to {}", what, position, count,
+                                  static_cast<long>(count) - 1),
+         fmt::format("give the {} of this part", what));
+}
+
+void check_element(const Model& model, const Element& e) {
+  require_position(model, label(e), "material", e.material, model.materials.size());
+  require_position(model, label(e), "section", e.section, model.sections.size());
+  const std::size_t expected = e.type == ElementType::shell ? 4 : 2;
+  if (e.nodes.size() != expected)
+    refuse(model, label(e), fmt::format("has {} nodes, expected {}", e.nodes.size(), expected),
+           "beams, bars and stays join two nodes, shells four");
+  for (const int node : e.nodes) require_position(model, label(e), "node", node, model.nodes.size());
+  if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != expected)
+    refuse(model, label(e), "names the same node twice", "give different nodes");
+}
+
+void check_nodes(const Model& model) {
+  std::set<long> ids;
+  for (const Node& node : model.nodes) {
+    if (!ids.insert(node.id).second)
+      refuse(model, fmt::format("node {}", node.id), "this id is used twice", "give every node its own id");
+    if (!node.x_m.allFinite())
+      refuse(model, fmt::format("node {}", node.id), "has a coordinate that is not a number", "give x, y, z in metres");
+  }
+}
+
+void check_springs(const Model& model) {
+  const std::size_t n = model.nodes.size();
+  for (const Spring& s : model.springs) {
+    const std::string part = "spring " + s.name;
+    require_position(model, part, "node", s.node, n);
+    if (s.node2 != -1) require_position(model, part, "second node", s.node2, n);
+    if (s.node == s.node2) refuse(model, part, "joins a node to itself", "leave the second node out for a spring to ground");
+    if (!(s.direction.norm() > 1e-12)) refuse(model, part, "has no direction", "give the direction in which it acts");
+    if (!(s.stiffness >= 0.0) || !(s.damping >= 0.0) || !(s.friction_N >= 0.0))
+      refuse(model, part,
+             fmt::format("stiffness {:g}, damping {:g}, friction {:g}: expected 0 or more", s.stiffness, s.damping, s.friction_N),
+             "take out the negative value");
+  }
+}
+
+void check_attachments(const Model& model) {
+  const std::size_t n = model.nodes.size();
+  for (const RigidLink& link : model.links) {
+    const std::string part = "rigid link " + link.name;
+    require_position(model, part, "master", link.master, n);
+    require_position(model, part, "slave", link.slave, n);
+    if (link.master == link.slave) refuse(model, part, "links a node to itself", "give two different nodes");
+  }
+  for (const PointMass& mass : model.masses) {
+    require_position(model, "point mass of group '" + mass.group + "'", "node", mass.node, n);
+    if (!(mass.mass_kg >= 0.0) || !(mass.inertia_kg_m2.minCoeff() >= 0.0))
+      refuse(model, "point mass of group '" + mass.group + "'",
+             fmt::format("mass is {:g} kg with a least inertia of {:g} kg m2, expected 0 or more", mass.mass_kg,
+                         mass.inertia_kg_m2.minCoeff()),
+             "take out the negative value");
+  }
+  for (const Support& support : model.supports) require_position(model, "support " + support.name, "node", support.node, n);
+}
+
+void check_prestress(const Model& model) {
+  const Prestress& p = model.prestress;
+  bool has_stay = false;
+  for (const Element& e : model.elements) {
+    if (e.type != ElementType::stay) continue;
+    has_stay = true;
+    if (p.rule == PullRule::given && !(e.pull_N > 0.0))
+      refuse(model, label(e), fmt::format("the pull is {:g} N, expected a positive force", e.pull_N),
+             "give the pull of each stay, or let shape finding find them");
+  }
+  if (p.rule != PullRule::shape_finding) return;
+  for (const auto& condition : p.conditions) {
+    require_position(model, "prestress condition", "node", condition.node, model.nodes.size());
+    require_position(model, "prestress condition", "direction", condition.dof, 3);
+  }
+  if (!has_stay) refuse(model, "prestress", "shape finding needs stays, the model has none", "set the rule to none");
+  if (p.conditions.empty())
+    refuse(model, "prestress", "shape finding has no displacement to bring to zero", "list the nodes and directions");
+  if (!(p.minimum_pull_N > 0.0) || !(p.ridge > 0.0) || !(p.site_weight >= 0.0))
+    refuse(model, "prestress",
+           fmt::format("minimum pull {:g} N and ridge {:g} must be positive, site weight {:g} not negative", p.minimum_pull_N,
+                       p.ridge, p.site_weight),
+           "give values in those ranges");
+}
+
+}  // namespace
+
+void validate_references(const Model& model) {
+  check_nodes(model);
+  for (const Element& e : model.elements) check_element(model, e);
+  check_springs(model);
+  check_attachments(model);
+  check_prestress(model);
+}
+
+void validate_geometry(const Model& model) {
+  std::vector<bool> reached(model.nodes.size(), false);
+  const auto reach = [&](int node) { reached[static_cast<std::size_t>(node)] = true; };
+  for (const Element& e : model.elements) {
+    for (const int node : e.nodes) reach(node);
+    const auto id = [&](std::size_t i) { return model.nodes[static_cast<std::size_t>(e.nodes[i])].id; };
+    if (e.type == ElementType::shell) {
+      const auto x = shell_geometry(model, e).node_m;
+      const double twice_area = (x[2] - x[0]).cross(x[3] - x[1]).norm();
+      if (!(twice_area > 1e-12 * (x[2] - x[0]).squaredNorm()))
+        refuse(model, label(e), fmt::format("the shell {}-{}-{}-{} has no area", id(0), id(1), id(2), id(3)),
+               "give its four nodes anticlockwise");
+      continue;
+    }
+    const double length = e.type == ElementType::beam ? beam_length(beam_geometry(model, e)) : axial_length(model, e);
+    if (!(length > 1e-9))
+      refuse(model, label(e), fmt::format("nodes {} and {} are at the same place, so the member has no length", id(0), id(1)),
+             "join them by a rigid link, merge them, or take the element out");
+  }
+  for (const Spring& spring : model.springs) {
+    if (!carries_stiffness(spring)) continue;
+    reach(spring.node);
+    if (spring.node2 >= 0) reach(spring.node2);
+  }
+  for (const RigidLink& link : model.links) reach(link.slave), reach(link.master);
+  for (const Support& support : model.supports) reach(support.node);
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    if (!reached[i])
+      refuse(model, fmt::format("node {}", model.nodes[i].id), "no element, spring, link or support reaches this node",
+             "join it to the structure or take it out");
+}
+
+void validate(const Model& model) {
+  if (model.nodes.empty() || (model.elements.empty() && model.springs.empty()))
+    refuse(model, "model", fmt::format("has {} nodes, {} elements and {} springs", model.nodes.size(), model.elements.size(),
+                                       model.springs.size()),
+           "a model needs nodes and something that joins them");
+  validate_references(model);
+  validate_properties(model);
+  validate_geometry(model);
+  validate_parameters(model);
+}
+
+}  // namespace twindeck::fe

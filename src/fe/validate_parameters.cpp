@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "fe/assembly.hpp"
+#include "fe/validate_parts.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+[[noreturn]] void refuse(const Model& model, const Parameter& p, const std::string& problem, const std::string& mend) {
+  throw InputError({model.source, 0, "parameter '" + p.name + "'"}, problem, mend);
+}
+
+struct Known {
+  std::string what;  ///< "material"
+  std::vector<std::string> names;
+};
+
+template <typename List, typename Name>
+std::vector<std::string> names_of(const List& list, Name name) {
+  std::set<std::string> names;
+  for (const auto& part : list) names.insert(part.*name);
+  return {names.begin(), names.end()};
+}
+
+/// What a parameter's target may name.
+Known known_names(const Model& model, const Parameter& p) {
+  switch (p.target) {
+    case Target::youngs_modulus:
+    case Target::density:
+      return {"material", names_of(model.materials, &Material::name)};
+    case Target::thickness:
+    case Target::bending_inertia_ratio:
+    case Target::area:
+      return {"section", names_of(model.sections, &Section::name)};
+    case Target::spring_stiffness:
+      return {"group of springs", names_of(model.springs, &Spring::group)};
+    case Target::point_mass:
+      return {"group of point masses", names_of(model.masses, &PointMass::group)};
+    case Target::matrix_stiffness:
+    case Target::matrix_mass:
+      break;
+  }
+  refuse(model, p, "scales a matrix, but this model is made of elements", "scale a material, a section or a group");
+}
+
+void check_names(const Model& model, const Parameter& p) {
+  const Known known = known_names(model, p);
+  if (p.of.empty()) refuse(model, p, "names nothing that it scales", fmt::format("name a {}", known.what));
+  for (const std::string& name : p.of)
+    if (std::find(known.names.begin(), known.names.end(), name) == known.names.end())
+      refuse(model, p, fmt::format("there is no {} '{}'{}", known.what, name, did_you_mean(name, known.names)),
+             fmt::format("known: {}", fmt::join(known.names, ", ")));
+}
+
+void check_values(const Model& model, const Parameter& p, double standing) {
+  if (!std::isfinite(p.initial) || p.initial == 0.0 || !std::isfinite(p.lower) || !std::isfinite(p.upper))
+    refuse(model, p, fmt::format("initial {:g} in [{:g}, {:g}]: expected numbers, the initial one not 0", p.initial, p.lower, p.upper),
+           "a parameter scales what it names, so it cannot start at 0");
+  if (p.lower > p.initial || p.initial > p.upper)
+    refuse(model, p, fmt::format("the initial value {:g} {} lies outside its bounds [{:g}, {:g}]", p.initial, p.unit, p.lower, p.upper),
+           "widen the bounds or move the initial value");
+  if (p.lower <= 0.0 && p.lower < p.upper)
+    refuse(model, p, fmt::format("the lower bound is {:g} {}, expected a positive number", p.lower, p.unit),
+           "stiffness and mass vanish at 0; raise the bound");
+  if (std::abs(p.initial - standing) > 1e-6 * std::abs(standing))  // tables carry 12 digits, people fewer
+    refuse(model, p, fmt::format("the initial value is {:.9g} {}, but '{}' stands at {:.9g}", p.initial, p.unit, p.of.front(), standing),
+           "write the same value in both places");
+}
+
+}  // namespace
+
+void validate_parameters(const Model& model) {
+  std::set<std::string> names;
+  std::set<std::pair<Target, std::string>> taken;
+  const Eigen::VectorXd standing = initial_parameters(model);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const Parameter& p = model.parameters[i];
+    if (!names.insert(p.name).second) refuse(model, p, "is defined twice", "give every parameter its own name");
+    check_names(model, p);
+    for (const std::string& name : p.of)
+      if (!taken.insert({p.target, name}).second)
+        refuse(model, p, fmt::format("'{}' is scaled by another parameter already", name), "let one parameter scale each property");
+    check_values(model, p, standing[static_cast<Eigen::Index>(i)]);
+  }
+}
+
+}  // namespace twindeck::fe
