@@ -1,0 +1,1 @@
+"""Tables, figures, report and paper check of a study: everything that comes after the steps' own results."""

@@ -1,0 +1,95 @@
+"""python3 -m twindeck_report tables|figures|report|verify|ratchet --study S [--results DIR] [--data DIR] [--workflow DIR]"""
+import argparse
+import sys
+from pathlib import Path
+
+from .check import run_check
+from .deviations import write_deviations
+from .errors import InputError
+from .ratchet import write_ratchet
+from .study import Study
+
+EXAMPLES = """examples:
+  PYTHONPATH=paper python3 -m twindeck_report tables --study ponte_del_mare
+  PYTHONPATH=paper python3 -m twindeck_report verify --study ponte_del_mare --results results/ponte_del_mare \\
+      --data data/ponte_del_mare
+
+exit codes: 0 done; 1 the paper check fails (cells on stderr); 2 bad input (one line on stderr)"""
+
+
+def main(arguments) -> int:
+    options = _parse(arguments)
+    study = Study(options.study, options.results or Path("results") / options.study,
+                  options.data or Path("data") / options.study, options.workflow or Path("workflows") / options.study)
+    try:
+        return COMMANDS[options.command][0](study)
+    except InputError as problem:
+        print(f"twindeck_report {options.command}: {problem}", file=sys.stderr)
+        return 2
+
+
+def _tables(study: Study) -> int:
+    from .tables.writer import write_tables
+
+    written = write_tables(study)
+    print(f"{len(written)} tables in {study.results / 'tables'}")
+    return 0
+
+
+def _figures(study: Study) -> int:
+    from .figures.writer import write_figures
+
+    written = write_figures(study)
+    print(f"{len(written)} figures in {study.results / 'figures'}: {', '.join(written)}")
+    return 0
+
+
+def _report(study: Study) -> int:
+    from .report import write_report
+
+    print(f"{write_report(study)} written")
+    return 0
+
+
+def _verify(study: Study) -> int:
+    result = run_check(study)
+    write_deviations(result, study.results / "report")
+    print(result.summary())
+    for line in result.failures:
+        print(f"paper check: {line}", file=sys.stderr)
+    return 0 if result.passed else 1
+
+
+def _ratchet(study: Study) -> int:
+    """Sets ratchet.csv from results that pass; results that fail are not worth holding on to."""
+    result = run_check(study)
+    if not result.passed:
+        for line in result.failures:
+            print(f"paper check: {line}", file=sys.stderr)
+        print(f"{study.data / 'ratchet.csv'} left as it was: the paper check fails")
+        return 1
+    write_ratchet(study, result.cells)
+    print(f"{study.data / 'ratchet.csv'}: {len(result.cells)} cells")
+    return 0
+
+
+COMMANDS = {
+    "tables": (_tables, "tables as CSV, LaTeX and HTML, ours beside the paper's"),
+    "figures": (_figures, "figures as PDF and PNG with the plotted data beside them"),
+    "report": (_report, "report.html, one self-contained page"),
+    "verify": (_verify, "compare the tables with the paper as printed"),
+    "ratchet": (_ratchet, "hold the present deviations as those of a release"),
+}
+
+
+def _parse(arguments):
+    parser = argparse.ArgumentParser(prog="twindeck_report", description=__doc__, epilog=EXAMPLES,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name, (_, meaning) in COMMANDS.items():
+        command = commands.add_parser(name, help=meaning, description=meaning)
+        command.add_argument("--study", required=True, help="name of the study, e.g. ponte_del_mare")
+        command.add_argument("--results", type=Path, help="results of the study's steps (default results/<study>)")
+        command.add_argument("--data", type=Path, help="the paper as printed and the rules (default data/<study>)")
+        command.add_argument("--workflow", type=Path, help="study.toml and the steps' configs (default workflows/<study>)")
+    return parser.parse_args(arguments)

@@ -1,0 +1,72 @@
+"""report/deviations.csv, deviations.md and junit.xml: the check's result for a spreadsheet, a reader and a CI server."""
+import csv
+from pathlib import Path
+from xml.etree import ElementTree
+
+from .check import CheckResult, explain, percent
+from .compare import row_for_csv
+
+HEADER = ["table", "row", "column", "paper", "ours", "deviation", "allowed", "used_pct", "kind", "verdict", "basis"]
+
+
+def write_deviations(result: CheckResult, folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "deviations.csv").open("w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(HEADER)
+        writer.writerows(row_for_csv(cell) for cell in result.cells)
+    (folder / "deviations.md").write_text(markdown(result), encoding="utf-8")
+    ElementTree.indent(tree := junit(result))
+    tree.write(folder / "junit.xml", encoding="utf-8", xml_declaration=True)
+
+
+def markdown(result: CheckResult) -> str:
+    lines = ["# Deviations from the paper", "", result.summary(), ""]
+    if result.failures:
+        lines += ["## What fails", ""] + [f"- {line}" for line in result.failures] + [""]
+    lines += ["## Root mean square of relative deviations", ""]
+    lines += table(["table", "column", "ours", "limit", "verdict", "basis"],
+                   [[r.rule.table, r.rule.column, percent(r.value), percent(r.rule.limit),
+                     "inside" if r.inside else "outside", r.rule.basis] for r in result.rms])
+    lines += ["## Orderings and signs that carry conclusions", ""]
+    lines += table(["order", "statement", "found", "verdict", "basis"],
+                   [[o.name, o.statement, o.found, "holds" if o.holds else "does not hold", o.basis] for o in result.orders])
+    lines += ["## Claims of the text", ""]
+    lines += table(["claim", "paper", "ours", "verdict"], [[c.name, c.paper, c.shown, c.verdict] for c in result.claims])
+    lines += [f"## Ratchet", "", result.ratchet, ""]
+    lines += ["## Every compared cell, worst first", ""]
+    lines += table(HEADER, [[_short(text) for text in row_for_csv(cell)] for cell in result.cells])
+    return "\n".join(lines)
+
+
+def table(head: list, rows: list) -> list:
+    """A Markdown table and an empty line; `none` if it would have no rows."""
+    if not rows:
+        return ["none", ""]
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(str(c).replace("|", "\\|") for c in row) + " |" for row in rows] + [""]
+
+
+def _short(text: str) -> str:
+    """Six digits are enough to read."""
+    try:
+        return f"{float(text):.6g}"
+    except ValueError:
+        return text
+
+
+def junit(result: CheckResult) -> ElementTree.ElementTree:
+    cases = [(c.table, f"{c.row} {c.column}", c.verdict in ("inside", "known"), explain(c)) for c in result.cells]
+    cases += [(r.rule.table, f"rms {r.rule.column}", r.inside, percent(r.value)) for r in result.rms]
+    cases += [("orders", o.name, o.holds, o.found) for o in result.orders]
+    cases += [("claims", c.name, c.verdict == "inside", c.shown) for c in result.claims if c.ours is not None]
+    cases += [("ratchet", c.name, False, problem) for c, problem in result.grown]
+    cases += [("hashes", str(path), False, problem) for path, problem in result.stale]
+    cases += [("tables", name, False, "missing") for name in result.missing]
+    failures = sum(not ok for *_, ok, _ in cases)
+    suite = ElementTree.Element("testsuite", name="paper check", tests=str(len(cases)), failures=str(failures), errors="0")
+    for group, name, ok, message in cases:
+        case = ElementTree.SubElement(suite, "testcase", classname=f"paper.{group}", name=name)
+        if not ok:
+            ElementTree.SubElement(case, "failure", message=message)
+    return ElementTree.ElementTree(suite)

@@ -1,0 +1,92 @@
+"""orders.toml: orderings and signs that carry the paper's conclusions, checked on our tables."""
+from dataclasses import dataclass
+
+from .cells import number
+from .compare import load_table
+from .errors import InputError
+from .study import Study
+
+
+@dataclass(frozen=True)
+class Order:
+    name: str
+    statement: str
+    basis: str
+    holds: bool
+    found: str  # the numbers that decide
+
+
+def check_orders(study: Study, keys: dict) -> list:
+    path = study.data / "orders.toml"
+    return [_check(study, keys, f"{path}: order {i}", entry)
+            for i, entry in enumerate(study.read_toml(path).get("order", []), 1)]
+
+
+def _check(study: Study, keys: dict, where: str, entry: dict) -> Order:
+    for key in ("name", "statement", "basis", "rule"):
+        if not isinstance(entry.get(key), str) or not entry[key].strip():
+            raise InputError(f"{where}: no {key}")
+    rule = RULES.get(entry["rule"])
+    if rule is None:
+        raise InputError(f"{where}: rule {entry['rule']!r}; expected one of {', '.join(RULES)}")
+    holds, found = rule(lambda reference: _values(study, keys, where, reference), where, entry)
+    return Order(entry["name"], entry["statement"], entry["basis"], holds, found)
+
+
+def _values(study: Study, keys: dict, where: str, reference) -> dict:
+    """{row: number} of "table_09.error_pct"."""
+    table, _, column = str(reference).partition(".")
+    if table not in keys:
+        raise InputError(f"{where}: {reference!r}: expected \"table_NN.column\" of a compared table")
+    frame = load_table(study, table, keys[table])
+    if column not in frame.columns:
+        raise InputError(f"{where}: {reference!r}: {table} has no column {column}")
+    return {row: number(text) for row, text in frame[column].items() if number(text) is not None}
+
+
+def _ascending(values, where, entry):
+    column = list(values(entry.get("column")).values())
+    falls = [f"{a:.4g} before {b:.4g}" for a, b in zip(column, column[1:]) if not a < b]
+    return bool(column) and not falls, falls[0] if falls else f"{len(column)} values"
+
+
+def _mean_abs_below(values, where, entry):
+    """Mean absolute value of `left` below that of `right`; `common = true`: over the rows that both have."""
+    left, right = values(entry.get("left")), values(entry.get("right"))
+    if entry.get("common"):
+        rows = [r for r in left if r in right]
+        left, right = {r: left[r] for r in rows}, {r: right[r] for r in rows}
+    a, b = _mean(map(abs, left.values())), _mean(map(abs, right.values()))
+    return a is not None and b is not None and a < b, f"{_text(a)} against {_text(b)}"
+
+
+def _mean_above(values, where, entry):
+    """Mean of `left` above that of `right`, over the rows that both have."""
+    left, right = values(entry.get("left")), values(entry.get("right"))
+    rows = [r for r in left if r in right]
+    a, b = _mean(left[r] for r in rows), _mean(right[r] for r in rows)
+    return a is not None and b is not None and a > b, f"{_text(a)} against {_text(b)}"
+
+
+def _mean_sign(values, where, entry):
+    """Sign of the mean of `column` over `rows` (all if none are named)."""
+    if entry.get("sign") not in ("positive", "negative"):
+        raise InputError(f"{where}: sign {entry.get('sign')!r}; expected positive or negative")
+    column = values(entry.get("column"))
+    rows = entry.get("rows", list(column))
+    if any(r not in column for r in rows):
+        return False, f"no value in row {next(r for r in rows if r not in column)}"
+    mean = _mean(column[r] for r in rows)
+    return mean is not None and (mean > 0) == (entry["sign"] == "positive") and mean != 0, f"mean {_text(mean)}"
+
+
+def _mean(values):
+    values = list(values)
+    return sum(values) / len(values) if values else None
+
+
+def _text(value):
+    return "nothing" if value is None else f"{value:.4g}"
+
+
+RULES = {"ascending": _ascending, "mean_abs_below": _mean_abs_below, "mean_above": _mean_above, "mean_sign": _mean_sign}

@@ -1,0 +1,39 @@
+"""Files that are no longer what their manifest says, and, for an edited table, the cells that were edited."""
+from .cells import csv_text
+from .errors import InputError
+from .manifests import stale_inputs, stale_outputs
+from .study import Study
+from .tables import TABLES, table_name
+from .tables.writer import full_table
+from .tolerances import Tolerances
+
+
+def find_stale(study: Study, tolerances: Tolerances) -> list:
+    """[(file, what is wrong)] over tables/ and every step's folder."""
+    tables = study.results / "tables"
+    found = [(path, problem + _edited(study, path, tolerances)) for path, problem in stale_outputs(tables)]
+    found += stale_inputs(tables)
+    for folder in sorted(study.results.glob("s[0-9]_*")):
+        if folder.is_dir() and not folder.name.endswith(".unconverged"):
+            found += stale_outputs(folder)
+    return found
+
+
+def _edited(study: Study, path, tolerances: Tolerances) -> str:
+    """Names the cells of an edited table by making it again from the steps' results."""
+    number = next((n for n in TABLES if path.name == f"{table_name(n)}.csv"), None)
+    if number is None or not path.is_file():
+        return ""
+    try:
+        fresh = full_table(study, number, tolerances)
+        lying = study.read_csv(path, text=True)
+    except InputError:
+        return ""  # the steps' own trouble is reported by itself
+    key = tolerances.keys[table_name(number)]
+    if list(lying.columns) != list(fresh.columns) or len(lying) != len(fresh):
+        return "; rows or columns are not those that the steps' results give"
+    cells = [f"row {csv_text(fresh[key][i])} column {c}: {lying[c][i] or 'empty'}, the steps give "
+             f"{csv_text(fresh[c][i]) or 'empty'}"
+             for i in range(len(fresh)) for c in fresh.columns if csv_text(fresh[c][i]) != lying[c][i]]
+    more = f" and {len(cells) - 5} more" if len(cells) > 5 else ""
+    return "; " + "; ".join(cells[:5]) + more if cells else "; no cell differs"

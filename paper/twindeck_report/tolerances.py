@@ -1,0 +1,97 @@
+"""tolerances.toml: for every compared column of every table its kind, its rule, and why that rule (the basis)."""
+from dataclasses import dataclass
+
+from .errors import InputError
+from .study import Study
+
+KINDS = ("input", "identity", "calibrated", "predicted", "recovered", "virtual", "unavailable")
+RULES = {
+    "exact": "text equals the paper's text",
+    "rounding": "inside half a unit of the last printed digit (times `tolerance`)",
+    "absolute": "|ours - paper| <= tolerance, in the column's unit",
+    "relative": "|ours - paper| <= tolerance |paper|",
+    "error_of": "propagated: 100 / measured x what the column `of` may deviate",
+    "measurement": "not further from the measurement than the paper's plus `tolerance` percentage points",
+    "identifiability": "range of the bounds, less what the data resolve (identifiability.py)",
+}
+
+
+@dataclass(frozen=True)
+class Column:
+    """The rule of one compared column."""
+
+    table: str
+    name: str
+    kind: str
+    rule: str
+    tolerance: float
+    basis: str
+    of: str = ""  # error_of: the column it is computed from
+    measured: str = ""  # error_of, measurement: the column with the measured value
+    error: str = ""  # measurement: the column with the paper's error in percent
+
+
+@dataclass(frozen=True)
+class RmsRule:
+    """Limit on the root mean square of the relative deviations of a column."""
+
+    table: str
+    column: str
+    limit: float
+    basis: str
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    keys: dict  # table -> name of the column that names its rows
+    columns: dict  # table -> {column: Column}
+    rms: list
+
+    def tables(self) -> list:
+        return sorted(self.columns)
+
+
+def read_tolerances(study: Study) -> Tolerances:
+    path = study.data / "tolerances.toml"
+    keys, columns, rms = {}, {}, []
+    for table, entry in study.read_toml(path).items():
+        if not isinstance(entry, dict) or not isinstance(entry.get("key"), str):
+            raise InputError(f'{path}: {table}: expected a table with key = "<column that names the rows>"')
+        keys[table] = entry["key"]
+        columns[table] = {name: _column(path, table, name, rule) for name, rule in entry.get("columns", {}).items()}
+        rms += [_rms(path, table, rule) for rule in entry.get("rms", [])]
+    return Tolerances(keys, columns, rms)
+
+
+def _column(path, table, name, rule) -> Column:
+    where = f"{path}: {table}.columns.{name}"
+    basis = _basis(where, rule)
+    if rule.get("kind") not in KINDS:
+        raise InputError(f"{where}: kind {rule.get('kind')!r}; expected one of {', '.join(KINDS)}")
+    if rule.get("rule") not in RULES:
+        raise InputError(f"{where}: rule {rule.get('rule')!r}; expected one of {', '.join(RULES)}")
+    tolerance = rule.get("tolerance", 1.0 if rule["rule"] in ("rounding", "exact", "error_of") else None)
+    if not isinstance(tolerance, (int, float)) or isinstance(tolerance, bool) or not 0 <= tolerance < float("inf"):
+        raise InputError(f"{where}: tolerance {tolerance!r}; expected a number of at least 0")
+    needed = {"error_of": ("of", "measured"), "measurement": ("measured", "error")}.get(rule["rule"], ())
+    for key in needed:
+        if not isinstance(rule.get(key), str):
+            raise InputError(f"{where}: the rule {rule['rule']} needs {key} = \"<column>\"")
+    return Column(table, name, rule["kind"], rule["rule"], float(tolerance), basis,
+                  rule.get("of", ""), rule.get("measured", ""), rule.get("error", ""))
+
+
+def _rms(path, table, rule) -> RmsRule:
+    where = f"{path}: {table}.rms"
+    basis = _basis(where, rule)
+    if not isinstance(rule.get("column"), str) or not isinstance(rule.get("limit"), float):
+        raise InputError(f'{where}: expected column = "<column>" and limit = <relative deviation>')
+    return RmsRule(table, rule["column"], rule["limit"], basis)
+
+
+def _basis(where, rule) -> str:
+    """A tolerance that nobody can give a reason for is refused."""
+    basis = rule.get("basis") if isinstance(rule, dict) else None
+    if not isinstance(basis, str) or len(basis.split()) < 3:
+        raise InputError(f"{where}: no basis; write the reason for this tolerance as a sentence")
+    return basis

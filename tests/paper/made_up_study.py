@@ -1,0 +1,182 @@
+"""A made-up study in a temporary folder: paper tables with invented numbers, step results that lie close to them, and the
+repository's own rules (tolerances.toml, orders.toml). Nothing here is a result of the bridge."""
+import csv
+import hashlib
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+RULES = REPOSITORY / "data" / "ponte_del_mare"
+STEPS = ["s1_model", "s4_refinement", "s5_sensitivity", "s6_updating"]
+
+MEASURED = [0.8, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 1.9, 2.4, 2.5]
+SOFT = [0.92, 0.95, 0.96, 0.92, 0.98, 1.01, 0.90, 0.93, 0.75, 0.84]  # preliminary / measured
+REFINED = [0.93, 0.94, 0.94, 0.91, 0.99, 1.01, 0.99, 1.16, 0.85, 0.99]
+UPDATED = [0.987, 0.984, 0.977, 0.95, 1.01, 1.02, 1.012, 1.008]
+PARTNERS = ["1N", "2N", "3N", "4N", "5N", "6N", "8N", "10N", "9N", "12N"]
+KEPT = [0, 1, 2, 3, 4, 5, 6, 9]  # Table 9's pairs out of Table 7's, then 11X-13N
+PARAMETERS = [  # name, the paper's unit, initial, half range, change in percent
+    ("E_c1", "MPa", 35000, 0.15, 9.5), ("E_c2", "MPa", 16000, 0.15, -15), ("E_s", "MPa", 210000, 0.05, 5),
+    ("E_s_stay_44", "MPa", 165000, 0.05, -5), ("rho_1", "kg/m3", 1500, 0.3, -24), ("rho_2", "kg/m3", 2500, 0.3, -30),
+    ("C_c", "-", 25.4, 0.15, 9.9), ("C_pB", "-", 5.06, 0.15, 4.1), ("C_pD", "-", 1.15, 0.15, -0.4)]
+OTHERS = ["E_s_stay_60", "E_s_stay_75", "k", "C_pC", "C_pE", "C_pF"]
+
+
+def write_rows(path, header, rows):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows(rows)
+
+
+def read_rows(path):
+    with path.open(newline="", encoding="utf-8") as lines:
+        return list(csv.DictReader(lines))
+
+
+def make_study(root, paper=None):
+    """A complete study under `root`: data/, workflow/, results/ with the steps' outputs and manifests, no tables yet.
+    `paper`: a folder with table_NN.csv to take instead of the invented ones."""
+    root = Path(root)
+    data, workflow, results = root / "data", root / "workflow", root / "results"
+    (data / "paper").mkdir(parents=True)
+    if paper:
+        for table in Path(paper).glob("table_*.csv"):
+            shutil.copy(table, data / "paper")
+    else:
+        write_paper(data / "paper")
+    for name in ("tolerances.toml", "orders.toml", "errata.toml", "known_deviations.toml"):
+        shutil.copy(RULES / name, data / name)
+    workflow.mkdir()
+    (workflow / "study.toml").write_text('title = "Made-up bridge"\nseed = 1\nmeasured = "published"\nsteps = '
+                                         + json.dumps(STEPS) + "\n", encoding="utf-8")
+    write_features(data)
+    write_steps(data / "paper", results)
+    for step in STEPS:
+        write_manifest(results / step)
+    return data, workflow, results
+
+
+def write_paper(folder):
+    write_rows(folder / "table_01.csv",
+               ["damper", "type", "units_text", "units_count", "damping_constant_kNs_per_m", "spring_stiffness_kN_per_m",
+                "spring_tolerance_pct"],
+               [["A", "Elastic-viscous", "2", "2", "100.0", "120.5", "5"], ["B", "Elastic-viscous", "2", "2", "300.0", "120.5", "5"],
+                ["C", "Viscous", "2+2", "4", "700.2", "", ""]])
+    soft = [m * s for m, s in zip(MEASURED, SOFT)]
+    write_rows(folder / "table_02.csv", ["mode", "f_N_Hz"], [[i + 1, f"{f:.3f}"] for i, f in enumerate(soft[:9])])
+    write_rows(folder / "table_04.csv",
+               ["mode", "f_X_without_dampers_Hz", "zeta_without_dampers_pct", "f_X_with_dampers_Hz", "zeta_with_dampers_pct"],
+               [[i + 1, f"{f:.3f}", "1.10", f"{1.05 * f:.2f}", "3.20"] for i, f in enumerate(MEASURED)])
+    pair = ["experimental_mode", "numerical_mode", "f_X_Hz", "f_N_Hz", "error_pct"]
+
+    def numbers(measured, ratio, digits):
+        return [f"{measured:.3f}", f"{measured * ratio:.3f}", f"{100 * (ratio - 1):.{digits}f}"]
+
+    write_rows(folder / "table_06.csv", ["mode", *pair[2:]],
+               [[i + 1, *numbers(m, r, 1)] for i, (m, r) in enumerate(zip(MEASURED, SOFT))])
+    write_rows(folder / "table_07.csv", pair,
+               [[f"{i + 1}X", PARTNERS[i], *numbers(m, r, 1)] for i, (m, r) in enumerate(zip(MEASURED, REFINED))])
+    write_rows(folder / "table_08.csv", ["parameter", "unit", "initial_value", "final_value", "change_pct"],
+               [[n, u, f"{v}", f"{v * (1 + c / 100):.2f}", f"{c:.2f}"] for n, u, v, _, c in PARAMETERS])
+    write_rows(folder / "table_09.csv", pair,
+               [[f"{i + 1}X", PARTNERS[i], *numbers(MEASURED[i], r, 2)] for i, r in zip(KEPT, UPDATED)]
+               + [["11X", "13N", *numbers(2.7, 0.996, 2)]])
+
+
+def write_features(data):
+    frequencies = [r["f_X_without_dampers_Hz"] for r in read_rows(data / "paper" / "table_04.csv")]
+    write_rows(data / "features" / "rows.csv", ["type", "mode", "channel", "condition", "value", "std"],
+               [["frequency_Hz", i + 1, "", "no_dampers", f, 0.005] for i, f in enumerate(frequencies)])
+
+
+def write_steps(paper, results):
+    """Step outputs whose numbers are the paper's, moved by at most 0.4 %."""
+    scatter = [1.003, 0.998, 1.002, 0.997, 1.004, 1.001, 0.999, 1.002, 0.998, 1.001, 1.003, 1.0, 0.999, 1.002, 1.001]
+    initial = read_rows(paper / "table_06.csv")
+    preliminary = [float(r["f_N_Hz"]) * s for r, s in zip(initial, scatter)]
+    preliminary += [preliminary[-1] + 0.1 * (i + 1) for i in range(5)]
+    write_rows(results / "s1_model/modes.csv",
+               ["mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"],
+               [[i + 1, repr(f), "", "", ""] for i, f in enumerate(preliminary)])
+    dampers = []
+    for row in read_rows(paper / "table_01.csv"):
+        viscous = row["spring_stiffness_kN_per_m"] == ""
+        for i in range(int(row["units_count"])):
+            dampers.append([f"{row['damper']}{i + 1}", f"damper_{row['damper']}", float(row["damping_constant_kNs_per_m"]) * 1e3,
+                            "" if viscous else float(row["spring_stiffness_kN_per_m"]) * 1e3, "viscous" if viscous else "series"])
+    write_rows(results / "s1_model/dampers.csv", ["damper", "group", "damping_N_s_m", "stiffness_N_m", "arrangement"], dampers)
+
+    header = ["stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"]
+
+    def compared(stage, rows, pairing):
+        for row, s in zip(rows, scatter):
+            measured, ours = float(row["f_X_Hz"]), float(row["f_N_Hz"]) * s
+            label = row.get("experimental_mode") or f"{row['mode']}X"
+            partner = row.get("numerical_mode") or f"{row['mode']}N"
+            yield [stage, label, partner, measured, repr(ours), repr(100 * (ours / measured - 1)), "", pairing]
+
+    refined, updated = read_rows(paper / "table_07.csv"), read_rows(paper / "table_09.csv")
+    write_rows(results / "s4_refinement/comparison.csv", header,
+               [*compared("initial", initial, "order"), *compared("refined", refined, "published")])
+    before = [r for r in refined if r["experimental_mode"] in {u["experimental_mode"] for u in updated}]
+    write_rows(results / "s6_updating/comparison.csv", header,
+               [*compared("before", before, "published"), *compared("after", updated, "published")])
+    write_sensitivity(results / "s5_sensitivity")
+    write_updating(paper, results / "s6_updating")
+
+
+def write_sensitivity(folder):
+    names = [p[0] for p in PARAMETERS] + OTHERS
+    relative = np.random.default_rng(7).uniform(0.0, 0.4, (15, len(names)))
+    relative[:, [4, 5]] *= -1.0
+    relative[:, 6:] *= 0.02
+    write_rows(folder / "sensitivity.csv",
+               ["mode", "parameter", "unit", "exact_Hz_per_unit", "relative", "richardson_Hz_per_unit", "forward_eq6_Hz_per_unit",
+                "forward_truncation_Hz_per_unit"],
+               [[m + 1, n, "-", 0, relative[m, j], 0, 0, 0] for m in range(15) for j, n in enumerate(names)])
+    values = np.linalg.svd(relative[:, :9], compute_uv=False)
+    write_rows(folder / "singular_values.csv", ["index", "value", "relative", "identifiable"],
+               [[i + 1, v, v / values[0], int(i < 6)] for i, v in enumerate(values)])
+    write_rows(folder / "identifiability.csv", ["parameter", "identifiable", "resolution"],
+               [[p[0], int(i < 6), 0.9 if i < 6 else 0.1] for i, p in enumerate(PARAMETERS)])
+    write_rows(folder / "selection.csv", ["parameter", "unit", "score", "rank", "selected", "published", "reason"],
+               [[n, "-", 1.0 - 0.05 * j, j + 1, int(j < 9), int(j < 9), ""] for j, n in enumerate(names)])
+
+
+def write_updating(paper, folder):
+    printed = {r["parameter"]: r for r in read_rows(paper / "table_08.csv")}
+    rows, history = [], []
+    for name, unit, _, half, _ in PARAMETERS:
+        factor = 1e6 if unit == "MPa" else 1.0
+        start, change = float(printed[name]["initial_value"]) * factor, float(printed[name]["change_pct"])
+        final = start * (1 + change / 100)
+        bound = "lower" if change <= -100 * half + 1e-9 else "upper" if change >= 100 * half - 1e-9 else "none"
+        rows.append([name, "Pa" if unit == "MPa" else unit, start, final, change, start * (1 - half), start * (1 + half), bound])
+    write_rows(folder / "parameters.csv",
+               ["parameter", "unit", "initial_value", "final_value", "change_pct", "lower", "upper", "bound"], rows)
+    for start in (0, 1):
+        for i in range(8):
+            part = (1 - 0.5**i) if start == 0 else 0.6 * (1 - 0.6**i)
+            history.append([start, 0, i, 0.006 * 0.5**i + 0.004 + 0.001 * start, 0.1 * 0.3**i, 0.1 * 0.5**i, 2.0 if i < 3 else 1.0]
+                           + [1 + part * row[4] / 100 for row in rows])
+    names = [row[0] for row in rows]
+    write_rows(folder / "history.csv",
+               ["start", "outer", "iteration", "cost", "projected_gradient", "step_norm", "trust_radius", *names], history)
+    write_rows(folder / "starts.csv",
+               ["start", "cost", "projected_gradient_relative", "iterations", "converged", "optimum", "message", *names],
+               [[s, history[8 * s + 7][3], 1e-8, 8, 1, s + 1, "converged", *history[8 * s + 7][7:]] for s in (0, 1)])
+
+
+def write_manifest(folder):
+    """As the steps write it (src/io/manifest.cpp), with the parts that the report package reads."""
+    outputs = {p.relative_to(folder).as_posix(): hashlib.sha256(p.read_bytes()).hexdigest()
+               for p in sorted(folder.rglob("*")) if p.is_file() and p.name != "manifest.json"}
+    (folder / "manifest.json").write_text(json.dumps({
+        "format": "twindeck-manifest-1", "step": folder.name, "status": "converged", "message": "", "seed": 1, "threads": 1,
+        "seconds": 1.5, "version": "0.1.0", "commit": "0000000", "libraries": {}, "command_line": [folder.name],
+        "config_toml": "", "inputs": {}, "outputs": outputs}, indent=1), encoding="utf-8")

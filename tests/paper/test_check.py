@@ -1,0 +1,238 @@
+"""The paper check must be able to fail. Oracle throughout: a made-up study (made_up_study.py) whose numbers are known by
+construction, with one thing changed at a time."""
+import io
+import os
+import re
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
+
+import made_up_study  # noqa: E402
+from twindeck_report import cli  # noqa: E402
+
+
+class PaperCheck(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.data, self.workflow, self.results = made_up_study.make_study(self.folder.name)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)  # CHANGELOG.md is looked for here
+        self.assertEqual(self.run_command("tables")[0], 0)
+
+    def run_command(self, command):
+        """(exit code, stdout, stderr)"""
+        out, err = io.StringIO(), io.StringIO()
+        with redirect_stdout(out), redirect_stderr(err):
+            code = cli.main([command, "--study", "made_up", "--results", str(self.results), "--data", str(self.data),
+                             "--workflow", str(self.workflow)])
+        return code, out.getvalue(), err.getvalue()
+
+    def edit(self, path, old, new):
+        text = path.read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+    def set_cell(self, table, key, row, column, value):
+        """Changes one cell of a generated table; returns its old text."""
+        path = self.results / "tables" / f"{table}.csv"
+        rows = made_up_study.read_rows(path)
+        changed = next(r for r in rows if r[key] == row)
+        old, changed[column] = changed[column], value
+        made_up_study.write_rows(path, list(rows[0]), [list(r.values()) for r in rows])
+        return old
+
+    def know(self, *cells):
+        (self.data / "known_deviations.toml").write_text("".join(
+            f'[[deviation]]\ntable = "{t}"\nrow = "{r}"\ncolumn = "{c}"\nreason = "a made-up reason"\n' for t, r, c in cells))
+
+    def remake_with(self, step, file, key, row, column, factor):
+        """Moves one result of a step, as a model that differs there would give it, and makes the tables again."""
+        path = self.results / step / file
+        rows = made_up_study.read_rows(path)
+        for entry in rows:
+            if entry[key] == row:
+                entry[column] = repr(float(entry[column]) * factor)
+        made_up_study.write_rows(path, list(rows[0]), [list(r.values()) for r in rows])
+        made_up_study.write_manifest(self.results / step)
+        self.assertEqual(self.run_command("tables")[0], 0)
+
+    def test_unperturbed_passes(self):
+        code, out, err = self.run_command("verify")
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("paper check passed", out)
+        rows = made_up_study.read_rows(self.results / "report/deviations.csv")
+        self.assertEqual(list(rows[0]), "table,row,column,paper,ours,deviation,allowed,used_pct,kind,verdict,basis".split(","))
+        # every column of every paper table but its key and its labels: 3*5-2 + 9 + 40 + 30 + 40 + 27 + 36
+        self.assertEqual(len(rows), 13 + 9 + 40 + 30 + 40 + 27 + 36)
+        self.assertTrue(all(r["verdict"] == "inside" for r in rows))
+        used = [float(r["used_pct"]) for r in rows]
+        self.assertEqual(used, sorted(used, reverse=True), "worst first")
+
+    def test_a_cell_outside_is_named(self):
+        self.set_cell("table_02", "mode", "3", "f_N_Hz", "1.5")
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("table_02 row 3 column f_N_Hz: ours 1.5", err)
+        self.assertIn("table_02 column f_N_Hz: root mean square deviation", err)
+        suite = ElementTree.parse(self.results / "report/junit.xml").getroot()
+        failed = [case.get("name") for case in suite if case.find("failure") is not None]
+        self.assertIn("3 f_N_Hz", failed)
+        self.assertEqual(int(suite.get("failures")), len(failed))
+
+    def test_an_edit_inside_the_tolerance_is_named_too(self):
+        old = self.set_cell("table_07", "experimental_mode", "4X", "f_N_Hz", "1.19")
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertRegex(err, r"table_07\.csv: stale hash.*row 4X column f_N_Hz: 1\.19, the steps give " + re.escape(old))
+        self.assertEqual(len(err.splitlines()), 1, "nothing else is wrong")
+
+    def test_every_compared_cell_is_watched(self):
+        for table, key, row, column, value in (
+                ("table_01", "damper", "C", "type", "Elastic-viscous"), ("table_04", "mode", "2", "zeta_with_dampers_pct", "9"),
+                ("table_06", "mode", "1", "error_pct", "5"), ("table_07", "experimental_mode", "7X", "numerical_mode", "7N"),
+                ("table_08", "parameter", "rho_2", "change_pct", "44"), ("table_09", "experimental_mode", "5X", "error_pct", "-3.1")):
+            old = self.set_cell(table, key, row, column, value)
+            code, _, err = self.run_command("verify")
+            self.assertEqual(code, 1, table)
+            self.assertIn(f"{table} row {row} column {column}: ours {value}", err)
+            self.set_cell(table, key, row, column, old)
+        self.assertEqual(self.run_command("verify")[0], 0, "each was put back")
+
+    def test_closer_to_the_measurement_is_no_deviation(self):
+        """Table 9 is judged by the measurement: a perfect mode passes though it is far from the paper's."""
+        path = self.results / "s6_updating/comparison.csv"
+        rows = made_up_study.read_rows(path)
+        for row in rows:
+            if (row["stage"], row["experimental_mode"]) == ("after", "4X"):
+                row["computed_Hz"], row["error_pct"] = row["measured_Hz"], "0"
+        made_up_study.write_rows(path, list(rows[0]), [list(r.values()) for r in rows])
+        made_up_study.write_manifest(self.results / "s6_updating")
+        self.run_command("tables")
+        self.assertEqual(self.run_command("verify")[0], 0)
+
+    def test_rms_limit_alone_fails(self):
+        """4 % on every mode is inside 5 % a mode and outside 2.5 % in the root mean square."""
+        path = self.results / "s1_model/modes.csv"
+        rows = made_up_study.read_rows(path)
+        for row in rows:
+            row["frequency_Hz"] = repr(1.04 * float(row["frequency_Hz"]))
+        made_up_study.write_rows(path, list(rows[0]), [list(r.values()) for r in rows])
+        made_up_study.write_manifest(self.results / "s1_model")
+        self.run_command("tables")
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertRegex(err, r"\Apaper check: table_02 column f_N_Hz: root mean square deviation 4\.\d+ %, at most 2\.50 %[^\n]*\n\Z")
+
+    def test_tolerance_without_basis_is_refused(self):
+        self.edit(self.data / "tolerances.toml", 'basis = "A count of devices has no tolerance."', 'basis = ""')
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 2)
+        self.assertRegex(err, r"tolerances\.toml: table_01\.columns\.units_count: no basis")
+        self.assertEqual(len(err.splitlines()), 1)
+
+    def test_unknown_kind_and_rule_are_refused(self):
+        self.edit(self.data / "tolerances.toml", 'kind = "calibrated"', 'kind = "guessed"')
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 2)
+        self.assertIn("kind 'guessed'; expected one of input, identity", err)
+
+    def test_known_deviation_excuses_its_cell(self):
+        self.remake_with("s4_refinement", "comparison.csv", "numerical_mode", "12N", "computed_Hz", 1.06)
+        self.assertEqual(self.run_command("verify")[0], 1)
+        self.know(("table_07", "10X", "f_N_Hz"))
+        code, out, _ = self.run_command("verify")
+        self.assertIn("1 known deviations", out)
+        # the root mean square over ten modes, one of them 6 % off and the others at most 0.4 %, stays below 2.5 %
+        self.assertEqual(code, 0)
+
+    def test_stale_known_deviation_fails(self):
+        self.know(("table_02", "3", "f_N_Hz"))
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("table_02 row 3 column f_N_Hz: listed in known_deviations.toml but inside", err)
+
+    def test_identity_cannot_be_known(self):
+        text = (self.data / "tolerances.toml").read_text(encoding="utf-8")
+        head, mark, tail = text.partition("[table_06.columns.error_pct]\n")
+        (self.data / "tolerances.toml").write_text(head + mark + tail.replace('"calibrated"', '"identity"', 1), encoding="utf-8")
+        self.know(("table_06", "2", "error_pct"))
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 2)
+        self.assertIn("table_06 row 2 column error_pct is an identity", err)
+
+    def test_more_than_a_tenth_is_refused(self):
+        # 9 + 20 + 20 + 18 + 18 compared cells are not inputs: eight may be known, nine may not
+        cells = [("table_02", str(i + 1), "f_N_Hz") for i in range(9)]
+        self.know(*cells[:8])
+        self.assertEqual(self.run_command("verify")[0], 1, "eight are judged, and found stale")
+        self.know(*cells)
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 2)
+        self.assertIn("9 entries; at most a tenth of the 85 compared cells", err)
+
+    def test_unknown_cell_is_refused(self):
+        self.know(("table_02", "99", "f_N_Hz"))
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 2)
+        self.assertIn("table_02 99 f_N_Hz is not a compared cell", err)
+
+    def test_missing_table_is_named(self):
+        (self.results / "tables/table_06.csv").unlink()
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("table_06: missing", err)
+
+    def test_missing_row_is_named(self):
+        path = self.results / "tables/table_02.csv"
+        lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+        path.write_text("".join(line for line in lines if not line.startswith("5,")), encoding="utf-8")
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("table_02 row 5 column f_N_Hz: ours empty", err)
+
+    def test_step_changed_behind_the_tables_is_stale(self):
+        self.edit(self.results / "s4_refinement/comparison.csv", "initial,1X", "initial,1X ")
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("s4_refinement/comparison.csv: stale hash: changed since its manifest", err)
+        self.assertIn("changed since tables was made from it", err)
+
+    def test_missing_step_is_bad_input(self):
+        (self.results / "s6_updating/comparison.csv").unlink()
+        code, _, err = self.run_command("tables")
+        self.assertEqual(code, 2)
+        self.assertRegex(err, r"s6_updating/comparison\.csv: missing; run `make s6 STUDY=made_up` first\n\Z")
+
+    def test_broken_order_fails(self):
+        """Mean error of Table 9 above Table 7's: every updated mode may be 2 points worse than the paper's, the order may not."""
+        path = self.data / "orders.toml"
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text.replace('sign = "negative"', 'sign = "positive"', 1), encoding="utf-8")
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("order the preliminary model is too soft: does not hold", err)
+
+    def test_ratchet(self):
+        self.assertIn("ratchet not yet set", self.run_command("verify")[1])
+        self.assertEqual(self.run_command("ratchet")[0], 0)
+        self.assertEqual(self.run_command("verify")[0], 0)
+        self.remake_with("s4_refinement", "comparison.csv", "numerical_mode", "5N", "computed_Hz", 1.005)
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertRegex(err, r"table_07 row 5X column f_N_Hz: deviation grew from 0\.\d+ to 0\.\d+ points")
+        Path("CHANGELOG.md").write_text("# Changelog\n\n## Unreleased\n- other shear areas; ratchet: table_07\n"
+                                        "- ratchet: table_06\n\n## 0.1.0\n", encoding="utf-8")
+        self.assertEqual(self.run_command("verify")[0], 0, "announced")
+        Path("CHANGELOG.md").write_text("# Changelog\n\n## Unreleased\n\n## 0.1.0\n- ratchet: table_07\n", encoding="utf-8")
+        self.assertEqual(self.run_command("verify")[0], 1, "a line of an earlier release does not count")
+
+
+if __name__ == "__main__":
+    unittest.main()
