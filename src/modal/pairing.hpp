@@ -20,11 +20,14 @@ struct PairingOptions {
   double minimum_mac = 0.0;                ///< pairs below it are left out
   double maximum_frequency_error = 0.35;   ///< relative; a pair further off is not admitted
   double cluster_gap = 0.02;               ///< relative frequency gap below which modes count as close
+  double cluster_mac = 0.8;                ///< subspace MAC from which a shape counts as lying in the span of close modes
 };
 
 /// One-to-one pairing that maximises the sum of MAC (Hungarian assignment, not greedy), admissible pairs only. Close numerical
 /// modes that rotate into each other are recognised by their subspace: a pair of low MAC whose experimental shape lies within
-/// the span of a cluster is marked `clustered` with the subspace MAC.
+/// the span of a cluster is marked `clustered` with the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span.
+/// Without sensors (no rows) the pairing is by frequency alone, and MAC is NaN.
+/// @return pairs in the order of the experimental modes
 /// @param frequency_x, frequency_n [Hz]
 /// @param phi_x (n_sensors × n_X), phi_n (n_sensors × n_N)
 /// Reference: Kuhn (1955), Naval Research Logistics Quarterly 2, 83-97.

@@ -1,0 +1,44 @@
+#include "dynamics/eigenmodes.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "dynamics/free_structure.hpp"
+#include "linalg/generalized_eigen.hpp"
+
+namespace twindeck::dynamics {
+
+double free_structure_shift(const linalg::SparseMatrix& stiffness, const linalg::SparseMatrix& mass) {
+  const Eigen::VectorXd k = stiffness.diagonal(), m = mass.diagonal();
+  double least = 0.0;
+  for (Eigen::Index i = 0; i < k.size(); ++i) {
+    if (m[i] > 0.0 && k[i] > 0.0 && (least == 0.0 || k[i] / m[i] < least)) least = k[i] / m[i];
+  }
+  return -1e-4 * least;
+}
+
+ModalSolver::ModalSolver(const fe::ParametricSystem& system) : system_(system) {}
+
+EigenModes ModalSolver::solve(const Eigen::VectorXd& theta, int n_modes) {
+  const linalg::SparseMatrix stiffness = system_.stiffness(theta);
+  mass_ = system_.mass(theta);
+  linalg::EigenPairs pairs = linalg::lowest_eigenpairs(stiffness, mass_, n_modes, 0.0, factor_, last_);
+  if (factor_.failed_column() >= 0) {
+    const double shift = free_structure_shift(stiffness, mass_);
+    if (shift < 0.0) {
+      linalg::EigenPairs shifted = linalg::lowest_eigenpairs(stiffness, mass_, n_modes, shift, factor_, last_);
+      // Where the shift does not help either (a mechanism without mass, a negative stiffness), the first message is the clearer.
+      if (shifted.values.size() > 0) pairs = std::move(shifted);
+    }
+  }
+  EigenModes modes;
+  modes.status = pairs.status;
+  modes.eigenvalue = pairs.values;
+  modes.frequency_Hz = pairs.values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+  modes.shapes = std::move(pairs.vectors);
+  last_ = modes.shapes;
+  return modes;
+}
+
+}  // namespace twindeck::dynamics
