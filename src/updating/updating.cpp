@@ -62,6 +62,12 @@ void check_input(const fe::ParametricSystem& system, const std::vector<int>& act
   }
 }
 
+int highest_reference(const std::vector<FrequencyTarget>& targets) {
+  int highest = 0;
+  for (const FrequencyTarget& target : targets) highest = std::max(highest, target.reference_mode);
+  return highest;
+}
+
 ResidualDefinition define_residuals(const fe::ParametricSystem& system, const std::vector<int>& active,
                                     const std::vector<FrequencyTarget>& targets, const UpdatingOptions& options) {
   ResidualDefinition definition;
@@ -74,9 +80,7 @@ ResidualDefinition define_residuals(const fe::ParametricSystem& system, const st
     const double size = std::abs(parameter.initial);
     definition.scale(static_cast<Eigen::Index>(j)) = size > 0.0 ? size : parameter.upper - parameter.lower;
   }
-  int highest = 0;
-  for (const FrequencyTarget& target : targets) highest = std::max(highest, target.reference_mode + 1);
-  definition.n_modes = std::min(std::max(options.n_modes, highest), static_cast<int>(system.size()));
+  definition.n_modes = std::min(std::max(options.n_modes, highest_reference(targets) + 1), static_cast<int>(system.size()));
   return definition;
 }
 
@@ -223,7 +227,12 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   // The start model's modes: what all later modes are followed from.
   UpdatingResult result;
   dynamics::ModalSolver solver(*search.initial_system);
-  const dynamics::EigenModes reference = solver.solve(definition.initial, definition.n_modes);
+  dynamics::EigenModes reference = solver.solve(definition.initial, definition.n_modes);
+  const auto found = static_cast<int>(reference.frequency_Hz.size());
+  if (!reference.status.converged && found > highest_reference(targets) && found < definition.n_modes) {
+    definition.n_modes = found;  // a small structure with fewer modes than asked for; the targets' are among them
+    reference = solver.solve(definition.initial, found);
+  }
   if (!reference.status.converged) {
     result.theta = definition.initial;
     result.status = {false, "modes of the start model: " + reference.status.message};

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+#include "updating/updating.hpp"
+
+namespace twindeck::steps {
+
+/// `parameters.csv`: parameter,unit,initial_value,final_value,change_pct,lower,upper,bound (lower|upper|none), one row an
+/// updated parameter; change_pct is empty where the initial value is 0.
+void write_parameters(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                      const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// `history.csv`: start,outer,iteration,cost,projected_gradient,step_norm,trust_radius and the normalised parameters, one row an
+/// accepted step.
+void write_history(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                   const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// `starts.csv`: start,cost,projected_gradient_relative,iterations,converged,optimum,message and the final normalised
+/// parameters. `optimum` numbers the distinct optima from 1, best first; empty for a start that did not converge.
+void write_starts(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                  const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// What was found, for people: values before and after, bounds hit, cost and optimality of each start.
+[[nodiscard]] std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                                                    const updating::UpdatingResult& result);
+
+}  // namespace twindeck::steps
