@@ -1,0 +1,63 @@
+#include "steps/model_source.hpp"
+
+#include <utility>
+
+#include "model_io/model_folder.hpp"
+#include "ponte/generator.hpp"
+#include "steps/study.hpp"
+
+namespace twindeck::steps {
+
+LoadedModel from_model(fe::Model model) {
+  LoadedModel loaded;
+  fe::validate(model);
+  loaded.source = model.source;
+  loaded.theta = fe::initial_parameters(model);
+  loaded.state = fe::find_prestress(model, loaded.theta);
+  loaded.system = fe::assemble(model, loaded.state);
+  fe::check_no_mechanism(loaded.system, loaded.theta, loaded.source);
+  loaded.model = std::move(model);
+  return loaded;
+}
+
+LoadedModel read_model_folder(const std::filesystem::path& folder) {
+  if (!model_io::is_matrix_model(folder)) return from_model(model_io::read_model(folder));
+  LoadedModel loaded;
+  loaded.source = folder.string();
+  loaded.system = model_io::read_matrix_model(folder);
+  loaded.theta = loaded.system.initial();
+  return loaded;
+}
+
+LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
+  const std::filesystem::path folder = context.model.value_or(default_folder);
+  if (!std::filesystem::is_directory(folder)) {
+    const std::string step = default_folder.parent_path().filename().string();
+    throw InputError({folder.string()}, "is not there, expected a model folder",
+                     context.model ? "give --model the folder that holds model.toml"
+                                   : "run " + step + " first, or give a model folder by --model DIR");
+  }
+  return read_model_folder(context.input(folder));
+}
+
+LoadedModel load_study_model(StepContext& context, const std::string& variant) {
+  if (context.model) return load_model(context, *context.model);
+  if (context.study.empty()) {
+    throw InputError({}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
+  }
+  const Study study = read_study(context.study);
+  if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
+  return from_model(ponte::generate(context.input(study.model_file), variant));
+}
+
+void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
+  if (loaded.model) {
+    model_io::write_model(fe::with_parameters(*loaded.model, theta), folder);
+    return;
+  }
+  fe::ParametricSystem system = loaded.system;
+  for (std::size_t p = 0; p < system.parameters.size(); ++p) system.parameters[p].initial = theta[static_cast<Eigen::Index>(p)];
+  model_io::write_matrix_model(system, folder);
+}
+
+}  // namespace twindeck::steps

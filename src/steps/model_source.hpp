@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "fe/assembly.hpp"
+#include "fe/model.hpp"
+#include "fe/parametric_system.hpp"
+#include "steps/run_step.hpp"
+
+namespace twindeck::steps {
+
+/// A model ready to be solved, wherever it came from.
+struct LoadedModel {
+  std::optional<fe::Model> model;      ///< empty for a matrix model
+  fe::ParametricSystem system;
+  Eigen::VectorXd theta;               ///< (n_parameters) values as the model stands, in the parameters' units
+  fe::PrestressState state;            ///< empty vectors for a matrix model
+  std::string source;                  ///< folder or generator, for messages
+  /// Null for a matrix model: what model_io's writers take.
+  [[nodiscard]] const fe::Model* fe_model() const { return model ? &*model : nullptr; }
+};
+
+/// Checks a model, finds its prestress and assembles it.
+/// @throws InputError  for a model that is not sound, or a mechanism
+[[nodiscard]] LoadedModel from_model(fe::Model model);
+
+/// Reads a model folder, of finite elements or of matrices.
+[[nodiscard]] LoadedModel read_model_folder(const std::filesystem::path& folder);
+
+/// The model that a step works on: `--model DIR` where it is given, otherwise the folder that an earlier step wrote, with its files
+/// registered as inputs.
+/// @throws InputError  naming the step to run first if there is neither
+[[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
+
+/// The study's own model (study.toml [model]): a variant of the generator, or the folder, which has no variants. `--model DIR` goes
+/// before both.
+[[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
+
+/// Writes the model as a model folder, with `theta` as its values.
+void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder);
+
+}  // namespace twindeck::steps
