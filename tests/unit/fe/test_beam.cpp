@@ -174,6 +174,12 @@ TEST(Beam, ReleasedBeamKeepsItsMass) {
   const double mass = 7850.0 * 4.0e-3 * beam_length(g);
   const Matrix12 m = beam_mass(g, symmetric(), 7850.0, false);
   for (int d = 0; d < 3; ++d) EXPECT_NEAR(rigid_motion(g, d).dot(m * rigid_motion(g, d)) / mass, 1.0, 1e-12);
+  const Eigen::Matrix3d axes = beam_axes(g);
+  for (const int row : {1, 2}) {
+    Vector12 turn = Vector12::Zero();
+    turn.segment<3>(3) = axes.row(row);  // about local y, z: both released at end 1
+    EXPECT_NEAR((m * turn).norm() / mass, 0.0, 1e-12);
+  }
 }
 
 // Oracle: hand-written rigid link u_end = u_node + θ × r applied to the matrices of the beam between the ends.
