@@ -43,10 +43,11 @@ InputError::InputError(Place place, const std::string& problem, const std::strin
 
 std::string nearest_name(std::string_view name, std::span<const std::string> known) {
   std::string nearest;
-  std::size_t smallest = name.size() / 3 + 1;  // only distances up to a third of the letters count as near
+  std::size_t smallest = std::string::npos;
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(name, candidate);
-    if (distance < smallest) {
+    const std::size_t near = std::max(name.size(), candidate.size()) / 3;  // letters of the longer name: "Es" is near "E_s"
+    if (distance <= near && distance < smallest) {
       smallest = distance;
       nearest = candidate;
     }

@@ -83,17 +83,14 @@ std::string nearest_symbol(std::string_view name) {
   for (const Symbol& symbol : symbols()) {
     if (lower(symbol.name) == lower(name)) return symbol.name;  // "kn", "gpa", "HZ": the commonest slip
   }
-  std::vector<std::string> names;
-  for (const Symbol& symbol : symbols()) names.push_back(symbol.name);
-  std::string nearest = nearest_name(name, names);
-  if (nearest.empty()) {  // products written without a blank: "kNm" -> "kN m"
-    for (std::size_t cut = 1; cut < name.size() && nearest.empty(); ++cut) {
-      if (find_symbol(name.substr(0, cut)) && find_symbol(name.substr(cut))) {
-        nearest = std::string(name.substr(0, cut)) + " " + std::string(name.substr(cut));
-      }
+  for (std::size_t cut = 1; cut < name.size(); ++cut) {  // products written without a blank: "kNm" for "kN m"
+    if (find_symbol(name.substr(0, cut)) && find_symbol(name.substr(cut))) {
+      return std::string(name.substr(0, cut)) + " " + std::string(name.substr(cut));
     }
   }
-  return nearest;
+  std::vector<std::string> names;
+  for (const Symbol& symbol : symbols()) names.push_back(symbol.name);
+  return nearest_name(name, names);
 }
 
 /// Recursive descent over   product := power { (" " | "*" | "·" | "/") power },   power := ( symbol | "1" | "(" product ")" ) [ "^" ] [integer].

@@ -47,7 +47,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
   app.set_help_flag("-h,--help", "print this and end");
 
   std::string study, out, results, model, campaign, modes, features, key;
-  std::uint64_t seed = 0;
+  std::int64_t seed = 0;
   bool version_asked = false, print_config = false;
   app.add_option("--study", study, "folder of the study: study.toml and the step's own configuration")->type_name("DIR");
   app.add_option("--out", out, "folder to write; earlier results of this step in it are replaced when the step has finished")
@@ -59,8 +59,10 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
   app.add_option("--modes", modes, "folder with measured modes.csv to use instead of the study's")->type_name("DIR");
   app.add_option("--features", features, "features folder to use instead of the study's")->type_name("DIR");
   app.add_option("--set", line.sets, "change a key of the configuration; --describe tells which there are")
-      ->type_name("KEY=VALUE ...");
-  CLI::Option* seed_option = app.add_option("--seed", seed, "seed of everything random (default: the study's)")->type_name("N");
+      ->type_name("KEY=VALUE");
+  CLI::Option* seed_option = app.add_option("--seed", seed, "seed of everything random, 0 or more (default: the study's)")
+                                 ->type_name("N")
+                                 ->check(CLI::NonNegativeNumber);
   app.add_option("--threads", line.threads, "threads to use (default: all); results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
@@ -102,7 +104,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
   line.campaign = optional_path(campaign);
   line.modes = optional_path(modes);
   line.features = optional_path(features);
-  if (seed_option->count() > 0) line.seed = seed;
+  if (seed_option->count() > 0) line.seed = static_cast<std::uint64_t>(seed);
   for (const auto& [name, value] : values) {
     if (app.count("--" + name) > 0) line.flags.emplace_back(name, value);
   }

@@ -1,0 +1,29 @@
+#include "core/build_info.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+namespace twindeck {
+namespace {
+
+// Oracle: the version in CMakeLists.txt, which packaging reads.
+TEST(BuildInfo, VersionIsTheProjects) {
+  std::ifstream in(std::string(TWINDECK_SOURCE_DIR) + "/CMakeLists.txt");
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  EXPECT_NE(text.find("project(twindeck VERSION " + version() + " "), std::string::npos);
+}
+
+// Oracle: a git object name has 40 hexadecimal digits; a tree without git has none.
+TEST(BuildInfo, CommitIsAnObjectNameOrNothing) {
+  const std::string commit = source_commit();
+  EXPECT_TRUE(commit.empty() || commit.size() == 40);
+  EXPECT_EQ(commit.find_first_not_of("0123456789abcdef"), std::string::npos);
+}
+
+// Oracle: Eigen is always there, in the version that CMakeLists.txt asks for at least.
+TEST(BuildInfo, NamesLibraries) { EXPECT_TRUE(library_versions().at("Eigen").starts_with("3.")); }
+
+}  // namespace
+}  // namespace twindeck

@@ -1,0 +1,202 @@
+#include "io/config.hpp"
+
+#include "temporary_folder.hpp"
+
+namespace twindeck::io {
+namespace {
+
+struct Damper {
+  std::string name;
+  double damping_N_s_m = 1e3;
+};
+
+/// A configuration with every kind of field.
+struct Sample {
+  double modulus_Pa = 2.1e11, temperature_C = 10.0;
+  long iterations = 50;
+  bool scaled = true;
+  std::string title = "untitled", variant = "preliminary";
+  std::vector<double> masses_kg{1.0, 2.0};
+  std::vector<std::string> groups;
+  std::vector<Damper> dampers;
+
+  FieldTable fields() {
+    FieldTable table;
+    table.number("E_s", modulus_Pa, "Pa", {0.0, 1e13, true}, "modulus of steel")
+        .number("temperature", temperature_C, "degC", {-60.0, 80.0}, "of the air")
+        .integer("solver.max_iterations", iterations, {1, 1000}, "at most")
+        .boolean("scaled", scaled, "whether to scale")
+        .text("title", title, "for reports")
+        .choice("variant", variant, {"preliminary", "refined"}, "which model")
+        .numbers("masses", masses_kg, "kg", positive(), "added masses")
+        .texts("groups", groups, "names")
+        .tables("damper",
+                [this] {
+                  Damper& damper = dampers.emplace_back();
+                  FieldTable element;
+                  element.text("name", damper.name, "its name", true)
+                      .number("damping", damper.damping_N_s_m, "N s/m", non_negative(), "constant");
+                  return element;
+                },
+                "the dampers");
+    return table;
+  }
+};
+
+class ConfigTest : public test::TemporaryFolder {
+ protected:
+  std::string load(const std::string& toml) {
+    Sample sample;
+    FieldTable table = sample.fields();
+    return refusal([&] { table.load(write("c.toml", toml)); });
+  }
+  static std::string set(const std::string& assignment) {
+    Sample sample;
+    FieldTable table = sample.fields();
+    try {
+      table.set(assignment);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+const char* const kFull = R"(
+E_s = "200 GPa"
+temperature = "293.15 K"
+scaled = false
+title = "a \"quoted\" title"
+variant = "refined"
+masses = ["1 t", 5]
+groups = ["a", "b"]
+[solver]
+max_iterations = 7
+[[damper]]
+name = "A1"
+damping = "2 kN s/m"
+[[damper]]
+name = "A2"
+[[damper]]
+name = "A3"
+)";
+
+// Oracle: the values written in kFull, converted by hand.
+TEST_F(ConfigTest, ReadsEveryKindOfField) {
+  Sample sample;
+  sample.fields().load(write("c.toml", kFull));
+  EXPECT_EQ(sample.modulus_Pa, 2e11);
+  EXPECT_NEAR(sample.temperature_C, 20.0, 1e-12);
+  EXPECT_EQ(sample.iterations, 7);
+  EXPECT_FALSE(sample.scaled);
+  EXPECT_EQ(sample.title, "a \"quoted\" title");
+  EXPECT_EQ(sample.variant, "refined");
+  EXPECT_EQ(sample.masses_kg, (std::vector<double>{1000.0, 5.0}));
+  EXPECT_EQ(sample.groups, (std::vector<std::string>{"a", "b"}));
+  ASSERT_EQ(sample.dampers.size(), 3u);
+  EXPECT_EQ(sample.dampers[0].damping_N_s_m, 2000.0);
+  EXPECT_EQ(sample.dampers[1].damping_N_s_m, 1000.0);
+  EXPECT_EQ(sample.dampers[2].name, "A3");
+}
+
+// Oracle: print and load are inverse: what is printed reads back and prints the same text.
+TEST_F(ConfigTest, PrintReadsBack) {
+  Sample first, second;
+  FieldTable one = first.fields(), two = second.fields();
+  one.load(write("c.toml", kFull));
+  two.load(write("d.toml", one.print()));
+  EXPECT_EQ(one.print(), two.print());
+  EXPECT_EQ(second.dampers.at(0).damping_N_s_m, 2000.0);
+  EXPECT_EQ(second.title, first.title);
+}
+
+// Oracle: the messages as a user reads them.
+TEST_F(ConfigTest, UnknownKeyNamesTheNearest) {
+  EXPECT_TRUE(load("\nEs = 3\n").starts_with("c.toml:2: Es: is no known key (did you mean 'E_s'?); known keys: E_s, "));
+  EXPECT_TRUE(load("[solver]\nmax_iteration = 3\n")
+                  .starts_with("c.toml:2: solver.max_iteration: is no known key (did you mean 'solver.max_iterations'?)"));
+  EXPECT_TRUE(load("max_iterations = 3\n").starts_with("c.toml:1: max_iterations: is no known key (did you mean 'solver.max_iter"));
+  EXPECT_TRUE(load("[[damper]]\nname = \"A\"\nnmae = \"B\"\n").starts_with("c.toml:3: damper[0].nmae: is no known key"));
+  EXPECT_TRUE(load("[zzz]\na = 3\n").starts_with("c.toml:1: zzz: is no known key; known keys"));
+}
+
+TEST_F(ConfigTest, WrongUnitTypeOrRangeIsNamed) {
+  EXPECT_EQ(load("E_s = \"3 kN\"\n"),
+            "c.toml:1: E_s: is \"3 kN\", whose unit is of another kind than \"Pa\"; give it in Pa, kPa, MPa, GPa");
+  EXPECT_EQ(load("E_s = \"-3 GPa\"\n"),
+            "c.toml:1: E_s: is \"-3 GPa\" = -3000000000 Pa, expected a value in ]0, 10000000000000] Pa; choose a value in that range");
+  EXPECT_TRUE(load("E_s = 0\n").starts_with("c.toml:1: E_s: is 0, expected a value in ]0, "));
+  EXPECT_EQ(load("E_s = true\n"), "c.toml:1: E_s: is true, expected a number; write it like 1.5 or \"1.5 Pa\"");
+  EXPECT_TRUE(load("E_s = nan\n").starts_with("c.toml:1: E_s: is nan, expected a finite number"));
+  EXPECT_TRUE(load("E_s = inf\n").starts_with("c.toml:1: E_s: is inf, expected a finite number"));
+  EXPECT_TRUE(load("[solver]\nmax_iterations = 2.5\n").starts_with("c.toml:2: solver.max_iterations: is 2.5, expected a whole"));
+  EXPECT_TRUE(load("[solver]\nmax_iterations = 0\n").starts_with("c.toml:2: solver.max_iterations: is 0, expected a value in [1,"));
+  EXPECT_TRUE(load("scaled = \"yes\"\n").starts_with("c.toml:1: scaled: is \"yes\", expected true or false"));
+  EXPECT_EQ(load("variant = \"refind\"\n"),
+            "c.toml:1: variant: is \"refind\" (did you mean 'refined'?); choose one of preliminary, refined");
+  EXPECT_TRUE(load("masses = [1,\n -2]\n").starts_with("c.toml:2: masses[1]: is -2, expected a value > 0 kg"));
+  EXPECT_TRUE(load("masses = 3\n").starts_with("c.toml:1: masses: is 3, expected an array of numbers"));
+  EXPECT_TRUE(load("solver = 3\n").starts_with("c.toml:1: solver: is no known key"));
+}
+
+TEST_F(ConfigTest, MissingAndBrokenFilesAreNamed) {
+  EXPECT_EQ(load("[[damper]]\ndamping = 3\n"), "c.toml:1: damper[0].name: is missing, a text is required; add it: its name");
+  EXPECT_TRUE(load("E_s = \n").starts_with("c.toml:1: is no valid TOML"));
+  Sample sample;
+  FieldTable table = sample.fields();
+  EXPECT_TRUE(refusal([&] { table.load(folder_ / "none.toml"); }).starts_with("none.toml: cannot be opened"));
+}
+
+// Oracle: a required key may come from --set; without it, require() refuses.
+TEST_F(ConfigTest, RequireIsSatisfiedBySet) {
+  double length = 0.0;
+  FieldTable table;
+  table.number("length", length, "m", positive(), "of the span", true);
+  EXPECT_EQ(refusal([&] { table.require(); }), "length: is missing, a number is required; add it: of the span [m]");
+  table.set("length=5 mm");
+  EXPECT_EQ(refusal([&] { table.require(); }), "");
+  EXPECT_EQ(length, 0.005);
+}
+
+// Oracle: the same checks as in a file; bare words are text.
+TEST_F(ConfigTest, SetTakesTomlAndBareWords) {
+  Sample sample;
+  FieldTable table = sample.fields();
+  for (const char* assignment : {"E_s=190 GPa", "variant=refined", "solver.max_iterations=9", "masses=[3, \"1 t\"]", "title=5",
+                                 "scaled=false"}) {
+    table.set(assignment);
+  }
+  EXPECT_EQ(sample.modulus_Pa, 1.9e11);
+  EXPECT_EQ(sample.variant, "refined");
+  EXPECT_EQ(sample.iterations, 9);
+  EXPECT_EQ(sample.masses_kg, (std::vector<double>{3.0, 1000.0}));
+  EXPECT_EQ(sample.title, "5");
+  EXPECT_FALSE(sample.scaled);
+  EXPECT_TRUE(set("Es=3").starts_with("--set: Es: is no known key (did you mean 'E_s'?)"));
+  EXPECT_TRUE(set("E_s=-3").starts_with("--set: E_s: is -3, expected a value in ]0"));
+  EXPECT_TRUE(set("E_s").starts_with("--set: got 'E_s', expected key=value"));
+  EXPECT_TRUE(set("damper=[]").starts_with("--set: damper: is an array of tables"));
+}
+
+// Oracle: describe tells meaning, unit, range and default as bound, whatever was loaded since.
+TEST_F(ConfigTest, DescribeTellsMeaningUnitRangeDefault) {
+  Sample sample;
+  FieldTable table = sample.fields();
+  table.set("temperature=30");
+  EXPECT_EQ(table.describe("temperature"), "temperature: of the air\n    number [degC], in [-60, 80], default 10\n");
+  EXPECT_EQ(table.describe("damper.name"), "name: its name\n    text, required\n");
+  EXPECT_NE(table.describe().find("one of preliminary, refined"), std::string::npos);
+  EXPECT_TRUE(refusal([&] { static_cast<void>(table.describe("temprature")); }).find("did you mean 'temperature'?") !=
+              std::string::npos);
+}
+
+// Oracle: two bindings of one key are a mistake of ours.
+TEST_F(ConfigTest, AKeyBoundTwiceIsOurMistake) {
+  bool a = false;
+  FieldTable table;
+  table.boolean("a", a, "x");
+  EXPECT_THROW(table.boolean("a", a, "x"), InternalError);
+}
+
+}  // namespace
+}  // namespace twindeck::io
