@@ -33,7 +33,7 @@ LoadedModel load_model(StepContext& context, const std::filesystem::path& defaul
   const std::filesystem::path folder = context.model.value_or(default_folder);
   if (!std::filesystem::is_directory(folder)) {
     const std::string step = default_folder.parent_path().filename().string();
-    throw InputError({folder.string()}, "is not there, expected a model folder",
+    throw InputError({folder.string(), 0, ""}, "is not there, expected a model folder",
                      context.model ? "give --model the folder that holds model.toml"
                                    : "run " + step + " first, or give a model folder by --model DIR");
   }
@@ -43,7 +43,7 @@ LoadedModel load_model(StepContext& context, const std::filesystem::path& defaul
 LoadedModel load_study_model(StepContext& context, const std::string& variant) {
   if (context.model) return load_model(context, *context.model);
   if (context.study.empty()) {
-    throw InputError({}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
+    throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
   }
   const Study study = read_study(context.study);
   if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
