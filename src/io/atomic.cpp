@@ -50,9 +50,12 @@ fs::path without_trailing_slash(const fs::path& path) {
   return normal.has_filename() ? normal : normal.parent_path();
 }
 
+fs::path FolderReplacement::partial_place(const fs::path& final_place) {
+  return without_trailing_slash(final_place) += process_suffix("partial");
+}
+
 FolderReplacement::FolderReplacement(const fs::path& final_place)
-    : final_(without_trailing_slash(final_place)), partial_(final_) {
-  partial_ += process_suffix("partial");
+    : final_(without_trailing_slash(final_place)), partial_(partial_place(final_place)) {
   std::error_code error;
   fs::remove_all(partial_, error);  // left over by a killed process of the same id
   fs::create_directories(partial_, error);

@@ -25,6 +25,8 @@ class FolderReplacement {
   FolderReplacement(const FolderReplacement&) = delete;
   FolderReplacement& operator=(const FolderReplacement&) = delete;
 
+  /// Where the partial folder of this process will be, known before it is made.
+  [[nodiscard]] static std::filesystem::path partial_place(const std::filesystem::path& final_place);
   [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
   /// Puts the partial folder at its final place, or at `elsewhere` if given.
   void publish();

@@ -82,8 +82,8 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, StepCont
   context.threads = set_threads(line.threads);
 
   // 2. The step computes and writes beside its place.
+  const CleanInterrupt interrupt(io::FolderReplacement::partial_place(out));  // first, so that no moment is uncovered
   io::FolderReplacement replacement(out);
-  const CleanInterrupt interrupt(replacement.partial());
   context.out = replacement.partial();
   const Status status = step.run(context);
 
