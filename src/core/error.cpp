@@ -63,8 +63,8 @@ std::string did_you_mean(std::string_view name, std::span<const std::string> kno
 void assertion_failed(const char* condition, const char* file, int line) {
   const std::string_view path = file;
   const std::size_t sources = path.rfind("src/");
-  throw InternalError(std::string(sources == std::string_view::npos ? path : path.substr(sources)) + ":" + std::to_string(line) +
-                      ": assertion failed: " + condition);
+  throw InternalError(std::string(sources == std::string_view::npos ? path : path.substr(sources)) + ":" +
+                      std::to_string(line) + ": assertion failed: " + condition);
 }
 
 }  // namespace twindeck

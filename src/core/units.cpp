@@ -93,7 +93,8 @@ std::string nearest_symbol(std::string_view name) {
   return nearest_name(name, names);
 }
 
-/// Recursive descent over   product := power { (" " | "*" | "·" | "/") power },   power := ( symbol | "1" | "(" product ")" ) [ "^" ] [integer].
+/// Recursive descent over   product := power { (" " | "*" | "·" | "/") power },   power := ( symbol | "1" | "(" product ")" ) [
+/// "^" ] [integer].
 class UnitParser {
  public:
   UnitParser(std::string_view text, const Place& place) : text_(text), place_(place) {}
@@ -201,7 +202,8 @@ class UnitParser {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
     return at_ > start;
   }
-  [[noreturn]] void fail(const std::string& problem, const std::string& mend = "write units like \"kN/m\", \"N s/m\", \"m/s^2\"") {
+  [[noreturn]] void fail(const std::string& problem,
+                         const std::string& mend = "write units like \"kN/m\", \"N s/m\", \"m/s^2\"") {
     throw InputError(place_, "unit \"" + std::string(text_) + "\" " + problem, mend);
   }
 

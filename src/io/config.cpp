@@ -31,18 +31,18 @@ std::string toml_array(const List& list, Print&& print) {
   return text + "]";
 }
 
-const toml::array& as_array(const toml::node& node, const Place& place, const std::string& of_what) {
-  if (const auto* array = node.as_array()) return *array;
+const TomlValue::Array& as_array(const TomlValue& node, const Place& place, const std::string& of_what) {
+  if (const auto* array = node.as<TomlValue::Array>()) return *array;
   throw InputError(place, "is " + shown(node) + ", expected an array of " + of_what, "write it in square brackets: [ … ]");
 }
 
-std::string read_text(const toml::node& node, const Place& place) {
-  if (const auto* text = node.as_string()) return text->get();
+std::string read_text(const TomlValue& node, const Place& place) {
+  if (const auto* text = node.as<std::string>()) return *text;
   throw InputError(place, "is " + shown(node) + ", expected text", "write it in quotes");
 }
 
-Place at_line(const toml::node& node, Place place) {
-  if (node.source().begin.line > 0 && place.line > 0) place.line = static_cast<long>(node.source().begin.line);
+Place at_line(const TomlValue& node, Place place) {
+  if (node.line > 0 && place.line > 0) place.line = node.line;  // --set has no lines
   return place;
 }
 
@@ -56,7 +56,7 @@ FieldTable& FieldTable::number(const std::string& key, double& target, const std
   field.unit = unit;
   field.allowed = range_text(range);
   field.required = required;
-  field.read = [&target, unit, range](const toml::node& node, const Place& place) {
+  field.read = [&target, unit, range](const TomlValue& node, const Place& place) {
     target = read_number(node, unit, range, place);
   };
   field.write = [&target] { return toml_number(target); };
@@ -68,13 +68,13 @@ FieldTable& FieldTable::integer(const std::string& key, long& target, Range rang
   Field& field = bind_key(fields_, key, "whole number", meaning);
   field.allowed = range_text(range);
   field.required = required;
-  field.read = [&target, range](const toml::node& node, const Place& place) {
-    const auto* whole = node.as_integer();
+  field.read = [&target, range](const TomlValue& node, const Place& place) {
+    const auto* whole = node.as<long>();
     if (whole == nullptr) {
       throw InputError(place, "is " + shown(node) + ", expected a whole number", "write it without point, quotes or unit");
     }
-    target = static_cast<long>(read_number(*whole, "", range, place));
-    target = static_cast<long>(whole->get());  // a double does not hold every 64-bit number
+    static_cast<void>(read_number(node, "", range, place));  // checks the range; a double does not hold every 64-bit number
+    target = *whole;
   };
   field.write = [&target] { return std::to_string(target); };
   field.default_value = field.write();
@@ -83,10 +83,10 @@ FieldTable& FieldTable::integer(const std::string& key, long& target, Range rang
 
 FieldTable& FieldTable::boolean(const std::string& key, bool& target, const std::string& meaning) {
   Field& field = bind_key(fields_, key, "true or false", meaning);
-  field.read = [&target](const toml::node& node, const Place& place) {
-    const auto* flag = node.as_boolean();
+  field.read = [&target](const TomlValue& node, const Place& place) {
+    const auto* flag = node.as<bool>();
     if (flag == nullptr) throw InputError(place, "is " + shown(node) + ", expected true or false", "write it without quotes");
-    target = flag->get();
+    target = *flag;
   };
   field.write = [&target] { return std::string(target ? "true" : "false"); };
   field.default_value = field.write();
@@ -97,7 +97,7 @@ FieldTable& FieldTable::text(const std::string& key, std::string& target, const 
   Field& field = bind_key(fields_, key, "text", meaning);
   field.required = required;
   field.takes_text = true;
-  field.read = [&target](const toml::node& node, const Place& place) { target = read_text(node, place); };
+  field.read = [&target](const TomlValue& node, const Place& place) { target = read_text(node, place); };
   field.write = [&target] { return toml_text(target); };
   field.default_value = field.write();
   return *this;
@@ -108,7 +108,7 @@ FieldTable& FieldTable::choice(const std::string& key, std::string& target, cons
   Field& field = bind_key(fields_, key, "text", meaning);
   field.allowed = fmt::format("one of {}", fmt::join(allowed, ", "));
   field.takes_text = true;
-  field.read = [&target, allowed](const toml::node& node, const Place& place) {
+  field.read = [&target, allowed](const TomlValue& node, const Place& place) {
     const std::string value = read_text(node, place);
     if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
       throw InputError(place, "is " + toml_text(value) + did_you_mean(value, allowed),
@@ -126,9 +126,9 @@ FieldTable& FieldTable::numbers(const std::string& key, std::vector<double>& tar
   Field& field = bind_key(fields_, key, "array of numbers", meaning);
   field.unit = unit;
   field.allowed = range_text(range).empty() ? "" : "each " + range_text(range);
-  field.read = [&target, unit, range](const toml::node& node, const Place& place) {
+  field.read = [&target, unit, range](const TomlValue& node, const Place& place) {
     std::vector<double> values;
-    for (const toml::node& item : as_array(node, place, "numbers")) {
+    for (const TomlValue& item : as_array(node, place, "numbers")) {
       Place element = at_line(item, place);
       element.key += "[" + std::to_string(values.size()) + "]";
       values.push_back(read_number(item, unit, range, element));
@@ -142,9 +142,9 @@ FieldTable& FieldTable::numbers(const std::string& key, std::vector<double>& tar
 
 FieldTable& FieldTable::texts(const std::string& key, std::vector<std::string>& target, const std::string& meaning) {
   Field& field = bind_key(fields_, key, "array of texts", meaning);
-  field.read = [&target](const toml::node& node, const Place& place) {
+  field.read = [&target](const TomlValue& node, const Place& place) {
     std::vector<std::string> values;
-    for (const toml::node& item : as_array(node, place, "texts")) {
+    for (const TomlValue& item : as_array(node, place, "texts")) {
       Place element = at_line(item, place);
       element.key += "[" + std::to_string(values.size()) + "]";
       values.push_back(read_text(item, element));

@@ -23,8 +23,8 @@ struct Range {
 ///
 ///     UpdatingConfig c;
 ///     FieldTable t;
-///     t.number("trust_radius", c.trust_radius, "", positive(), "initial trust radius of the dogleg, in normalised parameters");
-///     t.number("added_mass", c.added_mass_kg, "kg", non_negative(), "...");   // TOML: 120.0 or "0.12 t"
+///     t.number("trust_radius", c.trust_radius, "", positive(), "initial trust radius of the dogleg, in normalised
+///     parameters"); t.number("added_mass", c.added_mass_kg, "kg", non_negative(), "...");   // TOML: 120.0 or "0.12 t"
 ///     t.load("workflows/ponte_del_mare/s6_updating.toml");
 ///
 /// Numbers may be given in TOML as a number in the SI unit of the field or as a string with unit ("210 GPa").
@@ -32,8 +32,8 @@ struct Range {
 class FieldTable {
  public:
   FieldTable();
-  FieldTable& number(const std::string& key, double& target, const std::string& unit, Range range,
-                     const std::string& meaning, bool required = false);
+  FieldTable& number(const std::string& key, double& target, const std::string& unit, Range range, const std::string& meaning,
+                     bool required = false);
   FieldTable& integer(const std::string& key, long& target, Range range, const std::string& meaning, bool required = false);
   FieldTable& boolean(const std::string& key, bool& target, const std::string& meaning);
   FieldTable& text(const std::string& key, std::string& target, const std::string& meaning, bool required = false);

@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
-#include <toml++/toml.h>
-
 #include "core/error.hpp"
 #include "io/config.hpp"
+#include "io/toml_value.hpp"
 
-/// Private to src/io: what a FieldTable keeps of each key. Not for other libraries (toml++ must not cross this library's headers).
+/// Private to src/io: what a FieldTable keeps of each key. Not for other libraries.
 namespace twindeck::io {
 
 struct FieldTable::Field {
@@ -21,23 +20,17 @@ struct FieldTable::Field {
   std::string default_value;  ///< as TOML, taken when the key is bound
   bool required = false;
   bool given = false;
-  bool takes_text = false;                                      ///< a bare word of --set is its value as it stands
-  std::function<void(const toml::node&, const Place&)> read;    ///< checks and stores
-  std::function<std::string()> write;                           ///< the present value as TOML
-  std::function<FieldTable()> add;                              ///< of an array of tables only
-  std::vector<std::vector<std::string>> elements;               ///< of an array of tables: each element's lines as printed
+  bool takes_text = false;                                   ///< a bare word of --set is its value as it stands
+  std::function<void(const TomlValue&, const Place&)> read;  ///< checks and stores
+  std::function<std::string()> write;                        ///< the present value as TOML
+  std::function<FieldTable()> add;                           ///< of an array of tables only
+  std::vector<std::vector<std::string>> elements;            ///< of an array of tables: each element's lines as printed
 };
 
 /// "> 0", "in [0, 1]", "in ]0, 1]" or "".
 [[nodiscard]] std::string range_text(const Range& range);
 [[nodiscard]] bool inside(const Range& range, double value);
-/// A node as the user would recognise it, for messages: 3.5, "abc", true, a table.
-[[nodiscard]] std::string shown(const toml::node& node);
-/// Shortest text that reads back to the same double; a whole number keeps no point (TOML integers are accepted for numbers).
-[[nodiscard]] std::string toml_number(double value);
-/// A basic TOML string with its escapes.
-[[nodiscard]] std::string toml_text(const std::string& text);
 /// A finite number in `unit` from a number or a string with unit. @throws InputError
-[[nodiscard]] double read_number(const toml::node& node, const std::string& unit, const Range& range, const Place& place);
+[[nodiscard]] double read_number(const TomlValue& node, const std::string& unit, const Range& range, const Place& place);
 
 }  // namespace twindeck::io

@@ -49,21 +49,20 @@ struct Reader {
     throw InputError({file, line, above + key}, "is no known key" + guess, known.empty() ? "no key is known here" : listed);
   }
 
-  void table(const toml::table& values, const std::string& prefix) const {
-    for (const auto& [name, node] : values) {
-      const std::string key = prefix + std::string(name.str());
-      const auto line = static_cast<long>(name.source().begin.line);
+  void table(const TomlValue::Table& values, const std::string& prefix) const {
+    for (const auto& [name, line, node] : values) {
+      const std::string key = prefix + name;
       if (FieldTable::Field* field = find(key); field != nullptr) {
         read(*field, node, {file, line, above + key});
-      } else if (node.is_table() && is_group(key)) {
-        table(*node.as_table(), key + ".");
+      } else if (const auto* group = node.as<TomlValue::Table>(); group != nullptr && is_group(key)) {
+        table(*group, key + ".");
       } else {
         unknown(key, line);
       }
     }
   }
 
-  void read(FieldTable::Field& field, const toml::node& node, const Place& place) const {
+  void read(FieldTable::Field& field, const TomlValue& node, const Place& place) const {
     if (field.add) {
       elements(field, node, place);
     } else {
@@ -72,7 +71,7 @@ struct Reader {
     field.given = true;
   }
 
-  void elements(FieldTable::Field& field, const toml::node& node, const Place& place) const;
+  void elements(FieldTable::Field& field, const TomlValue& node, const Place& place) const;
 
   void require(long line) const {
     for (const auto& field : fields) {
@@ -84,53 +83,31 @@ struct Reader {
   }
 };
 
-void Reader::elements(FieldTable::Field& field, const toml::node& node, const Place& place) const {
-  const auto* array = node.as_array();
+void Reader::elements(FieldTable::Field& field, const TomlValue& node, const Place& place) const {
+  const auto* array = node.as<TomlValue::Array>();
   if (array == nullptr) {
     throw InputError(place, "is " + shown(node) + ", expected an array of tables", "begin each with [[" + field.key + "]]");
   }
-  for (const toml::node& item : *array) {
-    const auto* values = item.as_table();
+  for (const TomlValue& item : *array) {
+    const auto* values = item.as<TomlValue::Table>();
     if (values == nullptr) {
       throw InputError(place, "holds " + shown(item) + ", expected tables only", "begin each with [[" + field.key + "]]");
     }
     const FieldTable element = field.add();
-    const Reader reader{FieldAccess::fields(element), file, above + field.key + "[" + std::to_string(field.elements.size()) + "]."};
+    const Reader reader{FieldAccess::fields(element), file,
+                        above + field.key + "[" + std::to_string(field.elements.size()) + "]."};
     reader.table(*values, "");
-    reader.require(static_cast<long>(item.source().begin.line));
+    reader.require(item.line);
     // Printed now: the next `add` may move the caller's list, and with it the members that `element` is bound to.
     field.elements.push_back(FieldAccess::lines(element));
   }
 }
 
-/// A key of --set as TOML: the value is TOML, a bare word is text.
-toml::table command_line_value(const std::string& value) {
-  try {
-    toml::table parsed = toml::parse("value = " + value);
-    if (parsed.size() == 1) return parsed;
-  } catch (const toml::parse_error&) {
-    // no TOML, so it is a bare word: 210 GPa, refined
-  }
-  toml::table bare;
-  bare.insert("value", value);
-  return bare;
-}
-
 }  // namespace
 
 void FieldTable::load(const fs::path& file) {
-  if (!fs::is_regular_file(file)) {
-    throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path of the configuration");
-  }
-  toml::table values;
-  try {
-    values = toml::parse_file(file.string());
-  } catch (const toml::parse_error& error) {
-    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""},
-                     "is no valid TOML: " + std::string(error.description()), "mend the line");
-  }
   const Reader reader{fields_, file.string(), ""};
-  reader.table(values, "");
+  reader.table(read_toml(file), "");
   reader.require(0);
 }
 
@@ -148,12 +125,9 @@ void FieldTable::set(const std::string& key_equals_value) {
     throw InputError({"--set", 0, key}, "is an array of tables and cannot be set on the command line",
                      "write it into the configuration file");
   }
-  toml::table parsed = command_line_value(value);
-  if (field->takes_text && !parsed["value"].is_string()) {  // --set version=5: the text "5"
-    parsed = toml::table{};
-    parsed.insert("value", value);
-  }
-  reader.read(*field, *parsed["value"].node(), {"--set", 0, key});
+  TomlValue parsed = toml_of_command_line(value);
+  if (field->takes_text && parsed.as<std::string>() == nullptr) parsed = {value, 0};  // --set version=5: the text "5"
+  reader.read(*field, parsed, {"--set", 0, key});
 }
 
 void FieldTable::require() const { Reader{fields_, "", ""}.require(0); }

@@ -11,8 +11,8 @@ std::vector<std::string> FieldTable::lines(const std::string& above) const {
     if (field->add) continue;
     const std::string value = field->write();
     const bool readable = value.find("inf") == std::string::npos && value.find("nan") == std::string::npos;
-    const bool commented = (!readable && !field->takes_text && field->type != "array of texts") ||
-                           (field->required && !field->given);
+    const bool commented =
+        (!readable && !field->takes_text && field->type != "array of texts") || (field->required && !field->given);
     lines.push_back((commented ? "# " : "") + field->key + " = " + value + (field->unit.empty() ? "" : "  # " + field->unit));
   }
   for (const auto& field : fields_) {

@@ -20,8 +20,9 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Cuts the text of a file into records by RFC 4180: quoted cells may hold commas, line ends and doubled quotes. Blanks around an
-/// unquoted cell are dropped (hand-written tables have them), blank lines are skipped, a byte order mark and CRLF are tolerated.
+/// Cuts the text of a file into records by RFC 4180: quoted cells may hold commas, line ends and doubled quotes. Blanks around
+/// an unquoted cell are dropped (hand-written tables have them), blank lines are skipped, a byte order mark and CRLF are
+/// tolerated.
 class RecordReader {
  public:
   RecordReader(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {
@@ -101,7 +102,8 @@ std::string read_whole(const std::filesystem::path& file) {
 std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
 
 std::string quoted_where_needed(const std::string& cell, bool only_cell) {
-  const bool blank_end = !cell.empty() && (cell.front() == ' ' || cell.front() == '\t' || cell.back() == ' ' || cell.back() == '\t');
+  const bool blank_end =
+      !cell.empty() && (cell.front() == ' ' || cell.front() == '\t' || cell.back() == ' ' || cell.back() == '\t');
   if (cell.find_first_of(",\"\r\n") == std::string::npos && !blank_end && !(only_cell && cell.empty())) return cell;
   std::string quoted = "\"";
   for (const char letter : cell) {
@@ -173,9 +175,11 @@ std::optional<double> CsvTable::number_if(std::size_t row, const std::string& co
     fail(row, column, "is \"" + cell + "\", beyond what a number can hold", "give a number between 1e-300 and 1e300");
   }
   if (error != std::errc{} || stop != end) {
-    fail(row, column, "is \"" + cell + "\", expected a number", "write it like 12.5 or 1.25e1; the unit stands in the column name");
+    fail(row, column, "is \"" + cell + "\", expected a number",
+         "write it like 12.5 or 1.25e1; the unit stands in the column name");
   }
-  if (!std::isfinite(value)) fail(row, column, "is \"" + cell + "\", expected a finite number", "leave the row out or mend the value");
+  if (!std::isfinite(value))
+    fail(row, column, "is \"" + cell + "\", expected a finite number", "leave the row out or mend the value");
   return value;
 }
 
@@ -218,9 +222,7 @@ Cell::Cell(long number) : value(std::to_string(number)) {}
 Cell::Cell(std::size_t number) : value(std::to_string(number)) {}
 Cell::Cell(std::optional<double> number) : value(number ? Cell(*number).value : "") {}
 
-CsvWriter::CsvWriter(std::vector<std::string> columns) : columns_(std::move(columns)) {
-  TWINDECK_ASSERT(!columns_.empty());
-}
+CsvWriter::CsvWriter(std::vector<std::string> columns) : columns_(std::move(columns)) { TWINDECK_ASSERT(!columns_.empty()); }
 
 void CsvWriter::row(std::initializer_list<Cell> cells) { row(std::vector<Cell>(cells)); }
 

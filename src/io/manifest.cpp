@@ -61,13 +61,14 @@ void check_file(const Manifest& manifest, const fs::path& folder, const fs::path
   const std::string name = fs::relative(fs::weakly_canonical(file), folder).generic_string();
   if (name == "manifest.json") return;
   const auto listed = manifest.outputs.find(name);
-  const std::string rerun = "run " + manifest.step + " again, or copy the folder without its manifest.json to use it as your own data";
+  const std::string rerun =
+      "run " + manifest.step + " again, or copy the folder without its manifest.json to use it as your own data";
   if (listed == manifest.outputs.end()) {
     throw InputError({file.string(), 0, ""}, "is not among the outputs in the manifest of " + manifest.step, rerun);
   }
   if (listed->second != sha256(file)) {
-    throw InputError({file.string(), 0, ""}, "was changed after " + manifest.step + " wrote it (its SHA-256 is not the manifest's)",
-                     rerun);
+    throw InputError({file.string(), 0, ""},
+                     "was changed after " + manifest.step + " wrote it (its SHA-256 is not the manifest's)", rerun);
   }
 }
 
@@ -100,7 +101,8 @@ void write_manifest(const Manifest& manifest, const fs::path& folder) {
 Manifest read_manifest(const fs::path& folder) {
   const fs::path file = folder / "manifest.json";
   const auto json = parse_ours(file);
-  if (!json) throw InputError({file.string(), 0, ""}, "is no readable manifest of a step", "run the step that writes this folder");
+  if (!json)
+    throw InputError({file.string(), 0, ""}, "is no readable manifest of a step", "run the step that writes this folder");
   try {
     Manifest manifest;
     manifest.step = json->at("step").get<std::string>();

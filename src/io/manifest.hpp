@@ -10,10 +10,10 @@ namespace twindeck::io {
 
 /// What a step read, wrote and was told: written last, as `manifest.json`; it is the step's Make target.
 struct Manifest {
-  std::string step;                            ///< "s6_updating"
-  std::string status = "converged";            ///< "converged" | "unconverged"
-  std::string message;                         ///< one line
-  std::string config_toml;                     ///< resolved configuration
+  std::string step;                  ///< "s6_updating"
+  std::string status = "converged";  ///< "converged" | "unconverged"
+  std::string message;               ///< one line
+  std::string config_toml;           ///< resolved configuration
   std::vector<std::string> command_line;
   std::uint64_t seed = 0;
   int threads = 1;
@@ -27,7 +27,8 @@ void write_manifest(const Manifest& manifest, const std::filesystem::path& folde
 [[nodiscard]] Manifest read_manifest(const std::filesystem::path& folder);
 /// Refuses results that are not those of their manifest.
 /// @param path         a file, or a folder with all that is in it
-/// @throws InputError  if a file inside a step's folder has another hash than the manifest above it says, is not listed there, or
+/// @throws InputError  if a file inside a step's folder has another hash than the manifest above it says, is not listed there,
+/// or
 ///                     is listed and gone; a folder without a manifest (a user's own data) is accepted.
 void check_against_manifest(const std::filesystem::path& path);
 /// True if the folder holds a manifest.json of ours.

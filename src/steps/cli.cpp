@@ -26,7 +26,8 @@ std::string help_footer(const Step& step) {
   }
   const std::string option = word.substr(0, word.find('='));
   if (option.starts_with("-")) {
-    throw InputError({"command line", 0, option}, "is no known option" + did_you_mean(option, known), "--help lists the options");
+    throw InputError({"command line", 0, option}, "is no known option" + did_you_mean(option, known),
+                     "--help lists the options");
   }
   throw InputError({"command line", 0, ""}, "has '" + word + "', which belongs to no option", "--help shows two examples");
 }
@@ -69,9 +70,10 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
   app.add_flag("--accept-unconverged", line.accept_unconverged, "publish results that did not converge, marked as such");
   app.add_flag("--quiet", line.quiet, "print errors only");
   app.add_flag("--print-config", print_config, "print the resolved configuration as TOML and end");
-  CLI::Option* describe = app.add_option("--describe", key, "print meaning, unit, range and default of one key, or of all, and end")
-                              ->type_name("KEY")
-                              ->expected(0, 1);
+  CLI::Option* describe =
+      app.add_option("--describe", key, "print meaning, unit, range and default of one key, or of all, and end")
+          ->type_name("KEY")
+          ->expected(0, 1);
   app.add_flag("--version", version_asked, "print the version and end");
 
   std::map<std::string, std::string> values;
@@ -127,7 +129,8 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
     return line;
   }
   if (out.empty()) {
-    throw InputError({"command line", 0, "--out"}, "is missing", "name the folder to write, for example --out results/x/" + step.token);
+    throw InputError({"command line", 0, "--out"}, "is missing",
+                     "name the folder to write, for example --out results/x/" + step.token);
   }
   check_folder("--model", line.model);
   check_folder("--campaign", line.campaign);

@@ -15,11 +15,11 @@ namespace twindeck::steps {
 struct CommandLine {
   enum class Action { run, help, version, print_config, describe };
   Action action = Action::run;
-  std::string text;          ///< of help and version: what to print; of describe: the key, "" for all
+  std::string text;  ///< of help and version: what to print; of describe: the key, "" for all
   std::filesystem::path study, out, results;
   std::optional<std::filesystem::path> model, campaign, modes, features;
   std::optional<std::uint64_t> seed;
-  int threads = 0;           ///< 0: as many as the machine has
+  int threads = 0;  ///< 0: as many as the machine has
   bool quiet = false;
   bool accept_unconverged = false;
   std::vector<std::string> sets;                           ///< key=value, in order

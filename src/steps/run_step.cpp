@@ -20,7 +20,8 @@ namespace {
 
 /// One line whatever was thrown: line ends inside a message become blanks.
 int failure(const std::string& token, const std::string& kind, std::string message, int code) {
-  std::replace_if(message.begin(), message.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
+  std::replace_if(
+      message.begin(), message.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
   std::fputs(fmt::format("{}: {}{}\n", token, kind, message).c_str(), stderr);
   return code;
 }
@@ -40,7 +41,8 @@ void read_configuration(const CommandLine& line, Step& step, StepContext& contex
   if (line.seed) context.seed = *line.seed;
 }
 
-/// Only a folder of this very step, or an empty one, may be replaced: --out set to something else must not cost anybody's files.
+/// Only a folder of this very step, or an empty one, may be replaced: --out set to something else must not cost anybody's
+/// files.
 void refuse_to_replace_foreign(const fs::path& folder, const std::string& token) {
   if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) return;
   if (!fs::is_directory(folder) || !io::is_step_folder(folder)) {
@@ -48,7 +50,8 @@ void refuse_to_replace_foreign(const fs::path& folder, const std::string& token)
                      "name another folder, or remove this one yourself");
   }
   if (const std::string owner = io::read_manifest(folder).step; owner != token) {
-    throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' holds results of " + owner, "name another folder");
+    throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' holds results of " + owner,
+                     "name another folder");
   }
 }
 
@@ -129,7 +132,8 @@ bool StepContext::has_flag(const std::string& name) const { return flag(name).ha
 
 fs::path StepContext::input(const fs::path& path) {
   if (!fs::exists(path)) {
-    throw InputError({path.string(), 0, ""}, "does not exist", "run the step that writes it, or point to your own data (--help)");
+    throw InputError({path.string(), 0, ""}, "does not exist",
+                     "run the step that writes it, or point to your own data (--help)");
   }
   io::check_against_manifest(path);
   const auto register_file = [&](const fs::path& file) {

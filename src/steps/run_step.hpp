@@ -17,21 +17,23 @@ namespace twindeck::steps {
 /// the step has finished.
 class StepContext {
  public:
-  std::filesystem::path study;      ///< workflows/<study>; empty when the step runs on a user's own data
-  std::filesystem::path results;    ///< root that inputs of earlier steps are read from: results/<study>
-  std::filesystem::path out;        ///< where to write (temporary)
+  std::filesystem::path study;    ///< workflows/<study>; empty when the step runs on a user's own data
+  std::filesystem::path results;  ///< root that inputs of earlier steps are read from: results/<study>
+  std::filesystem::path out;      ///< where to write (temporary)
   std::optional<std::filesystem::path> model, campaign, modes, features;  ///< --model DIR …
-  std::optional<std::string> flag(const std::string& name) const;        ///< step-specific options
+  std::optional<std::string> flag(const std::string& name) const;         ///< step-specific options
   bool has_flag(const std::string& name) const;
   int threads = 1;
   std::uint64_t seed = 0;
   bool quiet = false;
 
-  /// Registers a file, or every file of a folder, as an input for the manifest, checks it against its own step's manifest, returns it.
+  /// Registers a file, or every file of a folder, as an input for the manifest, checks it against its own step's manifest,
+  /// returns it.
   std::filesystem::path input(const std::filesystem::path& path);
   /// A line for people on stderr, prefixed with the step's token; nothing with --quiet.
   void say(const std::string& line) const;
-  /// Progress with remaining time on anything over two seconds (terminal: one line rewritten; otherwise a line every ten seconds).
+  /// Progress with remaining time on anything over two seconds (terminal: one line rewritten; otherwise a line every ten
+  /// seconds).
   void progress(const std::string& what, double done, double total) const;
 
   std::vector<std::filesystem::path> inputs_;
@@ -41,22 +43,26 @@ class StepContext {
 };
 
 /// A step-specific option of the command line.
-struct Flag { std::string name; bool takes_value = false; std::string meaning; };
+struct Flag {
+  std::string name;
+  bool takes_value = false;
+  std::string meaning;
+};
 
 /// A step: everything its `main` has to say.
 struct Step {
-  std::string token;                   ///< "s6_updating"
-  std::string summary;                 ///< one sentence
-  std::vector<std::string> examples;   ///< at least two full command lines
-  io::FieldTable fields;               ///< bound to the step's configuration struct
+  std::string token;                  ///< "s6_updating"
+  std::string summary;                ///< one sentence
+  std::vector<std::string> examples;  ///< at least two full command lines
+  io::FieldTable fields;              ///< bound to the step's configuration struct
   std::vector<Flag> flags;
   std::function<Status(StepContext&)> run;
 };
 
 /// The command line contract (DESIGN section 2): --study --out --results --threads --set --seed --quiet --model --campaign
-/// --modes --features --accept-unconverged --help --version --print-config --describe [key]. Reads <study>/<token>.toml when there is
-/// one, runs, writes manifest.json last and renames. Exit codes: 0 done, 1 not converged (written to <out>.unconverged),
-/// 2 bad input, 3 our own mistake; each failure is one line on stderr.
+/// --modes --features --accept-unconverged --help --version --print-config --describe [key]. Reads <study>/<token>.toml when
+/// there is one, runs, writes manifest.json last and renames. Exit codes: 0 done, 1 not converged (written to
+/// <out>.unconverged), 2 bad input, 3 our own mistake; each failure is one line on stderr.
 int run_step(int argc, char** argv, Step step);
 
 }  // namespace twindeck::steps

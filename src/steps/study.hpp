@@ -10,17 +10,18 @@ namespace twindeck::steps {
 /// What `workflows/<study>/study.toml` says. Paths are relative to the current folder (the root of the repository).
 struct Study {
   std::string title;
-  std::uint64_t seed = 1;             ///< default of each step's --seed
-  std::string measured = "published"; ///< "published" | "virtual": where the measured modes come from
-  std::string model_generator;        ///< [model] generator = "ponte", together with `file`
-  std::filesystem::path model_file;   ///< [model] file: what the generator reads
-  std::filesystem::path model_folder; ///< [model] folder: a model folder, instead of a generator
-  std::filesystem::path features;     ///< folder of measured features (rows.csv, conditions.toml, channels.csv)
-  std::vector<std::string> steps;     ///< tokens in the order in which they run
+  std::uint64_t seed = 1;              ///< default of each step's --seed
+  std::string measured = "published";  ///< "published" | "virtual": where the measured modes come from
+  std::string model_generator;         ///< [model] generator = "ponte", together with `file`
+  std::filesystem::path model_file;    ///< [model] file: what the generator reads
+  std::filesystem::path model_folder;  ///< [model] folder: a model folder, instead of a generator
+  std::filesystem::path features;      ///< folder of measured features (rows.csv, conditions.toml, channels.csv)
+  std::vector<std::string> steps;      ///< tokens in the order in which they run
 };
 
 /// Reads `folder/study.toml`.
-/// @throws InputError  if the file is missing or wrong, or if it names neither or both of a generator with its file and a folder
+/// @throws InputError  if the file is missing or wrong, or if it names neither or both of a generator with its file and a
+/// folder
 [[nodiscard]] Study read_study(const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

@@ -24,16 +24,33 @@ struct Conversion {
 
 // Oracle: definitions of the SI (BIPM brochure): prefixes, t = 1000 kg, h = 3600 s, 0 degC = 273.15 K, 180 deg = pi rad.
 TEST(ParseQuantity, ConvertsToTheFieldsUnit) {
-  for (const Conversion& c : std::vector<Conversion>{
-           {"210 GPa", "Pa", 210e9},          {"0.12 t", "kg", 120.0},        {"5 mm", "m", 0.005},
-           {"1.5 kN/m", "N/m", 1500.0},       {"8289 kg/m3", "kg/m3", 8289},  {"2 %", "", 0.02},
-           {"2 %", "%", 2.0},                 {"20 degC", "K", 293.15},       {"293.15 K", "degC", 20.0},
-           {"20 °C", "degC", 20.0},           {"20", "degC", 20.0},           {"-1.2e-5 1/degC", "1/K", -1.2e-5},
-           {"3 N s/mm", "N s/m", 3000.0},     {"3 kN*s/m", "N s/m", 3000.0},  {"1 N/mm^2", "Pa", 1e6},
-           {"1 N/mm²", "Pa", 1e6},            {"4 cm4", "m4", 4e-8},          {"180 deg", "rad", std::numbers::pi},
-           {"1 kN m/rad", "N m/rad", 1000.0}, {"1 J/(kg K)", "J/kg/K", 1.0},  {"36 min", "h", 0.6},
-           {"5mm", "m", 0.005},               {"  +5  mm ", "m", 0.005},      {"1 m s-2", "m/s2", 1.0},
-           {"7", "", 7.0},                    {"1 t/m3", "kg/m3", 1000.0},    {"2 1/s", "Hz", 2.0}}) {
+  for (const Conversion& c : std::vector<Conversion>{{"210 GPa", "Pa", 210e9},
+                                                     {"0.12 t", "kg", 120.0},
+                                                     {"5 mm", "m", 0.005},
+                                                     {"1.5 kN/m", "N/m", 1500.0},
+                                                     {"8289 kg/m3", "kg/m3", 8289},
+                                                     {"2 %", "", 0.02},
+                                                     {"2 %", "%", 2.0},
+                                                     {"20 degC", "K", 293.15},
+                                                     {"293.15 K", "degC", 20.0},
+                                                     {"20 °C", "degC", 20.0},
+                                                     {"20", "degC", 20.0},
+                                                     {"-1.2e-5 1/degC", "1/K", -1.2e-5},
+                                                     {"3 N s/mm", "N s/m", 3000.0},
+                                                     {"3 kN*s/m", "N s/m", 3000.0},
+                                                     {"1 N/mm^2", "Pa", 1e6},
+                                                     {"1 N/mm²", "Pa", 1e6},
+                                                     {"4 cm4", "m4", 4e-8},
+                                                     {"180 deg", "rad", std::numbers::pi},
+                                                     {"1 kN m/rad", "N m/rad", 1000.0},
+                                                     {"1 J/(kg K)", "J/kg/K", 1.0},
+                                                     {"36 min", "h", 0.6},
+                                                     {"5mm", "m", 0.005},
+                                                     {"  +5  mm ", "m", 0.005},
+                                                     {"1 m s-2", "m/s2", 1.0},
+                                                     {"7", "", 7.0},
+                                                     {"1 t/m3", "kg/m3", 1000.0},
+                                                     {"2 1/s", "Hz", 2.0}}) {
     EXPECT_NEAR(parse_quantity(c.text, c.unit), c.expected, 1e-12 * std::abs(c.expected)) << c.text;
   }
 }

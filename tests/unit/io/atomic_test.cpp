@@ -23,7 +23,8 @@ TEST_F(AtomicTest, FileIsReplacedWhole) {
 // Oracle: a file where a folder is needed cannot be written below; the message names the path.
 TEST_F(AtomicTest, FailureNamesThePath) {
   write("file", "x");
-  EXPECT_NE(refusal([&] { write_file_atomically(folder_ / "file" / "a.txt", "x"); }).find("cannot be written"), std::string::npos);
+  EXPECT_NE(refusal([&] { write_file_atomically(folder_ / "file" / "a.txt", "x"); }).find("cannot be written"),
+            std::string::npos);
 }
 
 // Oracle: earlier results stay whole until publish, and are gone wholly after it (no mixture of both).

@@ -30,15 +30,16 @@ struct Sample {
         .choice("variant", variant, {"preliminary", "refined"}, "which model")
         .numbers("masses", masses_kg, "kg", positive(), "added masses")
         .texts("groups", groups, "names")
-        .tables("damper",
-                [this] {
-                  Damper& damper = dampers.emplace_back();
-                  FieldTable element;
-                  element.text("name", damper.name, "its name", true)
-                      .number("damping", damper.damping_N_s_m, "N s/m", non_negative(), "constant");
-                  return element;
-                },
-                "the dampers");
+        .tables(
+            "damper",
+            [this] {
+              Damper& damper = dampers.emplace_back();
+              FieldTable element;
+              element.text("name", damper.name, "its name", true)
+                  .number("damping", damper.damping_N_s_m, "N s/m", non_negative(), "constant");
+              return element;
+            },
+            "the dampers");
     return table;
   }
 };
@@ -115,7 +116,8 @@ TEST_F(ConfigTest, UnknownKeyNamesTheNearest) {
   EXPECT_TRUE(load("\nEs = 3\n").starts_with("c.toml:2: Es: is no known key (did you mean 'E_s'?); known keys: E_s, "));
   EXPECT_TRUE(load("[solver]\nmax_iteration = 3\n")
                   .starts_with("c.toml:2: solver.max_iteration: is no known key (did you mean 'solver.max_iterations'?)"));
-  EXPECT_TRUE(load("max_iterations = 3\n").starts_with("c.toml:1: max_iterations: is no known key (did you mean 'solver.max_iter"));
+  EXPECT_TRUE(
+      load("max_iterations = 3\n").starts_with("c.toml:1: max_iterations: is no known key (did you mean 'solver.max_iter"));
   EXPECT_TRUE(load("[[damper]]\nname = \"A\"\nnmae = \"B\"\n").starts_with("c.toml:3: damper[0].nmae: is no known key"));
   EXPECT_TRUE(load("[zzz]\na = 3\n").starts_with("c.toml:1: zzz: is no known key; known keys"));
 }
@@ -124,13 +126,16 @@ TEST_F(ConfigTest, WrongUnitTypeOrRangeIsNamed) {
   EXPECT_EQ(load("E_s = \"3 kN\"\n"),
             "c.toml:1: E_s: is \"3 kN\", whose unit is of another kind than \"Pa\"; give it in Pa, kPa, MPa, GPa");
   EXPECT_EQ(load("E_s = \"-3 GPa\"\n"),
-            "c.toml:1: E_s: is \"-3 GPa\" = -3000000000 Pa, expected a value in ]0, 10000000000000] Pa; choose a value in that range");
+            "c.toml:1: E_s: is \"-3 GPa\" = -3000000000 Pa, expected a value in ]0, 10000000000000] Pa; choose a value in that "
+            "range");
   EXPECT_TRUE(load("E_s = 0\n").starts_with("c.toml:1: E_s: is 0, expected a value in ]0, "));
   EXPECT_EQ(load("E_s = true\n"), "c.toml:1: E_s: is true, expected a number; write it like 1.5 or \"1.5 Pa\"");
   EXPECT_TRUE(load("E_s = nan\n").starts_with("c.toml:1: E_s: is nan, expected a finite number"));
   EXPECT_TRUE(load("E_s = inf\n").starts_with("c.toml:1: E_s: is inf, expected a finite number"));
-  EXPECT_TRUE(load("[solver]\nmax_iterations = 2.5\n").starts_with("c.toml:2: solver.max_iterations: is 2.5, expected a whole"));
-  EXPECT_TRUE(load("[solver]\nmax_iterations = 0\n").starts_with("c.toml:2: solver.max_iterations: is 0, expected a value in [1,"));
+  EXPECT_TRUE(
+      load("[solver]\nmax_iterations = 2.5\n").starts_with("c.toml:2: solver.max_iterations: is 2.5, expected a whole"));
+  EXPECT_TRUE(
+      load("[solver]\nmax_iterations = 0\n").starts_with("c.toml:2: solver.max_iterations: is 0, expected a value in [1,"));
   EXPECT_TRUE(load("scaled = \"yes\"\n").starts_with("c.toml:1: scaled: is \"yes\", expected true or false"));
   EXPECT_EQ(load("variant = \"refind\"\n"),
             "c.toml:1: variant: is \"refind\" (did you mean 'refined'?); choose one of preliminary, refined");
@@ -162,8 +167,8 @@ TEST_F(ConfigTest, RequireIsSatisfiedBySet) {
 TEST_F(ConfigTest, SetTakesTomlAndBareWords) {
   Sample sample;
   FieldTable table = sample.fields();
-  for (const char* assignment : {"E_s=190 GPa", "variant=refined", "solver.max_iterations=9", "masses=[3, \"1 t\"]", "title=5",
-                                 "scaled=false"}) {
+  for (const char* assignment :
+       {"E_s=190 GPa", "variant=refined", "solver.max_iterations=9", "masses=[3, \"1 t\"]", "title=5", "scaled=false"}) {
     table.set(assignment);
   }
   EXPECT_EQ(sample.modulus_Pa, 1.9e11);

@@ -11,7 +11,8 @@ using CsvTest = test::TemporaryFolder;
 
 // Oracle: RFC 4180: cells with commas, quotes and line ends come back as they were given.
 TEST_F(CsvTest, RoundTripsEveryKindOfText) {
-  const std::vector<std::string> texts{"plain", "with, comma", "with \"quote\"", "two\nlines", "crlf\r\ninside", " blanks ", ""};
+  const std::vector<std::string> texts{"plain", "with, comma", "with \"quote\"", "two\nlines", "crlf\r\ninside", " blanks ",
+                                       ""};
   CsvWriter writer({"text", "number"});
   for (const std::string& text : texts) writer.row({text, 0.1});
   writer.save(folder_ / "sub" / "a.csv");
@@ -78,11 +79,13 @@ TEST_F(CsvTest, NamesTheLineOfABadRow) {
 // Oracle: none of these cells is a finite number; the message names file:line: column.
 TEST_F(CsvTest, RefusesWhatIsNoFiniteNumber) {
   const CsvTable table = CsvTable::read(write("a.csv", "x\nnan\ninf\n-Infinity\nabc\n1.5 m\n1e999\n2.5\n\"\"\n0x10\n"), {"x"});
-  for (const std::size_t row : {0, 1, 2, 3, 4, 5, 7, 8}) EXPECT_THROW(static_cast<void>(table.number(row, "x")), InputError) << row;
+  for (const std::size_t row : {0, 1, 2, 3, 4, 5, 7, 8})
+    EXPECT_THROW(static_cast<void>(table.number(row, "x")), InputError) << row;
   EXPECT_EQ(table.number(6, "x"), 2.5);
   EXPECT_EQ(refusal([&] { static_cast<void>(table.number(0, "x")); }),
             "a.csv:2: x: is \"nan\", expected a finite number; leave the row out or mend the value");
-  EXPECT_EQ(refusal([&] { static_cast<void>(table.number(7, "x")); }), "a.csv:9: x: is empty, expected a number; fill the cell");
+  EXPECT_EQ(refusal([&] { static_cast<void>(table.number(7, "x")); }),
+            "a.csv:9: x: is empty, expected a number; fill the cell");
   EXPECT_EQ(refusal([&] { static_cast<void>(table.integer(6, "x")); }),
             "a.csv:8: x: is \"2.5\", expected a whole number; write it without a fraction");
 }

@@ -75,7 +75,8 @@ TEST_F(ManifestTest, AcceptsOwnData) {
   write("own/manifest.json", "{\"name\": \"a web page\"}");
   EXPECT_EQ(refusal([&] { check_against_manifest(own); }), "");
   EXPECT_FALSE(is_step_folder(folder_ / "own"));
-  EXPECT_NE(refusal([&] { static_cast<void>(read_manifest(folder_ / "own")); }).find("no readable manifest"), std::string::npos);
+  EXPECT_NE(refusal([&] { static_cast<void>(read_manifest(folder_ / "own")); }).find("no readable manifest"),
+            std::string::npos);
 }
 
 // Oracle: a manifest cut short vouches for nothing, so its folder is refused, not trusted.

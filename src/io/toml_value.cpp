@@ -1,0 +1,111 @@
+#include "io/toml_value.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace twindeck::io {
+namespace {
+
+TomlValue converted(const toml::node& node);
+
+TomlValue::Table converted_table(const toml::table& table) {
+  TomlValue::Table entries;
+  for (const auto& [key, node] : table) {
+    entries.push_back({std::string(key.str()), static_cast<long>(key.source().begin.line), converted(node)});
+  }
+  return entries;
+}
+
+TomlValue converted(const toml::node& node) {
+  TomlValue result;
+  result.line = static_cast<long>(node.source().begin.line);
+  if (const auto* text = node.as_string()) {
+    result.value = text->get();
+  } else if (const auto* number = node.as_floating_point()) {
+    result.value = number->get();
+  } else if (const auto* whole = node.as_integer()) {
+    result.value = static_cast<long>(whole->get());
+  } else if (const auto* flag = node.as_boolean()) {
+    result.value = flag->get();
+  } else if (const auto* table = node.as_table()) {
+    result.value = converted_table(*table);
+  } else if (const auto* array = node.as_array()) {
+    TomlValue::Array items;
+    for (const toml::node& item : *array) items.push_back(converted(item));
+    result.value = std::move(items);
+  }
+  return result;
+}
+
+}  // namespace
+
+TomlValue::Table read_toml(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path of the configuration");
+  }
+  try {
+    return converted_table(toml::parse_file(file.string()));
+  } catch (const toml::parse_error& error) {
+    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""},
+                     "is no valid TOML: " + std::string(error.description()), "mend the line");
+  }
+}
+
+TomlValue toml_of_command_line(const std::string& text) {
+  try {
+    const toml::table parsed = toml::parse("value = " + text);
+    if (parsed.size() == 1) return converted(*parsed.get("value"));
+  } catch (const toml::parse_error&) {
+    // no TOML, so it is a bare word
+  }
+  return {text, 0};
+}
+
+std::string shown(const TomlValue& value) {
+  if (const auto* text = value.as<std::string>()) return toml_text(*text);
+  if (const auto* number = value.as<double>()) return toml_number(*number);
+  if (const auto* whole = value.as<long>()) return std::to_string(*whole);
+  if (const auto* flag = value.as<bool>()) return *flag ? "true" : "false";
+  if (value.as<TomlValue::Table>() != nullptr) return "a table";
+  if (value.as<TomlValue::Array>() != nullptr) return "an array";
+  return "a date or time";
+}
+
+std::string toml_number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value == 0.0 ? "0" : fmt::format("{}", value);
+}
+
+std::string toml_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    switch (letter) {
+      case '"':
+        quoted += "\\\"";
+        break;
+      case '\\':
+        quoted += "\\\\";
+        break;
+      case '\n':
+        quoted += "\\n";
+        break;
+      case '\t':
+        quoted += "\\t";
+        break;
+      default:
+        if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
+          quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(letter));
+        } else {
+          quoted += letter;
+        }
+    }
+  }
+  return quoted + "\"";
+}
+
+}  // namespace twindeck::io

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace twindeck::io {
+
+struct TomlEntry;
+
+/// A value of a TOML file in our own words, with its line (0 = unknown), so that toml++ stays in one source file.
+struct TomlValue {
+  using Array = std::vector<TomlValue>;
+  using Table = std::vector<TomlEntry>;  ///< in the order of their names
+  struct Date {};                        ///< known only to be refused
+  std::variant<Date, bool, long, double, std::string, Array, Table> value;
+  long line = 0;
+
+  template <typename Kind>
+  [[nodiscard]] const Kind* as() const {
+    return std::get_if<Kind>(&value);
+  }
+};
+
+struct TomlEntry {
+  std::string key;
+  long line = 0;
+  TomlValue value;
+};
+
+/// @throws InputError  naming file and line, if it cannot be opened or is no TOML
+[[nodiscard]] TomlValue::Table read_toml(const std::filesystem::path& file);
+/// The value of a `--set key=value`: TOML, or the text itself where it is a bare word ("refined", "210 GPa").
+[[nodiscard]] TomlValue toml_of_command_line(const std::string& text);
+/// A value as the user would recognise it, for messages: 3.5, "abc", true, a table.
+[[nodiscard]] std::string shown(const TomlValue& value);
+/// Shortest text that reads back to the same double; a whole number keeps no point (integers are accepted for numbers).
+[[nodiscard]] std::string toml_number(double value);
+/// A basic TOML string with its escapes.
+[[nodiscard]] std::string toml_text(const std::string& text);
+
+}  // namespace twindeck::io
