@@ -1,0 +1,289 @@
+#include "ponte/bridge_definition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ponte/definition_file.hpp"
+#include "ponte/member_section.hpp"
+
+namespace twindeck::ponte {
+
+namespace {
+
+using Range = DefinitionFile::Range;
+constexpr Range kCoordinate{-1e4, 1e4};      // [m]
+constexpr Range kLength{1e-3, 1e4};          // [m]
+constexpr Range kModulus{1e6, 1e13};         // [Pa]
+constexpr Range kDensity{1.0, 1e5};          // [kg/m³]
+constexpr Range kStiffness{0.0, 1e14};       // [N/m]
+constexpr Range kFactor{1e-3, 1e3};          // [-]
+constexpr Range kPull{1.0, 1e8};             // [N]
+constexpr Range kMassPerLength{0.0, 1e5};    // [kg/m]
+
+fe::Material read_material(DefinitionFile& file, const std::string& name) {
+  const std::string path = "material." + name;
+  fe::Material out;
+  out.name = name;
+  out.youngs_modulus_Pa = file.number(path + ".youngs_modulus", "Pa", kModulus);
+  out.poisson_ratio = file.number(path + ".poisson_ratio", "", {0.0, 0.49});
+  out.shear_modulus_Pa = out.youngs_modulus_Pa / (2.0 * (1.0 + out.poisson_ratio));
+  out.density_kg_m3 = file.number(path + ".density", "kg/m3", kDensity);
+  return out;
+}
+
+StayType read_stay_type(DefinitionFile& file, const std::string& name) {
+  const std::string path = "stay_type." + name;
+  return {name, file.number(path + ".youngs_modulus", "Pa", kModulus), file.number(path + ".area", "m2", {1e-6, 1.0}),
+          file.number(path + ".mass_per_length", "kg/m", {1e-3, 1e4})};
+}
+
+StayRow read_stay_row(DefinitionFile& file, const std::string& path, const std::vector<std::string>& types) {
+  StayRow out;
+  out.count = static_cast<int>(file.integer(path + ".count", 2, 50));
+  out.spacing_m = file.number(path + ".spacing", "m", kLength);
+  out.last_spacing_m = file.number(path + ".last_spacing", "m", kLength);
+  out.prefix_north = file.text(path + ".prefix_north");
+  out.prefix_south = file.text(path + ".prefix_south");
+  out.type = file.choice(path + ".type", types);
+  out.last_type = file.choice(path + ".last_type", types);
+  out.top_anchor_z_m = file.number(path + ".top_anchor_z", "m", kCoordinate);
+  out.anchor_pitch_m = file.number(path + ".anchor_pitch", "m", kLength);
+  return out;
+}
+
+std::vector<SlabZone> read_slab(DefinitionFile& file, const std::string& deck, const std::vector<std::string>& materials) {
+  const std::string slab = "deck." + deck + ".slab";
+  const std::vector<std::string> zones = file.texts(slab + ".zones");
+  if (zones.empty()) {
+    file.fail(slab + ".zones", "has no zone", "name at least one");
+  }
+  std::vector<SlabZone> out;
+  double reached = 0.0;
+  for (const std::string& zone : zones) {
+    const std::string path = slab + "." + zone;
+    SlabZone z;
+    z.group = "slab_" + deck + (zones.size() == 1 ? "" : "_" + zone);
+    z.until = file.number(path + ".until", "", {0.0, 1.0});
+    if (z.until <= reached) {
+      file.fail(path + ".until", fmt::format("is {:g}, expected more than the zone before ({:g})", z.until, reached),
+                "order the zones from mid-length outwards");
+    }
+    reached = z.until;
+    z.thickness_m = file.number(path + ".thickness", "m", {1e-3, 5.0});
+    z.bending_inertia_ratio = file.number(path + ".bending_inertia_ratio", "", kFactor);
+    z.material = file.choice(path + ".material", materials);
+    out.push_back(z);
+  }
+  if (reached != 1.0) {
+    file.fail(slab + "." + zones.back() + ".until", fmt::format("is {:g}, expected 1 for the last zone", reached),
+              "let the last zone reach the end of the deck");
+  }
+  return out;
+}
+
+DeckDefinition read_deck(DefinitionFile& file, const std::string& name, const std::vector<std::string>& materials,
+                         const std::vector<std::string>& stay_types) {
+  const std::string path = "deck." + name;
+  DeckDefinition out;
+  out.name = name;
+  out.radius_m = file.number(path + ".radius", "m", kLength);
+  out.length_m = file.number(path + ".length", "m", kLength);
+  if (out.length_m >= 3.0 * out.radius_m) {
+    file.fail(path + ".length", fmt::format("is {:g} m, expected less than three radii ({:g} m)", out.length_m, 3 * out.radius_m),
+              "a deck that closes upon itself is no deck");
+  }
+  out.end_y_m = file.number(path + ".end_y", "m", kCoordinate);
+  out.crown_z_m = file.number(path + ".crown_z", "m", kCoordinate);
+  out.rise_m = file.number(path + ".rise", "m", kCoordinate);
+  out.chord_spacing_m = file.number(path + ".chord_spacing", "m", {0.1, 100.0});
+  out.truss_depth_m = file.number(path + ".truss_depth", "m", {0.1, 100.0});
+  out.bottom_chord_offset_m = file.number(path + ".bottom_chord_offset", "m", {-100.0, 100.0});
+  out.nonstructural_mass_kg_m = file.number(path + ".nonstructural_mass", "kg/m", kMassPerLength);
+  out.stays_on_outer_edge = file.choice(path + ".stay_edge", {"inner", "outer"}) == "outer";
+  out.bracket_arm_m = file.number(path + ".bracket_arm", "m", {1e-3, 10.0});
+  out.stay = read_stay_row(file, path + ".stay", stay_types);
+  out.slab = read_slab(file, name, materials);
+  out.top_chord = read_member_section(file, path + ".top_chord", name + "_top_chord");
+  out.bottom_chord = read_member_section(file, path + ".bottom_chord", name + "_bottom_chord");
+  out.short_diagonal = read_member_section(file, path + ".short_diagonal", name + "_short_diagonal");
+  out.long_diagonal = read_member_section(file, path + ".long_diagonal", name + "_long_diagonal");
+  out.floor_beam = read_member_section(file, path + ".floor_beam", name + "_floor_beam");
+  out.bearing = {file.number(path + ".bearing.bottom", "N/m", kStiffness), file.number(path + ".bearing.vertical", "N/m", kStiffness),
+                 file.number(path + ".bearing.radial", "N/m", kStiffness),
+                 file.number(path + ".bearing.tangential", "N/m", kStiffness)};
+  const double last_stay = (out.stay.count - 1.5) * out.stay.spacing_m + out.stay.last_spacing_m;
+  if (last_stay >= out.length_m / 2) {
+    file.fail(path + ".stay.count", fmt::format("puts the last stay at {:g} m, beyond the deck's end at {:g} m", last_stay,
+                                                out.length_m / 2), "reduce the number or the spacing of the stays");
+  }
+  return out;
+}
+
+MastDefinition read_mast(DefinitionFile& file) {
+  MastDefinition out;
+  out.base_m = {file.number("mast.base_x", "m", kCoordinate), file.number("mast.base_y", "m", kCoordinate),
+                file.number("mast.base_z", "m", kCoordinate)};
+  out.height_m = file.number("mast.height", "m", {1.0, 1e3});
+  out.lean_rad = file.number("mast.lean", "rad", {-1.0, 1.0});
+  const double diameter = file.number("mast.outer_diameter", "m", {0.01, 100.0});
+  const double wall = file.number("mast.wall", "m", {1e-3, 10.0});
+  if (2 * wall >= diameter) {
+    file.fail("mast.wall", fmt::format("is {:g} m, expected less than half the diameter ({:g} m)", wall, diameter / 2),
+              "correct the wall or the diameter");
+  }
+  const double steel_scale = file.number("mast.steel_scale", "", kFactor);
+  out.steel = scaled(tube_section("mast_steel", diameter, wall), steel_scale);
+  out.infill = scaled(solid_circle_section("mast_infill", diameter - 2 * wall), file.number("mast.infill_scale", "", kFactor));
+  out.infill_z_m = file.number("mast.infill_z", "m", {out.base_m.z(), out.base_m.z() + out.height_m});
+  out.head_mass_kg = steel_scale * file.number("mast.head_mass", "kg", {0.0, 1e6});
+  out.node_z_m = file.numbers("mast.node_z", "m", {out.base_m.z(), out.base_m.z() + out.height_m});
+  return out;
+}
+
+DeckPoint read_point(DefinitionFile& file, const std::string& path, const DeckDefinition& deck) {
+  return {file.text(path + ".name"), deck.name, file.choice(path + ".edge", {"inner", "outer"}) == "outer",
+          file.number(path + ".s", "m", {-deck.length_m / 2, deck.length_m / 2})};
+}
+
+const DeckDefinition& deck_of(DefinitionFile& file, const std::string& path, const std::vector<DeckDefinition>& decks) {
+  std::vector<std::string> names;
+  for (const DeckDefinition& deck : decks) {
+    names.push_back(deck.name);
+  }
+  const std::string name = file.choice(path, names);
+  return *std::find_if(decks.begin(), decks.end(), [&](const DeckDefinition& deck) { return deck.name == name; });
+}
+
+DamperDefinition read_damper(DefinitionFile& file, const std::string& path, const std::vector<DeckDefinition>& decks) {
+  DamperDefinition out;
+  out.type = file.text(path + ".type");
+  out.damping_N_s_m = file.number(path + ".damping", "N s/m", {0.0, 1e12});
+  out.stiffness_N_m = file.number(path + ".stiffness", "N/m", kStiffness);
+  out.series = file.choice(path + ".arrangement", {"series", "parallel", "viscous"}) == "series";
+  out.vertical = file.choice(path + ".direction", {"vertical", "radial"}) == "vertical";
+  const DeckDefinition& deck = deck_of(file, path + ".deck", decks);
+  for (std::size_t i = 0; i < file.size(path + ".units"); ++i) {
+    out.units.push_back(read_point(file, path + ".units." + std::to_string(i), deck));
+  }
+  return out;
+}
+
+ParameterDefinition read_parameter(DefinitionFile& file, const std::string& path) {
+  const std::map<std::string, fe::Target> targets = {{"youngs_modulus", fe::Target::youngs_modulus},
+                                                     {"density", fe::Target::density},
+                                                     {"bending_inertia_ratio", fe::Target::bending_inertia_ratio},
+                                                     {"thickness", fe::Target::thickness},
+                                                     {"area", fe::Target::area},
+                                                     {"spring_stiffness", fe::Target::spring_stiffness},
+                                                     {"point_mass", fe::Target::point_mass}};
+  std::vector<std::string> names;
+  for (const auto& [name, target] : targets) {
+    names.push_back(name);
+  }
+  return {file.text(path + ".name"), targets.at(file.choice(path + ".target", names)), file.texts(path + ".of"),
+          file.number(path + ".bound", "", {0.0, 0.99})};
+}
+
+void read_site_pulls(DefinitionFile& file, BridgeDefinition& out) {
+  const std::vector<std::string> stays = stay_names(out);
+  for (const std::string& name : file.names_below("site_pull")) {
+    const std::string path = "site_pull." + name;
+    if (std::find(stays.begin(), stays.end(), name) == stays.end()) {
+      file.fail(path, "is no stay of this bridge" + did_you_mean(name, stays), "name a stay such as NE5");
+    }
+    const double pull = file.number(path, "N", kPull);
+    out.site_pull_N[name] = pull;
+    // The bridge is symmetric about mid-length: N… and S… are mirror images, BN and BS too.
+    std::string mirror = name;
+    char& side = mirror[name.front() == 'B' ? 1 : 0];
+    side = side == 'N' ? 'S' : 'N';
+    out.site_pull_N.emplace(mirror, pull);
+  }
+}
+
+void read_prototype_pulls(DefinitionFile& file, const std::string& variant, BridgeDefinition& out) {
+  for (std::size_t i = 0; i < file.size("variant_pulls"); ++i) {
+    const std::string path = "variant_pulls." + std::to_string(i);
+    if (file.text(path + ".variant") != variant) {
+      file.mark_known(path);
+      continue;
+    }
+    for (const DeckDefinition& deck : out.decks) {
+      const std::string key = path + "." + deck.name;
+      const std::vector<double> pulls = file.numbers(key, "N", kPull);
+      if (pulls.size() != static_cast<std::size_t>(deck.stay.count)) {
+        file.fail(key + ".0", fmt::format("starts a list of {} pulls, expected {} (stays a side)", pulls.size(), deck.stay.count),
+                  "give one pull a stay, from mid-length outwards");
+      }
+      for (std::size_t stay = 0; stay < pulls.size(); ++stay) {
+        out.prototype_pull_N[deck.stay.prefix_north + std::to_string(stay + 1)] = pulls[stay];
+        out.prototype_pull_N[deck.stay.prefix_south + std::to_string(stay + 1)] = pulls[stay];
+      }
+    }
+    out.prototype_pull_N["BN"] = out.prototype_pull_N["BS"] = file.number(path + ".ground", "N", kPull);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> stay_names(const BridgeDefinition& definition) {
+  std::vector<std::string> out;
+  for (const DeckDefinition& deck : definition.decks) {
+    for (const std::string& prefix : {deck.stay.prefix_north, deck.stay.prefix_south}) {
+      for (int i = 1; i <= deck.stay.count; ++i) {
+        out.push_back(prefix + std::to_string(i));
+      }
+    }
+  }
+  out.push_back("BN");
+  out.push_back("BS");
+  return out;
+}
+
+BridgeDefinition read_definition(DefinitionFile file, const std::string& variant) {
+  BridgeDefinition out;
+  out.source = file.name();
+  out.title = file.text("title");
+  out.gravity_m_s2 = file.number("gravity", "m/s^2", {0.0, 100.0});
+  out.mesh = {static_cast<int>(file.integer("mesh.panels_per_stay_spacing", 1, 40)),
+              static_cast<int>(file.integer("mesh.shells_across", 2, 40)),
+              static_cast<int>(file.integer("mesh.shells_per_panel_along", 1, 20)),
+              static_cast<int>(file.integer("mesh.members_per_panel", 1, 20))};
+  std::vector<std::string> materials;
+  for (const std::string name : {"concrete_normal", "concrete_light", "steel"}) {
+    out.materials.push_back(read_material(file, name));
+    materials.push_back(name);
+  }
+  const std::vector<std::string> stay_types = file.names_below("stay_type");
+  for (const std::string& name : stay_types) {
+    out.stay_types.push_back(read_stay_type(file, name));
+  }
+  for (const std::string name : {"foot", "cycle"}) {
+    out.decks.push_back(read_deck(file, name, materials, stay_types));
+  }
+  out.mast = read_mast(file);
+  out.ground_cables = {file.choice("ground_cable.type", stay_types),
+                       {file.number("ground_cable.x", "m", kCoordinate), file.number("ground_cable.y", "m", kCoordinate),
+                        file.number("ground_cable.z", "m", kCoordinate)},
+                       file.number("ground_cable.mast_z", "m", kCoordinate)};
+  out.minimum_pull_N = file.number("prestress.minimum_pull", "N", {0.0, 1e8});
+  out.ridge = file.number("prestress.ridge", "", {0.0, 1e3});
+  out.site_weight = file.number("prestress.site_weight", "", {0.0, 1e3});
+  read_site_pulls(file, out);
+  read_prototype_pulls(file, variant, out);
+  for (std::size_t i = 0; i < file.size("damper"); ++i) {
+    out.dampers.push_back(read_damper(file, "damper." + std::to_string(i), out.decks));
+  }
+  for (std::size_t i = 0; i < file.size("monitoring_point"); ++i) {
+    const std::string path = "monitoring_point." + std::to_string(i);
+    out.monitoring_points.push_back(read_point(file, path, deck_of(file, path + ".deck", out.decks)));
+  }
+  for (std::size_t i = 0; i < file.size("parameter"); ++i) {
+    out.parameters.push_back(read_parameter(file, "parameter." + std::to_string(i)));
+  }
+  file.refuse_unknown();
+  return out;
+}
+
+}  // namespace twindeck::ponte

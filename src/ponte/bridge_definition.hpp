@@ -1,0 +1,115 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+
+namespace twindeck::ponte {
+
+/// One variant of bridge.toml as read: SI units, each number within its range, names checked. The meaning and origin of each
+/// number stand in the file itself.
+
+struct MeshDefinition {
+  int panels_per_stay_spacing, shells_across, shells_per_panel_along, members_per_panel;
+};
+
+struct StayType {
+  std::string name;                     ///< "44": the diameter [mm]
+  double youngs_modulus_Pa, area_m2, mass_per_length_kg_m;
+};
+
+struct SlabZone {
+  std::string group;                    ///< "slab_foot_B", "slab_cycle"
+  double until;                         ///< outer end of the zone, as a part of half the length
+  double thickness_m, bending_inertia_ratio;
+  std::string material;
+};
+
+struct StayRow {
+  int count;                            ///< a side
+  double spacing_m, last_spacing_m;
+  std::string prefix_north, prefix_south, type, last_type;
+  double top_anchor_z_m, anchor_pitch_m;
+};
+
+struct BearingDefinition {
+  double bottom_N_m, vertical_N_m, radial_N_m, tangential_N_m;
+};
+
+struct DeckDefinition {
+  std::string name;                     ///< "foot", "cycle"
+  double radius_m, length_m, end_y_m, crown_z_m, rise_m;
+  double chord_spacing_m, truss_depth_m, bottom_chord_offset_m, nonstructural_mass_kg_m;
+  bool stays_on_outer_edge;
+  double bracket_arm_m;
+  StayRow stay;
+  std::vector<SlabZone> slab;           ///< from mid-length outwards
+  fe::Section top_chord, bottom_chord, short_diagonal, long_diagonal, floor_beam;  ///< scaled
+  BearingDefinition bearing;
+};
+
+struct MastDefinition {
+  Eigen::Vector3d base_m;
+  double height_m, lean_rad, infill_z_m, head_mass_kg;
+  fe::Section steel, infill;            ///< scaled
+  std::vector<double> node_z_m;
+};
+
+struct GroundCables {
+  std::string type;
+  Eigen::Vector3d anchor_m;             ///< of the northern one
+  double mast_z_m;
+};
+
+/// A point of a deck, at the station nearest to s.
+struct DeckPoint {
+  std::string name, deck;
+  bool outer_edge;
+  double s_m;
+};
+
+struct DamperDefinition {
+  std::string type;                     ///< "A": group damper_A
+  double damping_N_s_m, stiffness_N_m;
+  bool series;
+  bool vertical;                        ///< else radial
+  std::vector<DeckPoint> units;
+};
+
+struct ParameterDefinition {
+  std::string name;
+  fe::Target target;
+  std::vector<std::string> of;
+  double bound;                         ///< half width of the bounds over the initial value
+};
+
+struct BridgeDefinition {
+  std::string title, source;
+  double gravity_m_s2;
+  MeshDefinition mesh;
+  std::vector<fe::Material> materials;  ///< without the stays'
+  std::vector<StayType> stay_types;
+  std::vector<DeckDefinition> decks;
+  MastDefinition mast;
+  GroundCables ground_cables;
+  double minimum_pull_N, ridge, site_weight;
+  std::map<std::string, double> site_pull_N;         ///< by stay, mirror images included
+  std::map<std::string, double> prototype_pull_N;    ///< by stay; empty if the variant has none
+  std::vector<DamperDefinition> dampers;
+  std::vector<DeckPoint> monitoring_points;
+  std::vector<ParameterDefinition> parameters;
+};
+
+class DefinitionFile;
+/// Reads the definition as it stands after the overrides applied to `file`.
+/// @param variant  whose prototype pulls are taken; "" for none
+/// @throws InputError naming file, line and key for a missing or unknown key, a value out of range, an unknown name
+[[nodiscard]] BridgeDefinition read_definition(DefinitionFile file, const std::string& variant);
+
+/// Names of all stays: NE1 ... , SE1 ..., NW..., SW..., BN, BS.
+[[nodiscard]] std::vector<std::string> stay_names(const BridgeDefinition& definition);
+
+}  // namespace twindeck::ponte

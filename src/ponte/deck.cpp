@@ -1,0 +1,153 @@
+#include <cmath>
+
+#include "core/error.hpp"
+#include "ponte/model_builder.hpp"
+
+namespace twindeck::ponte {
+
+namespace {
+
+// Rows of slab nodes and, at the stations, the bottom-chord node.
+DeckNodes build_nodes(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh) {
+  const DeckAxis axis(deck);
+  const std::vector<double> station = stations(deck, mesh.panels_per_stay_spacing);
+  DeckNodes out;
+  const auto add_line = [&](double s, bool is_station) {
+    DeckNodes::Line line{s, {}, -1};
+    for (int j = 0; j <= mesh.shells_across; ++j) {
+      const double v = deck.chord_spacing_m * (static_cast<double>(j) / mesh.shells_across - 0.5);
+      line.across.push_back(builder.add_node(axis.point(s, v)));
+    }
+    if (is_station) {
+      line.bottom = builder.add_node(axis.point(s, deck.bottom_chord_offset_m, -deck.truss_depth_m));
+    }
+    out.lines.push_back(line);
+  };
+  for (std::size_t k = 0; k < station.size(); ++k) {
+    add_line(station[k], true);
+    for (int i = 1; k + 1 < station.size() && i < mesh.shells_per_panel_along; ++i) {
+      add_line(station[k] + (station[k + 1] - station[k]) * i / mesh.shells_per_panel_along, false);
+    }
+  }
+  return out;
+}
+
+const SlabZone& zone_at(const DeckDefinition& deck, double s_m) {
+  const double reach = std::abs(s_m) / (deck.length_m / 2);
+  for (const SlabZone& zone : deck.slab) {
+    if (reach < zone.until) {
+      return zone;
+    }
+  }
+  return deck.slab.back();
+}
+
+void build_slab(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh, const DeckNodes& nodes) {
+  for (std::size_t k = 0; k + 1 < nodes.lines.size(); ++k) {
+    // The zone goes by the whole panel, so that it does not move when the panel is divided.
+    const std::size_t along = static_cast<std::size_t>(mesh.shells_per_panel_along), first = k / along * along;
+    const SlabZone& zone = zone_at(deck, (nodes.lines[first].s_m + nodes.lines[first + along].s_m) / 2);
+    const DeckNodes::Line &here = nodes.lines[k], &next = nodes.lines[k + 1];
+    for (std::size_t j = 0; j + 1 < here.across.size(); ++j) {
+      builder.add_element(fe::ElementType::shell, zone.group, zone.material,
+                          {here.across[j], next.across[j], next.across[j + 1], here.across[j + 1]});
+    }
+  }
+}
+
+void build_truss(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh, const DeckNodes& nodes) {
+  const DeckAxis axis(deck);
+  const std::string d = deck.name;
+  const auto& lines = nodes.lines;
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+    for (const auto& [from, to] : {std::pair{lines[k].across.front(), lines[k + 1].across.front()},
+                                   std::pair{lines[k].across.back(), lines[k + 1].across.back()}}) {
+      builder.add_element(fe::ElementType::beam, d + "_top_chord", "steel", {from, to});
+    }
+  }
+  const std::size_t step = static_cast<std::size_t>(mesh.shells_per_panel_along);
+  for (std::size_t k = 0; k < lines.size(); k += step) {
+    const DeckNodes::Line& line = lines[k];
+    for (std::size_t j = 0; j + 1 < line.across.size(); ++j) {
+      builder.add_element(fe::ElementType::beam, d + "_floor_beam", "steel", {line.across[j], line.across[j + 1]});
+    }
+    const auto diagonals = [&](const std::string& section, const DeckNodes::Line& top, const Eigen::Vector3d& orientation) {
+      builder.add_member(section, line.bottom, top.across.front(), mesh.members_per_panel, orientation);
+      builder.add_member(section, line.bottom, top.across.back(), mesh.members_per_panel, orientation);
+    };
+    // A post may stand upright, so its local z is laid along the deck.
+    diagonals(d + "_short_diagonal", line, axis.tangent(line.s_m));
+    // Long diagonals rise away from mid-length, at mid-length both ways.
+    const double tolerance = 1e-6 * deck.length_m;
+    if (k + step < lines.size()) {
+      builder.add_member(d + "_bottom_chord", line.bottom, lines[k + step].bottom, mesh.members_per_panel);
+      if (line.s_m > -tolerance) {
+        diagonals(d + "_long_diagonal", lines[k + step], Eigen::Vector3d::Zero());
+      }
+    }
+    if (k >= step && line.s_m < tolerance) {
+      diagonals(d + "_long_diagonal", lines[k - step], Eigen::Vector3d::Zero());
+    }
+  }
+}
+
+// Half of the mass on each edge line, lumped without rotary inertia.
+void build_nonstructural_mass(ModelBuilder& builder, const DeckDefinition& deck, const DeckNodes& nodes) {
+  if (deck.nonstructural_mass_kg_m == 0.0) {
+    return;
+  }
+  const auto& lines = nodes.lines;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const double before = k > 0 ? lines[k].s_m - lines[k - 1].s_m : 0.0;
+    const double after = k + 1 < lines.size() ? lines[k + 1].s_m - lines[k].s_m : 0.0;
+    for (const int node : {lines[k].across.front(), lines[k].across.back()}) {
+      fe::PointMass mass;
+      mass.group = deck.name + "_nonstructural_mass";
+      mass.node = node;
+      mass.mass_kg = deck.nonstructural_mass_kg_m * (before + after) / 4;
+      builder.model.masses.push_back(mass);
+    }
+  }
+}
+
+// Stay anchorages outside the edge, rigid with the top-chord node of their station.
+void build_brackets(ModelBuilder& builder, const DeckDefinition& deck, DeckNodes& nodes) {
+  const DeckAxis axis(deck);
+  const std::vector<double> positions = stay_positions(deck.stay);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    for (const bool north : {true, false}) {
+      const double s = north ? positions[i] : -positions[i];
+      const DeckNodes::Line& line = nodes.station_near(s);
+      TWINDECK_ASSERT(std::abs(line.s_m - s) < 1e-6 * deck.length_m);
+      const double reach = deck.chord_spacing_m / 2 + deck.bracket_arm_m;
+      const int bracket = builder.add_node(axis.point(s, deck.stays_on_outer_edge ? reach : -reach));
+      const std::string name = (north ? deck.stay.prefix_north : deck.stay.prefix_south) + std::to_string(i + 1);
+      builder.model.links.push_back(
+          {"bracket_" + name, deck.stays_on_outer_edge ? line.across.back() : line.across.front(), bracket});
+      nodes.anchors[name] = bracket;
+    }
+  }
+}
+
+}  // namespace
+
+DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh) {
+  for (const fe::Section& section : {deck.top_chord, deck.bottom_chord, deck.short_diagonal, deck.long_diagonal, deck.floor_beam}) {
+    builder.add_section(section);
+  }
+  for (const SlabZone& zone : deck.slab) {
+    fe::Section section;
+    section.name = zone.group;
+    section.thickness_m = zone.thickness_m;
+    section.bending_inertia_ratio = zone.bending_inertia_ratio;
+    builder.add_section(section);
+  }
+  DeckNodes nodes = build_nodes(builder, deck, mesh);
+  build_truss(builder, deck, mesh, nodes);
+  build_slab(builder, deck, mesh, nodes);
+  build_nonstructural_mass(builder, deck, nodes);
+  build_brackets(builder, deck, nodes);
+  return nodes;
+}
+
+}  // namespace twindeck::ponte

@@ -1,0 +1,252 @@
+#include "ponte/definition_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <toml++/toml.h>
+
+#include "core/units.hpp"
+
+namespace twindeck::ponte {
+
+namespace {
+
+bool below(const std::string& path, const std::string& table) {
+  return path.size() > table.size() && path.starts_with(table) && path[table.size()] == '.';
+}
+
+// "deck.cycle.slab.all.thickness" without its list positions, for comparing keys of different list entries.
+std::string without_positions(const std::string& path) {
+  std::string out;
+  std::size_t begin = 0;
+  while (begin <= path.size()) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string part = path.substr(begin, end - begin);
+    const bool position = !part.empty() && std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!position) {
+      out += (out.empty() ? "" : ".") + part;
+    }
+    begin = end + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+/// Walks the TOML tree once, so that toml++ stays in this file.
+struct Flattener {
+  DefinitionFile& out;
+
+  void walk(const toml::node& node, const std::string& path) {
+    if (const auto* table = node.as_table()) {
+      for (const auto& [key, child] : *table) {
+        walk(child, path.empty() ? std::string(key.str()) : path + "." + std::string(key.str()));
+      }
+    } else if (const auto* array = node.as_array()) {
+      for (std::size_t i = 0; i < array->size(); ++i) {
+        walk(*array->get(i), path + "." + std::to_string(i));
+      }
+    } else {
+      leaf(node, path);
+    }
+  }
+
+  void leaf(const toml::node& node, const std::string& path) {
+    DefinitionFile::Value value;
+    value.line = static_cast<long>(node.source().begin.line);
+    if (const auto* text = node.as_string()) {
+      value.text = text->get();
+      value.is_text = true;
+    } else if (const auto* whole = node.as_integer()) {
+      value.text = std::to_string(whole->get());
+    } else if (const auto* real = node.as_floating_point()) {
+      value.text = fmt::format("{:.17g}", real->get());
+    } else {
+      throw InputError({out.file_, value.line, path}, "is neither a number nor a text",
+                       "give a number, or a text such as \"35 GPa\"");
+    }
+    if (!out.values_.emplace(path, value).second) {
+      throw InputError({out.file_, value.line, path}, "is given twice", "keep one of the two");
+    }
+  }
+};
+
+DefinitionFile DefinitionFile::load(const std::filesystem::path& file) {
+  DefinitionFile out;
+  out.file_ = file.string();
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InputError({out.file_, 0, ""}, "there is no such file", "give the path of a bridge.toml");
+  }
+  try {
+    const toml::table table = toml::parse_file(out.file_);
+    Flattener{out}.walk(table, "");
+  } catch (const toml::parse_error& error) {
+    throw InputError({out.file_, static_cast<long>(error.source().begin.line), ""},
+                     "is no TOML: " + std::string(error.description()), "see toml.io for the syntax");
+  }
+  return out;
+}
+
+void DefinitionFile::fail(const std::string& path, const std::string& problem, const std::string& mend) const {
+  const auto found = values_.find(path);
+  throw InputError({file_, found == values_.end() ? 0 : found->second.line, path}, problem, mend);
+}
+
+std::vector<std::string> DefinitionFile::paths_below(const std::string& table) const {
+  std::vector<std::string> paths;
+  for (const auto& [path, value] : values_) {
+    if (below(path, table)) {
+      paths.push_back(path);
+    }
+  }
+  return paths;
+}
+
+DefinitionFile::Value& DefinitionFile::find(const std::string& path) {
+  const auto found = values_.find(path);
+  if (found == values_.end()) {
+    // A misspelt neighbour is the likeliest cause: look among the keys that nobody has asked for.
+    std::vector<std::string> open;
+    for (const auto& [other, value] : values_) {
+      if (!value.known) {
+        open.push_back(other);
+      }
+    }
+    const std::string near = nearest_name(path, open);
+    fail(path, "is missing" + (near.empty() ? std::string() : fmt::format(" (is '{}' in line {} meant for it?)", near,
+                                                                          values_.at(near).line)),
+         "add this key");
+  }
+  found->second.known = true;
+  return found->second;
+}
+
+double DefinitionFile::number(const std::string& path, const std::string& unit, Range range) {
+  const Value& value = find(path);
+  const double result = parse_quantity(value.text, unit, {file_, value.line, path});
+  if (!(result >= range.lower && result <= range.upper)) {
+    const std::string suffix = unit.empty() ? "" : " " + unit;
+    fail(path, fmt::format("is {}, expected a value from {:g} to {:g}{}", value.text, range.lower, range.upper, suffix),
+         "correct the value or its unit");
+  }
+  return result;
+}
+
+long DefinitionFile::integer(const std::string& path, long lower, long upper) {
+  const double value = number(path, "", {static_cast<double>(lower), static_cast<double>(upper)});
+  if (value != std::floor(value)) {
+    fail(path, fmt::format("is {:g}, expected a whole number", value), "give a number without a fraction");
+  }
+  return static_cast<long>(value);
+}
+
+std::string DefinitionFile::text(const std::string& path) {
+  const Value& value = find(path);
+  if (!value.is_text) {
+    fail(path, "is the number " + value.text + ", expected a text", "put it between quotes");
+  }
+  return value.text;
+}
+
+std::string DefinitionFile::choice(const std::string& path, const std::vector<std::string>& allowed) {
+  const std::string value = text(path);
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+    fail(path, "is '" + value + "', expected one of " + fmt::format("{}", fmt::join(allowed, ", ")) + did_you_mean(value, allowed),
+         "choose one of these");
+  }
+  return value;
+}
+
+std::vector<std::string> DefinitionFile::texts(const std::string& path) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < size(path); ++i) {
+    out.push_back(text(path + "." + std::to_string(i)));
+  }
+  return out;
+}
+
+std::vector<double> DefinitionFile::numbers(const std::string& path, const std::string& unit, Range range) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < size(path); ++i) {
+    out.push_back(number(path + "." + std::to_string(i), unit, range));
+  }
+  return out;
+}
+
+bool DefinitionFile::has(const std::string& path) const {
+  return values_.contains(path) ||
+         std::any_of(values_.begin(), values_.end(), [&](const auto& entry) { return below(entry.first, path); });
+}
+
+std::vector<std::string> DefinitionFile::names_below(const std::string& path) const {
+  std::set<std::string> names;
+  for (const auto& [other, value] : values_) {
+    if (below(other, path)) {
+      const std::size_t begin = path.size() + 1;
+      names.insert(other.substr(begin, other.find('.', begin) - begin));
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+std::size_t DefinitionFile::size(const std::string& path) const {
+  std::size_t count = 0;
+  while (has(path + "." + std::to_string(count))) {
+    ++count;
+  }
+  return count;
+}
+
+void DefinitionFile::check_overrides(const std::string& table) {
+  std::vector<std::string> bridge;
+  for (const auto& [path, value] : values_) {
+    if (!path.starts_with("change.") && !path.starts_with("variant")) {
+      bridge.push_back(path);
+    }
+  }
+  for (const std::string& key : paths_below(table)) {
+    const std::string target = key.substr(table.size() + 1);
+    if (std::find(bridge.begin(), bridge.end(), target) == bridge.end()) {
+      fail(key, "overrides '" + target + "', which this file does not have" + did_you_mean(target, bridge),
+           "name a key by its dotted path, for example \"mast.infill_z\"");
+    }
+    values_.at(key).known = true;
+  }
+}
+
+void DefinitionFile::apply(const std::string& table) {
+  check_overrides(table);
+  for (const std::string& key : paths_below(table)) {
+    Value& target = values_.at(key.substr(table.size() + 1));
+    const bool known = target.known;
+    target = values_.at(key);
+    target.known = known;
+  }
+}
+
+void DefinitionFile::mark_known(const std::string& table) {
+  for (auto& [path, value] : values_) {
+    if (path == table || below(path, table)) {
+      value.known = true;
+    }
+  }
+}
+
+void DefinitionFile::refuse_unknown() const {
+  std::set<std::string> known;
+  for (const auto& [path, value] : values_) {
+    if (value.known) {
+      known.insert(without_positions(path));
+    }
+  }
+  for (const auto& [path, value] : values_) {
+    if (!value.known) {
+      const std::vector<std::string> names(known.begin(), known.end());
+      fail(path, "is an unknown key" + did_you_mean(without_positions(path), names), "remove it or correct its name");
+    }
+  }
+}
+
+}  // namespace twindeck::ponte

@@ -1,0 +1,232 @@
+#include "ponte/generator.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "ponte/bridge_definition.hpp"
+#include "ponte/definition_file.hpp"
+#include "ponte/model_builder.hpp"
+
+namespace twindeck::ponte {
+
+namespace {
+
+std::string entry(const std::string& list, std::size_t i) { return list + "." + std::to_string(i); }
+
+std::vector<std::string> names_in(DefinitionFile& file, const std::string& list) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < file.size(list); ++i) {
+    out.push_back(file.text(entry(list, i) + ".name"));
+  }
+  return out;
+}
+
+std::size_t position(const DefinitionFile& file, const std::string& list, const std::vector<std::string>& names,
+                     const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw InputError({file.name(), 0, list}, "has no " + list + " '" + name + "'" + did_you_mean(name, names),
+                     "name one of the " + list + "s of this file");
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<Change> read_changes(DefinitionFile& file) {
+  std::vector<Change> out;
+  for (std::size_t i = 0; i < file.size("change"); ++i) {
+    const std::string path = entry("change", i);
+    out.push_back({file.text(path + ".name"), file.text(path + ".paper_item"), file.text(path + ".meaning")});
+  }
+  return out;
+}
+
+// The file with every change and variant checked, none applied.
+DefinitionFile open(const std::filesystem::path& bridge_toml) {
+  DefinitionFile file = DefinitionFile::load(bridge_toml);
+  for (const std::string list : {"change", "variant"}) {
+    for (std::size_t i = 0; i < file.size(list); ++i) {
+      file.check_overrides(entry(list, i) + ".set");
+    }
+  }
+  (void)read_changes(file);
+  for (std::size_t i = 0; i < file.size("variant"); ++i) {
+    (void)file.text(entry("variant", i) + ".meaning");
+    (void)file.text(entry("variant", i) + ".based_on");
+    (void)file.choice(entry("variant", i) + ".changes", {"none", "all"});
+  }
+  return file;
+}
+
+// Overrides of a variant after those of the variant that it is based on.
+void apply_variant(DefinitionFile& file, const std::string& variant, std::size_t depth = 0) {
+  const std::vector<std::string> names = names_in(file, "variant");
+  const std::string path = entry("variant", position(file, "variant", names, variant));
+  const std::string base = file.text(path + ".based_on");
+  if (depth > names.size()) {
+    file.fail(path + ".based_on", "leads back to the variant itself", "let one variant have based_on = \"\"");
+  }
+  if (!base.empty()) {
+    apply_variant(file, base, depth + 1);
+  }
+  if (file.text(path + ".changes") == "all") {
+    for (std::size_t i = 0; i < file.size("change"); ++i) {
+      file.apply(entry("change", i) + ".set");
+    }
+  }
+  file.apply(path + ".set");
+}
+
+// Initial values as they stand in the model; bounds on either side.
+void add_parameters(fe::Model& model, const BridgeDefinition& definition) {
+  const auto fail = [&](const ParameterDefinition& parameter, const std::string& of, const std::vector<std::string>& known) {
+    throw InputError({definition.source, 0, "parameter '" + parameter.name + "' of"},
+                     "names '" + of + "', which the model does not have" + did_you_mean(of, known),
+                     "name a material, a section or a group of springs or masses, as the target asks");
+  };
+  for (const ParameterDefinition& p : definition.parameters) {
+    fe::Parameter out{p.name, p.target, p.of, "-", 1.0, 0.0, 0.0};
+    for (const std::string& of : p.of) {
+      std::vector<std::string> known;
+      const auto find = [&](const auto& parts, auto name_of) {
+        for (const auto& part : parts) {
+          known.push_back(name_of(part));
+        }
+        const auto found = std::find(known.begin(), known.end(), of);
+        if (found == known.end()) {
+          fail(p, of, known);
+        }
+        return static_cast<std::size_t>(found - known.begin());
+      };
+      const auto by_name = [](const auto& part) { return part.name; };
+      const auto by_group = [](const auto& part) { return part.group; };
+      switch (p.target) {
+        case fe::Target::youngs_modulus:
+          out.initial = model.materials[find(model.materials, by_name)].youngs_modulus_Pa;
+          out.unit = "Pa";
+          break;
+        case fe::Target::density:
+          out.initial = model.materials[find(model.materials, by_name)].density_kg_m3;
+          out.unit = "kg/m3";
+          break;
+        case fe::Target::thickness:
+          out.initial = model.sections[find(model.sections, by_name)].thickness_m;
+          out.unit = "m";
+          break;
+        case fe::Target::bending_inertia_ratio:
+          out.initial = model.sections[find(model.sections, by_name)].bending_inertia_ratio;
+          break;
+        case fe::Target::area:
+          out.initial = model.sections[find(model.sections, by_name)].area_m2;
+          out.unit = "m2";
+          break;
+        case fe::Target::point_mass:
+          (void)find(model.masses, by_group);
+          break;
+        default:
+          (void)find(model.springs, by_group);
+      }
+    }
+    out.lower = out.initial * (1.0 - p.bound);
+    out.upper = out.initial * (1.0 + p.bound);
+    model.parameters.push_back(out);
+  }
+}
+
+void add_prestress(fe::Model& model, const BridgeDefinition& definition, const std::map<std::string, DeckNodes>& decks,
+                   const MastNodes& mast) {
+  model.prestress.rule = fe::PullRule::shape_finding;
+  model.prestress.minimum_pull_N = definition.minimum_pull_N;
+  model.prestress.ridge = definition.ridge;
+  model.prestress.site_weight = definition.site_weight;
+  for (const auto& [name, deck] : decks) {
+    for (const auto& [stay, bracket] : deck.anchors) {
+      model.prestress.conditions.push_back({bracket, 2});
+    }
+  }
+  model.prestress.conditions.push_back({mast.top(), 0});
+  model.prestress.conditions.push_back({mast.top(), 1});
+  for (fe::Element& element : model.elements) {
+    const auto pull = definition.site_pull_N.find(element.name);
+    if (element.type == fe::ElementType::stay && pull != definition.site_pull_N.end()) {
+      element.pull_N = pull->second;
+    }
+  }
+}
+
+fe::Model build(const BridgeDefinition& definition, const std::string& title) {
+  ModelBuilder builder;
+  builder.model.title = definition.title + ", " + title;
+  builder.model.gravity_m_s2 = definition.gravity_m_s2;
+  builder.model.source = definition.source;
+  for (const fe::Material& material : definition.materials) {
+    builder.add_material(material);
+  }
+  std::map<std::string, DeckNodes> decks;
+  for (const DeckDefinition& deck : definition.decks) {
+    decks[deck.name] = build_deck(builder, deck, definition.mesh);
+    build_deck_supports(builder, deck, decks[deck.name]);
+  }
+  const MastNodes mast = build_mast(builder, definition);
+  build_stays(builder, definition, decks, mast);
+  build_dampers(builder, definition, decks);
+  for (const DeckPoint& point : definition.monitoring_points) {
+    const DeckNodes::Line& line = decks.at(point.deck).station_near(point.s_m);
+    builder.model.monitoring_points[point.name] = point.outer_edge ? line.across.back() : line.across.front();
+  }
+  add_prestress(builder.model, definition, decks, mast);
+  add_parameters(builder.model, definition);
+  return builder.model;
+}
+
+}  // namespace
+
+std::vector<Change> as_built_changes(const std::filesystem::path& bridge_toml) {
+  DefinitionFile file = open(bridge_toml);
+  return read_changes(file);
+}
+
+std::vector<std::string> variants(const std::filesystem::path& bridge_toml) {
+  DefinitionFile file = open(bridge_toml);
+  return names_in(file, "variant");
+}
+
+fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant) {
+  DefinitionFile file = open(bridge_toml);
+  apply_variant(file, variant);
+  return build(read_definition(std::move(file), variant), variant);
+}
+
+fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes) {
+  DefinitionFile file = open(bridge_toml);
+  const std::vector<std::string> names = names_in(file, "change");
+  std::string title = "preliminary";
+  apply_variant(file, "preliminary");
+  for (const std::string& change : changes) {
+    file.apply(entry("change", position(file, "change", names, change)) + ".set");
+    title += " + " + change;
+  }
+  return build(read_definition(std::move(file), "preliminary"), title);
+}
+
+fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant) {
+  DefinitionFile file = open(bridge_toml);
+  apply_variant(file, variant);
+  const BridgeDefinition definition = read_definition(std::move(file), variant);
+  if (definition.prototype_pull_N.empty()) {
+    throw InputError({definition.source, 0, "variant_pulls"}, "has no pulls for the variant '" + variant + "'",
+                     "add a [[variant_pulls]] table for it");
+  }
+  fe::Model model = build(definition, variant + " (prototype's formulation)");
+  model.prestress.rule = fe::PullRule::given;
+  model.formulation.shear_flexible = false;
+  model.formulation.shell_rotary_inertia = false;
+  model.formulation.drilling = fe::Formulation::Drilling::diagonal;
+  for (fe::Element& element : model.elements) {
+    if (element.type == fe::ElementType::stay) {
+      element.pull_N = definition.prototype_pull_N.at(element.name);
+    }
+  }
+  return model;
+}
+
+}  // namespace twindeck::ponte

@@ -1,0 +1,25 @@
+#include "ponte/model_builder.hpp"
+
+namespace twindeck::ponte {
+
+void build_deck_supports(ModelBuilder& builder, const DeckDefinition& deck, const DeckNodes& nodes) {
+  const DeckAxis axis(deck);
+  const BearingDefinition& k = deck.bearing;
+  for (const bool north : {true, false}) {
+    const DeckNodes::Line& end = north ? nodes.lines.back() : nodes.lines.front();
+    const std::string group = deck.name + (north ? "_north" : "_south");
+    const Eigen::Vector3d r = axis.radial(end.s_m), t = axis.tangent(end.s_m), z = Eigen::Vector3d::UnitZ();
+    builder.add_spring(group, group + "_bottom_radial", end.bottom, r, k.bottom_N_m);
+    builder.add_spring(group, group + "_bottom_tangential", end.bottom, t, k.bottom_N_m);
+    builder.add_spring(group, group + "_bottom_vertical", end.bottom, z, k.bottom_N_m);
+    for (const bool outer : {false, true}) {
+      const int corner = outer ? end.across.back() : end.across.front();
+      const std::string name = group + (outer ? "_outer" : "_inner");
+      builder.add_spring(group, name + "_vertical", corner, z, k.vertical_N_m);
+      builder.add_spring(group, name + "_radial", corner, r, k.radial_N_m / 2);
+      builder.add_spring(group, name + "_tangential", corner, t, k.tangential_N_m);
+    }
+  }
+}
+
+}  // namespace twindeck::ponte
