@@ -9,7 +9,8 @@
 
 namespace twindeck::model_io {
 
-/// K.mtx and M.mtx (Matrix Market, symmetric, lower triangle, 17 digits) with dofs.csv (`dof,node,direction,x_m,y_m,z_m`, dof from 1).
+/// K.mtx and M.mtx (Matrix Market, symmetric, lower triangle, 17 digits) with dofs.csv (`dof,node,direction,x_m,y_m,z_m`, dof
+/// from 1).
 void write_matrices(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, const std::filesystem::path& folder);
 /// dofs.csv alone; coordinates that are not known (NaN) stay empty.
 void write_dofs(const fe::ParametricSystem& system, const std::filesystem::path& folder);
@@ -18,14 +19,16 @@ void write_vtu(const fe::Model& model, const fe::ParametricSystem& system, const
                const std::filesystem::path& file);
 
 /// modes.csv and shapes.csv (DESIGN section 3) in a folder: standard deviations and damping that are NaN stay empty, damping in
-/// per cent; each shape is scaled so that its component of largest magnitude is +1; a column value_imag is written where a shape
-/// is complex; no shapes.csv where no shape is known.
+/// per cent; each shape is scaled so that its component of largest magnitude is +1; a column value_imag is written where a
+/// shape is complex; no shapes.csv where no shape is known.
 void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folder);
 /// Reads the same files, further columns are allowed; shapes.csv may be missing.
-/// @throws InputError with file, line, column: a frequency that is not positive, a mode named twice, a shape of an unknown mode,
+/// @throws InputError with file, line, column: a frequency that is not positive, a mode named twice, a shape of an unknown
+/// mode,
 ///         a component that one mode has and another lacks
 [[nodiscard]] modal::ModeSet read_modes(const std::filesystem::path& folder);
-/// Model modes as a ModeSet (names "1", "2", …): all six directions at every node (FE), or node and direction of each dof (matrix model).
+/// Model modes as a ModeSet (names "1", "2", …): all six directions at every node (FE), or node and direction of each dof
+/// (matrix model).
 [[nodiscard]] modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& system,
                                          const dynamics::EigenModes& modes);
 

@@ -13,14 +13,13 @@ void write_dofs(const fe::ParametricSystem& system, const std::filesystem::path&
   io::CsvWriter dofs({"dof", "node", "direction", "x_m", "y_m", "z_m"});
   for (std::size_t i = 0; i < system.dofs.size(); ++i) {
     const auto& dof = system.dofs[i];
-    dofs.row({i + 1, dof.node, direction_names()[static_cast<std::size_t>(dof.direction)], known(dof.x_m.x()), known(dof.x_m.y()),
-              known(dof.x_m.z())});
+    dofs.row({i + 1, dof.node, direction_names()[static_cast<std::size_t>(dof.direction)], known(dof.x_m.x()),
+              known(dof.x_m.y()), known(dof.x_m.z())});
   }
   dofs.save(folder / "dofs.csv");
 }
 
 void write_matrices(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
   write_matrix_market(system.stiffness(theta), folder / "K.mtx");
   write_matrix_market(system.mass(theta), folder / "M.mtx");
   write_dofs(system, folder);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/atomic.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -91,15 +92,18 @@ std::vector<Entry> read_entries(Reader& reader, int n, long count) {
   std::vector<Entry> entries;
   std::vector<std::string> words;
   while (reader.fields(words)) {
-    if (words.size() != 3) reader.fail(fmt::format("has {} words, expected row, column and value", words.size()), "mend the line");
+    if (words.size() != 3)
+      reader.fail(fmt::format("has {} words, expected row, column and value", words.size()), "mend the line");
     const Entry entry{reader.number<int>(words[0]), reader.number<int>(words[1]), reader.number<double>(words[2]), 0};
     if (entry.row < 1 || entry.row > n || entry.column < 1 || entry.column > n) {
-      reader.fail(fmt::format("entry ({}, {}) lies outside the {} x {} matrix", entry.row, entry.column, n, n), "indices count from 1");
+      reader.fail(fmt::format("entry ({}, {}) lies outside the {} x {} matrix", entry.row, entry.column, n, n),
+                  "indices count from 1");
     }
     entries.push_back({entry.row - 1, entry.column - 1, entry.value, 0});
   }
   if (static_cast<long>(entries.size()) != count) {
-    reader.fail(fmt::format("holds {} entries, but its size line says {}", entries.size(), count), "the file was cut off or edited", 0);
+    reader.fail(fmt::format("holds {} entries, but its size line says {}", entries.size(), count),
+                "the file was cut off or edited", 0);
   }
   return entries;
 }
@@ -123,11 +127,13 @@ std::vector<Eigen::Triplet<double, int>> symmetric_part(const Reader& reader, co
     const auto [row, column] = at;
     const auto mirrored = value.find({column, row});
     const double b = mirrored == value.end() ? 0.0 : mirrored->second;
-    const double scale = std::max({std::abs(a), std::abs(b), std::sqrt(std::abs(diagonal[static_cast<std::size_t>(row)] *
-                                                                                diagonal[static_cast<std::size_t>(column)]))});
+    const double scale =
+        std::max({std::abs(a), std::abs(b),
+                  std::sqrt(std::abs(diagonal[static_cast<std::size_t>(row)] * diagonal[static_cast<std::size_t>(column)]))});
     if (std::abs(a - b) > 1e-9 * scale) {
-      reader.fail(fmt::format("is not symmetric: entry ({0}, {1}) is {2:.9g}, entry ({1}, {0}) is {3:.9g}", row + 1, column + 1, a, b),
-                  "stiffness and mass matrices must be symmetric", 0);
+      reader.fail(
+          fmt::format("is not symmetric: entry ({0}, {1}) is {2:.9g}, entry ({1}, {0}) is {3:.9g}", row + 1, column + 1, a, b),
+          "stiffness and mass matrices must be symmetric", 0);
     }
     if (row >= column) lower.emplace_back(row, column, 0.5 * (a + b));
     if (row < column && mirrored == value.end()) lower.emplace_back(column, row, 0.5 * a);
@@ -143,7 +149,8 @@ linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
   std::vector<std::string> words;
   if (!reader.fields(words) || words.size() != 3) reader.fail("the size line is missing", "expected 'rows columns entries'");
   const int n = reader.number<int>(words[0]);
-  if (reader.number<int>(words[1]) != n || n < 1) reader.fail(fmt::format("is {} x {}", words[0], words[1]), "a square matrix is expected");
+  if (reader.number<int>(words[1]) != n || n < 1)
+    reader.fail(fmt::format("is {} x {}", words[0], words[1]), "a square matrix is expected");
   const long count = reader.number<long>(words[2]);
   const std::vector<Entry> entries = read_entries(reader, n, count);
 
@@ -152,7 +159,8 @@ linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
   std::sort(seen.begin(), seen.end());
   const auto twice = std::adjacent_find(seen.begin(), seen.end());
   if (twice != seen.end()) {
-    reader.fail(fmt::format("entry ({}, {}) stands twice", twice->first + 1, twice->second + 1), "sum or remove one of the two", 0);
+    reader.fail(fmt::format("entry ({}, {}) stands twice", twice->first + 1, twice->second + 1), "sum or remove one of the two",
+                0);
   }
   if (!symmetric) return from_entries(symmetric_part(reader, entries, n), n);
 
@@ -179,9 +187,8 @@ void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesyste
       ++count;
     }
   }
-  std::ofstream stream(file, std::ios::binary);
-  stream << "%%MatrixMarket matrix coordinate real symmetric\n" << lower.rows() << ' ' << lower.cols() << ' ' << count << '\n' << body;
-  if (!stream.flush()) throw InputError({file.string(), 0, ""}, "cannot be written", "check the folder and the space on the disk");
+  io::write_file_atomically(
+      file, fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{0} {0} {1}\n", lower.rows(), count) + body);
 }
 
 }  // namespace twindeck::model_io

@@ -43,7 +43,8 @@ struct MatrixModelEntry {
     table.text("title", title, "what the model is")
         .text("matrices.K", stiffness, "Matrix Market file of K0", true)
         .text("matrices.M", mass, "Matrix Market file of M0", true)
-        .tables("parameter", [this] { return parameters.emplace_back().fields(); }, "K = K0 + sum theta_i K_i, M likewise");
+        .tables(
+            "parameter", [this] { return parameters.emplace_back().fields(); }, "K = K0 + sum theta_i K_i, M likewise");
     return table;
   }
 };
@@ -69,7 +70,8 @@ std::vector<fe::DofLabel> read_dofs(const std::filesystem::path& folder) {
       table.fail(row, "direction", fmt::format("node {} has direction {} twice", dof.node, direction), "each may appear once");
     }
     const double unknown = std::numeric_limits<double>::quiet_NaN();
-    dof.x_m = {table.number_or(row, "x_m", unknown), table.number_or(row, "y_m", unknown), table.number_or(row, "z_m", unknown)};
+    dof.x_m = {table.number_or(row, "x_m", unknown), table.number_or(row, "y_m", unknown),
+               table.number_or(row, "z_m", unknown)};
     dofs.push_back(dof);
   }
   if (dofs.empty()) throw InputError({table.file().string(), 0, ""}, "holds no degree of freedom", "give each one a row");
@@ -86,8 +88,8 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
     throw refuse("appears twice with target " + entry.target, "give each parameter a name of its own");
   }
   if (!(entry.lower <= entry.initial && entry.initial <= entry.upper)) {
-    throw refuse(fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper", io::format_number(entry.lower),
-                             io::format_number(entry.initial), io::format_number(entry.upper)),
+    throw refuse(fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
+                             io::format_number(entry.lower), io::format_number(entry.initial), io::format_number(entry.upper)),
                  "put the bounds around the initial value");
   }
   const fe::Target target = entry.target == "mass" ? fe::Target::matrix_mass : fe::Target::matrix_stiffness;
@@ -95,12 +97,18 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
     const auto& known = system.parameters[i];
     if (known.name != entry.name) continue;
     if (known.initial != entry.initial || known.lower != entry.lower || known.upper != entry.upper) {
-      throw refuse("has other values for the mass than for the stiffness", "give both entries the same initial value and bounds");
+      throw refuse("has other values for the mass than for the stiffness",
+                   "give both entries the same initial value and bounds");
     }
     return static_cast<int>(i);
   }
-  system.parameters.push_back({entry.name, target, {entry.group.empty() ? entry.name : entry.group}, entry.unit, entry.initial,
-                               entry.lower, entry.upper});
+  system.parameters.push_back({entry.name,
+                               target,
+                               {entry.group.empty() ? entry.name : entry.group},
+                               entry.unit,
+                               entry.initial,
+                               entry.lower,
+                               entry.upper});
   return static_cast<int>(system.parameters.size()) - 1;
 }
 

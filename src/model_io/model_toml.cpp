@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <deque>
-#include <fstream>
 #include <set>
 
 #include "core/error.hpp"
+#include "io/atomic.hpp"
 #include "io/config.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/names.hpp"
@@ -46,10 +46,15 @@ struct ModelEntry {
     io::FieldTable table;
     table.text("title", title, "what the model is")
         .number("gravity", gravity_m_s2, "m/s2", io::non_negative(), "acceleration of gravity, along -Z")
-        .boolean("formulation.shear_flexible", formulation.shear_flexible, "false: Euler-Bernoulli beams whatever the shear areas")
-        .boolean("formulation.shell_rotary_inertia", formulation.shell_rotary_inertia, "false: shells with translational mass only")
+        .boolean("formulation.shear_flexible", formulation.shear_flexible,
+                 "false: Euler-Bernoulli beams whatever the shear areas")
+        .boolean("formulation.beam_rotary_inertia", formulation.beam_rotary_inertia,
+                 "false: beams without rotary inertia of bending")
+        .boolean("formulation.shell_rotary_inertia", formulation.shell_rotary_inertia,
+                 "false: shells with translational mass only")
         .choice("formulation.drilling", drilling, {"penalty", "diagonal"}, "stiffness of shell rotations about the normal")
-        .number("formulation.drilling_factor", formulation.drilling_factor, "", io::non_negative(), "0: the formulation's default")
+        .number("formulation.drilling_factor", formulation.drilling_factor, "", io::non_negative(),
+                "0: the formulation's default")
         .choice("prestress.rule", rule, pull_rule_names(), "where the pulls of the stays come from")
         .boolean("prestress.geometric_stiffness", prestress.geometric_stiffness, "axial forces stiffen stays and members")
         .number("prestress.minimum_pull", prestress.minimum_pull_N, "N", io::non_negative(), "no stay goes slack below it")
@@ -57,7 +62,9 @@ struct ModelEntry {
         .number("prestress.site_weight", prestress.site_weight, "", io::non_negative(),
                 "weight of the pulls of elements.csv against zero displacement")
         .texts("prestress.conditions", conditions, "displacements that the pulls should bring to zero: \"node:direction\"")
-        .tables("parameter", [this] { return parameters.emplace_back().fields(); }, "what may be updated, and between which bounds");
+        .tables(
+            "parameter", [this] { return parameters.emplace_back().fields(); },
+            "what may be updated, and between which bounds");
     return table;
   }
 };
@@ -98,8 +105,10 @@ const char* kind_of(fe::Target target) {
 fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& model, const ParameterEntry& entry) {
   const std::string anchor = "\"" + entry.name + "\"";
   const std::string key = "parameter " + entry.name;
-  fe::Parameter p{entry.name, static_cast<fe::Target>(position_of(entry.target, target_names())), entry.of, entry.unit,
-                  entry.initial, entry.lower, entry.upper};
+  fe::Parameter p{entry.name,    static_cast<fe::Target>(position_of(entry.target, target_names())),
+                  entry.of,      entry.unit,
+                  entry.initial, entry.lower,
+                  entry.upper};
   if (p.of.empty()) {
     throw at(file, anchor, key, "'of' is missing or empty", fmt::format("name the {} that it applies to", kind_of(p.target)));
   }
@@ -129,7 +138,8 @@ fe::Prestress::Condition to_condition(const std::filesystem::path& file, const N
   const auto found = number ? index.nodes.find(std::stol(node)) : index.nodes.end();
   if (found == index.nodes.end() || dof < 0 || dof > 2) {
     throw at(file, "\"" + text + "\"", "prestress.conditions",
-             fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z", text),
+             fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z",
+                         text),
              "write for example \"17:z\"");
   }
   return {found->second, dof};
@@ -163,7 +173,8 @@ void read_model_toml(const std::filesystem::path& folder, fe::Model& model, cons
   model.title = entry.title;
   model.gravity_m_s2 = entry.gravity_m_s2;
   model.formulation = entry.formulation;
-  model.formulation.drilling = entry.drilling == "penalty" ? fe::Formulation::Drilling::penalty : fe::Formulation::Drilling::diagonal;
+  model.formulation.drilling =
+      entry.drilling == "penalty" ? fe::Formulation::Drilling::penalty : fe::Formulation::Drilling::diagonal;
   model.prestress = entry.prestress;
   model.prestress.rule = static_cast<fe::PullRule>(position_of(entry.rule, pull_rule_names()));
   for (const auto& text : entry.conditions) model.prestress.conditions.push_back(to_condition(file, index, text));
@@ -175,26 +186,32 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
   std::string text;
   text += "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
   text += fmt::format("title = {}\ngravity = {}\n\n", toml_text(model.title), number(model.gravity_m_s2));
-  const auto& f = model.formulation;
-  text += fmt::format("[formulation]\nshear_flexible = {}\nshell_rotary_inertia = {}\ndrilling = \"{}\"\ndrilling_factor = {}\n\n",
-                      f.shear_flexible, f.shell_rotary_inertia,
-                      f.drilling == fe::Formulation::Drilling::penalty ? "penalty" : "diagonal", number(f.drilling_factor));
+  // Bound by position: a field that is added to the struct does not compile here until it is written too.
+  const auto& [shear, beam_rotary, shell_rotary, drilling, factor] = model.formulation;
+  text += fmt::format(
+      "[formulation]\nshear_flexible = {}\nbeam_rotary_inertia = {}\nshell_rotary_inertia = {}\ndrilling = \"{}\"\n"
+      "drilling_factor = {}\n\n",
+      shear, beam_rotary, shell_rotary, drilling == fe::Formulation::Drilling::penalty ? "penalty" : "diagonal",
+      number(factor));
   const auto& p = model.prestress;
   std::vector<std::string> conditions;
   for (const auto& c : p.conditions) {
     conditions.push_back(fmt::format("{}:{}", model.nodes[static_cast<std::size_t>(c.node)].id,
                                      direction_names()[static_cast<std::size_t>(c.dof)]));
   }
-  text += fmt::format("[prestress]\nrule = \"{}\"\ngeometric_stiffness = {}\nminimum_pull = {}\nridge = {}\nsite_weight = {}\nconditions = {}\n",
-                      pull_rule_names()[static_cast<std::size_t>(p.rule)], p.geometric_stiffness, number(p.minimum_pull_N),
-                      number(p.ridge), number(p.site_weight), text_list(conditions));
+  text += fmt::format(
+      "[prestress]\nrule = \"{}\"\ngeometric_stiffness = {}\nminimum_pull = {}\nridge = {}\nsite_weight = {}\nconditions = "
+      "{}\n",
+      pull_rule_names()[static_cast<std::size_t>(p.rule)], p.geometric_stiffness, number(p.minimum_pull_N), number(p.ridge),
+      number(p.site_weight), text_list(conditions));
   for (const auto& q : model.parameters) {
     TWINDECK_ASSERT(static_cast<std::size_t>(q.target) < target_names().size());
-    text += fmt::format("\n[[parameter]]\nname = {}\ntarget = \"{}\"\nof = {}\nunit = {}\ninitial = {}\nlower = {}\nupper = {}\n",
-                        toml_text(q.name), target_names()[static_cast<std::size_t>(q.target)], text_list(q.of), toml_text(q.unit),
-                        number(q.initial), number(q.lower), number(q.upper));
+    text +=
+        fmt::format("\n[[parameter]]\nname = {}\ntarget = \"{}\"\nof = {}\nunit = {}\ninitial = {}\nlower = {}\nupper = {}\n",
+                    toml_text(q.name), target_names()[static_cast<std::size_t>(q.target)], text_list(q.of), toml_text(q.unit),
+                    number(q.initial), number(q.lower), number(q.upper));
   }
-  std::ofstream(folder / "model.toml", std::ios::binary) << text;
+  io::write_file_atomically(folder / "model.toml", text);
 }
 
 }  // namespace twindeck::model_io

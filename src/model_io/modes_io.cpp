@@ -34,7 +34,8 @@ void write_shapes(const modal::ModeSet& modes, const std::filesystem::path& file
     const Eigen::VectorXcd shape = modes.shapes.col(mode) / largest_component(modes.shapes.col(mode));
     for (std::size_t i = 0; i < modes.dofs.size(); ++i) {
       const std::complex<double> value = shape[static_cast<Eigen::Index>(i)];
-      std::vector<io::Cell> row = {modes.names[static_cast<std::size_t>(mode)], modes.dofs[i].point, modes.dofs[i].direction, value.real()};
+      std::vector<io::Cell> row = {modes.names[static_cast<std::size_t>(mode)], modes.dofs[i].point, modes.dofs[i].direction,
+                                   value.real()};
       if (complex) row.emplace_back(value.imag());
       writer.row(row);
     }
@@ -49,18 +50,22 @@ void read_shapes(const std::filesystem::path& file, modal::ModeSet& modes) {
   std::map<std::pair<std::string, std::string>, Eigen::Index> dof_at;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const modal::ShapeDof dof{table.text(row, "point"), table.text(row, "direction")};
-    if (dof_at.emplace(std::pair{dof.point, dof.direction}, static_cast<Eigen::Index>(modes.dofs.size())).second) modes.dofs.push_back(dof);
+    if (dof_at.emplace(std::pair{dof.point, dof.direction}, static_cast<Eigen::Index>(modes.dofs.size())).second)
+      modes.dofs.push_back(dof);
   }
   const auto n = static_cast<Eigen::Index>(modes.dofs.size());
   modes.shapes = Eigen::MatrixXcd::Constant(n, modes.size(), kUnknown);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto mode = mode_at.find(table.text(row, "mode"));
     if (mode == mode_at.end()) {
-      table.fail(row, "mode", fmt::format("mode '{}' is not in modes.csv{}", table.text(row, "mode"), did_you_mean(table.text(row, "mode"), modes.names)),
+      table.fail(row, "mode",
+                 fmt::format("mode '{}' is not in modes.csv{}", table.text(row, "mode"),
+                             did_you_mean(table.text(row, "mode"), modes.names)),
                  "shapes.csv lists modes of modes.csv");
     }
     auto& value = modes.shapes(dof_at.at({table.text(row, "point"), table.text(row, "direction")}), mode->second);
-    if (!std::isnan(value.real())) table.fail(row, "point", "this component of the mode stands twice", "remove one of the two rows");
+    if (!std::isnan(value.real()))
+      table.fail(row, "point", "this component of the mode stands twice", "remove one of the two rows");
     value = {table.number(row, "value"), table.number_or(row, "value_imag", 0.0)};
   }
   for (Eigen::Index mode = 0; mode < modes.size(); ++mode) {
@@ -77,7 +82,6 @@ void read_shapes(const std::filesystem::path& file, modal::ModeSet& modes) {
 }  // namespace
 
 void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
   io::CsvWriter writer({"mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"});
   const auto at = [](const Eigen::VectorXd& v, Eigen::Index i) { return i < v.size() ? v[i] : kUnknown; };
   for (Eigen::Index i = 0; i < modes.size(); ++i) {
@@ -100,12 +104,14 @@ modal::ModeSet read_modes(const std::filesystem::path& folder) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string name = table.text(row, "mode");
     if (name.empty()) table.fail(row, "mode", "is empty", "name the mode");
-    if (position_of(name, modes.names) >= 0) table.fail(row, "mode", fmt::format("mode '{}' appears twice", name), "give each mode a name of its own");
+    if (position_of(name, modes.names) >= 0)
+      table.fail(row, "mode", fmt::format("mode '{}' appears twice", name), "give each mode a name of its own");
     modes.names.push_back(name);
     const auto i = static_cast<Eigen::Index>(row);
     modes.frequency_Hz[i] = table.number(row, "frequency_Hz");
     if (modes.frequency_Hz[i] < 0.0) {
-      table.fail(row, "frequency_Hz", fmt::format("is {}, expected a value of at least 0", table.text(row, "frequency_Hz")), "frequencies are in Hz");
+      table.fail(row, "frequency_Hz", fmt::format("is {}, expected a value of at least 0", table.text(row, "frequency_Hz")),
+                 "frequencies are in Hz");
     }
     modes.frequency_std_Hz[i] = table.number_or(row, "frequency_std_Hz", kUnknown);
     modes.damping_ratio[i] = table.number_or(row, "damping_ratio_pct", kUnknown) / 100.0;
@@ -122,7 +128,8 @@ modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& s
   set.frequency_Hz = modes.frequency_Hz;
   set.frequency_std_Hz = set.damping_ratio = set.damping_ratio_std = Eigen::VectorXd::Constant(n, kUnknown);
   if (model == nullptr) {
-    for (const auto& dof : system.dofs) set.dofs.push_back({dof.node, direction_names()[static_cast<std::size_t>(dof.direction)]});
+    for (const auto& dof : system.dofs)
+      set.dofs.push_back({dof.node, direction_names()[static_cast<std::size_t>(dof.direction)]});
     set.shapes = modes.shapes.cast<std::complex<double>>();
     return set;
   }

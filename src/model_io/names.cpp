@@ -15,9 +15,8 @@ const std::vector<std::string>& element_type_names() {
 }
 
 const std::vector<std::string>& target_names() {
-  static const std::vector<std::string> names = {"youngs_modulus",        "density", "thickness",
-                                                 "bending_inertia_ratio", "area",    "spring_stiffness",
-                                                 "point_mass"};
+  static const std::vector<std::string> names = {"youngs_modulus", "density",          "thickness", "bending_inertia_ratio",
+                                                 "area",           "spring_stiffness", "point_mass"};
   return names;
 }
 

@@ -51,9 +51,9 @@ void read_supports(const std::filesystem::path& folder, fe::Model& model, const 
 
 void read_springs(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
   if (!is_there(folder, "springs.csv")) return;
-  const auto table = io::CsvTable::read(
-      folder / "springs.csv", {"spring", "node", "direction_x", "direction_y", "direction_z", "stiffness_N_m"},
-      {"group", "node2", "quantity", "damping_N_s_m", "friction_N", "arrangement", "active"});
+  const auto table = io::CsvTable::read(folder / "springs.csv",
+                                        {"spring", "node", "direction_x", "direction_y", "direction_z", "stiffness_N_m"},
+                                        {"group", "node2", "quantity", "damping_N_s_m", "friction_N", "arrangement", "active"});
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Spring s;
     s.name = table.text(row, "spring");

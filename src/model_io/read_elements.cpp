@@ -58,10 +58,11 @@ void check_length(const io::CsvTable& table, std::size_t row, const fe::Model& m
   const auto& b = model.nodes[static_cast<std::size_t>(element.nodes[1])];
   const double length = (b.x_m + element.offset_m[1] - a.x_m - element.offset_m[0]).norm();
   if (length > 1e-9) return;
-  table.fail(row, "node2",
-             fmt::format("{} {} has no length: nodes {} and {} lie at one place ({}, {}, {})", name_of(element.type), element.id, a.id,
-                         b.id, io::format_number(a.x_m.x()), io::format_number(a.x_m.y()), io::format_number(a.x_m.z())),
-             "move one of the nodes in nodes.csv, or join them by a row of links.csv instead");
+  table.fail(
+      row, "node2",
+      fmt::format("{} {} has no length: nodes {} and {} lie at one place ({}, {}, {})", name_of(element.type), element.id, a.id,
+                  b.id, io::format_number(a.x_m.x()), io::format_number(a.x_m.y()), io::format_number(a.x_m.z())),
+      "move one of the nodes in nodes.csv, or join them by a row of links.csv instead");
 }
 
 void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
@@ -79,10 +80,10 @@ void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& 
 }  // namespace
 
 void read_elements(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
-  const auto table = io::CsvTable::read(
-      folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
-      {"name", "group", "node3", "node4", "orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m",
-       "offset1_z_m", "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
+  const auto table =
+      io::CsvTable::read(folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
+                         {"name", "group", "node3", "node4", "orientation_x", "orientation_y", "orientation_z", "offset1_x_m",
+                          "offset1_y_m", "offset1_z_m", "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
   std::set<long> ids;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Element e;
@@ -106,7 +107,8 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
     e.releases = static_cast<std::uint16_t>(releases);
     e.pull_N = table.number_or(row, "pull_N", 0.0);
     if (e.pull_N < 0.0) {
-      table.fail(row, "pull_N", fmt::format("is {}, expected a pull of at least 0", io::format_number(e.pull_N)), "a stay cannot push");
+      table.fail(row, "pull_N", fmt::format("is {}, expected a pull of at least 0", io::format_number(e.pull_N)),
+                 "a stay cannot push");
     }
     check_length(table, row, model, e);
     check_section(table, row, model, e);

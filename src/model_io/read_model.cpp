@@ -1,5 +1,6 @@
-#include <fstream>
 #include <toml++/toml.h>
+
+#include <fstream>
 
 #include "core/error.hpp"
 #include "model_io/folder_parts.hpp"
@@ -9,7 +10,8 @@ namespace twindeck::model_io {
 
 fe::Model read_model(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) {
-    throw InputError({folder.string(), 0, ""}, "is no folder", "give the folder of a model: model.toml, nodes.csv, elements.csv, …");
+    throw InputError({folder.string(), 0, ""}, "is no folder",
+                     "give the folder of a model: model.toml, nodes.csv, elements.csv, …");
   }
   if (is_matrix_model(folder)) {
     throw InputError({(folder / "model.toml").string(), line_of(folder / "model.toml", "[matrices]"), "matrices"},
@@ -47,8 +49,8 @@ bool is_matrix_model(const std::filesystem::path& folder) {
 
 std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const char* name : {"model.toml", "nodes.csv", "elements.csv", "materials.csv", "sections.csv", "supports.csv", "springs.csv",
-                           "links.csv", "masses.csv", "points.csv", "dofs.csv"}) {
+  for (const char* name : {"model.toml", "nodes.csv", "elements.csv", "materials.csv", "sections.csv", "supports.csv",
+                           "springs.csv", "links.csv", "masses.csv", "points.csv", "dofs.csv"}) {
     if (std::filesystem::exists(folder / name)) files.push_back(folder / name);
   }
   if (!is_matrix_model(folder)) return files;

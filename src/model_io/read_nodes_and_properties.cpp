@@ -1,5 +1,6 @@
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "core/error.hpp"
 #include "model_io/folder_parts.hpp"
@@ -8,10 +9,12 @@ namespace twindeck::model_io {
 namespace {
 
 /// A number that must not be negative (or, `strict`, must be positive).
-double at_least_zero(const io::CsvTable& table, std::size_t row, const std::string& column, double fallback, bool strict = false) {
+double at_least_zero(const io::CsvTable& table, std::size_t row, const std::string& column, double fallback,
+                     bool strict = false) {
   const double value = table.number_or(row, column, fallback);
   if (value < 0.0 || (strict && value == 0.0)) {
-    table.fail(row, column, fmt::format("is {}, expected a value {} 0", io::format_number(value), strict ? "above" : "of at least"),
+    table.fail(row, column,
+               fmt::format("is {}, expected a value {} 0", io::format_number(value), strict ? "above" : "of at least"),
                "give the value in SI units, as the unit in the column's name says");
   }
   return value;
@@ -68,7 +71,8 @@ void read_materials(const std::filesystem::path& folder, fe::Model& model, NameI
                  "steel has 0.3, concrete 0.2");
     }
     // An isotropic material needs two constants; the third follows where the column is empty.
-    m.shear_modulus_Pa = at_least_zero(table, row, "shear_modulus_Pa", m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio)), true);
+    m.shear_modulus_Pa =
+        at_least_zero(table, row, "shear_modulus_Pa", m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio)), true);
     (void)table.number(row, "density_kg_m3");
     m.density_kg_m3 = at_least_zero(table, row, "density_kg_m3", 0.0);
     index.materials.emplace(m.name, static_cast<int>(row));
@@ -78,8 +82,8 @@ void read_materials(const std::filesystem::path& folder, fe::Model& model, NameI
 
 void read_sections(const std::filesystem::path& folder, fe::Model& model, NameIndex& index) {
   const auto table = io::CsvTable::read(folder / "sections.csv", {"section"},
-                                        {"area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4", "shear_area_y_m2",
-                                         "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
+                                        {"area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4",
+                                         "shear_area_y_m2", "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Section s;
     s.name = unique_name(table, row, "section", index.sections);

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
 
 #include "core/error.hpp"
+#include "io/atomic.hpp"
 #include "model_io/export.hpp"
 #include "model_io/names.hpp"
 
-/// VTK XML unstructured grid in ASCII ("VTK File Formats", chapter 19 of the VTK User's Guide): opens in ParaView as it is, and a
-/// text tool can compare two of them.
+/// VTK XML unstructured grid in ASCII ("VTK File Formats", chapter 19 of the VTK User's Guide): opens in ParaView as it is, and
+/// a text tool can compare two of them.
 namespace twindeck::model_io {
 namespace {
 
@@ -37,7 +37,8 @@ std::string string_array(const std::string& name, const std::vector<std::string>
     for (const unsigned char c : text) body += fmt::format("{} ", static_cast<int>(c));
     body += "0\n";
   }
-  return fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}</Array>\n", name, texts.size(), body);
+  return fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}</Array>\n", name,
+                     texts.size(), body);
 }
 
 /// Groups in alphabetical order, so that the numbers do not depend on the order of the elements.
@@ -55,15 +56,18 @@ std::string field_data(const fe::Model& model, const std::map<std::string, int>&
   const std::vector<double> frequencies(modes.frequency_Hz.data(), modes.frequency_Hz.data() + modes.frequency_Hz.size());
   return "<FieldData>\n" + string_array("title", {model.title}) + string_array("group_names", names) +
          string_array("type_names", element_type_names()) +
-         fmt::format("<DataArray type=\"Float64\" Name=\"frequency_Hz\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
-                     frequencies.size(), lines(frequencies, [](double f) { return fmt::format("{:.12g}", f); })) +
+         fmt::format(
+             "<DataArray type=\"Float64\" Name=\"frequency_Hz\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
+             frequencies.size(), lines(frequencies, [](double f) { return fmt::format("{:.12g}", f); })) +
          "</FieldData>\n";
 }
 
-/// Translations of one mode at every node, scaled so that the longest vector has length 1 and its largest component is positive.
+/// Translations of one mode at every node, scaled so that the longest vector has length 1 and its largest component is
+/// positive.
 std::string mode_vectors(const Eigen::Ref<const Eigen::VectorXd>& full) {
   const Eigen::Index nodes = full.size() / 6;
-  const Eigen::Matrix<double, 6, Eigen::Dynamic> at = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>>(full.data(), 6, nodes);
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> at =
+      Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>>(full.data(), 6, nodes);
   const double longest = at.topRows(3).colwise().norm().maxCoeff();
   const double scale = longest > 0.0 ? 1.0 / longest : 1.0;
   std::string body;
@@ -80,16 +84,20 @@ std::string points_and_cells(const fe::Model& model) {
     return e.nodes.size() == 4 ? fmt::format("{} {} {} {}", e.nodes[0], e.nodes[1], e.nodes[2], e.nodes[3])
                                : fmt::format("{} {}", e.nodes[0], e.nodes[1]);
   };
-  return "<Points>\n" + data_array("Float64", "Points", 3, lines(model.nodes, [](const fe::Node& n) {
-           return fmt::format("{:.12g} {:.12g} {:.12g}", n.x_m.x(), n.x_m.y(), n.x_m.z());
-         })) + "</Points>\n<Cells>\n" +
-         data_array("Int64", "connectivity", 1, lines(elements, connectivity)) +
-         data_array("Int64", "offsets", 1, lines(elements, [&offset](const fe::Element& e) {
-                      return std::to_string(offset += static_cast<long>(e.nodes.size()));
-                    })) +
-         data_array("UInt8", "types", 1, lines(elements, [](const fe::Element& e) {
-                      return std::to_string(e.nodes.size() == 4 ? kVtkQuad : kVtkLine);
-                    })) + "</Cells>\n";
+  return "<Points>\n" +
+         data_array(
+             "Float64", "Points", 3,
+             lines(model.nodes,
+                   [](const fe::Node& n) { return fmt::format("{:.12g} {:.12g} {:.12g}", n.x_m.x(), n.x_m.y(), n.x_m.z()); })) +
+         "</Points>\n<Cells>\n" + data_array("Int64", "connectivity", 1, lines(elements, connectivity)) +
+         data_array(
+             "Int64", "offsets", 1,
+             lines(elements,
+                   [&offset](const fe::Element& e) { return std::to_string(offset += static_cast<long>(e.nodes.size())); })) +
+         data_array(
+             "UInt8", "types", 1,
+             lines(elements, [](const fe::Element& e) { return std::to_string(e.nodes.size() == 4 ? kVtkQuad : kVtkLine); })) +
+         "</Cells>\n";
 }
 
 }  // namespace
@@ -99,21 +107,25 @@ void write_vtu(const fe::Model& model, const fe::ParametricSystem& system, const
   const Eigen::MatrixXd full = system.expand(modes.shapes);
   TWINDECK_ASSERT(full.rows() == 6 * static_cast<Eigen::Index>(model.nodes.size()));
   const auto groups = number_groups(model);
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
   text += field_data(model, groups, modes);
-  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", model.nodes.size(), model.elements.size());
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", model.nodes.size(),
+                      model.elements.size());
   text += data_array("Int64", "node", 1, lines(model.nodes, [](const fe::Node& n) { return std::to_string(n.id); }));
   for (Eigen::Index mode = 0; mode < full.cols(); ++mode) {
-    text += data_array("Float64", fmt::format("mode_{:02d}_{:.4f}_Hz", mode + 1, modes.frequency_Hz[mode]), 3, mode_vectors(full.col(mode)));
+    text += data_array("Float64", fmt::format("mode_{:02d}_{:.4f}_Hz", mode + 1, modes.frequency_Hz[mode]), 3,
+                       mode_vectors(full.col(mode)));
   }
   text += "</PointData>\n<CellData>\n";
   text += data_array("Int64", "element", 1, lines(model.elements, [](const fe::Element& e) { return std::to_string(e.id); }));
-  text += data_array("Int32", "group", 1, lines(model.elements, [&](const fe::Element& e) { return std::to_string(groups.at(e.group)); }));
-  text += data_array("Int32", "type", 1, lines(model.elements, [](const fe::Element& e) { return std::to_string(static_cast<int>(e.type)); }));
+  text += data_array("Int32", "group", 1,
+                     lines(model.elements, [&](const fe::Element& e) { return std::to_string(groups.at(e.group)); }));
+  text += data_array("Int32", "type", 1,
+                     lines(model.elements, [](const fe::Element& e) { return std::to_string(static_cast<int>(e.type)); }));
   text += "</CellData>\n" + points_and_cells(model) + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw InputError({file.string(), 0, ""}, "cannot be written", "check the folder and the space on the disk");
+  io::write_file_atomically(file, text);
 }
 
 }  // namespace twindeck::model_io

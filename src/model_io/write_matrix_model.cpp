@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "core/error.hpp"
-#include "io/csv.hpp"
+#include "io/atomic.hpp"
 #include "model_io/export.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/matrix_market.hpp"
@@ -13,7 +12,8 @@
 namespace twindeck::model_io {
 namespace {
 
-/// A(theta) = constant + sum_p theta_p slope_p, the tangent at theta0; exact where every coefficient is linear in one parameter.
+/// A(theta) = constant + sum_p theta_p slope_p, the tangent at theta0; exact where every coefficient is linear in one
+/// parameter.
 struct Decomposition {
   linalg::SparseMatrix constant;
   std::vector<linalg::SparseMatrix> slope;  ///< one a parameter, all zero where the matrix does not depend on it
@@ -51,23 +51,25 @@ bool is_zero(const linalg::SparseMatrix& matrix) {
 }
 
 std::string parameter_text(const fe::Parameter& p, const std::string& matrix, const char* target) {
-  std::string text = fmt::format("\n[[parameter]]\nname = {}\nmatrix = {}\ntarget = \"{}\"\n", toml_text(p.name), toml_text(matrix), target);
+  std::string text =
+      fmt::format("\n[[parameter]]\nname = {}\nmatrix = {}\ntarget = \"{}\"\n", toml_text(p.name), toml_text(matrix), target);
   if (p.of.size() == 1 && p.of[0] != p.name) text += fmt::format("group = {}\n", toml_text(p.of[0]));
   // Shortest decimal form that reads back to the same bits: these numbers multiply matrices of 17 digits.
-  return text + fmt::format("unit = {}\ninitial = {}\nlower = {}\nupper = {}\n", toml_text(p.unit), p.initial, p.lower, p.upper);
+  return text +
+         fmt::format("unit = {}\ninitial = {}\nlower = {}\nupper = {}\n", toml_text(p.unit), p.initial, p.lower, p.upper);
 }
 
 }  // namespace
 
 void write_matrix_model(const fe::ParametricSystem& system, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
   write_dofs(system, folder);
   const Decomposition stiffness = decompose(system, system.stiffness_terms);
   const Decomposition mass = decompose(system, system.mass_terms);
   write_matrix_market(stiffness.constant, folder / "K0.mtx");
   write_matrix_market(mass.constant, folder / "M0.mtx");
-  std::string text = "# K = K0 + sum theta_i K_i, M = M0 + sum theta_j M_j; rows in the order of dofs.csv\n"
-                     "[matrices]\nK = \"K0.mtx\"\nM = \"M0.mtx\"\n";
+  std::string text =
+      "# K = K0 + sum theta_i K_i, M = M0 + sum theta_j M_j; rows in the order of dofs.csv\n"
+      "[matrices]\nK = \"K0.mtx\"\nM = \"M0.mtx\"\n";
   for (std::size_t p = 0; p < system.parameters.size(); ++p) {
     const auto& parameter = system.parameters[p];
     const bool in_mass = !is_zero(mass.slope[p]);
@@ -82,7 +84,7 @@ void write_matrix_model(const fe::ParametricSystem& system, const std::filesyste
       text += parameter_text(parameter, file, "mass");
     }
   }
-  std::ofstream(folder / "model.toml", std::ios::binary) << text;
+  io::write_file_atomically(folder / "model.toml", text);
 }
 
 }  // namespace twindeck::model_io

@@ -1,6 +1,3 @@
-#include <system_error>
-
-#include "core/error.hpp"
 #include "io/csv.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/model_folder.hpp"
@@ -27,8 +24,8 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
   }
   materials.save(folder / "materials.csv");
 
-  io::CsvWriter sections({"section", "area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4", "shear_area_y_m2",
-                          "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
+  io::CsvWriter sections({"section", "area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4",
+                          "shear_area_y_m2", "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
   for (const auto& s : model.sections) {
     sections.row({s.name, s.area_m2, s.inertia_y_m4, s.inertia_z_m4, s.inertia_yz_m4, s.torsion_m4, s.shear_area_y_m2,
                   s.shear_area_z_m2, s.thickness_m, s.bending_inertia_ratio});
@@ -37,11 +34,16 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
 }
 
 void write_elements(const fe::Model& model, const std::filesystem::path& folder) {
-  io::CsvWriter elements({"element", "type", "name", "group", "material", "section", "node1", "node2", "node3", "node4",
-                          "orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m", "offset1_z_m",
-                          "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
+  io::CsvWriter elements({"element",       "type",        "name",        "group",       "material",      "section",
+                          "node1",         "node2",       "node3",       "node4",       "orientation_x", "orientation_y",
+                          "orientation_z", "offset1_x_m", "offset1_y_m", "offset1_z_m", "offset2_x_m",   "offset2_y_m",
+                          "offset2_z_m",   "releases",    "pull_N"});
   for (const auto& e : model.elements) {
-    Row row = {e.id, name_of(e.type), e.name, e.group, model.materials[static_cast<std::size_t>(e.material)].name,
+    Row row = {e.id,
+               name_of(e.type),
+               e.name,
+               e.group,
+               model.materials[static_cast<std::size_t>(e.material)].name,
                model.sections[static_cast<std::size_t>(e.section)].name};
     for (std::size_t i = 0; i < 4; ++i) row.push_back(node_id(model, i < e.nodes.size() ? e.nodes[i] : -1));
     for (const Eigen::Vector3d& v : {e.orientation, e.offset_m[0], e.offset_m[1]}) {
@@ -63,12 +65,12 @@ void write_attachments(const fe::Model& model, const std::filesystem::path& fold
   }
   supports.save(folder / "supports.csv");
 
-  io::CsvWriter springs({"spring", "group", "node", "node2", "direction_x", "direction_y", "direction_z", "quantity", "stiffness_N_m",
-                         "damping_N_s_m", "friction_N", "arrangement", "active"});
+  io::CsvWriter springs({"spring", "group", "node", "node2", "direction_x", "direction_y", "direction_z", "quantity",
+                         "stiffness_N_m", "damping_N_s_m", "friction_N", "arrangement", "active"});
   for (const auto& s : model.springs) {
-    springs.row({s.name, s.group, node_id(model, s.node), node_id(model, s.node2), s.direction.x(), s.direction.y(), s.direction.z(),
-                 s.rotation ? "rotation" : "translation", s.stiffness, s.damping, s.friction_N, s.series ? "series" : "parallel",
-                 s.active ? 1 : 0});
+    springs.row({s.name, s.group, node_id(model, s.node), node_id(model, s.node2), s.direction.x(), s.direction.y(),
+                 s.direction.z(), s.rotation ? "rotation" : "translation", s.stiffness, s.damping, s.friction_N,
+                 s.series ? "series" : "parallel", s.active ? 1 : 0});
   }
   springs.save(folder / "springs.csv");
 
@@ -90,9 +92,6 @@ void write_attachments(const fe::Model& model, const std::filesystem::path& fold
 }  // namespace
 
 void write_model(const fe::Model& model, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError({folder.string(), 0, ""}, "cannot be made: " + error.message(), "choose a folder that can be written");
   write_parts(model, folder);
   write_elements(model, folder);
   write_attachments(model, folder);

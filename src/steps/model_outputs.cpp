@@ -1,0 +1,91 @@
+#include "steps/model_outputs.hpp"
+
+#include <array>
+#include <optional>
+#include <set>
+
+#include "io/csv.hpp"
+#include "model_io/export.hpp"
+
+namespace twindeck::steps {
+namespace {
+
+std::string stay_name(const fe::Element& element) { return element.name.empty() ? std::to_string(element.id) : element.name; }
+
+const char* arrangement_of(const fe::Spring& spring) {
+  if (spring.stiffness == 0.0) return "viscous";
+  return spring.series ? "series" : "parallel";
+}
+
+}  // namespace
+
+modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes) {
+  modal::ModeSet all = model_io::to_mode_set(model, system, modes);
+  if (model == nullptr) return all;
+  modal::ModeSet kept = all;
+  kept.dofs.clear();
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < all.dofs.size(); ++i) {
+    if (all.dofs[i].direction.front() == 'r') continue;
+    kept.dofs.push_back(all.dofs[i]);
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  kept.shapes = all.shapes(rows, Eigen::all);
+  return kept;
+}
+
+void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder) {
+  io::CsvWriter stays({"stay", "group", "length_m", "pull_N", "site_pull_N", "stress_Pa", "equivalent_modulus_Pa"});
+  for (std::size_t i = 0; model != nullptr && i < model->elements.size(); ++i) {
+    const fe::Element& e = model->elements[i];
+    if (e.type != fe::ElementType::stay) continue;
+    const Eigen::Vector3d chord =
+        model->nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model->nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
+    const fe::Material& material = model->materials[static_cast<std::size_t>(e.material)];
+    const auto at = static_cast<Eigen::Index>(i);
+    const double pull = state.stay_pull_N.size() > at ? state.stay_pull_N[at] : 0.0;
+    const double stress = pull / model->sections[static_cast<std::size_t>(e.section)].area_m2;
+    const fe::Dischinger law{material.density_kg_m3 * model->gravity_m_s2, chord.head<2>().norm(), stress};
+    // Without pull the model leaves the sag out too, and the stay acts with the modulus of its material.
+    const double modulus = stress > 0.0 ? law.modulus(material.youngs_modulus_Pa) : material.youngs_modulus_Pa;
+    stays.row({stay_name(e), e.group, chord.norm(), pull, e.pull_N > 0.0 ? std::optional<double>(e.pull_N) : std::nullopt,
+               stress, modulus});
+  }
+  stays.save(folder / "stays.csv");
+}
+
+void write_dampers(const fe::Model* model, const std::filesystem::path& folder) {
+  io::CsvWriter dampers({"damper", "group", "damping_N_s_m", "stiffness_N_m", "arrangement"});
+  if (model != nullptr) {
+    for (const auto& s : model->springs) {
+      if (s.group.starts_with("damper")) dampers.row({s.name, s.group, s.damping, s.stiffness, arrangement_of(s)});
+    }
+  }
+  dampers.save(folder / "dampers.csv");
+}
+
+void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const std::filesystem::path& folder) {
+  io::CsvWriter summary({"quantity", "value", "unit"});
+  summary.row({"degrees_of_freedom", static_cast<long>(system.size()), "-"});
+  summary.row({"parameters", system.parameters.size(), "-"});
+  if (model != nullptr) {
+    std::array<long, 4> count{};
+    for (const auto& e : model->elements) ++count[static_cast<std::size_t>(e.type)];
+    summary.row({"nodes", model->nodes.size(), "-"});
+    summary.row({"elements", model->elements.size(), "-"});
+    summary.row({"beams", count[static_cast<std::size_t>(fe::ElementType::beam)], "-"});
+    summary.row({"bars", count[static_cast<std::size_t>(fe::ElementType::bar)], "-"});
+    summary.row({"stays", count[static_cast<std::size_t>(fe::ElementType::stay)], "-"});
+    summary.row({"shells", count[static_cast<std::size_t>(fe::ElementType::shell)], "-"});
+    summary.row({"springs", model->springs.size(), "-"});
+    summary.row({"rigid_links", model->links.size(), "-"});
+    summary.row({"point_masses", model->masses.size(), "-"});
+  } else {
+    std::set<std::string> nodes;
+    for (const auto& dof : system.dofs) nodes.insert(dof.node);
+    summary.row({"nodes", nodes.size(), "-"});
+  }
+  summary.save(folder / "summary.csv");
+}
+
+}  // namespace twindeck::steps

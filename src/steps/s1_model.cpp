@@ -1,0 +1,65 @@
+/// Step 1 (paper section 2.2, Fig. 5): the finite element model, its dead load and prestress, its modes.
+#include <fmt/format.h>
+
+#include "dynamics/eigenmodes.hpp"
+#include "model_io/export.hpp"
+#include "steps/model_outputs.hpp"
+#include "steps/model_source.hpp"
+#include "steps/run_step.hpp"
+
+namespace {
+
+using namespace twindeck;
+
+struct ModelConfig {
+  std::string variant = "preliminary";
+  long n_modes = 15;
+
+  io::FieldTable fields() {
+    io::FieldTable table;
+    table.text("variant", variant, "variant of the generator: preliminary, refined, … (a model folder has none)")
+        .integer("n_modes", n_modes, {1.0, 200.0}, "number of modes, from the lowest");
+    return table;
+  }
+};
+
+Status run(const ModelConfig& config, steps::StepContext& context) {
+  // 1. The model: generated or read, checked, prestressed, assembled; a mechanism is refused here.
+  const steps::LoadedModel loaded = steps::load_study_model(context, config.variant);
+  const fe::Model* model = loaded.fe_model();
+  if (config.n_modes > loaded.system.size()) {
+    throw InputError({"", 0, "n_modes"},
+                     fmt::format("is {}, but the model has {} degrees of freedom", config.n_modes, loaded.system.size()),
+                     "ask for fewer modes: --set n_modes=" + std::to_string(loaded.system.size()));
+  }
+  context.say(fmt::format("{}: {} degrees of freedom", loaded.source, loaded.system.size()));
+
+  // 2. Its modes.
+  dynamics::ModalSolver solver(loaded.system);
+  const dynamics::EigenModes modes = solver.solve(loaded.theta, static_cast<int>(config.n_modes));
+
+  // 3. Modes and shapes, a picture, tables of stays, dampers and sizes, and the model as a folder of data for any other step.
+  model_io::write_modes(steps::published_modes(model, loaded.system, modes), context.out);
+  if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
+  steps::write_stays(model, loaded.state, context.out);
+  steps::write_dampers(model, context.out);
+  steps::write_summary(model, loaded.system, context.out);
+  steps::save_model(loaded, loaded.theta, context.out / "model");
+  if (context.has_flag("export-matrices")) model_io::write_matrices(loaded.system, loaded.theta, context.out);
+  return loaded.state.status.converged ? modes.status : loaded.state.status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ModelConfig config;
+  steps::Step step;
+  step.token = "s1_model";
+  step.summary = "Builds or reads the finite element model, finds its prestress and its modes.";
+  step.examples = {"s1_model --study workflows/ponte_del_mare --out results/ponte_del_mare/s1_model --set variant=refined",
+                   "s1_model --model my_bridge --out results/my_bridge/s1_model --export-matrices"};
+  step.fields = config.fields();
+  step.flags = {{"export-matrices", false, "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv"}};
+  step.run = [&config](steps::StepContext& context) { return run(config, context); };
+  return steps::run_step(argc, argv, std::move(step));
+}
