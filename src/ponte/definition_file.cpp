@@ -115,9 +115,10 @@ DefinitionFile::Value& DefinitionFile::find(const std::string& path) {
       }
     }
     const std::string near = nearest_name(path, open);
-    fail(path, "is missing" + (near.empty() ? std::string() : fmt::format(" (is '{}' in line {} meant for it?)", near,
-                                                                          values_.at(near).line)),
-         "add this key");
+    if (!near.empty()) {
+      fail(near, fmt::format("is an unknown key, and '{}' is missing", path), "correct its name");
+    }
+    fail(path, "is missing", "add this key");
   }
   found->second.known = true;
   return found->second;
