@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "fe/parametric_system.hpp"
 
 namespace twindeck::steps {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "io/csv.hpp"
@@ -84,6 +85,34 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
     }
     csv.row(cells);
   }
+  csv.save(file);
+}
+
+void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                            const updating::UpdatingResult& result, const std::filesystem::path& file) {
+  std::vector<ComparisonRow> alike;
+  std::copy_if(comparison.begin(), comparison.end(), std::back_inserter(alike), [&](const ComparisonRow& row) {
+    return std::find(common.begin(), common.end(), row.experimental) != common.end();
+  });
+  io::CsvWriter csv({"quantity", "value", "unit"});
+  csv.row({"mean_abs_error_before_pct", mean_abs_error_pct(comparison, "before"), "%"});
+  csv.row({"mean_abs_error_after_pct", mean_abs_error_pct(comparison, "after"), "%"});
+  csv.row({"pairs", comparison.size() / 2, "-"});
+  if (!alike.empty()) {
+    csv.row({"mean_abs_error_common_before_pct", mean_abs_error_pct(alike, "before"), "%"});
+    csv.row({"mean_abs_error_common_after_pct", mean_abs_error_pct(alike, "after"), "%"});
+    csv.row({"pairs_common", alike.size() / 2, "-"});
+  }
+  const updating::StartResult& best = result.starts.at(static_cast<std::size_t>(result.best));
+  csv.row({"cost", best.cost, "-"});
+  csv.row({"projected_gradient_relative", best.relative_projected_gradient, "-"});
+  csv.row({"starts", result.starts.size(), "-"});
+  csv.row({"starts_converged",
+           static_cast<long>(std::count_if(result.starts.begin(), result.starts.end(), [](const auto& s) { return s.converged; })), "-"});
+  csv.row({"distinct_optima", result.optima.size(), "-"});
+  csv.row({"parameters_on_bounds",
+           static_cast<long>(std::count_if(result.on_bound.begin(), result.on_bound.end(), [](int side) { return side != 0; })), "-"});
+  csv.row({"smallest_followed_mac", result.followed_mac.minCoeff(), "-"});
   csv.save(file);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fe/model.hpp"
+#include "steps/comparison.hpp"
 #include "updating/updating.hpp"
 
 namespace twindeck::steps {
@@ -23,6 +24,12 @@ void write_history(const std::vector<fe::Parameter>& parameters, const std::vect
 /// parameters. `optimum` numbers the distinct optima from 1, best first; empty for a start that did not converge.
 void write_starts(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                   const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over the
+/// measured modes `common` (those that an earlier table compares too), so that means are over like and like; cost and optimality
+/// of the best start; numbers of starts, of distinct optima, of parameters on a bound.
+void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                            const updating::UpdatingResult& result, const std::filesystem::path& file);
 
 /// What was found, for people: values before and after, bounds hit, cost and optimality of each start.
 [[nodiscard]] std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,

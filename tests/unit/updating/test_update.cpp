@@ -59,7 +59,7 @@ TEST(Update, MeetsTheGridOptimumOnSeveralBounds) {
   ASSERT_TRUE(result.status.converged) << result.status.message;
   constexpr int grid = 40;
   double best = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d at;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
   for (int i = 0; i <= grid; ++i)
     for (int j = 0; j <= grid; ++j)
       for (int k = 0; k <= grid; ++k) {
@@ -159,7 +159,9 @@ TEST(Update, CostNeverRisesWithinASolveAndThreadsDoNotMatter) {
   std::map<std::pair<int, int>, double> last;
   for (const IterationRecord& record : one.history) {
     const auto [at, first] = last.try_emplace({record.start, record.outer}, record.cost);
-    if (!first) EXPECT_LE(record.cost, at->second);
+    if (!first) {
+      EXPECT_LE(record.cost, at->second);
+    }
     at->second = record.cost;
   }
   EXPECT_EQ(last.size(), 6U);

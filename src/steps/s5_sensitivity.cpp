@@ -1,0 +1,56 @@
+/// Step 5 (paper section 4.2, Eq. 6): sensitivity of the modes to the parameters, and which of these the measurement can tell.
+#include <fmt/format.h>
+
+#include "steps/model_source.hpp"
+#include "steps/run_step.hpp"
+#include "steps/sensitivity.hpp"
+#include "steps/sensitivity_outputs.hpp"
+
+namespace {
+
+using namespace twindeck;
+
+Status run(const steps::SensitivityConfig& config, steps::StepContext& context) {
+  // 1. The refined model, with the prestress of its own parameter values, frozen.
+  const steps::LoadedModel loaded = steps::load_model(context, context.results / "s4_refinement" / "model");
+  steps::check_sensitivity_config(config, loaded.system.parameters, loaded.source);
+  if (!loaded.state.status.converged) return loaded.state.status;
+
+  // 2. Sensitivities three ways: exact, by extrapolated central differences, by Eq. (6).
+  steps::SensitivityOptions options;
+  options.n_modes = static_cast<int>(config.n_modes);
+  options.forward_step = config.forward_step;
+  const steps::Sensitivities found = steps::frequency_sensitivities(
+      loaded.system, loaded.theta, options, [&](int done, int of) { context.progress("differences", done, of); });
+  if (found.frequency_Hz.size() == 0) return found.status;
+
+  // 3. Which parameters to update: the rule of selection.hpp on the compared modes, beside the paper's choice.
+  const Eigen::MatrixXd scaled = steps::scaled_sensitivity(config, loaded.system.parameters, found);
+  const std::vector<std::string> names = steps::parameter_names(loaded.system.parameters);
+  const auto selection = steps::select_parameters(scaled, names, config.selection_threshold);
+  const steps::Identifiability identified = steps::identifiability(scaled, config.singular_value_cutoff);
+
+  // 4. Tables, and the outcome in words.
+  steps::write_sensitivity(loaded.system.parameters, found, context.out / "sensitivity.csv");
+  steps::write_selection(loaded.system.parameters, selection, config, context.out / "selection.csv");
+  steps::write_singular_values(identified, config, context.out / "singular_values.csv");
+  steps::write_identifiability(loaded.system.parameters, identified, config, context.out / "identifiability.csv");
+  for (const std::string& line : steps::sensitivity_report(loaded.system.parameters, found, selection, identified, config)) {
+    context.say(line);
+  }
+  return found.status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  steps::SensitivityConfig config;
+  steps::Step step;
+  step.token = "s5_sensitivity";
+  step.summary = "Sensitivity of the modes to the parameters, selection of parameters, identifiability.";
+  step.examples = {"s5_sensitivity --study workflows/ponte_del_mare --out results/ponte_del_mare/s5_sensitivity",
+                   "s5_sensitivity --model my_bridge --out results/my_bridge/s5_sensitivity --set n_modes=8"};
+  step.fields = config.fields();
+  step.run = [&config](steps::StepContext& context) { return run(config, context); };
+  return steps::run_step(argc, argv, std::move(step));
+}

@@ -1,0 +1,68 @@
+/// Step 6 (paper section 4.2, Tables 8 to 10): parameters updated within their bounds to the measured frequencies.
+#include <fmt/format.h>
+
+#include "model_io/export.hpp"
+#include "steps/model_outputs.hpp"
+#include "steps/updating_outputs.hpp"
+#include "steps/updating_setup.hpp"
+
+namespace {
+
+using namespace twindeck;
+
+Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
+  // 1. The refined model and the measured modes.
+  const steps::LoadedModel before = steps::load_model(context, context.results / "s4_refinement" / "model");
+  const std::optional<steps::Measured> measured = steps::find_measured(context, config.condition);
+  if (!measured) throw InputError({"", 0, ""}, "no measured modes were given", "give --features DIR or --modes DIR, or a study");
+  if (!before.state.status.converged) return before.state.status;
+  const std::vector<fe::Parameter>& parameters = before.system.parameters;
+  const std::vector<int> active = steps::active_parameters(config, before, context);
+
+  // 2. Which measured mode belongs to which computed one.
+  const dynamics::EigenModes modes_before = steps::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
+  if (!modes_before.status.converged) return modes_before.status;
+  const steps::Pairing pairing = steps::pair_for_updating(config, before, modes_before, *measured);
+
+  // 3. The update.
+  const updating::UpdatingResult result = updating::update(
+      before.system, steps::prestress_refresh(before), active, steps::frequency_targets(*measured, pairing),
+      config.options(context.seed), [&](int done, int of) { context.progress("starts", done, of); });
+  if (result.starts.empty() || result.mode_after.empty()) return result.status;
+
+  // 4. The updated model, in balance, with its modes and the same pairs.
+  const steps::LoadedModel after = steps::with_values(before, result.theta);
+  const dynamics::EigenModes modes_after = steps::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
+  const steps::Pairing followed = steps::followed_pairing(config, pairing, result, after, modes_after, *measured);
+  std::vector<steps::ComparisonRow> comparison = steps::compare("before", *measured, modes_before.frequency_Hz, pairing);
+  const auto rows_after = steps::compare("after", *measured, modes_after.frequency_Hz, followed);
+  comparison.insert(comparison.end(), rows_after.begin(), rows_after.end());
+
+  // 5. Tables, the model, and the outcome in words.
+  steps::write_parameters(parameters, active, result, context.out / "parameters.csv");
+  steps::write_comparison(comparison, context.out);
+  steps::write_history(parameters, active, result, context.out / "history.csv");
+  steps::write_starts(parameters, active, result, context.out / "starts.csv");
+  steps::write_updating_summary(comparison, config.common_pairs, result, context.out / "summary.csv");
+  steps::write_mac(*measured, followed, context.out);
+  model_io::write_modes(steps::published_modes(after.fe_model(), after.system, modes_after), context.out);
+  steps::save_model(before, result.theta, context.out / "model");
+  for (const std::string& line : steps::report_lines(parameters, active, result)) context.say(line);
+  context.say(fmt::format("mean |error| of {} pairs: {:.2f} % before, {:.2f} % after", pairing.pairs.size(),
+                          steps::mean_abs_error_pct(comparison, "before"), steps::mean_abs_error_pct(comparison, "after")));
+  return result.status.converged ? modes_after.status : result.status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  steps::UpdatingConfig config;
+  steps::Step step;
+  step.token = "s6_updating";
+  step.summary = "Updates parameters within their bounds to the measured frequencies (dogleg, several starts).";
+  step.examples = {"s6_updating --study workflows/ponte_del_mare --out results/ponte_del_mare/s6_updating",
+                   "s6_updating --model my_bridge/model --features my_bridge/features --out my_bridge/updated --set starts=4"};
+  step.fields = config.fields();
+  step.run = [&config](steps::StepContext& context) { return run(config, context); };
+  return steps::run_step(argc, argv, std::move(step));
+}
