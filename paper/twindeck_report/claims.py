@@ -3,23 +3,28 @@ reported as not computed yet and never filled."""
 from dataclasses import dataclass
 
 from .cells import decimals, number
+from .errors import InputError
 from .study import Study
-
-FREQUENCY_TOLERANCE = 0.05  # as in Table 2: the preliminary model's section sizes are ours, fitted to those frequencies
+from .tolerances import KINDS
 
 
 @dataclass(frozen=True)
 class Claim:
     name: str
-    statement: str
+    source: str  # where the paper says it
+    kind: str
+    unit: str
     paper: str
     ours: float | None  # None: not computed yet
-    allowed: float | None
+    allowed: float | None  # None: shown beside the paper's, no claim of agreement (kind virtual)
+    basis: str
 
     @property
     def verdict(self) -> str:
         if self.ours is None:
             return "not computed yet"
+        if self.allowed is None:
+            return "shown, not compared"
         return "inside" if abs(self.ours - number(self.paper)) <= self.allowed else "outside"
 
     @property
@@ -29,21 +34,23 @@ class Claim:
 
 def check_claims(study: Study) -> list:
     """Empty when the study has no claims.csv."""
-    path = next((p for p in (study.data / "paper/claims.csv", study.data / "claims.csv") if p.is_file()), None)
-    if path is None:
+    path = study.data / "paper" / "claims.csv"
+    if not path.is_file():
         return []
-    table = study.read_csv(path, ["claim", "value"], text=True)
-    return [_claim(study, row) for row in table.to_dict("records")]
+    table = study.read_csv(path, ["claim", "value", "unit", "source", "kind"], text=True)
+    return [_claim(study, path, row) for row in table.to_dict("records")]
 
 
-def _claim(study: Study, row: dict) -> Claim:
-    compute = COMPUTED.get(row["claim"])
-    ours = compute(study) if compute else None
-    paper = number(row["value"])
-    allowed = FREQUENCY_TOLERANCE * abs(paper) if ours is not None and paper is not None else None
+def _claim(study: Study, path, row: dict) -> Claim:
+    name, paper = row["claim"], number(row["value"])
     if paper is None:
-        ours = None
-    return Claim(row["claim"], row.get("statement") or row.get("what") or "", row["value"], ours, allowed)
+        raise InputError(f"{path}: {name}: value {row['value']!r} is not a number")
+    if row["kind"] not in KINDS:
+        raise InputError(f"{path}: {name}: kind {row['kind']!r}; expected one of {', '.join(KINDS)}")
+    compute, tolerance, basis = COMPUTED.get(name, (None, None, ""))
+    ours = compute(study) if compute else None
+    allowed = None if ours is None or tolerance is None else tolerance(row["value"])
+    return Claim(name, row["source"], row["kind"], row["unit"], row["value"], ours, allowed, basis)
 
 
 def _tenth_frequency(study: Study):
@@ -52,4 +59,22 @@ def _tenth_frequency(study: Study):
     return float(tenth.iloc[0]) if len(tenth) else None
 
 
-COMPUTED = {"tenth_preliminary_frequency": _tenth_frequency}
+def _mac_diagonal(study: Study):
+    """Arithmetic on the printed Table 10: the mean over the pairs of its rows and columns, which stand in the same order."""
+    table = study.paper_table(10)
+    diagonal = [float(table.iloc[i, i + 1]) for i in range(len(table))]
+    return sum(diagonal) / len(diagonal)
+
+
+def _degrees_of_freedom(study: Study):
+    table = study.step_csv("s1_model/summary.csv", ["quantity", "value"]).set_index("quantity")["value"]
+    return float(table["degrees_of_freedom"]) if "degrees_of_freedom" in table.index else None
+
+
+COMPUTED = {  # claim -> (ours, allowed deviation for the printed text, why)
+    "preliminary_f10": (_tenth_frequency, lambda text: 0.05 * float(text),
+                        "As in Table 2: section sizes of ours were fitted to the preliminary frequencies."),
+    "mac_diagonal_mean_table_10": (_mac_diagonal, lambda text: 0.5 * 10.0 ** -decimals(text),
+                                   "Arithmetic on printed numbers: rounding alone."),
+    "degrees_of_freedom": (_degrees_of_freedom, None, "Another mesh: shown beside the paper's."),
+}

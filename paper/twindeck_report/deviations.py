@@ -32,8 +32,9 @@ def markdown(result: CheckResult) -> str:
     lines += table(["order", "statement", "found", "verdict", "basis"],
                    [[o.name, o.statement, o.found, "holds" if o.holds else "does not hold", o.basis] for o in result.orders])
     lines += ["## Claims of the text", ""]
-    lines += table(["claim", "paper", "ours", "verdict"], [[c.name, c.paper, c.shown, c.verdict] for c in result.claims])
-    lines += [f"## Ratchet", "", result.ratchet, ""]
+    lines += table(["claim", "where", "unit", "paper", "ours", "kind", "verdict", "basis"],
+                   [[c.name, c.source, c.unit, c.paper, c.shown, c.kind, c.verdict, c.basis] for c in result.claims])
+    lines += ["## Ratchet", "", result.ratchet, ""]
     lines += ["## Every compared cell, worst first", ""]
     lines += table(HEADER, [[_short(text) for text in row_for_csv(cell)] for cell in result.cells])
     return "\n".join(lines)
@@ -59,7 +60,7 @@ def junit(result: CheckResult) -> ElementTree.ElementTree:
     cases = [(c.table, f"{c.row} {c.column}", c.verdict in ("inside", "known"), explain(c)) for c in result.cells]
     cases += [(r.rule.table, f"rms {r.rule.column}", r.inside, percent(r.value)) for r in result.rms]
     cases += [("orders", o.name, o.holds, o.found) for o in result.orders]
-    cases += [("claims", c.name, c.verdict == "inside", c.shown) for c in result.claims if c.ours is not None]
+    cases += [("claims", c.name, c.verdict == "inside", c.shown) for c in result.claims if c.allowed is not None]
     cases += [("ratchet", c.name, False, problem) for c, problem in result.grown]
     cases += [("hashes", str(path), False, problem) for path, problem in result.stale]
     cases += [("tables", name, False, "missing") for name in result.missing]

@@ -1,5 +1,5 @@
 """known_deviations.toml: cells that are outside their tolerance for a stated reason. The list cannot grow into an excuse: at
-most a tenth of the compared cells that are not mere inputs, no identity, and an entry goes as soon as its cell is back inside."""
+most a tenth of the compared cells that are not mere inputs, no identity, and an entry goes as soon as its cell is back."""
 from .errors import InputError
 from .study import Study
 

@@ -1,4 +1,4 @@
-"""ratchet.csv: the deviations of the last release. No cell may move further from the paper than then without a changelog line."""
+"""ratchet.csv: the deviations of the last release. No cell may move further from the paper without a changelog line."""
 import csv
 import re
 

@@ -88,6 +88,11 @@ def write_paper(folder):
                + [["11X", "13N", *numbers(2.7, 0.996, 2)]])
 
 
+    write_rows(folder / "claims.csv", ["claim", "value", "unit", "source", "kind"],
+               [["preliminary_f10", f"{soft[9]:.3f}", "Hz", "made up", "calibrated"],
+                ["degrees_of_freedom", "500", "-", "made up", "virtual"], ["friction_velocity", "1.76", "m/s", "made up", "input"]])
+
+
 def write_features(data):
     frequencies = [r["f_X_without_dampers_Hz"] for r in read_rows(data / "paper" / "table_04.csv")]
     write_rows(data / "features" / "rows.csv", ["type", "mode", "channel", "condition", "value", "std"],
@@ -103,6 +108,7 @@ def write_steps(paper, results):
     write_rows(results / "s1_model/modes.csv",
                ["mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"],
                [[i + 1, repr(f), "", "", ""] for i, f in enumerate(preliminary)])
+    write_rows(results / "s1_model/summary.csv", ["quantity", "value", "unit"], [["degrees_of_freedom", 258, "-"]])
     dampers = []
     for row in read_rows(paper / "table_01.csv"):
         viscous = row["spring_stiffness_kN_per_m"] == ""
@@ -110,6 +116,8 @@ def write_steps(paper, results):
             dampers.append([f"{row['damper']}{i + 1}", f"damper_{row['damper']}", float(row["damping_constant_kNs_per_m"]) * 1e3,
                             "" if viscous else float(row["spring_stiffness_kN_per_m"]) * 1e3, "viscous" if viscous else "series"])
     write_rows(results / "s1_model/dampers.csv", ["damper", "group", "damping_N_s_m", "stiffness_N_m", "arrangement"], dampers)
+
+    write_model(results / "s1_model")
 
     header = ["stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"]
 
@@ -128,6 +136,21 @@ def write_steps(paper, results):
                [*compared("before", before, "published"), *compared("after", updated, "published")])
     write_sensitivity(results / "s5_sensitivity")
     write_updating(paper, results / "s6_updating")
+
+
+def write_model(folder):
+    """A straight strip of shells on two rows of nodes with a stay, and half waves as modes."""
+    n = 21
+    nodes = [[i + 1, 5.0 * (i // 2), 3.0 * (i % 2), 10.0] for i in range(2 * n)] + [[2 * n + 1, 50.0, 1.5, 40.0]]
+    blank = [""] * 4
+    elements = [[k + 1, "shell", "", "slab", "concrete", "slab", 2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2] for k in range(n - 1)]
+    elements += [[n, "stay", "NE1", "stay_44", "steel", "stay", n, 2 * n + 1, *blank[:2]]]
+    write_rows(folder / "model/nodes.csv", ["node", "x_m", "y_m", "z_m"], nodes)
+    write_rows(folder / "model/elements.csv",
+               ["element", "type", "name", "group", "material", "section", "node1", "node2", "node3", "node4"], elements)
+    write_rows(folder / "shapes.csv", ["mode", "point", "direction", "value"],
+               [[mode, node, d, np.sin(mode * np.pi * x / 100.0) if d == "z" and z < 40 else 0.0]
+                for mode in range(1, 16) for node, x, _, z in nodes for d in "xyz"])
 
 
 def write_sensitivity(folder):

@@ -97,7 +97,8 @@ class PaperCheck(unittest.TestCase):
         for table, key, row, column, value in (
                 ("table_01", "damper", "C", "type", "Elastic-viscous"), ("table_04", "mode", "2", "zeta_with_dampers_pct", "9"),
                 ("table_06", "mode", "1", "error_pct", "5"), ("table_07", "experimental_mode", "7X", "numerical_mode", "7N"),
-                ("table_08", "parameter", "rho_2", "change_pct", "44"), ("table_09", "experimental_mode", "5X", "error_pct", "-3.1")):
+                ("table_08", "parameter", "rho_2", "change_pct", "44"),
+                ("table_09", "experimental_mode", "5X", "error_pct", "-3.1")):
             old = self.set_cell(table, key, row, column, value)
             code, _, err = self.run_command("verify")
             self.assertEqual(code, 1, table)
@@ -218,6 +219,17 @@ class PaperCheck(unittest.TestCase):
         code, _, err = self.run_command("verify")
         self.assertEqual(code, 1)
         self.assertIn("order the preliminary model is too soft: does not hold", err)
+
+    def test_claims(self):
+        """What cannot be computed is said and left empty; what is computed can fail; what is virtual is shown."""
+        self.assertEqual(self.run_command("verify")[0], 0)
+        text = (self.results / "report/deviations.md").read_text(encoding="utf-8")
+        self.assertRegex(text, r"\| friction_velocity \| made up \| m/s \| 1\.76 \|  \| input \| not computed yet \|")
+        self.assertRegex(text, r"\| degrees_of_freedom \| made up \| - \| 500 \| 258 \| virtual \| shown, not compared \|")
+        self.edit(self.data / "paper/claims.csv", "preliminary_f10,2.100", "preliminary_f10,2.300")
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("claim preliminary_f10: ours 2.102, paper 2.300", err)
 
     def test_ratchet(self):
         self.assertIn("ratchet not yet set", self.run_command("verify")[1])
