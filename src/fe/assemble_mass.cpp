@@ -8,17 +8,19 @@ const Element& element_at(const Model& model, int i) { return model.elements[sta
 
 ElementMatrix whole(const Model& model, int i) { return element_mass(model, element_at(model, i)); }
 
-/// Part of a beam's mass that goes with its area: everything but the inertia of the section about its own axes.
-ElementMatrix beam_translational(const Model& model, int i) {
+/// Part of a beam's mass that does not go with its area: the inertia of the section about its own axes.
+ElementMatrix beam_rotary(const Model& model, int i) {
   const Element& e = element_at(model, i);
   BeamStiffnessProperties p = beam_properties(model, e);
-  p.inertia_y_m4 = p.inertia_z_m4 = p.inertia_yz_m4 = p.torsion_m4 = 0.0;
-  return {six_per_node(e), beam_mass(beam_geometry(model, e), p, material_of(model, e).density_kg_m3, false)};
+  p.area_m2 = 0.0;
+  BeamGeometry geometry = beam_geometry(model, e);
+  geometry.releases &= static_cast<std::uint16_t>(~((1U << 0) | (1U << 6)));  // nothing is left along the axis
+  return {six_per_node(e), beam_mass(geometry, p, material_of(model, e).density_kg_m3, model.formulation.beam_rotary_inertia)};
 }
 
-ElementMatrix beam_rotary(const Model& model, int i) {
+ElementMatrix beam_translational(const Model& model, int i) {
   ElementMatrix m = whole(model, i);
-  m.matrix -= beam_translational(model, i).matrix;
+  m.matrix -= beam_rotary(model, i).matrix;
   return m;
 }
 

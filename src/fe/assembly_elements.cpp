@@ -29,11 +29,6 @@ std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& elem
   return {position(model, element.nodes[0]), position(model, element.nodes[1])};
 }
 
-double axial_length(const Model& model, const Element& element) {
-  const auto ends = end_nodes(model, element);
-  return (ends[1] - ends[0]).norm();
-}
-
 BeamGeometry beam_geometry(const Model& model, const Element& element) {
   return {end_nodes(model, element), element.offset_m, element.orientation, element.releases};
 }

@@ -21,7 +21,6 @@ struct ElementMatrix {
 [[nodiscard]] ShellGeometry shell_geometry(const Model& model, const Element& element);
 [[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
 [[nodiscard]] std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element);
-[[nodiscard]] double axial_length(const Model& model, const Element& element);
 
 [[nodiscard]] const Material& material_of(const Model& model, const Element& element);
 [[nodiscard]] const Section& section_of(const Model& model, const Element& element);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <set>
 
@@ -134,8 +135,10 @@ void validate_geometry(const Model& model) {
                "give its four nodes anticlockwise");
       continue;
     }
-    const double length = e.type == ElementType::beam ? beam_length(beam_geometry(model, e)) : axial_length(model, e);
-    if (!(length > 1e-9))
+    const auto ends = end_nodes(model, e);
+    Eigen::Vector3d chord = ends[1] - ends[0];
+    if (e.type == ElementType::beam) chord += e.offset_m[1] - e.offset_m[0];
+    if (!(chord.norm() > 1e-9))
       refuse(model, label(e), fmt::format("nodes {} and {} are at the same place, so the member has no length", id(0), id(1)),
              "join them by a rigid link, merge them, or take the element out");
   }
