@@ -1,0 +1,18 @@
+#include "steps/refinement.hpp"
+#include "steps/run_step.hpp"
+
+/// Step 4: as-built changes, comparison with the measured modes, pairing (paper section 4.1, Tables 6 and 7).
+int main(int argc, char** argv) {
+  using namespace twindeck::steps;
+  RefinementConfig config;
+  Step step;
+  step.token = "s4_refinement";
+  step.summary = "As-built changes one by one, comparison of the initial and the refined model with the measured modes, and their pairing.";
+  step.examples = {
+      "s4_refinement --study workflows/ponte_del_mare --out results/ponte_del_mare/s4_refinement",
+      "s4_refinement --model my_bridge/model --modes my_bridge/measured --out my_bridge/comparison",
+  };
+  step.fields = config.fields();
+  step.run = [&](StepContext& context) { return run_refinement(context, config); };
+  return run_step(argc, argv, std::move(step));
+}
