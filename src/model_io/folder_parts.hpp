@@ -37,7 +37,5 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
 
 /// 1-based line of the first line of `file` that holds `text`, 0 if there is none.
 [[nodiscard]] long line_of(const std::filesystem::path& file, const std::string& text);
-/// `text` as a TOML basic string, quotes included.
-[[nodiscard]] std::string toml_text(const std::string& text);
 
 }  // namespace twindeck::model_io

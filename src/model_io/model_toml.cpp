@@ -7,6 +7,8 @@
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "io/config.hpp"
+#include "io/csv.hpp"
+#include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/names.hpp"
 
@@ -147,24 +149,11 @@ fe::Prestress::Condition to_condition(const std::filesystem::path& file, const N
 
 std::string text_list(const std::vector<std::string>& texts) {
   std::string list;
-  for (const auto& text : texts) list += (list.empty() ? "" : ", ") + toml_text(text);
+  for (const auto& text : texts) list += (list.empty() ? "" : ", ") + io::toml_text(text);
   return "[" + list + "]";
 }
 
 }  // namespace
-
-std::string toml_text(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n') {
-      out += "\\n";
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
 
 void read_model_toml(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
   const auto file = folder / "model.toml";
@@ -185,7 +174,7 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
   const auto number = [](double value) { return io::format_number(value); };
   std::string text;
   text += "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
-  text += fmt::format("title = {}\ngravity = {}\n\n", toml_text(model.title), number(model.gravity_m_s2));
+  text += fmt::format("title = {}\ngravity = {}\n\n", io::toml_text(model.title), number(model.gravity_m_s2));
   // Bound by position: a field that is added to the struct does not compile here until it is written too.
   const auto& [shear, beam_rotary, shell_rotary, drilling, factor] = model.formulation;
   text += fmt::format(
@@ -208,8 +197,8 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
     TWINDECK_ASSERT(static_cast<std::size_t>(q.target) < target_names().size());
     text +=
         fmt::format("\n[[parameter]]\nname = {}\ntarget = \"{}\"\nof = {}\nunit = {}\ninitial = {}\nlower = {}\nupper = {}\n",
-                    toml_text(q.name), target_names()[static_cast<std::size_t>(q.target)], text_list(q.of), toml_text(q.unit),
-                    number(q.initial), number(q.lower), number(q.upper));
+                    io::toml_text(q.name), target_names()[static_cast<std::size_t>(q.target)], text_list(q.of),
+                    io::toml_text(q.unit), number(q.initial), number(q.lower), number(q.upper));
   }
   io::write_file_atomically(folder / "model.toml", text);
 }

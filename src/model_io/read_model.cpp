@@ -1,12 +1,23 @@
-#include <toml++/toml.h>
 
 #include <fstream>
 
 #include "core/error.hpp"
+#include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/model_folder.hpp"
 
 namespace twindeck::model_io {
+namespace {
+
+/// Null where the table has no such key.
+const io::TomlValue* find(const io::TomlValue::Table& table, const std::string& key) {
+  for (const io::TomlEntry& entry : table) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+}  // namespace
 
 fe::Model read_model(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) {
@@ -39,12 +50,7 @@ bool is_matrix_model(const std::filesystem::path& folder) {
     throw InputError({file.string(), 0, ""}, "is not there, but every model folder has one",
                      "write model.toml with at least a title, or point --model at another folder");
   }
-  try {
-    return toml::parse_file(file.string()).contains("matrices");
-  } catch (const toml::parse_error& error) {
-    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""}, std::string(error.description()),
-                     "see https://toml.io for the syntax");
-  }
+  return find(io::read_toml(file), "matrices") != nullptr;
 }
 
 std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder) {
@@ -55,15 +61,19 @@ std::vector<std::filesystem::path> model_files(const std::filesystem::path& fold
   }
   if (!is_matrix_model(folder)) return files;
   // The matrices have the names that model.toml gives them.
-  const auto root = toml::parse_file((folder / "model.toml").string());
-  for (const char* key : {"K", "M"}) {
-    if (const auto name = root["matrices"][key].value<std::string>()) files.push_back(folder / *name);
+  const auto add = [&](const io::TomlValue::Table& table, const char* key) {
+    const io::TomlValue* entry = find(table, key);
+    if (const auto* name = entry == nullptr ? nullptr : entry->as<std::string>()) files.push_back(folder / *name);
+  };
+  const io::TomlValue::Table root = io::read_toml(folder / "model.toml");
+  if (const auto* matrices = find(root, "matrices")->as<io::TomlValue::Table>()) {
+    add(*matrices, "K");
+    add(*matrices, "M");
   }
-  if (const auto* parameters = root["parameter"].as_array()) {
-    for (const auto& entry : *parameters) {
-      const auto* table = entry.as_table();
-      if (table == nullptr) continue;
-      if (const auto name = (*table)["matrix"].value<std::string>()) files.push_back(folder / *name);
+  const io::TomlValue* parameters = find(root, "parameter");
+  if (const auto* list = parameters == nullptr ? nullptr : parameters->as<io::TomlValue::Array>()) {
+    for (const io::TomlValue& parameter : *list) {
+      if (const auto* table = parameter.as<io::TomlValue::Table>()) add(*table, "matrix");
     }
   }
   std::erase_if(files, [](const auto& file) { return !std::filesystem::exists(file); });

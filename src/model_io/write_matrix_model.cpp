@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
+#include "io/toml_value.hpp"
 #include "model_io/export.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/matrix_market.hpp"
@@ -51,12 +52,12 @@ bool is_zero(const linalg::SparseMatrix& matrix) {
 }
 
 std::string parameter_text(const fe::Parameter& p, const std::string& matrix, const char* target) {
-  std::string text =
-      fmt::format("\n[[parameter]]\nname = {}\nmatrix = {}\ntarget = \"{}\"\n", toml_text(p.name), toml_text(matrix), target);
-  if (p.of.size() == 1 && p.of[0] != p.name) text += fmt::format("group = {}\n", toml_text(p.of[0]));
+  std::string text = fmt::format("\n[[parameter]]\nname = {}\nmatrix = {}\ntarget = \"{}\"\n", io::toml_text(p.name),
+                                 io::toml_text(matrix), target);
+  if (p.of.size() == 1 && p.of[0] != p.name) text += fmt::format("group = {}\n", io::toml_text(p.of[0]));
   // Shortest decimal form that reads back to the same bits: these numbers multiply matrices of 17 digits.
-  return text +
-         fmt::format("unit = {}\ninitial = {}\nlower = {}\nupper = {}\n", toml_text(p.unit), p.initial, p.lower, p.upper);
+  return text + fmt::format("unit = {}\ninitial = {}\nlower = {}\nupper = {}\n", io::toml_text(p.unit),
+                            io::toml_number(p.initial), io::toml_number(p.lower), io::toml_number(p.upper));
 }
 
 }  // namespace
