@@ -1,22 +1,14 @@
 #include "core/build_info.hpp"
 
-#include <dlfcn.h>
+#include <link.h>
 
 #include <Eigen/Core>
 #include <filesystem>
 #include <fstream>
 
-// Version headers hold macros only, so that core does not come to depend on the libraries themselves.
-#if __has_include(<ceres/version.h>)
-#include <ceres/version.h>
-#endif
+// Holds macros only, so that core does not come to depend on the library itself.
 #if __has_include(<Spectra/Util/Version.h>)
 #include <Spectra/Util/Version.h>
-#endif
-#if __has_include(<SuiteSparse_config.h>)
-#include <SuiteSparse_config.h>
-#elif __has_include(<suitesparse/SuiteSparse_config.h>)
-#include <suitesparse/SuiteSparse_config.h>
 #endif
 
 namespace twindeck {
@@ -58,6 +50,20 @@ std::string resolve(const fs::path& git, const std::string& reference) {
   return "";
 }
 
+/// Called for each shared library of the running program.
+int note_library(dl_phdr_info* info, std::size_t, void* target) {
+  std::error_code error;
+  const fs::path file = fs::canonical(info->dlpi_name, error);
+  if (error) return 0;
+  auto& versions = *static_cast<std::map<std::string, std::string>*>(target);
+  const std::pair<const char*, const char*> wanted[] = {
+      {"libceres", "Ceres"}, {"libcholmod", "CHOLMOD"}, {"libopenblas", "OpenBLAS"}, {"libblas", "BLAS"}};
+  for (const auto& [stem, name] : wanted) {
+    if (file.filename().string().starts_with(stem)) versions[name] = file.filename().string();
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string version() { return "0.1.0"; }
@@ -76,19 +82,12 @@ std::map<std::string, std::string> library_versions() {
 #ifdef __VERSION__
   versions["compiler"] = __VERSION__;
 #endif
-#ifdef CERES_VERSION_STRING
-  versions["Ceres"] = dotted(CERES_VERSION_MAJOR, CERES_VERSION_MINOR, CERES_VERSION_REVISION);
-#endif
 #ifdef SPECTRA_MAJOR_VERSION
   versions["Spectra"] = dotted(SPECTRA_MAJOR_VERSION, SPECTRA_MINOR_VERSION, SPECTRA_PATCH_VERSION);
 #endif
-#ifdef SUITESPARSE_MAIN_VERSION
-  versions["SuiteSparse"] = dotted(SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION);
-#endif
-  // OpenBLAS comes in through the system's BLAS alternative, so only the running program knows it.
-  if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_get_config"); symbol != nullptr) {
-    versions["BLAS"] = reinterpret_cast<const char* (*)()>(symbol)();
-  }
+  // Shared libraries: the full name of the file that this very program has loaded ends in its version, which a header of
+  // the build machine would not know ("libceres.so.2.1.0", "libcholmod.so.3.0.14", "libopenblasp-r0.3.21.so").
+  dl_iterate_phdr(&note_library, &versions);
   return versions;
 }
 
