@@ -12,14 +12,14 @@ namespace twindeck::ponte {
 namespace {
 
 using Range = DefinitionFile::Range;
-constexpr Range kCoordinate{-1e4, 1e4};      // [m]
-constexpr Range kLength{1e-3, 1e4};          // [m]
-constexpr Range kModulus{1e6, 1e13};         // [Pa]
-constexpr Range kDensity{1.0, 1e5};          // [kg/m³]
-constexpr Range kStiffness{0.0, 1e14};       // [N/m]
-constexpr Range kFactor{1e-3, 1e3};          // [-]
-constexpr Range kPull{1.0, 1e8};             // [N]
-constexpr Range kMassPerLength{0.0, 1e5};    // [kg/m]
+constexpr Range kCoordinate{-1e4, 1e4};    // [m]
+constexpr Range kLength{1e-3, 1e4};        // [m]
+constexpr Range kModulus{1e6, 1e13};       // [Pa]
+constexpr Range kDensity{1.0, 1e5};        // [kg/m³]
+constexpr Range kStiffness{0.0, 1e14};     // [N/m]
+constexpr Range kFactor{1e-3, 1e3};        // [-]
+constexpr Range kPull{1.0, 1e8};           // [N]
+constexpr Range kMassPerLength{0.0, 1e5};  // [kg/m]
 
 fe::Material read_material(DefinitionFile& file, const std::string& name) {
   const std::string path = "material." + name;
@@ -90,7 +90,8 @@ DeckDefinition read_deck(DefinitionFile& file, const std::string& name, const st
   out.radius_m = file.number(path + ".radius", "m", kLength);
   out.length_m = file.number(path + ".length", "m", kLength);
   if (out.length_m >= 3.0 * out.radius_m) {
-    file.fail(path + ".length", fmt::format("is {:g} m, expected less than three radii ({:g} m)", out.length_m, 3 * out.radius_m),
+    file.fail(path + ".length",
+              fmt::format("is {:g} m, expected less than three radii ({:g} m)", out.length_m, 3 * out.radius_m),
               "a deck that closes upon itself is no deck");
   }
   out.end_y_m = file.number(path + ".end_y", "m", kCoordinate);
@@ -109,13 +110,14 @@ DeckDefinition read_deck(DefinitionFile& file, const std::string& name, const st
   out.short_diagonal = read_member_section(file, path + ".short_diagonal", name + "_short_diagonal");
   out.long_diagonal = read_member_section(file, path + ".long_diagonal", name + "_long_diagonal");
   out.floor_beam = read_member_section(file, path + ".floor_beam", name + "_floor_beam");
-  out.bearing = {file.number(path + ".bearing.bottom", "N/m", kStiffness), file.number(path + ".bearing.vertical", "N/m", kStiffness),
-                 file.number(path + ".bearing.radial", "N/m", kStiffness),
-                 file.number(path + ".bearing.tangential", "N/m", kStiffness)};
+  out.bearing = {
+      file.number(path + ".bearing.bottom", "N/m", kStiffness), file.number(path + ".bearing.vertical", "N/m", kStiffness),
+      file.number(path + ".bearing.radial", "N/m", kStiffness), file.number(path + ".bearing.tangential", "N/m", kStiffness)};
   const double last_stay = (out.stay.count - 1.5) * out.stay.spacing_m + out.stay.last_spacing_m;
   if (last_stay >= out.length_m / 2) {
-    file.fail(path + ".stay.count", fmt::format("puts the last stay at {:g} m, beyond the deck's end at {:g} m", last_stay,
-                                                out.length_m / 2), "reduce the number or the spacing of the stays");
+    file.fail(path + ".stay.count",
+              fmt::format("puts the last stay at {:g} m, beyond the deck's end at {:g} m", last_stay, out.length_m / 2),
+              "reduce the number or the spacing of the stays");
   }
   return out;
 }
@@ -213,7 +215,8 @@ void read_prototype_pulls(DefinitionFile& file, const std::string& variant, Brid
       const std::string key = path + "." + deck.name;
       const std::vector<double> pulls = file.numbers(key, "N", kPull);
       if (pulls.size() != static_cast<std::size_t>(deck.stay.count)) {
-        file.fail(key + ".0", fmt::format("starts a list of {} pulls, expected {} (stays a side)", pulls.size(), deck.stay.count),
+        file.fail(key + ".0",
+                  fmt::format("starts a list of {} pulls, expected {} (stays a side)", pulls.size(), deck.stay.count),
                   "give one pull a stay, from mid-length outwards");
       }
       for (std::size_t stay = 0; stay < pulls.size(); ++stay) {

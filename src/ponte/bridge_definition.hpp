@@ -17,19 +17,19 @@ struct MeshDefinition {
 };
 
 struct StayType {
-  std::string name;                     ///< "44": the diameter [mm]
+  std::string name;  ///< "44": the diameter [mm]
   double youngs_modulus_Pa, area_m2, mass_per_length_kg_m;
 };
 
 struct SlabZone {
-  std::string group;                    ///< "slab_foot_B", "slab_cycle"
-  double until;                         ///< outer end of the zone, as a part of half the length
+  std::string group;  ///< "slab_foot_B", "slab_cycle"
+  double until;       ///< outer end of the zone, as a part of half the length
   double thickness_m, bending_inertia_ratio;
   std::string material;
 };
 
 struct StayRow {
-  int count;                            ///< a side
+  int count;  ///< a side
   double spacing_m, last_spacing_m;
   std::string prefix_north, prefix_south, type, last_type;
   double top_anchor_z_m, anchor_pitch_m;
@@ -40,13 +40,13 @@ struct BearingDefinition {
 };
 
 struct DeckDefinition {
-  std::string name;                     ///< "foot", "cycle"
+  std::string name;  ///< "foot", "cycle"
   double radius_m, length_m, end_y_m, crown_z_m, rise_m;
   double chord_spacing_m, truss_depth_m, bottom_chord_offset_m, nonstructural_mass_kg_m;
   bool stays_on_outer_edge;
   double bracket_arm_m;
   StayRow stay;
-  std::vector<SlabZone> slab;           ///< from mid-length outwards
+  std::vector<SlabZone> slab;                                                      ///< from mid-length outwards
   fe::Section top_chord, bottom_chord, short_diagonal, long_diagonal, floor_beam;  ///< scaled
   BearingDefinition bearing;
 };
@@ -54,13 +54,13 @@ struct DeckDefinition {
 struct MastDefinition {
   Eigen::Vector3d base_m;
   double height_m, lean_rad, infill_z_m, head_mass_kg;
-  fe::Section steel, infill;            ///< scaled
+  fe::Section steel, infill;  ///< scaled
   std::vector<double> node_z_m;
 };
 
 struct GroundCables {
   std::string type;
-  Eigen::Vector3d anchor_m;             ///< of the northern one
+  Eigen::Vector3d anchor_m;  ///< of the northern one
   double mast_z_m;
 };
 
@@ -72,10 +72,10 @@ struct DeckPoint {
 };
 
 struct DamperDefinition {
-  std::string type;                     ///< "A": group damper_A
+  std::string type;  ///< "A": group damper_A
   double damping_N_s_m, stiffness_N_m;
   bool series;
-  bool vertical;                        ///< else radial
+  bool vertical;  ///< else radial
   std::vector<DeckPoint> units;
 };
 
@@ -83,7 +83,7 @@ struct ParameterDefinition {
   std::string name;
   fe::Target target;
   std::vector<std::string> of;
-  double bound;                         ///< half width of the bounds over the initial value
+  double bound;  ///< half width of the bounds over the initial value
 };
 
 struct BridgeDefinition {
@@ -96,8 +96,8 @@ struct BridgeDefinition {
   MastDefinition mast;
   GroundCables ground_cables;
   double minimum_pull_N, ridge, site_weight;
-  std::map<std::string, double> site_pull_N;         ///< by stay, mirror images included
-  std::map<std::string, double> prototype_pull_N;    ///< by stay; empty if the variant has none
+  std::map<std::string, double> site_pull_N;       ///< by stay, mirror images included
+  std::map<std::string, double> prototype_pull_N;  ///< by stay; empty if the variant has none
   std::vector<DamperDefinition> dampers;
   std::vector<DeckPoint> monitoring_points;
   std::vector<ParameterDefinition> parameters;

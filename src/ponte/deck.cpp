@@ -132,7 +132,8 @@ void build_brackets(ModelBuilder& builder, const DeckDefinition& deck, DeckNodes
 }  // namespace
 
 DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh) {
-  for (const fe::Section& section : {deck.top_chord, deck.bottom_chord, deck.short_diagonal, deck.long_diagonal, deck.floor_beam}) {
+  for (const fe::Section& section :
+       {deck.top_chord, deck.bottom_chord, deck.short_diagonal, deck.long_diagonal, deck.floor_beam}) {
     builder.add_section(section);
   }
   for (const SlabZone& zone : deck.slab) {

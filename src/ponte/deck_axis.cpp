@@ -12,7 +12,8 @@ DeckAxis::DeckAxis(const DeckDefinition& deck)
 
 Eigen::Vector3d DeckAxis::point(double s_m, double v_m, double w_m) const {
   const double phi_0 = length_m / (2 * radius_m);
-  const Eigen::Vector3d centre(0.0, end_y_m - radius_m * std::cos(phi_0), crown_z_m - rise_m * std::pow(2 * s_m / length_m, 2) + w_m);
+  const Eigen::Vector3d centre(0.0, end_y_m - radius_m * std::cos(phi_0),
+                               crown_z_m - rise_m * std::pow(2 * s_m / length_m, 2) + w_m);
   return centre + (radius_m + v_m) * radial(s_m);
 }
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <toml++/toml.h>
 
 #include "core/units.hpp"
+#include "io/toml_value.hpp"
 
 namespace twindeck::ponte {
 
@@ -35,36 +35,40 @@ std::string without_positions(const std::string& path) {
 
 }  // namespace
 
-/// Walks the TOML tree once, so that toml++ stays in this file.
+/// Lays the tree of tables and lists out as paths.
 struct Flattener {
   DefinitionFile& out;
 
-  void walk(const toml::node& node, const std::string& path) {
-    if (const auto* table = node.as_table()) {
-      for (const auto& [key, child] : *table) {
-        walk(child, path.empty() ? std::string(key.str()) : path + "." + std::string(key.str()));
-      }
-    } else if (const auto* array = node.as_array()) {
-      for (std::size_t i = 0; i < array->size(); ++i) {
-        walk(*array->get(i), path + "." + std::to_string(i));
+  void table(const io::TomlValue::Table& entries, const std::string& path) {
+    for (const io::TomlEntry& entry : entries) {
+      walk(entry.value, path.empty() ? entry.key : path + "." + entry.key);
+    }
+  }
+
+  void walk(const io::TomlValue& node, const std::string& path) {
+    if (const auto* entries = node.as<io::TomlValue::Table>()) {
+      table(*entries, path);
+    } else if (const auto* list = node.as<io::TomlValue::Array>()) {
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        walk((*list)[i], path + "." + std::to_string(i));
       }
     } else {
       leaf(node, path);
     }
   }
 
-  void leaf(const toml::node& node, const std::string& path) {
+  void leaf(const io::TomlValue& node, const std::string& path) {
     DefinitionFile::Value value;
-    value.line = static_cast<long>(node.source().begin.line);
-    if (const auto* text = node.as_string()) {
-      value.text = text->get();
+    value.line = node.line;
+    if (const auto* text = node.as<std::string>()) {
+      value.text = *text;
       value.is_text = true;
-    } else if (const auto* whole = node.as_integer()) {
-      value.text = std::to_string(whole->get());
-    } else if (const auto* real = node.as_floating_point()) {
-      value.text = fmt::format("{:.17g}", real->get());
+    } else if (const auto* whole = node.as<long>()) {
+      value.text = std::to_string(*whole);
+    } else if (const auto* real = node.as<double>()) {
+      value.text = io::toml_number(*real);
     } else {
-      throw InputError({out.file_, value.line, path}, "is neither a number nor a text",
+      throw InputError({out.file_, value.line, path}, "is " + io::shown(node) + ", neither a number nor a text",
                        "give a number, or a text such as \"35 GPa\"");
     }
     if (!out.values_.emplace(path, value).second) {
@@ -76,16 +80,7 @@ struct Flattener {
 DefinitionFile DefinitionFile::load(const std::filesystem::path& file) {
   DefinitionFile out;
   out.file_ = file.string();
-  if (!std::filesystem::is_regular_file(file)) {
-    throw InputError({out.file_, 0, ""}, "there is no such file", "give the path of a bridge.toml");
-  }
-  try {
-    const toml::table table = toml::parse_file(out.file_);
-    Flattener{out}.walk(table, "");
-  } catch (const toml::parse_error& error) {
-    throw InputError({out.file_, static_cast<long>(error.source().begin.line), ""},
-                     "is no TOML: " + std::string(error.description()), "see toml.io for the syntax");
-  }
+  Flattener{out}.table(io::read_toml(file), "");
   return out;
 }
 
@@ -154,7 +149,8 @@ std::string DefinitionFile::text(const std::string& path) {
 std::string DefinitionFile::choice(const std::string& path, const std::vector<std::string>& allowed) {
   const std::string value = text(path);
   if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
-    fail(path, "is '" + value + "', expected one of " + fmt::format("{}", fmt::join(allowed, ", ")) + did_you_mean(value, allowed),
+    fail(path,
+         "is '" + value + "', expected one of " + fmt::format("{}", fmt::join(allowed, ", ")) + did_you_mean(value, allowed),
          "choose one of these");
   }
   return value;

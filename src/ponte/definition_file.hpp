@@ -11,9 +11,9 @@ namespace twindeck::ponte {
 
 /// bridge.toml as a flat list of values by dotted path ("deck.foot.radius", "damper.0.units.1.s"; lists count from 0).
 ///
-/// Overrides (changes, variants) replace the value of a path that is there, nothing else, so an override cannot invent a key. Each
-/// value remembers its line, so that a message can name it after an override too, and whether somebody asked for it: what nobody
-/// asked for is an unknown key.
+/// Overrides (changes, variants) replace the value of a path that is there, nothing else, so an override cannot invent a key.
+/// Each value remembers its line, so that a message can name it after an override too, and whether somebody asked for it: what
+/// nobody asked for is an unknown key.
 class DefinitionFile {
  public:
   /// Interval of admissible values [in the unit asked for].
@@ -56,7 +56,7 @@ class DefinitionFile {
 
  private:
   struct Value {
-    std::string text;      // of a string, or digits of a number
+    std::string text;  // of a string, or digits of a number
     bool is_text = false;
     long line = 0;
     bool known = false;

@@ -11,9 +11,9 @@ namespace twindeck::ponte {
 
 /// A change between variants of bridge.toml, one that can be switched on alone.
 struct Change {
-  std::string name;         ///< "light_concrete"
-  std::string paper_item;   ///< "4.1 (1)" or "" when section 4.1 does not name it (a fitted difference)
-  std::string meaning;      ///< a sentence
+  std::string name;        ///< "light_concrete"
+  std::string paper_item;  ///< "4.1 (1)" or "" when section 4.1 does not name it (a fitted difference)
+  std::string meaning;     ///< a sentence
 };
 
 /// The as-built changes that lead from `preliminary` to `refined`, in the order in which they are applied.
@@ -24,7 +24,8 @@ struct Change {
 /// @throws InputError for an unknown variant or a bad value, naming file, line and key
 [[nodiscard]] fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant);
 /// The preliminary variant with the named changes switched on.
-[[nodiscard]] fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes);
+[[nodiscard]] fe::Model generate_with_changes(const std::filesystem::path& bridge_toml,
+                                              const std::vector<std::string>& changes);
 /// For the verification against the prototype alone: Euler beams, listed pulls, its drilling and mass rules.
 [[nodiscard]] fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant);
 

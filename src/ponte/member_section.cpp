@@ -34,7 +34,9 @@ fe::Section tube_section(const std::string& name, double diameter_m, double wall
   return round_section(name, diameter_m, diameter_m - 2 * wall_m, 0.5);
 }
 
-fe::Section solid_circle_section(const std::string& name, double diameter_m) { return round_section(name, diameter_m, 0.0, 0.9); }
+fe::Section solid_circle_section(const std::string& name, double diameter_m) {
+  return round_section(name, diameter_m, 0.0, 0.9);
+}
 
 fe::Section square_hollow_section(const std::string& name, double side_m, double wall_m) {
   const double inner = side_m - 2 * wall_m;

@@ -27,7 +27,8 @@ class ModelBuilder {
   /// A straight member between two nodes, in `pieces` beams.
   void add_member(const std::string& section, int from, int to, int pieces,
                   const Eigen::Vector3d& orientation = Eigen::Vector3d::Zero());
-  void add_spring(const std::string& group, const std::string& name, int node, const Eigen::Vector3d& direction, double stiffness_N_m);
+  void add_spring(const std::string& group, const std::string& name, int node, const Eigen::Vector3d& direction,
+                  double stiffness_N_m);
 
  private:
   std::map<std::string, int> materials_, sections_;
@@ -35,13 +36,13 @@ class ModelBuilder {
 
 /// Nodes of a deck that other parts attach to.
 struct DeckNodes {
-  struct Line {                    ///< a row of slab nodes across the deck
+  struct Line {  ///< a row of slab nodes across the deck
     double s_m;
-    std::vector<int> across;       ///< from the inner edge (front) to the outer edge (back): the ends are top-chord nodes
-    int bottom = -1;               ///< bottom-chord node; -1 between stations
+    std::vector<int> across;  ///< from the inner edge (front) to the outer edge (back): the ends are top-chord nodes
+    int bottom = -1;          ///< bottom-chord node; -1 between stations
   };
-  std::vector<Line> lines;         ///< by rising s
-  std::map<std::string, int> anchors;   ///< stay name -> bracket node
+  std::vector<Line> lines;             ///< by rising s
+  std::map<std::string, int> anchors;  ///< stay name -> bracket node
 
   /// The station (line with a bottom node) nearest to s.
   [[nodiscard]] const Line& station_near(double s_m) const;
@@ -71,7 +72,7 @@ void build_deck_supports(ModelBuilder& builder, const DeckDefinition& deck, cons
 /// Mast: node by height, built in steel and concrete; base fixed, mass at the head.
 struct MastNodes {
   std::map<double, int> by_z;
-  [[nodiscard]] int at(double z_m) const;   ///< the node at this height, which must be there
+  [[nodiscard]] int at(double z_m) const;  ///< the node at this height, which must be there
   [[nodiscard]] int top() const { return by_z.rbegin()->second; }
 };
 [[nodiscard]] MastNodes build_mast(ModelBuilder& builder, const BridgeDefinition& definition);
