@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "dynamics/eigen_sensitivity.hpp"
+#include "dynamics/eigenmodes.hpp"
+#include "fe/assembly.hpp"
+#include "ponte/generator.hpp"
+
+namespace {
+
+struct Result {
+  Eigen::VectorXd pulls;
+  twindeck::dynamics::EigenModes modes;
+  Eigen::MatrixXd jacobian;
+};
+
+Result with_threads(int threads) {
+  omp_set_num_threads(threads);
+  const auto model = twindeck::ponte::generate_compatible(TWINDECK_SOURCE_DIR "/data/ponte_del_mare/bridge.toml", "preliminary");
+  const Eigen::VectorXd theta = twindeck::fe::initial_parameters(model);
+  const auto state = twindeck::fe::find_prestress(model, theta);
+  const auto system = twindeck::fe::assemble(model, state);
+  twindeck::dynamics::ModalSolver solver(system);
+  Result result{state.stay_pull_N, solver.solve(theta, 10), {}};
+  result.jacobian = twindeck::dynamics::frequency_jacobian(system, theta, result.modes);
+  return result;
+}
+
+// Law: the number of threads changes the time, not one bit of the result; prestress, assembly, modes and derivatives of the bridge.
+TEST(ThreadsLaw, ResultsHaveTheSameBits) {
+  const int before = omp_get_max_threads();
+  const Result one = with_threads(1), three = with_threads(3);
+  omp_set_num_threads(before);
+  ASSERT_TRUE(one.modes.status.converged);
+  EXPECT_TRUE(one.pulls == three.pulls);
+  EXPECT_TRUE(one.modes.eigenvalue == three.modes.eigenvalue);
+  EXPECT_TRUE(one.modes.shapes == three.modes.shapes);
+  EXPECT_TRUE(one.jacobian == three.jacobian);
+}
+
+}  // namespace
