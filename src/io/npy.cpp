@@ -1,0 +1,118 @@
+#include "io/npy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/atomic.hpp"
+
+namespace twindeck::io {
+namespace fs = std::filesystem;
+using Eigen::Index;
+static_assert(std::endian::native == std::endian::little, "NPY data are read and written as they lie in memory");
+
+namespace {
+
+constexpr char kMagic[] = "\x93NUMPY";
+
+struct Header {
+  std::size_t item_size = 8;
+  bool fortran_order = false;
+  Index rows = 0, columns = 1;
+};
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& mend) {
+  throw InputError({file.string(), 0, ""}, problem, mend);
+}
+
+std::string header_text(std::ifstream& in, const fs::path& file) {
+  char start[8] = {};
+  if (!in.read(start, 8) || std::memcmp(start, kMagic, 6) != 0) refuse(file, "is no NPY file", "write it with numpy.save");
+  const int size_bytes = start[6] == 1 ? 2 : 4;
+  unsigned char digits[4] = {};
+  in.read(reinterpret_cast<char*>(digits), size_bytes);
+  const std::size_t length = digits[0] + 256UL * digits[1] + 65536UL * digits[2] + 16777216UL * digits[3];
+  if (!in || length > 1000000) refuse(file, "ends within its header, or has none", "write the file again");
+  std::string text(length, ' ');
+  if (!in.read(text.data(), static_cast<std::streamsize>(length))) refuse(file, "ends within its header", "write the file again");
+  return text;
+}
+
+Header parse(const std::string& text, const fs::path& file) {
+  std::smatch match;
+  Header header;
+  if (!std::regex_search(text, match, std::regex("'descr':\\s*'([^']*)'"))) refuse(file, "has a header without 'descr'", "give a plain array");
+  const std::string type = match[1];
+  if (type != "<f8" && type != "<f4") {
+    refuse(file, fmt::format("holds type '{}', expected '<f8' or '<f4'", type), "convert it with array.astype('<f8')");
+  }
+  header.item_size = type == "<f8" ? 8 : 4;
+  header.fortran_order = std::regex_search(text, std::regex("'fortran_order':\\s*True"));
+  if (!std::regex_search(text, match, std::regex("'shape':\\s*\\(\\s*(\\d+)\\s*,\\s*(?:(\\d+)\\s*,?\\s*)?\\)"))) {
+    refuse(file, "has an array of another shape than one or two dimensions", "reshape it to samples x channels");
+  }
+  header.rows = std::stol(match[1]);
+  if (match[2].matched) header.columns = std::stol(match[2]);
+  return header;
+}
+
+}  // namespace
+
+Eigen::MatrixXd read_npy(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(file, "cannot be read", "check its name and your permissions");
+  const Header header = parse(header_text(in, file), file);
+  const auto found = static_cast<std::uintmax_t>(fs::file_size(file) - static_cast<std::uintmax_t>(in.tellg()));
+  const auto expected = static_cast<std::uintmax_t>(header.rows) * static_cast<std::uintmax_t>(header.columns) * header.item_size;
+  if (found != expected) {
+    refuse(file, fmt::format("holds {} bytes of data, expected {} for {} x {} values", found, expected, header.rows, header.columns),
+           "the file was cut off or is damaged; copy it again");
+  }
+  Eigen::MatrixXd array(header.rows, header.columns);
+  // Line by line of what lies together: rows in C order, columns in Fortran order.
+  const Index line = std::max<Index>(1, header.fortran_order ? header.rows : header.columns);
+  const Index lines = array.size() / line;
+  const Index chunk = std::max<Index>(1, 131072 / line);
+  std::vector<char> buffer(static_cast<std::size_t>(chunk * line) * header.item_size);
+  for (Index first = 0; first < lines; first += chunk) {
+    const Index n = std::min(chunk, lines - first);
+    in.read(buffer.data(), static_cast<std::streamsize>(static_cast<std::size_t>(n * line) * header.item_size));
+    for (Index k = 0; k < n * line; ++k) {
+      double value = 0.0;
+      if (header.item_size == 8) {
+        std::memcpy(&value, buffer.data() + k * 8, 8);
+      } else {
+        float single = 0.0F;
+        std::memcpy(&single, buffer.data() + k * 4, 4);
+        value = static_cast<double>(single);
+      }
+      const Index at = first + k / line, within = k % line;
+      (header.fortran_order ? array(within, at) : array(at, within)) = value;
+    }
+  }
+  return array;
+}
+
+void write_npy(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) {
+  std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", array.rows(), array.cols());
+  // Magic, version, two bytes of length: the data begin at a multiple of 64.
+  header.append(63 - (10 + header.size()) % 64, ' ');
+  header.push_back('\n');
+  std::string content(kMagic, 6);
+  content += std::string("\x01\x00", 2);
+  content.push_back(static_cast<char>(header.size() % 256));
+  content.push_back(static_cast<char>(header.size() / 256));
+  content += header;
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = array;
+  content.append(reinterpret_cast<const char*>(rows.data()), static_cast<std::size_t>(rows.size()) * sizeof(double));
+  write_file_atomically(file, content);
+}
+
+}  // namespace twindeck::io

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+
+namespace twindeck::io {
+
+/// Reads an array of NumPy's NPY format, versions 1 to 3: float64 or float32, little-endian, one or two dimensions, C or Fortran
+/// order. A one-dimensional array becomes a single column. Values may be NaN. Memory: the matrix and one megabyte.
+/// @return (rows × columns) as NumPy's shape has them
+/// @throws InputError  for a missing or truncated file, another type, endianness or number of dimensions
+/// Reference: NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays".
+[[nodiscard]] Eigen::MatrixXd read_npy(const std::filesystem::path& file);
+
+/// Writes a float64 array in C order, NPY version 1.
+void write_npy(const Eigen::Ref<const Eigen::MatrixXd>& array, const std::filesystem::path& file);
+
+}  // namespace twindeck::io

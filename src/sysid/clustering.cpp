@@ -1,0 +1,145 @@
+#include "sysid/clustering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "modal/mac.hpp"
+
+namespace twindeck::sysid {
+
+using Eigen::Index;
+
+namespace {
+
+std::vector<std::size_t> stable_poles(const std::vector<DiagramPole>& diagram) {
+  std::vector<std::size_t> stable;
+  for (std::size_t i = 0; i < diagram.size(); ++i) {
+    if (diagram[i].stable() && diagram[i].pole.shape.norm() > 0.0) stable.push_back(i);
+  }
+  return stable;
+}
+
+/// Eq. (3) (n × n), with the frequencies' agreement.
+Eigen::MatrixXd affinity(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& stable, const CleaningRule& rule) {
+  const auto n = static_cast<Index>(stable.size());
+  if (n == 0) return {};
+  Eigen::MatrixXcd shapes(diagram[stable.front()].pole.shape.size(), n);
+  Eigen::VectorXd frequency(n);
+  for (Index i = 0; i < n; ++i) {
+    shapes.col(i) = diagram[stable[static_cast<std::size_t>(i)]].pole.shape;
+    frequency[i] = diagram[stable[static_cast<std::size_t>(i)]].pole.frequency_Hz;
+  }
+  Eigen::MatrixXd a = modal::mac(shapes, shapes);
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      const bool same = a(i, j) >= rule.mac && std::abs(frequency[i] - frequency[j]) < rule.frequency * std::max(frequency[i], frequency[j]);
+      a(i, j) = same ? 1.0 : 0.0;
+    }
+  }
+  return a;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+double deviation(const std::vector<double>& values) {
+  const Eigen::Map<const Eigen::ArrayXd> v(values.data(), static_cast<Index>(values.size()));
+  return v.size() < 2 ? 0.0 : std::sqrt((v - v.mean()).square().sum() / static_cast<double>(v.size() - 1));
+}
+
+Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size_t> members) {
+  Cluster cluster;
+  std::sort(members.begin(), members.end());
+  std::vector<double> frequency, damping;
+  for (const std::size_t i : members) {
+    frequency.push_back(diagram[i].pole.frequency_Hz);
+    damping.push_back(diagram[i].pole.damping_ratio);
+  }
+  cluster.frequency_Hz = median(frequency);
+  cluster.damping_ratio = median(damping);
+  cluster.frequency_scatter_Hz = deviation(frequency);
+  cluster.damping_ratio_scatter = deviation(damping);
+  const auto distance = [&](std::size_t k) {
+    return std::hypot((frequency[k] - cluster.frequency_Hz) / std::max(cluster.frequency_scatter_Hz, 1e-12 * cluster.frequency_Hz),
+                      (damping[k] - cluster.damping_ratio) / std::max(cluster.damping_ratio_scatter, 1e-12));
+  };
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < members.size(); ++k) {
+    if (distance(k) < distance(nearest)) nearest = k;
+  }
+  cluster.representative = members[nearest];
+  const Eigen::VectorXcd& reference = diagram[cluster.representative].pole.shape;
+  cluster.shape = Eigen::VectorXcd::Zero(reference.size());
+  for (const std::size_t i : members) {
+    const Eigen::VectorXcd& shape = diagram[i].pole.shape;
+    cluster.shape += shape * std::polar(1.0, std::arg(shape.dot(reference)));
+  }
+  cluster.shape = normalised_shape(cluster.shape);
+  cluster.members = std::move(members);
+  return cluster;
+}
+
+/// One pole an order: the one nearest to the seed in shape.
+std::vector<std::size_t> one_an_order(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, std::size_t seed) {
+  const Eigen::VectorXcd& reference = diagram[seed].pole.shape;
+  std::map<int, std::size_t> best;
+  for (const std::size_t i : members) {
+    const auto [at, is_new] = best.try_emplace(diagram[i].pole.order, i);
+    if (!is_new && std::norm(reference.dot(diagram[i].pole.shape)) > std::norm(reference.dot(diagram[at->second].pole.shape))) at->second = i;
+  }
+  std::vector<std::size_t> kept;
+  for (const auto& entry : best) kept.push_back(entry.second);
+  return kept;
+}
+
+bool recurs(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, const std::vector<int>& orders,
+            const CleaningRule& rule) {
+  int first = orders.back();
+  for (const std::size_t i : members) first = std::min(first, diagram[i].pole.order);
+  const auto possible = std::count_if(orders.begin(), orders.end(), [&](int order) { return order >= first; });
+  const auto n = static_cast<double>(members.size());
+  return n > rule.recursion && n >= rule.share * static_cast<double>(possible);
+}
+
+}  // namespace
+
+Eigen::VectorXd recursion_index(const std::vector<DiagramPole>& diagram, const CleaningRule& rule) {
+  Eigen::VectorXd index = Eigen::VectorXd::Zero(static_cast<Index>(diagram.size()));
+  const std::vector<std::size_t> stable = stable_poles(diagram);
+  const Eigen::MatrixXd a = affinity(diagram, stable, rule);
+  for (std::size_t i = 0; i < stable.size(); ++i) index[static_cast<Index>(stable[i])] = a.row(static_cast<Index>(i)).sum();
+  return index;
+}
+
+std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const CleaningRule& rule) {
+  const std::vector<std::size_t> stable = stable_poles(diagram);
+  Eigen::MatrixXd a = affinity(diagram, stable, rule);
+  std::vector<Cluster> clusters;
+  Eigen::VectorXd index = stable.empty() ? Eigen::VectorXd() : Eigen::VectorXd(a.rowwise().sum());
+  Index seed = 0;
+  while (index.size() > 0 && index.maxCoeff(&seed) > rule.recursion) {
+    std::vector<std::size_t> members;
+    const Eigen::VectorXd row = a.row(seed);
+    for (Index j = 0; j < row.size(); ++j) {
+      if (row[j] == 0.0) continue;
+      members.push_back(stable[static_cast<std::size_t>(j)]);
+      index -= a.col(j);
+      a.row(j).setZero();
+      a.col(j).setZero();
+      index[j] = 0.0;
+    }
+    members = one_an_order(diagram, members, stable[static_cast<std::size_t>(seed)]);
+    if (recurs(diagram, members, orders, rule)) clusters.push_back(summarise(diagram, std::move(members)));
+  }
+  std::sort(clusters.begin(), clusters.end(), [](const Cluster& p, const Cluster& q) { return p.frequency_Hz < q.frequency_Hz; });
+  for (std::size_t m = 0; m < clusters.size(); ++m) {
+    for (const std::size_t i : clusters[m].members) diagram[i].mode = static_cast<int>(m);
+  }
+  return clusters;
+}
+
+}  // namespace twindeck::sysid

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sysid/stabilisation.hpp"
+
+namespace twindeck::sysid {
+
+struct CleaningRule {
+  double mac = 0.95;          ///< Eq. (3): shapes with a MAC of at least this are the same
+  double frequency = 0.02;    ///< and their frequencies differ by less than this, relative; large = the paper's bare rule
+  double recursion = 5.0;     ///< Eq. (4): a shape recurs if its index C_i exceeds this
+  double share = 0.4;         ///< and its cluster holds at least this share of the orders from its first one on; 0 = bare rule
+};
+
+/// A physical mode: poles of several orders that agree.
+struct Cluster {
+  std::vector<std::size_t> members;  ///< positions in the diagram, ascending, at most one an order
+  std::size_t representative = 0;    ///< the member nearest to the medians, in units of the scatter
+  double frequency_Hz = 0.0;         ///< median of the members
+  double damping_ratio = 0.0;        ///< median of the members
+  double frequency_scatter_Hz = 0.0;    ///< standard deviation over the members
+  double damping_ratio_scatter = 0.0;
+  Eigen::VectorXcd shape;            ///< mean of the members' shapes, phases aligned, normalised
+};
+
+/// Index of recursion of each shape, paper Eqs. (3) and (4):  A_ij = 1 if MAC(v_i, v_j) >= 0.95, else 0;  C_i = sum_j A_ij.
+/// Here A_ij also asks that the frequencies agree, because a few channels can't tell all shapes apart.
+/// @param diagram  stable poles only are counted @return C (n_poles), 0 for poles that are not stable
+[[nodiscard]] Eigen::VectorXd recursion_index(const std::vector<DiagramPole>& diagram, const CleaningRule& rule);
+
+/// Cleans the diagram of spurious poles and gathers the rest: the pole with the highest index of recursion takes all poles with
+/// which it has affinity, and so on among those left. Marks `mode` in the diagram.
+/// @param orders  the orders of the diagram, ascending
+/// @return ascending in frequency
+[[nodiscard]] std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
+                                                     const CleaningRule& rule);
+
+}  // namespace twindeck::sysid

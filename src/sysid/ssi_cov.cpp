@@ -1,0 +1,57 @@
+#include "sysid/ssi_cov.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "sysid/leading_svd.hpp"
+
+namespace twindeck::sysid {
+
+using Eigen::Index;
+
+namespace {
+
+Eigen::MatrixXd thin_q(const Eigen::MatrixXd& x) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(x);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), x.cols());
+}
+
+}  // namespace
+
+Eigen::MatrixXd block_toeplitz(const std::vector<Eigen::MatrixXd>& lags, Index block_rows) {
+  TWINDECK_ASSERT(static_cast<Index>(lags.size()) >= 2 * block_rows);
+  const Index l = lags.front().rows(), r = lags.front().cols();
+  Eigen::MatrixXd toeplitz(l * block_rows, r * block_rows);
+  for (Index i = 0; i < block_rows; ++i) {
+    for (Index j = 0; j < block_rows; ++j) toeplitz.block(i * l, j * r, l, r) = lags[static_cast<std::size_t>(block_rows + i - j)];
+  }
+  return toeplitz;
+}
+
+Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Index block_rows, Index n_outputs, Index n_max) {
+  const Eigen::MatrixXd toeplitz = block_toeplitz(lags, block_rows);
+  const Index most = std::min(toeplitz.rows() - n_outputs, toeplitz.cols());
+  if (n_max > most) {
+    throw InputError({"", 0, "maximum_order"},
+                     fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max, block_rows, n_outputs,
+                                 lags.front().cols(), most),
+                     "raise block_rows or lower maximum_order");
+  }
+  const LeadingSvd svd = leading_svd(toeplitz, n_max);
+  return {svd.u * svd.values.cwiseSqrt().asDiagonal(), n_outputs, svd.values};
+}
+
+Observability ssi_cov_nearby(const std::vector<Eigen::MatrixXd>& lags, Index block_rows, const Observability& reference) {
+  const Eigen::MatrixXd toeplitz = block_toeplitz(lags, block_rows);
+  Eigen::MatrixXd u = thin_q(reference.matrix);
+  for (int step = 0; step < 2; ++step) u = thin_q(toeplitz * thin_q(toeplitz.transpose() * u));
+  // Back to singular vectors, so that the first n columns are again those of order n.
+  const Eigen::BDCSVD<Eigen::MatrixXd> small(thin_q(toeplitz.transpose() * u).transpose() * (toeplitz.transpose() * u), Eigen::ComputeThinV);
+  return {u * small.matrixV() * small.singularValues().cwiseSqrt().asDiagonal(), reference.n_outputs, small.singularValues()};
+}
+
+}  // namespace twindeck::sysid

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "sysid/state_space.hpp"
+
+namespace twindeck::sysid {
+
+/// The criteria of paper section 3.1, each against the model of the next smaller order.
+struct StabilisationCriteria {
+  double frequency = 0.02;       ///< relative change below which a frequency is stable
+  double damping = 0.01;         ///< change of the damping ratio [-], one percentage point, below which it is stable
+  double mac = 0.95;             ///< MAC from which a shape is stable
+};
+
+/// Hard limits that no mode of a structure fails.
+struct PoleLimits {
+  double lowest_Hz = 0.0, highest_Hz = 1e300;
+  double largest_damping = 0.20;  ///< 0 < zeta < largest_damping
+};
+
+/// A pole of the diagram.
+struct DiagramPole {
+  Pole pole;
+  bool stable_frequency = false, stable_damping = false, stable_shape = false;
+  int mode = -1;  ///< position in the list of identified modes, -1 for none
+  [[nodiscard]] bool stable() const { return stable_frequency && stable_damping && stable_shape; }
+};
+
+/// The stabilisation diagram: poles of all orders within the limits, each compared with the pole of the next smaller order that has
+/// the highest MAC with it among those within the frequency criterion (close modes swap places in frequency, not in shape).
+/// @param poles  one list an order, orders ascending
+[[nodiscard]] std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles, const StabilisationCriteria& criteria,
+                                                             const PoleLimits& limits);
+
+}  // namespace twindeck::sysid

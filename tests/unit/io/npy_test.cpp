@@ -1,0 +1,59 @@
+// Oracle: the NPY format (NEP 1), with files put together byte by byte as NumPy writes them; a round trip keeps every bit.
+#include "io/npy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "temporary_folder.hpp"
+
+namespace twindeck::io {
+namespace {
+
+class Npy : public test::TemporaryFolder {
+ protected:
+  template <typename Number>
+  static std::string file_of(const std::string& description, const std::vector<Number>& values) {
+    std::string header = description;
+    header.append(63 - (10 + header.size()) % 64, ' ');
+    header += '\n';
+    std::string content = std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header;
+    content.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number));
+    return content;
+  }
+};
+
+TEST_F(Npy, RoundTripKeepsEveryBit) {
+  Eigen::MatrixXd array = Eigen::MatrixXd::Random(1237, 3);
+  array(5, 1) = std::numeric_limits<double>::quiet_NaN();
+  write_npy(array, folder_ / "a.npy");
+  const Eigen::MatrixXd back = read_npy(folder_ / "a.npy");
+  ASSERT_EQ(back.rows(), 1237);
+  ASSERT_EQ(back.cols(), 3);
+  EXPECT_EQ(std::memcmp(back.data(), array.data(), sizeof(double) * 3711), 0);
+  EXPECT_EQ((content(folder_ / "a.npy").size() - sizeof(double) * 3711) % 64, 0U);
+}
+
+TEST_F(Npy, ReadsSinglePrecisionAndFortranOrder) {
+  const auto c = write("c.npy", file_of<float>("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", {1, 2, 3, 4, 5, 6}));
+  const auto f = write("f.npy", file_of<double>("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }", {1, 4, 2, 5, 3, 6}));
+  const auto v = write("v.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (4,), }", {1, 2, 3, 4}));
+  const Eigen::MatrixXd expected = (Eigen::MatrixXd(2, 3) << 1, 2, 3, 4, 5, 6).finished();
+  EXPECT_EQ(read_npy(c), expected);
+  EXPECT_EQ(read_npy(f), expected);
+  EXPECT_EQ(read_npy(v), Eigen::VectorXd::LinSpaced(4, 1, 4));
+}
+
+TEST_F(Npy, RefusesWhatItCannotRead) {
+  EXPECT_NE(refusal([&] { (void)read_npy(folder_ / "none.npy"); }).find("cannot be read"), std::string::npos);
+  EXPECT_NE(refusal([&] { (void)read_npy(write("t.npy", "time_s,c01\n0,1\n")); }).find("is no NPY file"), std::string::npos);
+  const auto ints = write("i.npy", file_of<std::int64_t>("{'descr': '<i8', 'fortran_order': False, 'shape': (1,), }", {1}));
+  EXPECT_NE(refusal([&] { (void)read_npy(ints); }).find("holds type '<i8', expected '<f8' or '<f4'"), std::string::npos);
+  const auto cube = write("3.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1), }", {1}));
+  EXPECT_NE(refusal([&] { (void)read_npy(cube); }).find("one or two dimensions"), std::string::npos);
+  const auto cut = write("s.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (4, 1), }", {1, 2, 3}));
+  EXPECT_NE(refusal([&] { (void)read_npy(cut); }).find("holds 24 bytes of data, expected 32 for 4 x 1 values"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace twindeck::io
