@@ -1,3 +1,4 @@
+#include "fe/assembly_drilling.hpp"
 #include "fe/assembly_terms.hpp"
 
 namespace twindeck::fe {
@@ -40,10 +41,13 @@ ElementMatrix bar_axial(const Model& model, int i) {
 
 ElementMatrix membrane(const Model& model, int i) {
   const Element& e = element_at(model, i);
-  const DrillingRule rule =
-      model.formulation.drilling == Formulation::Drilling::penalty ? DrillingRule::penalty : DrillingRule::diagonal;
-  return {six_per_node(e), shell_membrane_stiffness(shell_geometry(model, e), shell_properties(model, e), rule,
-                                                    model.formulation.drilling_factor)};
+  const ShellGeometry geometry = shell_geometry(model, e);
+  const ShellProperties properties = shell_properties(model, e);
+  const double factor = model.formulation.drilling_factor;
+  if (model.formulation.drilling == Formulation::Drilling::penalty)
+    return {six_per_node(e), shell_membrane_stiffness(geometry, properties, DrillingRule::penalty, factor)};
+  return {six_per_node(e), shell_membrane_stiffness(geometry, properties, DrillingRule::diagonal, factor) +
+                               drilling_spread(geometry, properties, factor)};
 }
 
 ElementMatrix bending(const Model& model, int i) {

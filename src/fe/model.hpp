@@ -119,7 +119,8 @@ struct Formulation {
   bool shear_flexible = true;         ///< false: Euler-Bernoulli whatever the shear areas
   bool beam_rotary_inertia = true;    ///< false: translational and torsional mass of beams only
   bool shell_rotary_inertia = true;   ///< false: translational mass only
-  enum class Drilling { penalty, diagonal } drilling = Drilling::penalty;  ///< penalty: Hughes-Brezzi; diagonal: factor E t A
+  /// penalty: Hughes-Brezzi; diagonal: factor E t A on each corner, spread so that a rigid turn meets no resistance
+  enum class Drilling { penalty, diagonal } drilling = Drilling::penalty;
   double drilling_factor = 0.0;       ///< 0 = the formulation's own default
 };
 

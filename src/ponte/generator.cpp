@@ -219,6 +219,7 @@ fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const st
   fe::Model model = build(definition, variant + " (prototype's formulation)");
   model.prestress.rule = fe::PullRule::given;
   model.formulation.shear_flexible = false;
+  model.formulation.beam_rotary_inertia = false;
   model.formulation.shell_rotary_inertia = false;
   model.formulation.drilling = fe::Formulation::Drilling::diagonal;
   for (fe::Element& element : model.elements) {
