@@ -28,7 +28,8 @@ EigenModes ModalSolver::solve(const Eigen::VectorXd& theta, int n_modes) {
     const double shift = free_structure_shift(stiffness, mass_);
     if (shift < 0.0) {
       linalg::EigenPairs shifted = linalg::lowest_eigenpairs(stiffness, mass_, n_modes, shift, factor_, last_);
-      // Where the shift does not help either (a mechanism without mass, a negative stiffness), the first message is the clearer.
+      // Where the shift does not help either (a mechanism without mass, a negative stiffness), the first message is the
+      // clearer.
       if (shifted.values.size() > 0) pairs = std::move(shifted);
     }
   }

@@ -11,14 +11,14 @@ namespace twindeck::dynamics {
 
 /// Undamped modes over the free degrees of freedom,  K phi = lambda M phi,  f = sqrt(lambda)/(2 pi).
 struct EigenModes {
-  Eigen::VectorXd frequency_Hz;   ///< (n_modes) ascending; 0 for rigid-body modes
-  Eigen::VectorXd eigenvalue;     ///< (n_modes) [rad²/s²]
-  Eigen::MatrixXd shapes;         ///< (n × n_modes) mass-normalised, entry of largest magnitude positive
-  Status status;                  ///< not converged: fewer modes than asked for, or a K that is not positive definite
+  Eigen::VectorXd frequency_Hz;  ///< (n_modes) ascending; 0 for rigid-body modes
+  Eigen::VectorXd eigenvalue;    ///< (n_modes) [rad²/s²]
+  Eigen::MatrixXd shapes;        ///< (n × n_modes) mass-normalised, entry of largest magnitude positive
+  Status status;                 ///< not converged: fewer modes than asked for, or a K that is not positive definite
 };
 
-/// Modes of a parametric system at given parameter values; keeps the symbolic factorisation and warm-starts from the last modes.
-/// The system must outlive the solver. Not for use by two threads at once: give each its own.
+/// Modes of a parametric system at given parameter values; keeps the symbolic factorisation and warm-starts from the last
+/// modes. The system must outlive the solver. Not for use by two threads at once: give each its own.
 class ModalSolver {
  public:
   explicit ModalSolver(const fe::ParametricSystem& system);

@@ -17,7 +17,8 @@ using Eigen::VectorXd;
 std::vector<int> columns_of_entries(const linalg::SparseMatrix& pattern) {
   std::vector<int> column(static_cast<std::size_t>(pattern.nonZeros()));
   for (int j = 0; j < pattern.outerSize(); ++j) {
-    for (int at = pattern.outerIndexPtr()[j]; at < pattern.outerIndexPtr()[j + 1]; ++at) column[static_cast<std::size_t>(at)] = j;
+    for (int at = pattern.outerIndexPtr()[j]; at < pattern.outerIndexPtr()[j + 1]; ++at)
+      column[static_cast<std::size_t>(at)] = j;
   }
   return column;
 }
@@ -62,7 +63,8 @@ VectorXd subspace_derivative(const fe::ParametricSystem& system, const VectorXd&
 
 }  // namespace
 
-MatrixXd frequency_jacobian(const fe::ParametricSystem& system, const VectorXd& theta, const EigenModes& modes, double cluster_gap) {
+MatrixXd frequency_jacobian(const fe::ParametricSystem& system, const VectorXd& theta, const EigenModes& modes,
+                            double cluster_gap) {
   const Index n_modes = modes.eigenvalue.size();
   const auto n_parameters = static_cast<Index>(system.parameters.size());
   MatrixXd d_lambda = MatrixXd::Zero(n_modes, n_parameters);
@@ -73,7 +75,9 @@ MatrixXd frequency_jacobian(const fe::ParametricSystem& system, const VectorXd& 
 
   for (Index first = 0, last = 0; first < n_modes; first = last + 1) {
     last = first;
-    while (last + 1 < n_modes && modes.eigenvalue[last + 1] - modes.eigenvalue[last] <= cluster_gap * modes.eigenvalue[last + 1]) ++last;
+    while (last + 1 < n_modes &&
+           modes.eigenvalue[last + 1] - modes.eigenvalue[last] <= cluster_gap * modes.eigenvalue[last + 1])
+      ++last;
     if (last == first) continue;
     for (Index p = 0; p < n_parameters; ++p) {
       d_lambda.col(p).segment(first, last - first + 1) =

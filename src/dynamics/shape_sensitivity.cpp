@@ -20,7 +20,8 @@ VectorXd column_dots(const MatrixXd& a, const MatrixXd& b) { return a.cwiseProdu
 
 /// Solves (K - lambda_i M) z_i = f_i outside the span of the modes, all columns at once, each with its own scalars.
 MatrixXd solve_outside_modes(const linalg::SparseMatrix& stiffness, const linalg::SparseMatrix& mass, const VectorXd& lambda,
-                             const MatrixXd& shapes, const MatrixXd& mass_shapes, const linalg::Cholesky& factor, MatrixXd residual) {
+                             const MatrixXd& shapes, const MatrixXd& mass_shapes, const linalg::Cholesky& factor,
+                             MatrixXd residual) {
   const auto precondition = [&](const MatrixXd& r) {
     MatrixXd y = factor.solve(r);
     y -= shapes * (mass_shapes.transpose() * y);  // exact already but for rounding, which would grow along the modes
@@ -36,7 +37,8 @@ MatrixXd solve_outside_modes(const linalg::SparseMatrix& stiffness, const linalg
                            MatrixXd(mass.selfadjointView<Eigen::Lower>() * direction) * lambda.asDiagonal();
     const VectorXd curvature = column_dots(direction, image);
     VectorXd step(energy.size());
-    for (Index i = 0; i < step.size(); ++i) step[i] = energy[i] > floor[i] && curvature[i] > 0.0 ? energy[i] / curvature[i] : 0.0;
+    for (Index i = 0; i < step.size(); ++i)
+      step[i] = energy[i] > floor[i] && curvature[i] > 0.0 ? energy[i] / curvature[i] : 0.0;
     z += direction * step.asDiagonal();
     residual -= image * step.asDiagonal();
     preconditioned = precondition(residual);
@@ -53,8 +55,12 @@ MatrixXd solve_outside_modes(const linalg::SparseMatrix& stiffness, const linalg
 }  // namespace
 
 ShapeSensitivity::ShapeSensitivity(const fe::ParametricSystem& system, VectorXd theta, EigenModes modes, double cluster_gap)
-    : system_(system), theta_(std::move(theta)), modes_(std::move(modes)), cluster_gap_(cluster_gap),
-      stiffness_(system.stiffness(theta_)), mass_(system.mass(theta_)) {
+    : system_(system),
+      theta_(std::move(theta)),
+      modes_(std::move(modes)),
+      cluster_gap_(cluster_gap),
+      stiffness_(system.stiffness(theta_)),
+      mass_(system.mass(theta_)) {
   if (!factor_.factorize(stiffness_).converged) {
     linalg::SparseMatrix shifted = stiffness_ - free_structure_shift(stiffness_, mass_) * mass_;
     shifted.makeCompressed();

@@ -8,9 +8,9 @@ namespace twindeck::fe {
 
 /// Static state under dead load and pulls: what stiffens the structure.
 struct PrestressState {
-  Eigen::VectorXd stay_pull_N;     ///< (n_elements), 0 for what is not a stay
-  Eigen::VectorXd axial_force_N;   ///< (n_elements), beams and bars; tension positive
-  Eigen::VectorXd displacement;    ///< (6 n_nodes) under dead load and pulls [m, rad]
+  Eigen::VectorXd stay_pull_N;    ///< (n_elements), 0 for what is not a stay
+  Eigen::VectorXd axial_force_N;  ///< (n_elements), beams and bars; tension positive
+  Eigen::VectorXd displacement;   ///< (6 n_nodes) under dead load and pulls [m, rad]
   Status status;
 };
 
@@ -23,8 +23,9 @@ void validate(const Model& model);
 /// @throws InputError for a mechanism, naming a node and its free degrees of freedom
 [[nodiscard]] PrestressState find_prestress(const Model& model, const Eigen::VectorXd& theta);
 
-/// Assembles K = sum a_g K_g and M = sum b_g M_g over the free degrees of freedom. Geometric stiffness of stays and members is a
-/// term without parameters: the prestress is frozen until `assemble` is called again.
+/// Assembles K = sum a_g K_g and M = sum b_g M_g over the free degrees of freedom. Geometric stiffness of stays and members is
+/// a term without parameters: the prestress is frozen until `assemble` is called again. Springs that are inactive, or in series
+/// with a dashpot (which lets go of a steady force), are left out.
 /// @param state  pulls and axial forces; a default-constructed one (empty vectors) means none
 [[nodiscard]] ParametricSystem assemble(const Model& model, const PrestressState& state);
 

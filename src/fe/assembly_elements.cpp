@@ -37,8 +37,9 @@ BeamStiffnessProperties beam_properties(const Model& model, const Element& eleme
   const Material& m = material_of(model, element);
   const Section& s = section_of(model, element);
   const double shear = model.formulation.shear_flexible ? 1.0 : 0.0;
-  return {m.youngs_modulus_Pa, m.shear_modulus_Pa, s.area_m2,    s.inertia_y_m4,           s.inertia_z_m4,
-          s.inertia_yz_m4,     s.torsion_m4,       shear * s.shear_area_y_m2, shear * s.shear_area_z_m2};
+  return {m.youngs_modulus_Pa,      m.shear_modulus_Pa, s.area_m2,    s.inertia_y_m4,
+          s.inertia_z_m4,           s.inertia_yz_m4,    s.torsion_m4, shear * s.shear_area_y_m2,
+          shear * s.shear_area_z_m2};
 }
 
 ShellGeometry shell_geometry(const Model& model, const Element& element) {

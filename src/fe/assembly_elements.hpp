@@ -11,8 +11,8 @@ namespace twindeck::fe {
 
 /// A small symmetric matrix over full degrees of freedom (6·node + direction).
 struct ElementMatrix {
-  std::vector<int> dofs;  ///< (n)
-  Eigen::MatrixXd matrix; ///< (n × n)
+  std::vector<int> dofs;   ///< (n)
+  Eigen::MatrixXd matrix;  ///< (n × n)
 };
 
 [[nodiscard]] BeamGeometry beam_geometry(const Model& model, const Element& element);

@@ -11,13 +11,13 @@ bool names(const Parameter& parameter, const std::string& name) {
   return std::find(parameter.of.begin(), parameter.of.end(), name) != parameter.of.end();
 }
 
-double of_material(const Model& model, const Parameter& parameter, double Material::* value) {
+double of_material(const Model& model, const Parameter& parameter, double Material::*value) {
   for (const Material& material : model.materials)
     if (names(parameter, material.name)) return material.*value;
   return parameter.initial;
 }
 
-double of_section(const Model& model, const Parameter& parameter, double Section::* value) {
+double of_section(const Model& model, const Parameter& parameter, double Section::*value) {
   for (const Section& section : model.sections)
     if (names(parameter, section.name)) return section.*value;
   return parameter.initial;

@@ -25,7 +25,7 @@ class Scatter {
 
   const linalg::SparseMatrix& pattern_;
   const DofMap& map_;
-  std::vector<double> sum_;      ///< (non-zeros of the pattern)
+  std::vector<double> sum_;  ///< (non-zeros of the pattern)
   std::vector<char> is_touched_;
   std::vector<int> touched_;
 };

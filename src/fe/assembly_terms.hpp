@@ -15,8 +15,8 @@ class Scatter;
 struct TermPlan {
   std::string label;
   Coefficient coefficient;
-  std::vector<int> parts;                                       ///< elements, springs or masses
-  ElementMatrix (*matrix)(const Model&, int part) = nullptr;    ///< matrix of one part at the model's own values
+  std::vector<int> parts;                                     ///< elements, springs or masses
+  ElementMatrix (*matrix)(const Model&, int part) = nullptr;  ///< matrix of one part at the model's own values
 };
 
 /// Powers of a term's coefficient in the properties that it is made of.
@@ -39,8 +39,8 @@ class TermGroups {
   std::vector<TermPlan> plans_;
 };
 
-/// Elastic stiffness without stays: beams by group and material (the axial part apart where an area is a parameter), bars, shells
-/// by section and material (membrane with drilling ~ E t, bending ~ E t³ RMI), springs by group.
+/// Elastic stiffness without stays: beams by group and material (the axial part apart where an area is a parameter), bars,
+/// shells by section and material (membrane with drilling ~ E t, bending ~ E t³ RMI), springs by group.
 [[nodiscard]] std::vector<TermPlan> plan_stiffness(const Model& model);
 /// Axial stiffness of stays, a term each: Dischinger's modulus at the pull; the full modulus of a stay without pull.
 [[nodiscard]] std::vector<TermPlan> plan_stays(const Model& model, const Eigen::VectorXd& stay_pull_N);
@@ -50,8 +50,8 @@ class TermGroups {
 /// Scatters a plan into the pattern.
 [[nodiscard]] std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans, Scatter& scatter);
 
-/// Factors of a coefficient for one material or section or group: (theta / value as it stands)^power for each parameter that has
-/// this target and names this thing.
+/// Factors of a coefficient for one material or section or group: (theta / value as it stands)^power for each parameter that
+/// has this target and names this thing.
 void add_factors(const Model& model, Target target, const std::string& name, double power, Coefficient& coefficient);
 [[nodiscard]] bool is_parameter(const Model& model, Target target, const std::string& name);
 

@@ -44,9 +44,10 @@ std::vector<bool> find_fixed(const Model& model, const std::vector<int>& root) {
     for (int d = 0; d < 6; ++d) {
       if (!support.fixed[at(d)]) continue;
       if (root[at(support.node)] != support.node)
-        throw InputError({model.source, 0, "support " + support.name},
-                         fmt::format("node {} is held by a support and is the slave of a rigid link", id_of(model, support.node)),
-                         fmt::format("support its master, node {}, or use a stiff spring", id_of(model, root[at(support.node)])));
+        throw InputError(
+            {model.source, 0, "support " + support.name},
+            fmt::format("node {} is held by a support and is the slave of a rigid link", id_of(model, support.node)),
+            fmt::format("support its master, node {}, or use a stiff spring", id_of(model, root[at(support.node)])));
       fixed[at(6 * support.node + d)] = true;
     }
   return fixed;

@@ -11,8 +11,9 @@ namespace twindeck::fe {
 /// Free degrees of freedom of a model after supports and rigid links have been eliminated.
 ///
 /// Displacements of all nodes follow from the free ones by u = E q. A slave moves with the end of its chain of links as a rigid
-/// body, u_s = u_m + theta_m × (x_s - x_m), theta_s = theta_m; a supported degree of freedom has an empty row. Degrees of freedom
-/// that no element and no spring reaches (rotations of a node where only bars meet) are left out, for they would be singular.
+/// body, u_s = u_m + theta_m × (x_s - x_m), theta_s = theta_m; a supported degree of freedom has an empty row. Degrees of
+/// freedom that no element and no spring reaches (rotations of a node where only bars meet) are left out, for they would be
+/// singular.
 struct DofMap {
   linalg::SparseMatrix expansion;  ///< E (6 n_nodes × n)
   std::vector<DofLabel> dofs;      ///< (n) in the order of nodes, then x y z rx ry rz

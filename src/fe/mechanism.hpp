@@ -10,9 +10,9 @@ namespace twindeck::fe {
 
 /// Factorises K, or refuses it as a mechanism.
 ///
-/// A mechanism shows in one of three ways: a degree of freedom without stiffness of its own; a factorisation that breaks down; or
-/// one that passes by rounding, which the Rayleigh quotient x'Kx / x'Dx (D = diagonal of K) of two inverse iterations brings to
-/// light: below 1e-14 nothing but rounding resists x. The message names the node that moves most in x, and its directions.
+/// A mechanism shows in one of three ways: a degree of freedom without stiffness of its own; a factorisation that breaks down;
+/// or one that passes by rounding, which the Rayleigh quotient x'Kx / x'Dx (D = diagonal of K) of two inverse iterations brings
+/// to light: below 1e-14 nothing but rounding resists x. The message names the node that moves most in x, and its directions.
 /// @param lower    lower triangle of K (n × n)
 /// @param source   model that the message names
 /// @param context  ends the first sentence of the message (" without its stays"), may be empty

@@ -27,7 +27,8 @@ FactorValue evaluate(const Coefficient::Factor& factor, const Coefficient& coeff
   return {power_of(ratio, factor.power), factor.power * std::pow(ratio, factor.power - 1.0) / factor.reference};
 }
 
-linalg::SparseMatrix combine(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms, const Eigen::VectorXd& theta) {
+linalg::SparseMatrix combine(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms,
+                             const Eigen::VectorXd& theta) {
   linalg::SparseMatrix sum = pattern;
   double* values = sum.valuePtr();
   std::fill(values, values + sum.nonZeros(), 0.0);
@@ -39,7 +40,8 @@ linalg::SparseMatrix combine(const linalg::SparseMatrix& pattern, const std::vec
 }
 
 /// y += a · (symmetric matrix of the term) x, rows of x and y being the vectors' entries of one degree of freedom (m × n).
-void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a, const Eigen::MatrixXd& xt, Eigen::MatrixXd& yt) {
+void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a, const Eigen::MatrixXd& xt,
+                 Eigen::MatrixXd& yt) {
   const int* outer = pattern.outerIndexPtr();
   const int* inner = pattern.innerIndexPtr();
   int column = 0;
@@ -54,8 +56,8 @@ void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a
   }
 }
 
-Eigen::MatrixXd derivative_times(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms, const Eigen::VectorXd& theta,
-                                 int parameter, const Eigen::Ref<const Eigen::MatrixXd>& x) {
+Eigen::MatrixXd derivative_times(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms,
+                                 const Eigen::VectorXd& theta, int parameter, const Eigen::Ref<const Eigen::MatrixXd>& x) {
   TWINDECK_ASSERT(x.rows() == pattern.rows());
   const Eigen::MatrixXd xt = x.transpose();
   Eigen::MatrixXd yt = Eigen::MatrixXd::Zero(x.cols(), x.rows());

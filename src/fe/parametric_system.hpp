@@ -12,8 +12,8 @@ namespace twindeck::fe {
 
 /// A free degree of freedom of the assembled system, for output and messages.
 struct DofLabel {
-  std::string node;          ///< node id as text
-  int direction = 0;         ///< 0-5 = x y z rx ry rz
+  std::string node;   ///< node id as text
+  int direction = 0;  ///< 0-5 = x y z rx ry rz
   Eigen::Vector3d x_m = Eigen::Vector3d::Zero();
 };
 
@@ -28,11 +28,15 @@ struct Dischinger {
 
 /// Coefficient of one matrix term: base * prod (theta_p / reference_p)^power_p, or E_eq(theta_p)/E_eq(reference_p) for a stay.
 struct Coefficient {
-  struct Factor { int parameter; double power; double reference; };
+  struct Factor {
+    int parameter;
+    double power;
+    double reference;
+  };
   double base = 1.0;
   std::vector<Factor> factors;
-  std::optional<Dischinger> stay;   ///< when set, the factor of `stay_modulus_parameter` goes through E_eq; stress and weight are
-                                    ///< those of the prestress state and stay frozen with it
+  std::optional<Dischinger> stay;  ///< when set, the factor of `stay_modulus_parameter` goes through E_eq; stress and weight
+                                   ///< are those of the prestress state and stay frozen with it
   int stay_modulus_parameter = -1;
   [[nodiscard]] double value(const Eigen::VectorXd& theta) const;
   [[nodiscard]] double derivative(const Eigen::VectorXd& theta, int parameter) const;
@@ -40,9 +44,9 @@ struct Coefficient {
 
 /// One term a_g K_g: entries of K_g's lower triangle by position in the common pattern.
 struct Term {
-  std::string label;                ///< "slab_foot_B membrane", for messages and reports
+  std::string label;  ///< "slab_foot_B membrane", for messages and reports
   Coefficient coefficient;
-  std::vector<int> position;        ///< into valuePtr() of the pattern
+  std::vector<int> position;  ///< into valuePtr() of the pattern
   std::vector<double> value;
 };
 
@@ -51,8 +55,8 @@ struct Term {
 class ParametricSystem {
  public:
   std::vector<Parameter> parameters;
-  std::vector<DofLabel> dofs;                 ///< (n)
-  linalg::SparseMatrix pattern;               ///< lower triangle (n × n), explicit zeros
+  std::vector<DofLabel> dofs;    ///< (n)
+  linalg::SparseMatrix pattern;  ///< lower triangle (n × n), explicit zeros
   std::vector<Term> stiffness_terms, mass_terms;
 
   [[nodiscard]] Eigen::Index size() const { return pattern.rows(); }
@@ -69,7 +73,7 @@ class ParametricSystem {
   /// returns x itself. @param x (n × m)
   [[nodiscard]] Eigen::MatrixXd expand(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
 
-  linalg::SparseMatrix expansion;             ///< (6 n_nodes × n): supports and links; empty for a matrix model
+  linalg::SparseMatrix expansion;  ///< (6 n_nodes × n): supports and links; empty for a matrix model
 };
 
 }  // namespace twindeck::fe

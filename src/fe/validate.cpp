@@ -18,16 +18,15 @@ namespace {
   throw InputError({model.source, 0, part}, problem, mend);
 }
 
-std::string label(const Element& e) {
-  return fmt::format("element {}{}", e.id, e.name.empty() ? "" : " (" + e.name + ")");
-}
+std::string label(const Element& e) { return fmt::format("element {}{}", e.id, e.name.empty() ? "" : " (" + e.name + ")"); }
 
 /// A position in one of the model's lists; `what` says which ("material").
 void require_position(const Model& model, const std::string& part, const char* what, int position, std::size_t count) {
   if (position >= 0 && static_cast<std::size_t>(position) < count) return;
-  refuse(model, part, fmt::format("{} has number {} in the list of {}, expected 0 to {}", what, position, count,
-                                  static_cast<long>(count) - 1),
-         fmt::format("give the {} of this part", what));
+  refuse(
+      model, part,
+      fmt::format("{} has number {} in the list of {}, expected 0 to {}", what, position, count, static_cast<long>(count) - 1),
+      fmt::format("give the {} of this part", what));
 }
 
 void check_element(const Model& model, const Element& e) {
@@ -61,9 +60,10 @@ void check_springs(const Model& model) {
     if (s.node == s.node2) refuse(model, part, "joins a node to itself", "leave the second node out for a spring to ground");
     if (!(s.direction.norm() > 1e-12)) refuse(model, part, "has no direction", "give the direction in which it acts");
     if (!(s.stiffness >= 0.0) || !(s.damping >= 0.0) || !(s.friction_N >= 0.0))
-      refuse(model, part,
-             fmt::format("stiffness {:g}, damping {:g}, friction {:g}: expected 0 or more", s.stiffness, s.damping, s.friction_N),
-             "take out the negative value");
+      refuse(
+          model, part,
+          fmt::format("stiffness {:g}, damping {:g}, friction {:g}: expected 0 or more", s.stiffness, s.damping, s.friction_N),
+          "take out the negative value");
   }
 }
 
@@ -157,8 +157,9 @@ void validate_geometry(const Model& model) {
 
 void validate(const Model& model) {
   if (model.nodes.empty() || (model.elements.empty() && model.springs.empty()))
-    refuse(model, "model", fmt::format("has {} nodes, {} elements and {} springs", model.nodes.size(), model.elements.size(),
-                                       model.springs.size()),
+    refuse(model, "model",
+           fmt::format("has {} nodes, {} elements and {} springs", model.nodes.size(), model.elements.size(),
+                       model.springs.size()),
            "a model needs nodes and something that joins them");
   validate_references(model);
   validate_properties(model);

@@ -60,16 +60,19 @@ void check_names(const Model& model, const Parameter& p) {
 
 void check_values(const Model& model, const Parameter& p, double standing) {
   if (!std::isfinite(p.initial) || p.initial == 0.0 || !std::isfinite(p.lower) || !std::isfinite(p.upper))
-    refuse(model, p, fmt::format("initial {:g} in [{:g}, {:g}]: expected numbers, the initial one not 0", p.initial, p.lower, p.upper),
+    refuse(model, p,
+           fmt::format("initial {:g} in [{:g}, {:g}]: expected numbers, the initial one not 0", p.initial, p.lower, p.upper),
            "a parameter scales what it names, so it cannot start at 0");
   if (p.lower > p.initial || p.initial > p.upper)
-    refuse(model, p, fmt::format("the initial value {:g} {} lies outside its bounds [{:g}, {:g}]", p.initial, p.unit, p.lower, p.upper),
+    refuse(model, p,
+           fmt::format("the initial value {:g} {} lies outside its bounds [{:g}, {:g}]", p.initial, p.unit, p.lower, p.upper),
            "widen the bounds or move the initial value");
   if (p.lower <= 0.0 && p.lower < p.upper)
     refuse(model, p, fmt::format("the lower bound is {:g} {}, expected a positive number", p.lower, p.unit),
            "stiffness and mass vanish at 0; raise the bound");
   if (std::abs(p.initial - standing) > 1e-6 * std::abs(standing))  // tables carry 12 digits, people fewer
-    refuse(model, p, fmt::format("the initial value is {:.9g} {}, but '{}' stands at {:.9g}", p.initial, p.unit, p.of.front(), standing),
+    refuse(model, p,
+           fmt::format("the initial value is {:.9g} {}, but '{}' stands at {:.9g}", p.initial, p.unit, p.of.front(), standing),
            "write the same value in both places");
 }
 
@@ -85,7 +88,8 @@ void validate_parameters(const Model& model) {
     check_names(model, p);
     for (const std::string& name : p.of)
       if (!taken.insert({p.target, name}).second)
-        refuse(model, p, fmt::format("'{}' is scaled by another parameter already", name), "let one parameter scale each property");
+        refuse(model, p, fmt::format("'{}' is scaled by another parameter already", name),
+               "let one parameter scale each property");
     check_values(model, p, standing[static_cast<Eigen::Index>(i)]);
   }
 }

@@ -5,7 +5,8 @@
 /// The parts of `validate`, in the order in which they are called: each may rely on what those before it have checked.
 namespace twindeck::fe {
 
-/// Every reference from elements, springs, links, masses, supports and prestress conditions leads somewhere; node ids are unique.
+/// Every reference from elements, springs, links, masses, supports and prestress conditions leads somewhere; node ids are
+/// unique.
 void validate_references(const Model& model);
 /// Moduli, densities and sections of what is used.
 void validate_properties(const Model& model);

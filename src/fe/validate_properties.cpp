@@ -13,9 +13,11 @@ namespace {
   throw InputError({model.source, 0, part}, problem, mend);
 }
 
-void require_positive(const Model& model, const std::string& part, const std::string& what, double value, const std::string& unit) {
+void require_positive(const Model& model, const std::string& part, const std::string& what, double value,
+                      const std::string& unit) {
   if (value > 0.0 && std::isfinite(value)) return;
-  refuse(model, part, fmt::format("{} is {:g} {}, expected a positive number", what, value, unit), "give it as a positive number");
+  refuse(model, part, fmt::format("{} is {:g} {}, expected a positive number", what, value, unit),
+         "give it as a positive number");
 }
 
 void check_beam_section(const Model& model, const Section& s, const std::string& part) {
@@ -29,7 +31,8 @@ void check_beam_section(const Model& model, const Section& s, const std::string&
                        s.inertia_yz_m4, std::sqrt(s.inertia_y_m4 * s.inertia_z_m4)),
            "check the product of inertia");
   if (s.shear_area_y_m2 < 0.0 || s.shear_area_z_m2 < 0.0)
-    refuse(model, part, fmt::format("shear areas are {:g} and {:g} m2, expected 0 or more", s.shear_area_y_m2, s.shear_area_z_m2),
+    refuse(model, part,
+           fmt::format("shear areas are {:g} and {:g} m2, expected 0 or more", s.shear_area_y_m2, s.shear_area_z_m2),
            "give 0 for a section that is rigid in shear");
 }
 

@@ -19,8 +19,8 @@ struct OrthonormalBlock {
   MatrixXd q, mass_q, r;
 };
 
-/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding. `scale`: the norm of
-/// the columns before they were made orthogonal to the basis, below 1e-11 of which nothing but rounding is left.
+/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding. `scale`: the norm
+/// of the columns before they were made orthogonal to the basis, below 1e-11 of which nothing but rounding is left.
 OrthonormalBlock orthonormalise(const SelfAdjointOperator& op, const MatrixXd& w, double scale) {
   OrthonormalBlock out{w, op.times_mass(w), MatrixXd::Identity(w.cols(), w.cols())};
   for (int pass = 0; pass < 2 && out.q.cols() > 0; ++pass) {
@@ -41,8 +41,8 @@ OrthonormalBlock orthonormalise(const SelfAdjointOperator& op, const MatrixXd& w
 
 /// The Lanczos basis with its projected operator.
 struct Basis {
-  MatrixXd v, mass_v;     ///< (n × capacity), `size` columns in use
-  MatrixXd projected;     ///< (capacity × capacity)
+  MatrixXd v, mass_v;  ///< (n × capacity), `size` columns in use
+  MatrixXd projected;  ///< (capacity × capacity)
   Index size = 0;
 
   void append(const OrthonormalBlock& block) {

@@ -8,26 +8,28 @@ namespace twindeck::linalg {
 /// An operator that is self-adjoint in the (semi-)inner product of M, by what it does to blocks of vectors.
 struct SelfAdjointOperator {
   Eigen::Index size = 0;
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> times_mass;   ///< M X
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> from_mass;    ///< A^-1 Y, so that the operator is from_mass(times_mass(X))
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> times_mass;  ///< M X
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>
+      from_mass;  ///< A^-1 Y, so that the operator is from_mass(times_mass(X))
 };
 
 struct BlockLanczosOptions {
   int n_pairs = 1;
-  double tolerance = 1e-9;    ///< residual in the M norm, relative to the eigenvalue of the operator
+  double tolerance = 1e-9;  ///< residual in the M norm, relative to the eigenvalue of the operator
   int max_restarts = 60;
 };
 
 struct BlockLanczosResult {
-  Eigen::VectorXd values;     ///< largest eigenvalues of the operator, descending
-  Eigen::MatrixXd vectors;    ///< (n × found) M-orthonormal
+  Eigen::VectorXd values;   ///< largest eigenvalues of the operator, descending
+  Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal
   int converged = 0;
   int operations = 0;
 };
 
 /// Largest eigenvalues of an operator A^-1 M, by block Lanczos with full reorthogonalisation and thick restart.
 /// The width of the block is the number of copies of a repeated eigenvalue that are found for certain.
-/// @param start  start(0) gives the first block (n × width); start(1), start(2), … further ones, asked for when the basis spans an
+/// @param start  start(0) gives the first block (n × width); start(1), start(2), … further ones, asked for when the basis spans
+/// an
 ///               invariant subspace before enough pairs are found. Columns that depend on each other are dropped.
 [[nodiscard]] BlockLanczosResult block_lanczos(const SelfAdjointOperator& op,
                                                const std::function<Eigen::MatrixXd(int draw)>& start,

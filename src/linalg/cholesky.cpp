@@ -84,7 +84,8 @@ struct Cholesky::Impl {
   bool same_pattern(const SparseMatrix& a) const {
     return factor != nullptr && outer.size() == static_cast<std::size_t>(a.outerSize() + 1) &&
            inner.size() == static_cast<std::size_t>(a.nonZeros()) &&
-           std::equal(outer.begin(), outer.end(), a.outerIndexPtr()) && std::equal(inner.begin(), inner.end(), a.innerIndexPtr());
+           std::equal(outer.begin(), outer.end(), a.outerIndexPtr()) &&
+           std::equal(inner.begin(), inner.end(), a.innerIndexPtr());
   }
 
   Eigen::Index row_of(std::size_t column) const { return static_cast<const int*>(factor->Perm)[column]; }
@@ -125,8 +126,9 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
     const Eigen::Index row = impl_->row_of(j);
     if (std::isfinite(pivot[j]) && pivot[j] > kSingularPivot * std::abs(diagonal[row])) continue;
     impl_->failed = row;
-    return {false, fmt::format("the matrix is singular to working precision: the pivot of row {} is {:.1e} of its diagonal entry",
-                               row + 1, pivot[j] / diagonal[row])};
+    return {false,
+            fmt::format("the matrix is singular to working precision: the pivot of row {} is {:.1e} of its diagonal entry",
+                        row + 1, pivot[j] / diagonal[row])};
   }
   return {};
 }
@@ -148,8 +150,9 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) cons
   const int solved = cholmod_solve2(CHOLMOD_A, impl_->factor, &right, nullptr, &impl_->solution, nullptr, &impl_->y, &impl_->e,
                                     &impl_->common);
   TWINDECK_ASSERT(solved == 1);
-  return Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(static_cast<const double*>(impl_->solution->x), b.rows(), b.cols(),
-                                                                    Eigen::OuterStride<>(static_cast<Eigen::Index>(impl_->solution->d)));
+  return Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
+      static_cast<const double*>(impl_->solution->x), b.rows(), b.cols(),
+      Eigen::OuterStride<>(static_cast<Eigen::Index>(impl_->solution->d)));
 }
 
 }  // namespace twindeck::linalg

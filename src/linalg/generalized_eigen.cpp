@@ -116,8 +116,8 @@ void largest_entry_positive(MatrixXd& vectors) {
 
 }  // namespace
 
-EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& mass, int n_pairs, double shift, Cholesky& factor,
-                             const Eigen::Ref<const MatrixXd>& start) {
+EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& mass, int n_pairs, double shift,
+                             Cholesky& factor, const Eigen::Ref<const MatrixXd>& start) {
   TWINDECK_ASSERT(n_pairs > 0 && stiffness.rows() == mass.rows());
   EigenPairs out;
   out.values.resize(0);

@@ -16,10 +16,10 @@ struct EigenPairs {
   int operations = 0;       ///< solves with the factorised matrix
 };
 
-/// Shift-invert block Lanczos with thick restart on the operator (K - sigma M)^-1 M in the inner product of M. A block finds the
-/// copies of a repeated eigenvalue, which Lanczos with a single vector (Spectra's) sees by rounding alone; tests compare the two.
-/// M may be singular (dofs without mass): the basis stays in the range of the operator, and the vectors are purified by one
-/// further application of it. With few dofs that carry mass the problem is condensed to them exactly and solved densely.
+/// Shift-invert block Lanczos with thick restart on the operator (K - sigma M)^-1 M in the inner product of M. A block finds
+/// the copies of a repeated eigenvalue, which Lanczos with a single vector (Spectra's) sees by rounding alone; tests compare
+/// the two. M may be singular (dofs without mass): the basis stays in the range of the operator, and the vectors are purified
+/// by one further application of it. With few dofs that carry mass the problem is condensed to them exactly and solved densely.
 /// The start block is fixed, so that the same matrices give the same bytes.
 /// @param stiffness, mass  lower triangles (n × n), same pattern or not
 /// @param shift   sigma [rad²/s²]; K - sigma M must be positive definite (0, or a negative number for a free structure)

@@ -45,7 +45,8 @@ int count_eigenvalues_below(const SparseMatrix& stiffness, const SparseMatrix& m
   cholmod_free_factor(&factor, &common);
   cholmod_finish(&common);
   if (zero_pivot) {
-    throw InputError({}, fmt::format("{} is an eigenvalue to working precision, so that those below it can't be counted", value),
+    throw InputError({},
+                     fmt::format("{} is an eigenvalue to working precision, so that those below it can't be counted", value),
                      "take a value between two eigenvalues");
   }
   return below;

@@ -42,7 +42,8 @@ Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXd>& phi_n, const Eigen:
   return mac_of(phi_n, phi_x);
 }
 
-Eigen::MatrixXd mass_weighted_mac(const Eigen::Ref<const Eigen::MatrixXd>& mass_phi_a, const Eigen::Ref<const Eigen::MatrixXd>& phi_b) {
+Eigen::MatrixXd mass_weighted_mac(const Eigen::Ref<const Eigen::MatrixXd>& mass_phi_a,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& phi_b) {
   TWINDECK_ASSERT(mass_phi_a.rows() == phi_b.rows());
   return (mass_phi_a.transpose() * phi_b).cwiseAbs2();
 }

@@ -10,8 +10,10 @@ namespace twindeck::modal {
 /// @return [-] (n_N × n_X), entries in [0, 1]; rows and columns as in Table 10
 /// @throws InputError  if row counts differ or a column is zero
 /// Reference: Allemang (2003), Sound and Vibration 37(8), 14-23.
-[[nodiscard]] Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n, const Eigen::Ref<const Eigen::MatrixXcd>& phi_x);
-[[nodiscard]] Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXd>& phi_n, const Eigen::Ref<const Eigen::MatrixXd>& phi_x);
+[[nodiscard]] Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n,
+                                  const Eigen::Ref<const Eigen::MatrixXcd>& phi_x);
+[[nodiscard]] Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXd>& phi_n,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& phi_x);
 
 /// Mass-weighted MAC of two sets of full shapes: squared cosines in the M inner product (1 = the same mode).
 /// @param mass_phi_a  M phi_a (n × n_a), so that the product with M is made once

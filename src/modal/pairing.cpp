@@ -45,8 +45,9 @@ Eigen::VectorXd subspace_mac(const Eigen::MatrixXcd& basis, const Eigen::MatrixX
 
 std::vector<int> follow_modes(const Eigen::Ref<const MatrixXd>& mac_matrix) { return best_assignment(mac_matrix); }
 
-std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x, const Eigen::VectorXd& frequency_n,
-                                  const Eigen::MatrixXcd& phi_n, const PairingOptions& options) {
+std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
+                                  const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
+                                  const PairingOptions& options) {
   const Index n_x = frequency_x.size(), n_n = frequency_n.size();
   const bool shapes = phi_x.rows() > 0;
   TWINDECK_ASSERT(!shapes || (phi_x.cols() == n_x && phi_n.cols() == n_n));
@@ -55,7 +56,8 @@ std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eige
 
   MatrixXd value = MatrixXd::Constant(n_x, n_n, std::numeric_limits<double>::quiet_NaN());  // MAC, or subspace MAC in a cluster
   MatrixXd gain = (options.maximum_frequency_error - error.array()).max(0.0);
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(n_x, n_n, false);
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered =
+      Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(n_x, n_n, false);
   if (shapes) {
     value = mac(phi_n, phi_x).transpose();
     gain = value;

@@ -12,15 +12,15 @@ namespace twindeck::modal {
 struct ModePair {
   Eigen::Index experimental = 0;
   Eigen::Index numerical = 0;
-  double mac = 0.0;             ///< NaN where no shape is known
-  bool clustered = false;       ///< paired as a member of a subspace of close modes
+  double mac = 0.0;        ///< NaN where no shape is known
+  bool clustered = false;  ///< paired as a member of a subspace of close modes
 };
 
 struct PairingOptions {
-  double minimum_mac = 0.0;                ///< pairs below it are left out
-  double maximum_frequency_error = 0.35;   ///< relative; a pair further off is not admitted
-  double cluster_gap = 0.02;               ///< relative frequency gap below which modes count as close
-  double cluster_mac = 0.8;                ///< subspace MAC from which a shape counts as lying in the span of close modes
+  double minimum_mac = 0.0;               ///< pairs below it are left out
+  double maximum_frequency_error = 0.35;  ///< relative; a pair further off is not admitted
+  double cluster_gap = 0.02;              ///< relative frequency gap below which modes count as close
+  double cluster_mac = 0.8;               ///< subspace MAC from which a shape counts as lying in the span of close modes
 };
 
 /// One-to-one pairing that maximises the sum of MAC (Hungarian assignment, not greedy), admissible pairs only. Close numerical

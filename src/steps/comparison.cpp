@@ -37,7 +37,8 @@ Pairing pair_by_order(const Measured& measured, Index n_numerical, const std::ve
   return pairing;
 }
 
-Pairing pair_as_published(const Measured& measured, Index n_numerical, const std::vector<std::string>& published, const Place& place) {
+Pairing pair_as_published(const Measured& measured, Index n_numerical, const std::vector<std::string>& published,
+                          const Place& place) {
   Pairing pairing;
   pairing.method = "published";
   static const std::regex form("([^ -]+)-([1-9][0-9]{0,5})N");
@@ -45,7 +46,8 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
   for (const std::string& entry : published) {
     std::smatch parts;
     if (!std::regex_match(entry, parts, form)) {
-      throw InputError(place, fmt::format("'{}' is no pair, expected for example \"7X-8N\"", entry), "name the measured mode, a dash, and the numerical mode");
+      throw InputError(place, fmt::format("'{}' is no pair, expected for example \"7X-8N\"", entry),
+                       "name the measured mode, a dash, and the numerical mode");
     }
     const std::string experimental = parts[1];
     const Index numerical = std::stol(parts[2]) - 1;
@@ -53,19 +55,23 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
       throw InputError(place, fmt::format("pair '{}' names a mode that another pair names too", entry), "pair each mode once");
     }
     if (numerical >= n_numerical) {
-      throw InputError(place, fmt::format("pair '{}' asks for numerical mode {} of {}", entry, numerical + 1, n_numerical), "raise n_modes");
+      throw InputError(place, fmt::format("pair '{}' asks for numerical mode {} of {}", entry, numerical + 1, n_numerical),
+                       "raise n_modes");
     }
     const auto at = std::find(measured.labels.begin(), measured.labels.end(), experimental);
-    if (at != measured.labels.end()) pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), numerical, kUnknown, false});
+    if (at != measured.labels.end())
+      pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), numerical, kUnknown, false});
   }
-  std::sort(pairing.pairs.begin(), pairing.pairs.end(), [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
+  std::sort(pairing.pairs.begin(), pairing.pairs.end(),
+            [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
   return pairing;
 }
 
 Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
                         const modal::PairingOptions& options, double sensor_tolerance_m) {
   if (!measured.modes.has_shapes()) {
-    throw InputError({measured.source, 0, "shape"}, "holds no measured shape, so that modes can't be paired by MAC", "give shapes, or pairs");
+    throw InputError({measured.source, 0, "shape"}, "holds no measured shape, so that modes can't be paired by MAC",
+                     "give shapes, or pairs");
   }
   const Eigen::MatrixXcd phi_n = shapes_at_sensors(measured, model, modes, sensor_tolerance_m);
   // A mode that stands still at every sensor has no MAC; it can't be anybody's partner and takes part with zeros.
@@ -89,7 +95,8 @@ std::vector<ComparisonRow> compare(const std::string& stage, const Measured& mea
   std::vector<ComparisonRow> rows;
   for (const modal::ModePair& pair : pairing.pairs) {
     rows.push_back({stage, label(measured, pair.experimental), numerical_label(pair.numerical),
-                    measured.modes.frequency_Hz[pair.experimental], computed_Hz[pair.numerical], known(pair.mac), pairing.method});
+                    measured.modes.frequency_Hz[pair.experimental], computed_Hz[pair.numerical], known(pair.mac),
+                    pairing.method});
   }
   return rows;
 }
@@ -106,9 +113,11 @@ double mean_abs_error_pct(const std::vector<ComparisonRow>& rows, const std::str
 }
 
 void write_comparison(const std::vector<ComparisonRow>& rows, const std::filesystem::path& folder) {
-  io::CsvWriter csv({"stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"});
+  io::CsvWriter csv(
+      {"stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"});
   for (const ComparisonRow& row : rows) {
-    csv.row({row.stage, row.experimental, row.numerical, row.measured_Hz, row.computed_Hz, row.error_pct(), row.mac, row.pairing});
+    csv.row(
+        {row.stage, row.experimental, row.numerical, row.measured_Hz, row.computed_Hz, row.error_pct(), row.mac, row.pairing});
   }
   csv.save(folder / "comparison.csv");
 }

@@ -19,9 +19,9 @@ namespace twindeck::steps {
 
 /// How measured modes were given their numerical partners.
 struct Pairing {
-  std::vector<modal::ModePair> pairs;   ///< in the order of the measured modes
-  std::string method;                   ///< "order" | "published" | "mac"
-  Eigen::MatrixXd mac;                  ///< (n_N × n_X) at the sensors; empty where no shape was measured
+  std::vector<modal::ModePair> pairs;  ///< in the order of the measured modes
+  std::string method;                  ///< "order" | "published" | "mac"
+  Eigen::MatrixXd mac;                 ///< (n_N × n_X) at the sensors; empty where no shape was measured
 };
 
 /// First measured with first computed mode, and so on; only the measured modes for which `keep` is true (all if it is empty).
@@ -30,8 +30,8 @@ struct Pairing {
 /// A published assignment such as {"1X-1N", "7X-8N"}. Pairs whose measured mode is not in `measured` are passed over.
 /// @param place  where the list stands, for messages
 /// @throws InputError  for an entry of another form, a mode named twice, or a numerical mode beyond `n_numerical`
-[[nodiscard]] Pairing pair_as_published(const Measured& measured, Eigen::Index n_numerical, const std::vector<std::string>& published,
-                                        const Place& place);
+[[nodiscard]] Pairing pair_as_published(const Measured& measured, Eigen::Index n_numerical,
+                                        const std::vector<std::string>& published, const Place& place);
 
 /// By MAC at the sensors, one-to-one.
 /// @throws InputError  if no shape was measured, or a sensor can't be placed on the model
@@ -46,8 +46,8 @@ struct ComparisonRow {
   std::string pairing;
   [[nodiscard]] double error_pct() const { return 100.0 * (computed_Hz - measured_Hz) / measured_Hz; }
 };
-[[nodiscard]] std::vector<ComparisonRow> compare(const std::string& stage, const Measured& measured, const Eigen::VectorXd& computed_Hz,
-                                                 const Pairing& pairing);
+[[nodiscard]] std::vector<ComparisonRow> compare(const std::string& stage, const Measured& measured,
+                                                 const Eigen::VectorXd& computed_Hz, const Pairing& pairing);
 /// Mean of |error| over the rows of a stage [%]; NaN for none.
 [[nodiscard]] double mean_abs_error_pct(const std::vector<ComparisonRow>& rows, const std::string& stage);
 

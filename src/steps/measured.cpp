@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <toml++/toml.h>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "model_io/export.hpp"
+#include "steps/measured_tables.hpp"
 #include "steps/study.hpp"
 
 namespace twindeck::steps {
@@ -19,78 +19,6 @@ namespace {
 
 using Eigen::Index;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<Channel> read_channels(const std::filesystem::path& file) {
-  const auto table = io::CsvTable::read(file, {"channel"},
-                                        {"point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"});
-  std::vector<Channel> channels;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    Channel channel;
-    channel.name = table.text(row, "channel");
-    if (channel.name.empty()) table.fail(row, "channel", "is empty", "name the channel");
-    for (const Channel& other : channels) {
-      if (other.name == channel.name) table.fail(row, "channel", fmt::format("'{}' appears twice", channel.name), "remove one of the two rows");
-    }
-    channel.point = table.text(row, "point");
-    if (table.number_if(row, "x_m")) channel.x_m = Eigen::Vector3d(table.number(row, "x_m"), table.number(row, "y_m"), table.number(row, "z_m"));
-    channel.direction = {table.number_or(row, "dx", 0.0), table.number_or(row, "dy", 0.0), table.number_or(row, "dz", 0.0)};
-    const double length = channel.direction.norm();
-    if (length > 0.0 && std::abs(length - 1.0) > 0.02) {
-      table.fail(row, "dx", fmt::format("direction cosines have length {:.3f}, expected 1", length), "give a unit vector");
-    }
-    if (length > 0.0) channel.direction /= length;
-    channels.push_back(channel);
-  }
-  return channels;
-}
-
-struct Condition { std::string name, dampers; };
-
-std::vector<Condition> read_conditions(const std::filesystem::path& file) {
-  const std::vector<std::string> known = {"dampers", "amplitude_m", "amplitude_channel", "temperature_C", "wind_m_s", "direction_deg", "people"};
-  std::vector<Condition> conditions;
-  try {
-    const toml::table root = toml::parse_file(file.string());
-    for (const auto& [name, node] : root) {
-      const auto line = static_cast<long>(node.source().begin.line);
-      const toml::table* table = node.as_table();
-      if (table == nullptr) throw InputError({file.string(), line, std::string(name.str())}, "is no table", "give one table a condition");
-      for (const auto& [key, value] : *table) {
-        if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-        throw InputError({file.string(), static_cast<long>(value.source().begin.line), std::string(key.str())},
-                         "is not a known key of a condition" + did_you_mean(key.str(), known), "");
-      }
-      const std::string dampers = (*table)["dampers"].value_or(std::string());
-      if (!dampers.empty() && dampers != "on" && dampers != "off") {
-        throw InputError({file.string(), line, "dampers"}, fmt::format("is '{}', expected \"on\" or \"off\"", dampers), "");
-      }
-      conditions.push_back({std::string(name.str()), dampers});
-    }
-  } catch (const toml::parse_error& error) {
-    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""}, std::string(error.description()), "mend the TOML");
-  }
-  return conditions;
-}
-
-std::string choose_condition(const std::filesystem::path& file, const std::string& asked) {
-  if (!std::filesystem::exists(file)) {
-    throw InputError({file.string(), 0, ""}, "is not there, expected one table for each condition of rows.csv", "write the file; the tables may be empty");
-  }
-  const std::vector<Condition> conditions = read_conditions(file);
-  std::vector<std::string> names, off;
-  for (const Condition& condition : conditions) {
-    names.push_back(condition.name);
-    if (condition.dampers == "off") off.push_back(condition.name);
-  }
-  if (!asked.empty()) {
-    if (std::find(names.begin(), names.end(), asked) != names.end()) return asked;
-    throw InputError({file.string(), 0, asked}, "is no condition of this file" + did_you_mean(asked, names), "give one of its tables as `condition`");
-  }
-  if (names.size() == 1) return names.front();
-  if (off.size() == 1) return off.front();
-  throw InputError({file.string(), 0, ""}, fmt::format("has {} conditions, {} of them with dampers = \"off\"", names.size(), off.size()),
-                   "name the one to use in the key `condition` of the step");
-}
 
 std::string label_of(const std::string& mode) { return mode.ends_with('X') ? mode : mode + "X"; }
 
@@ -101,15 +29,16 @@ struct MeasuredMode {
   std::map<std::string, std::complex<double>> shape;  // by channel
 };
 
-const std::vector<std::string> kTypes = {"frequency_Hz", "damping_ratio_pct", "shape", "shape_imag", "stay_frequency_Hz", "rms_m_s2",
-                                         "psd_floor_m2_s3", "static_m"};
+const std::vector<std::string> kTypes = {"frequency_Hz",      "damping_ratio_pct", "shape",           "shape_imag",
+                                         "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m"};
 
 /// Enters one row into the mode that it belongs to.
 void enter(const io::CsvTable& table, std::size_t row, const std::vector<Channel>& channels, MeasuredMode& mode) {
   const std::string type = table.text(row, "type");
   const double value = table.number(row, "value");
   const auto once = [&](double& target, double number) {
-    if (!std::isnan(target)) table.fail(row, "type", fmt::format("{} of this mode stands twice", type), "remove one of the two rows");
+    if (!std::isnan(target))
+      table.fail(row, "type", fmt::format("{} of this mode stands twice", type), "remove one of the two rows");
     target = number;
   };
   if (type == "frequency_Hz") {
@@ -124,30 +53,35 @@ void enter(const io::CsvTable& table, std::size_t row, const std::vector<Channel
     std::vector<std::string> names;
     for (const Channel& known : channels) names.push_back(known.name);
     if (std::find(names.begin(), names.end(), channel) == names.end()) {
-      table.fail(row, "channel", fmt::format("channel '{}' is not in channels.csv{}", channel, did_you_mean(channel, names)), "add the channel there");
+      table.fail(row, "channel", fmt::format("channel '{}' is not in channels.csv{}", channel, did_you_mean(channel, names)),
+                 "add the channel there");
     }
     mode.shape[channel] += type == "shape" ? std::complex<double>(value, 0.0) : std::complex<double>(0.0, value);
   }
 }
 
-Measured assemble_measured(const io::CsvTable& table, const std::vector<std::string>& names, std::map<std::string, MeasuredMode>& found,
-                           std::vector<Channel> channels) {
+Measured assemble_measured(const io::CsvTable& table, const std::vector<std::string>& names,
+                           std::map<std::string, MeasuredMode>& found, std::vector<Channel> channels) {
   Measured measured;
   std::vector<std::string> order = names;
   for (const std::string& name : order) {
     if (std::isnan(found.at(name).frequency)) {
-      table.fail(found.at(name).row, "mode", fmt::format("mode {} has no row of type frequency_Hz", name), "add its frequency, or remove its other rows");
+      table.fail(found.at(name).row, "mode", fmt::format("mode {} has no row of type frequency_Hz", name),
+                 "add its frequency, or remove its other rows");
     }
   }
-  std::stable_sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return found.at(a).frequency < found.at(b).frequency; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const auto& a, const auto& b) { return found.at(a).frequency < found.at(b).frequency; });
   const auto n = static_cast<Index>(order.size());
   modal::ModeSet& modes = measured.modes;
   modes.frequency_Hz = modes.frequency_std_Hz = modes.damping_ratio = modes.damping_ratio_std = Eigen::VectorXd(n);
   std::vector<const Channel*> used;
   for (const Channel& channel : channels) {
-    if (std::any_of(found.begin(), found.end(), [&](const auto& mode) { return mode.second.shape.contains(channel.name); })) used.push_back(&channel);
+    if (std::any_of(found.begin(), found.end(), [&](const auto& mode) { return mode.second.shape.contains(channel.name); }))
+      used.push_back(&channel);
   }
-  for (const Channel* channel : used) modes.dofs.push_back({channel->point.empty() ? channel->name : channel->point, channel->name});
+  for (const Channel* channel : used)
+    modes.dofs.push_back({channel->point.empty() ? channel->name : channel->point, channel->name});
   modes.shapes.resize(static_cast<Index>(used.size()), n);
   for (Index i = 0; i < n; ++i) {
     const std::string& name = order[static_cast<std::size_t>(i)];
@@ -161,7 +95,8 @@ Measured assemble_measured(const io::CsvTable& table, const std::vector<std::str
     for (std::size_t c = 0; c < used.size(); ++c) {
       const auto at = mode.shape.find(used[c]->name);
       if (at == mode.shape.end()) {
-        table.fail(mode.row, "mode", fmt::format("mode {} has no shape at channel {}, which another mode has", name, used[c]->name),
+        table.fail(mode.row, "mode",
+                   fmt::format("mode {} has no shape at channel {}, which another mode has", name, used[c]->name),
                    "give every mode the same channels");
       }
       modes.shapes(static_cast<Index>(c), i) = at->second;
@@ -175,7 +110,8 @@ Measured assemble_measured(const io::CsvTable& table, const std::vector<std::str
 
 Measured read_measured_features(const std::filesystem::path& folder, const std::string& condition) {
   const std::string chosen = choose_condition(folder / "conditions.toml", condition);
-  const auto table = io::CsvTable::read(folder / "rows.csv", {"type", "mode", "channel", "condition", "value", "std"}, {"held_out"});
+  const auto table =
+      io::CsvTable::read(folder / "rows.csv", {"type", "mode", "channel", "condition", "value", "std"}, {"held_out"});
   std::vector<Channel> channels;
   if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
 
@@ -218,11 +154,13 @@ Measured read_measured_modes(const std::filesystem::path& folder) {
   for (Index i = 0; i < measured.modes.size(); ++i) {
     const std::string& name = measured.modes.names[static_cast<std::size_t>(i)];
     if (!(measured.modes.frequency_std_Hz[i] > 0.0)) {
-      throw InputError({(folder / "modes.csv").string(), i + 2, "frequency_std_Hz"}, fmt::format("mode {} has no standard deviation", name),
+      throw InputError({(folder / "modes.csv").string(), i + 2, "frequency_std_Hz"},
+                       fmt::format("mode {} has no standard deviation", name),
                        "state it; a frequency without one can't be weighed");
     }
     if (!(measured.modes.frequency_Hz[i] > 0.0)) {
-      throw InputError({(folder / "modes.csv").string(), i + 2, "frequency_Hz"}, fmt::format("mode {} has no frequency above 0 Hz", name), "");
+      throw InputError({(folder / "modes.csv").string(), i + 2, "frequency_Hz"},
+                       fmt::format("mode {} has no frequency above 0 Hz", name), "");
     }
     measured.labels.push_back(label_of(name));
   }

@@ -19,10 +19,10 @@ const std::array<std::string, 6> kDirections = {"x", "y", "z", "rx", "ry", "rz"}
 
 /// Where the modes of a model are known: six values a node (FE), or single dofs (matrix model).
 struct ModelPoints {
-  std::vector<std::string> node;        ///< name of each node
-  std::vector<Eigen::Vector3d> x_m;     ///< NaN where unknown
+  std::vector<std::string> node;          ///< name of each node
+  std::vector<Eigen::Vector3d> x_m;       ///< NaN where unknown
   std::vector<std::array<Index, 6>> row;  ///< rows of `values`; -1 where the node lacks the direction
-  Eigen::MatrixXd values;               ///< (rows × n_modes)
+  Eigen::MatrixXd values;                 ///< (rows × n_modes)
 };
 
 ModelPoints points_of(const LoadedModel& model, const dynamics::EigenModes& modes) {
@@ -52,7 +52,8 @@ ModelPoints points_of(const LoadedModel& model, const dynamics::EigenModes& mode
   return points;
 }
 
-std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const Channel* channel, const Measured& measured, double tolerance_m) {
+std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const Channel* channel, const Measured& measured,
+                    double tolerance_m) {
   // Positions go before names: a sensor point called "12" need not be node 12.
   if (channel != nullptr && channel->x_m) {
     std::size_t nearest = 0;
@@ -67,25 +68,29 @@ std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const
     if (least <= tolerance_m) return nearest;
     if (std::isfinite(least)) {
       throw InputError({measured.source, 0, channel->name},
-                       fmt::format("lies {:.2f} m from the nearest node ({}), expected at most {:.2f} m", least, points.node[nearest], tolerance_m),
+                       fmt::format("lies {:.2f} m from the nearest node ({}), expected at most {:.2f} m", least,
+                                   points.node[nearest], tolerance_m),
                        "check x_m, y_m, z_m in channels.csv and the axes of the model, or raise `sensor_tolerance`");
     }
   }
   const auto by_name = std::find(points.node.begin(), points.node.end(), dof.point);
   if (by_name != points.node.end()) return static_cast<std::size_t>(by_name - points.node.begin());
   throw InputError({measured.source, 0, dof.point},
-                   fmt::format("is no node of the model, and channel '{}' has no usable position{}", dof.direction, did_you_mean(dof.point, points.node)),
+                   fmt::format("is no node of the model, and channel '{}' has no usable position{}", dof.direction,
+                               did_you_mean(dof.point, points.node)),
                    "give the node's id as the point, or the channel's x_m, y_m, z_m in channels.csv");
 }
 
 }  // namespace
 
-Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes, double tolerance_m) {
+Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
+                                   double tolerance_m) {
   const ModelPoints points = points_of(model, modes);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Index>(measured.modes.dofs.size()), modes.shapes.cols());
   for (std::size_t i = 0; i < measured.modes.dofs.size(); ++i) {
     const modal::ShapeDof& dof = measured.modes.dofs[i];
-    const auto found = std::find_if(measured.channels.begin(), measured.channels.end(), [&](const Channel& c) { return c.name == dof.direction; });
+    const auto found = std::find_if(measured.channels.begin(), measured.channels.end(),
+                                    [&](const Channel& c) { return c.name == dof.direction; });
     const Channel* channel = found == measured.channels.end() ? nullptr : &*found;
     const std::size_t node = node_of(points, dof, channel, measured, tolerance_m);
     std::array<double, 6> cosine{};
@@ -98,7 +103,8 @@ Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& 
       // A node that carries one dof: the channel can mean nothing else.
       for (std::size_t d = 0; d < 6; ++d) cosine[d] = points.row[node][d] >= 0 ? 1.0 : 0.0;
     } else {
-      throw InputError({measured.source, 0, dof.direction}, "is no direction (x, y, z, rx, ry, rz) and no channel with direction cosines",
+      throw InputError({measured.source, 0, dof.direction},
+                       "is no direction (x, y, z, rx, ry, rz) and no channel with direction cosines",
                        "give dx, dy, dz of the channel in channels.csv");
     }
     for (std::size_t d = 0; d < 6; ++d) {

@@ -14,11 +14,11 @@ namespace twindeck::steps {
 
 /// A model ready to be solved, wherever it came from.
 struct LoadedModel {
-  std::optional<fe::Model> model;      ///< empty for a matrix model
+  std::optional<fe::Model> model;  ///< empty for a matrix model
   fe::ParametricSystem system;
-  Eigen::VectorXd theta;               ///< (n_parameters) values as the model stands, in the parameters' units
-  fe::PrestressState state;            ///< empty vectors for a matrix model
-  std::string source;                  ///< folder or generator, for messages
+  Eigen::VectorXd theta;     ///< (n_parameters) values as the model stands, in the parameters' units
+  fe::PrestressState state;  ///< empty vectors for a matrix model
+  std::string source;        ///< folder or generator, for messages
   /// Null for a matrix model: what model_io's writers take.
   [[nodiscard]] const fe::Model* fe_model() const { return model ? &*model : nullptr; }
 };
@@ -30,13 +30,13 @@ struct LoadedModel {
 /// Reads a model folder, of finite elements or of matrices.
 [[nodiscard]] LoadedModel read_model_folder(const std::filesystem::path& folder);
 
-/// The model that a step works on: `--model DIR` where it is given, otherwise the folder that an earlier step wrote, with its files
-/// registered as inputs.
+/// The model that a step works on: `--model DIR` where it is given, otherwise the folder that an earlier step wrote, with its
+/// files registered as inputs.
 /// @throws InputError  naming the step to run first if there is neither
 [[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
 
-/// The study's own model (study.toml [model]): a variant of the generator, or the folder, which has no variants. `--model DIR` goes
-/// before both.
+/// The study's own model (study.toml [model]): a variant of the generator, or the folder, which has no variants. `--model DIR`
+/// goes before both.
 [[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
 
 /// Writes the model as a model folder, with `theta` as its values.

@@ -8,6 +8,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "io/config.hpp"
+#include "linalg/types.hpp"
 #include "ponte/generator.hpp"
 #include "steps/model_source.hpp"
 
@@ -15,36 +16,36 @@
 namespace twindeck::steps {
 
 struct RefinementConfig {
-  long n_modes = 15;                   ///< computed modes that are written and compared
-  long extra_modes = 5;                ///< solved for beyond them, so that followed modes are among them
-  std::string variant = "refined";     ///< of the generator
-  std::vector<std::string> pairs;      ///< published assignment, used where no shape was measured; empty = by order
-  std::string condition;               ///< of the measured features; "" = the only one, or the only one without dampers
+  long n_modes = 15;                ///< computed modes that are written and compared
+  long extra_modes = 5;             ///< solved for beyond them, so that followed modes are among them
+  std::string variant = "refined";  ///< of the generator
+  std::vector<std::string> pairs;   ///< published assignment, used where no shape was measured; empty = by order
+  std::string condition;            ///< of the measured features; "" = the only one, or the only one without dampers
   double minimum_mac = 0.0;
   double maximum_frequency_error = 0.35;
   double cluster_gap = 0.02;
-  double sensor_tolerance_m = 0.5;     ///< largest distance of a sensor from its node
+  double sensor_tolerance_m = 0.5;  ///< largest distance of a sensor from its node
   [[nodiscard]] io::FieldTable fields();
 };
 
 /// What the changes do to one state of the structure: frequencies of the preliminary modes, followed into it.
 struct FollowedModes {
-  Eigen::VectorXd frequency_Hz;        ///< (n_modes) in the order of the reference; NaN where a mode was lost
-  Eigen::VectorXd mac;                 ///< (n_modes) of each with its reference mode
-  std::vector<int> position;           ///< (n_modes) in the changed model's own order, -1 where lost
+  Eigen::VectorXd frequency_Hz;  ///< (n_modes) in the order of the reference; NaN where a mode was lost
+  Eigen::VectorXd mac;           ///< (n_modes) of each with its reference mode
+  std::vector<int> position;     ///< (n_modes) in the changed model's own order, -1 where lost
 };
 
 /// A model with its modes, kept for following.
 struct SolvedModel {
   LoadedModel loaded;
   dynamics::EigenModes modes;
-  linalg::SparseMatrix mass;           ///< lower triangle (n × n)
-  Eigen::MatrixXd mass_shapes;         ///< M Phi (n × n_modes)
+  linalg::SparseMatrix mass;    ///< lower triangle (n × n)
+  Eigen::MatrixXd mass_shapes;  ///< M Phi (n × n_modes)
 };
 [[nodiscard]] SolvedModel solve_modes(LoadedModel loaded, int n_modes);
 
-/// MAC of two models' modes (n_a × n_b): weighted by the mass of `a` where both have the same degrees of freedom; where their meshes
-/// differ, at the translations of the nodes that they have in common (the same coordinates).
+/// MAC of two models' modes (n_a × n_b): weighted by the mass of `a` where both have the same degrees of freedom; where their
+/// meshes differ, at the translations of the nodes that they have in common (the same coordinates).
 [[nodiscard]] Eigen::MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b);
 /// Follows the first `count` modes of `reference` into `changed`, one-to-one.
 [[nodiscard]] FollowedModes follow(const SolvedModel& reference, const SolvedModel& changed, Eigen::Index count);
@@ -52,8 +53,8 @@ struct SolvedModel {
 /// One as-built change: alone on the preliminary model, and on top of those before it.
 struct ChangeEffect {
   ponte::Change change;
-  FollowedModes alone;        ///< followed from the preliminary model
-  FollowedModes cumulative;   ///< the same modes, followed from change to change, after this and all earlier ones
+  FollowedModes alone;       ///< followed from the preliminary model
+  FollowedModes cumulative;  ///< the same modes, followed from change to change, after this and all earlier ones
 };
 
 struct ChangeStudy {

@@ -25,7 +25,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 bool same_dofs(const fe::ParametricSystem& a, const fe::ParametricSystem& b) {
   if (a.dofs.size() != b.dofs.size()) return false;
   for (std::size_t i = 0; i < a.dofs.size(); ++i) {
-    if (a.dofs[i].node != b.dofs[i].node || a.dofs[i].direction != b.dofs[i].direction || a.dofs[i].x_m != b.dofs[i].x_m) return false;
+    if (a.dofs[i].node != b.dofs[i].node || a.dofs[i].direction != b.dofs[i].direction || a.dofs[i].x_m != b.dofs[i].x_m)
+      return false;
   }
   return true;
 }
@@ -77,7 +78,8 @@ MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
     return modal::mass_weighted_mac(a.mass_shapes, b.modes.shapes) * norm.cwiseInverse().asDiagonal();
   }
   if (!a.loaded.model || !b.loaded.model) {
-    throw InputError({b.loaded.source, 0, ""}, "has other degrees of freedom than " + a.loaded.source, "compare models of the same degrees of freedom");
+    throw InputError({b.loaded.source, 0, ""}, "has other degrees of freedom than " + a.loaded.source,
+                     "compare models of the same degrees of freedom");
   }
   const MatrixXd full_a = a.loaded.system.expand(a.modes.shapes), full_b = b.loaded.system.expand(b.modes.shapes);
   const auto places_b = nodes_by_place(*b.loaded.model);
@@ -141,7 +143,8 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, int n_modes,
   for (int i = 0; i < n_modes; ++i) position.push_back(i);
   const SolvedModel* last = &models[0];
   for (int k = 0; k < n_changes; ++k) {
-    ChangeEffect effect{changes[static_cast<std::size_t>(k)], follow(models[0], models[static_cast<std::size_t>(k + 1)], n_modes), {}};
+    ChangeEffect effect{
+        changes[static_cast<std::size_t>(k)], follow(models[0], models[static_cast<std::size_t>(k + 1)], n_modes), {}};
     const SolvedModel& now = models[static_cast<std::size_t>(k == 0 ? 1 : n_changes + k)];
     const FollowedModes step = follow(*last, now, last->modes.frequency_Hz.size());
     effect.cumulative = {Eigen::VectorXd::Constant(n_modes, kUnknown), Eigen::VectorXd::Constant(n_modes, kUnknown), {}};
@@ -167,9 +170,10 @@ void write_changes(const ChangeStudy& study, const std::filesystem::path& folder
   for (const ChangeEffect& effect : study.effects) {
     for (Index i = 0; i < study.before_Hz.size(); ++i) {
       const double before = study.before_Hz[i], alone = effect.alone.frequency_Hz[i];
-      csv.row({effect.change.name, effect.change.paper_item, effect.change.meaning, static_cast<long>(i + 1), before, known(alone),
-               known(100.0 * (alone / before - 1.0)), known(100.0 * (effect.cumulative.frequency_Hz[i] / before - 1.0)),
-               known(effect.alone.mac[i]), known(effect.cumulative.mac[i])});
+      csv.row({effect.change.name, effect.change.paper_item, effect.change.meaning, static_cast<long>(i + 1), before,
+               known(alone), known(100.0 * (alone / before - 1.0)),
+               known(100.0 * (effect.cumulative.frequency_Hz[i] / before - 1.0)), known(effect.alone.mac[i]),
+               known(effect.cumulative.mac[i])});
     }
   }
   csv.save(folder / "changes.csv");

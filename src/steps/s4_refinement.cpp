@@ -7,7 +7,9 @@ int main(int argc, char** argv) {
   RefinementConfig config;
   Step step;
   step.token = "s4_refinement";
-  step.summary = "As-built changes one by one, comparison of the initial and the refined model with the measured modes, and their pairing.";
+  step.summary =
+      "As-built changes one by one, comparison of the initial and the refined model with the measured modes, and their "
+      "pairing.";
   step.examples = {
       "s4_refinement --study workflows/ponte_del_mare --out results/ponte_del_mare/s4_refinement",
       "s4_refinement --model my_bridge/model --modes my_bridge/measured --out my_bridge/comparison",

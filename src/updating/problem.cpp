@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "updating/bounded_quadratic.hpp"
 
 namespace twindeck::updating {
 namespace {
@@ -98,7 +99,7 @@ ceres::Solver::Options solver_options(const BoundedOptions& options, int iterati
   solver.max_num_iterations = iterations_left;
   solver.gradient_tolerance = max_norm_tolerance;
   solver.function_tolerance = 0.0;
-  solver.parameter_tolerance = 1e-13;
+  solver.parameter_tolerance = 1e-10;
   solver.max_num_consecutive_invalid_steps = 20;
   solver.max_num_line_search_step_size_iterations = 6;
   solver.num_threads = 1;
@@ -135,6 +136,19 @@ std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals,
   return {watcher.accepted_steps, std::max(watcher.tried, 1)};
 }
 
+// Who stays on a bound during the next round: those that are on it and that the linearised problem leaves there. The sign of the
+// gradient alone releases too many: a component with a small inward gradient whose bounded Gauss-Newton step keeps it in place
+// spoils each projected dogleg step, and the trust region collapses.
+std::vector<bool> stay_on_bound(const Point& point, const Box& box, double tolerance) {
+  constexpr double ridge = 1e-8;  // as Ceres' own smallest damping
+  const std::vector<int> now = on_bound(point.x, box, tolerance);
+  const Eigen::VectorXd step = bounded_gauss_newton_step(point.residual, point.jacobian, point.x, box, ridge);
+  const std::vector<int> then = on_bound(point.x + step, box, tolerance);
+  std::vector<bool> stays(now.size());
+  for (std::size_t i = 0; i < now.size(); ++i) stays[i] = now[i] != 0 && then[i] == now[i];
+  return stays;
+}
+
 void snap_to_bounds(Eigen::VectorXd& x, const std::vector<bool>& is_held, const Box& box) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (!is_held[static_cast<std::size_t>(i)]) continue;
@@ -150,6 +164,7 @@ BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals,
   TWINDECK_ASSERT((box.lower.array() < box.upper.array()).all());
   BoundedResult result;
   result.x = start.cwiseMax(box.lower).cwiseMin(box.upper);
+  bool predict = true;  // who stays is predicted; where a round gets nowhere with that, the sign of the gradient decides
   int last_accepted = 1;
   for (bool first = true;; first = false) {
     const Point point = evaluate(function, n_residuals, result.x);
@@ -166,7 +181,7 @@ BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals,
       result.message = "projected gradient below its tolerance";
       return result;
     }
-    if (last_accepted == 0) {
+    if (last_accepted == 0 && !predict) {
       result.message = "no step lowers the cost although the projected gradient is above its tolerance";
       return result;
     }
@@ -174,7 +189,13 @@ BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals,
       result.message = "iteration limit reached with the projected gradient above its tolerance";
       return result;
     }
-    const std::vector<bool> is_held = held(result.x, gradient, box, options.bound_tolerance);
+    predict = last_accepted > 0;
+    const std::vector<bool> is_held = predict ? stay_on_bound(point, box, options.bound_tolerance)
+                                              : held(result.x, gradient, box, options.bound_tolerance);
+    if (std::all_of(is_held.begin(), is_held.end(), [](bool h) { return h; })) {
+      last_accepted = 0;
+      continue;
+    }
     snap_to_bounds(result.x, is_held, box);
     const auto [steps, tried] =
         run_round(function, n_residuals, result.x, is_held, box, options, result.iterations, accepted);

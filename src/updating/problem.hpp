@@ -39,10 +39,10 @@ struct BoundedResult {
 /// Tingleff (2004), algorithm 3.21.
 ///
 /// Ceres projects each dogleg step onto the box. With several bounds active such a step need not descend, and the search ends
-/// short of the optimum although the trust region has collapsed. Hence rounds: components that a bound holds (`held`) are
-/// constants of the round (SubsetManifold); a round ends as soon as a component meets a bound, and the next one decides anew who
-/// is held, releasing those whose multiplier has changed sign. The search has converged when the projected gradient says so,
-/// whatever Ceres says. Cost never rises from one accepted step to the next.
+/// short of the optimum although the trust region has collapsed. Hence rounds: components that stay on their bound are constants of
+/// the round (SubsetManifold); which ones do is predicted by the bounded linearised problem (bounded_quadratic.hpp). A round ends
+/// as soon as a component meets a bound, and the next one decides anew, releasing those whose multiplier will change sign. The
+/// search has converged when the projected gradient says so, whatever Ceres says. Cost never rises from one accepted step to the next.
 /// @param accepted  called for each accepted step, may be empty
 [[nodiscard]] BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start,
                                             const Box& box, const BoundedOptions& options,

@@ -8,8 +8,8 @@
 #include "linalg/generalized_eigen.hpp"
 #include "random_system.hpp"
 
-/// Properties that modes and their derivatives have whatever the structure; each holds over random systems, small (solved densely)
-/// and large (by Lanczos).
+/// Properties that modes and their derivatives have whatever the structure; each holds over random systems, small (solved
+/// densely) and large (by Lanczos).
 namespace {
 
 using twindeck::dynamics::EigenModes;

@@ -9,11 +9,14 @@
 
 namespace twindeck::tests {
 
-/// A grid of springs to its neighbours and to the ground with random stiffness and mass: three groups of springs and two of masses,
-/// each with a parameter that its matrix is proportional to (all of K and all of M belong to one). Some dofs carry no mass.
+/// A grid of springs to its neighbours and to the ground with random stiffness and mass: three groups of springs and two of
+/// masses, each with a parameter that its matrix is proportional to (all of K and all of M belong to one). Some dofs carry no
+/// mass.
 inline fe::ParametricSystem random_system(std::uint64_t seed, int side) {
   std::mt19937_64 draw(seed);
-  const auto between = [&](double low, double high) { return low + (high - low) * (static_cast<double>(draw() >> 11) * 0x1.0p-53); };
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(draw() >> 11) * 0x1.0p-53);
+  };
   fe::ParametricSystem s;
   const int n = side * side;
   std::vector<Eigen::Triplet<double>> entries;
@@ -28,8 +31,13 @@ inline fe::ParametricSystem random_system(std::uint64_t seed, int side) {
   for (int g = 0; g < 5; ++g) {
     const bool stiffness = g < 3;
     const double initial = between(0.5, 3.0);
-    s.parameters.push_back({(stiffness ? "k" : "m") + std::to_string(g), stiffness ? fe::Target::matrix_stiffness : fe::Target::matrix_mass,
-                            {"group"}, "-", initial, 0.1, 10.0});
+    s.parameters.push_back({(stiffness ? "k" : "m") + std::to_string(g),
+                            stiffness ? fe::Target::matrix_stiffness : fe::Target::matrix_mass,
+                            {"group"},
+                            "-",
+                            initial,
+                            0.1,
+                            10.0});
     fe::Term term;
     term.coefficient.factors = {{g, 1.0, 1.0}};
     std::vector<double> value(static_cast<std::size_t>(s.pattern.nonZeros()), 0.0);

@@ -16,7 +16,8 @@ struct Result {
 
 Result with_threads(int threads) {
   omp_set_num_threads(threads);
-  const auto model = twindeck::ponte::generate_compatible(TWINDECK_SOURCE_DIR "/data/ponte_del_mare/bridge.toml", "preliminary");
+  const auto model =
+      twindeck::ponte::generate_compatible(TWINDECK_SOURCE_DIR "/data/ponte_del_mare/bridge.toml", "preliminary");
   const Eigen::VectorXd theta = twindeck::fe::initial_parameters(model);
   const auto state = twindeck::fe::find_prestress(model, theta);
   const auto system = twindeck::fe::assemble(model, state);
@@ -26,7 +27,8 @@ Result with_threads(int threads) {
   return result;
 }
 
-// Law: the number of threads changes the time, not one bit of the result; prestress, assembly, modes and derivatives of the bridge.
+// Law: the number of threads changes the time, not one bit of the result; prestress, assembly, modes and derivatives of the
+// bridge.
 TEST(ThreadsLaw, ResultsHaveTheSameBits) {
   const int before = omp_get_max_threads();
   const Result one = with_threads(1), three = with_threads(3);

@@ -206,6 +206,23 @@ class OnAMatrixModel(unittest.TestCase):
                 self.assertIn(message, done.stderr)
                 self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
 
+    def test_messages_of_wrong_pairs(self):
+        rows = "".join(f"frequency_Hz,{j},,quiet,{self.frequency(j)},0.01\n" for j in (1, 2))
+        folder = self.features(rows)
+        for pairs, message in (
+            ('["1X8N"]', "'1X8N' is no pair"),
+            ('["1X-1N", "2X-1N"]', "another pair names too"),
+            ('["1X-99N"]', "numerical mode 99 of"),
+        ):
+            with self.subTest(message=message):
+                done = self.step("--features", folder, "--set", f"pairs={pairs}")
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(message, done.stderr)
+        done = self.step("--features", folder, "--set", 'pairs=["2X-3N"]')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        kept = [(r["stage"], r["experimental_mode"], r["numerical_mode"]) for r in table(self.root / "out" / "comparison.csv")]
+        self.assertEqual(kept, [("initial", "2X", "2N"), ("refined", "2X", "3N")])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,6 @@
-// Oracle: sixteen frequencies of each of four variants of the bridge from an independent prototype (other language, other element
-// code) on the same data: Euler beams, its drilling and mass rules, its listed pulls. Allowed 0.1 %; the printed digits alone
-// leave 0.007 %.
+// Oracle: sixteen frequencies of each of four variants of the bridge from an independent prototype (other language, other
+// element code) on the same data: Euler beams, its drilling and mass rules, its listed pulls. Allowed 0.1 %; the printed digits
+// alone leave 0.007 %.
 #include <cstdio>
 
 #include "ponte/generator.hpp"
@@ -22,7 +22,8 @@ TEST_P(PonteCompatibility, ReturnsThePrototypesFrequencies) {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const double f = solved.frequency_Hz[static_cast<Eigen::Index>(i)];
     const double error_pct = 100.0 * (f / expected[i] - 1.0);
-    std::printf("%-20s mode %2zu  prototype %.4f Hz  ours %.4f Hz  %+.4f %%\n", variant.c_str(), i + 1, expected[i], f, error_pct);
+    std::printf("%-20s mode %2zu  prototype %.4f Hz  ours %.4f Hz  %+.4f %%\n", variant.c_str(), i + 1, expected[i], f,
+                error_pct);
     EXPECT_LT(std::abs(error_pct), 0.1) << "mode " << i + 1;
   }
 }

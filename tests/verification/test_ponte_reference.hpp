@@ -20,9 +20,9 @@ inline std::filesystem::path bridge_toml() {
 
 /// Frequencies by variant [Hz], printed to 0.1 mHz.
 inline std::map<std::string, std::vector<double>> frequencies() {
-  const auto table = io::CsvTable::read(
-      std::filesystem::path(TWINDECK_SOURCE_DIR) / "tests/verification/ponte_reference_frequencies.csv",
-      {"variant", "mode", "frequency_Hz"});
+  const auto table =
+      io::CsvTable::read(std::filesystem::path(TWINDECK_SOURCE_DIR) / "tests/verification/ponte_reference_frequencies.csv",
+                         {"variant", "mode", "frequency_Hz"});
   std::map<std::string, std::vector<double>> out;
   for (std::size_t row = 0; row < table.rows(); ++row)
     out[table.text(row, "variant")].push_back(table.number(row, "frequency_Hz"));

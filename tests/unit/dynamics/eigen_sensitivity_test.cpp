@@ -50,9 +50,9 @@ TEST(FrequencyJacobian, EqualsFiniteDifferences) {
   EXPECT_LT((jacobian.col(p) - extrapolated).cwiseAbs().maxCoeff(), 1e-7 * extrapolated.cwiseAbs().maxCoeff());
 }
 
-// Oracle: closed form. Two equal chains, of which parameter 2 stiffens the first alone: of each doubled frequency one copy moves at
-// f/2 and the other not at all, whatever the basis that the solver returned for the pair. The quotient phi'dK phi of a mixed basis
-// gives something in between.
+// Oracle: closed form. Two equal chains, of which parameter 2 stiffens the first alone: of each doubled frequency one copy
+// moves at f/2 and the other not at all, whatever the basis that the solver returned for the pair. The quotient phi'dK phi of a
+// mixed basis gives something in between.
 TEST(FrequencyJacobian, SplitsRepeatedFrequencies) {
   const SpringChain chain{.n = 100, .copies = 2};
   const auto system = chain.system();
@@ -99,8 +99,8 @@ TEST(ShapeDerivative, EqualsFiniteDifferences) {
   expect_shape_derivative(system, static_cast<int>(system.parameters.size()) - 1, 7, 0.02, 1e-5);
 }
 
-// Oracle: the same, for two chains, one half a thousandth stiffer, tied at their ends: pairs of modes 0.03 % apart that turn into
-// each other, so that the derivative is some hundred times the shape and goes into the partner almost wholly.
+// Oracle: the same, for two chains, one half a thousandth stiffer, tied at their ends: pairs of modes 0.03 % apart that turn
+// into each other, so that the derivative is some hundred times the shape and goes into the partner almost wholly.
 TEST(ShapeDerivative, HoldsForCloseModes) {
   auto system = SpringChain{.n = 60, .copies = 2}.system();
   system.parameters[3].initial = 1.0005;

@@ -11,14 +11,16 @@
 /// Mass-spring chains as parametric systems, built by hand: what the tests of dynamics are held against has closed forms.
 namespace twindeck::tests {
 
-/// `copies` chains of n masses between n + 1 springs, fixed at both ends. Parameter 0 scales every spring (k = theta_0), parameter 1
-/// every mass (m = theta_1), and with one of its own parameter 2 + c scales the springs of chain c (factor 1).
+/// `copies` chains of n masses between n + 1 springs, fixed at both ends. Parameter 0 scales every spring (k = theta_0),
+/// parameter 1 every mass (m = theta_1), and with one of its own parameter 2 + c scales the springs of chain c (factor 1).
 ///   lambda_j = 4 k/m sin²(j pi / (2 (n + 1))), shape sin(j pi i / (n + 1)).
 struct SpringChain {
   int n = 10, copies = 1;
   double k = 100.0, m = 2.0;
 
-  [[nodiscard]] double eigenvalue(int j) const { return 4.0 * k / m * std::pow(std::sin(j * std::numbers::pi / (2.0 * (n + 1))), 2); }
+  [[nodiscard]] double eigenvalue(int j) const {
+    return 4.0 * k / m * std::pow(std::sin(j * std::numbers::pi / (2.0 * (n + 1))), 2);
+  }
   [[nodiscard]] double frequency_Hz(int j) const { return std::sqrt(eigenvalue(j)) / (2.0 * std::numbers::pi); }
 
   [[nodiscard]] fe::ParametricSystem system() const {
@@ -64,7 +66,8 @@ struct SpringChain {
     spring.position = {s.pattern.outerIndexPtr()[dof]};
     spring.value = {1.0};
     s.stiffness_terms.push_back(spring);
-    s.parameters.push_back({"ground_" + std::to_string(dof), fe::Target::matrix_stiffness, {"ground"}, "N/m", stiffness, -1e3, 1e3});
+    s.parameters.push_back(
+        {"ground_" + std::to_string(dof), fe::Target::matrix_stiffness, {"ground"}, "N/m", stiffness, -1e3, 1e3});
   }
 
   /// A spring between neighbouring masses dof and dof + 1: ties the end of one chain to the start of the next.

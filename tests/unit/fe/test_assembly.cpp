@@ -111,9 +111,9 @@ TEST(Assembly, AxialForceStiffensBeamsByTheCubicForm) {
   state.axial_force_N << 0.0, 30e3;
   const ParametricSystem system = assemble(model, state);
   const Eigen::MatrixXd added = full(system.stiffness(system.initial())) - stiffness_of(model);
-  EXPECT_NEAR(added(7, 7), 6.0 * 30e3 / (5.0 * 2.0), 1e-3);          // 6N/5L
-  EXPECT_NEAR(added(11, 11), 2.0 * 2.0 * 30e3 / 15.0, 1e-3);         // 2NL/15
-  EXPECT_NEAR(added(7, 11), -30e3 / 10.0, 1e-3);                     // N/10
+  EXPECT_NEAR(added(7, 7), 6.0 * 30e3 / (5.0 * 2.0), 1e-3);   // 6N/5L
+  EXPECT_NEAR(added(11, 11), 2.0 * 2.0 * 30e3 / 15.0, 1e-3);  // 2NL/15
+  EXPECT_NEAR(added(7, 11), -30e3 / 10.0, 1e-3);              // N/10
   EXPECT_NEAR(added(6, 6), 0.0, 1e-3);
 }
 
@@ -139,7 +139,8 @@ TEST(Assembly, TotalMassIsWhatTheDrawingsSay) {
   for (Eigen::Index i = 0; i < up.size(); ++i) up[i] = system.dofs[static_cast<std::size_t>(i)].direction == 2 ? 1.0 : 0.0;
   const double panel = std::sqrt(9.0 + 0.01);
   const double stay = std::sqrt(900.0 + 17.9 * 17.9), tie = std::sqrt(9.0 + 4.0 + 0.01);
-  const double expected = 2.0 * panel * 2.0 * 0.1 * 2400.0 + 4.0 * panel * 0.01 * 8000.0 + (stay + tie) * 1.3e-3 * 8289.0 + 300.0;
+  const double expected =
+      2.0 * panel * 2.0 * 0.1 * 2400.0 + 4.0 * panel * 0.01 * 8000.0 + (stay + tie) * 1.3e-3 * 8289.0 + 300.0;
   const linalg::SparseMatrix m = system.mass(system.initial());
   EXPECT_NEAR(up.dot(m.selfadjointView<Eigen::Lower>() * up), expected, 1e-9 * expected);
 }

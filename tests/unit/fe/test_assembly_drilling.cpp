@@ -1,5 +1,5 @@
-// Oracle: a shell turned as a rigid body about its normal stores no energy, whatever the drilling rule; corners that turn against
-// each other store k/2 (sum r_i² - 2/3 sum_{i<j} r_i r_j), k = 0.03 E t A, written out.
+// Oracle: a shell turned as a rigid body about its normal stores no energy, whatever the drilling rule; corners that turn
+// against each other store k/2 (sum r_i² - 2/3 sum_{i<j} r_i r_j), k = 0.03 E t A, written out.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -55,7 +55,8 @@ TEST(Drilling, CornersThatTurnAgainstEachOtherAreHeld) {
 
 TEST(Drilling, SpreadActsAboutTheNormalOfATiltedShell) {
   ShellGeometry tilted;  // 2 m x 2 m, normal (0, -0.6, 0.8)
-  tilted.node_m = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(2, 1.6, 1.2), Eigen::Vector3d(0, 1.6, 1.2)};
+  tilted.node_m = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(2, 1.6, 1.2),
+                   Eigen::Vector3d(0, 1.6, 1.2)};
   const Matrix24 spread = drilling_spread(tilted, {30e9, 0.2, 0.1, 1.0}, 0.03);
   const Eigen::Vector3d n(0.0, -0.6, 0.8);
   const Eigen::Matrix3d expected = -3.6e8 / 3.0 * n * n.transpose();

@@ -30,7 +30,8 @@ TEST(DofMap, SlaveAtTheEndOfAChainMovesRigidlyWithTheMaster) {
   const DofMap map = make_dof_map(model);
   ASSERT_EQ(map.dofs.size(), 12U);
   EXPECT_EQ(map.root[static_cast<std::size_t>(end)], 2);
-  // Arm (0, 1, 3) m: rotation of 0.1 rad about x moves it by theta × r = (0, -0.3, 0.1); about y by (0.3, 0, 0); z by (-0.1, 0, 0).
+  // Arm (0, 1, 3) m: rotation of 0.1 rad about x moves it by theta × r = (0, -0.3, 0.1); about y by (0.3, 0, 0); z by (-0.1, 0,
+  // 0).
   for (int d = 0; d < 3; ++d) {
     const Eigen::VectorXd u = map.expansion * (0.1 * Eigen::VectorXd::Unit(12, 9 + d));
     const std::array<Eigen::Vector3d, 3> expected = {Eigen::Vector3d(0, -0.3, 0.1), Eigen::Vector3d(0.3, 0, 0),

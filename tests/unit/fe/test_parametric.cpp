@@ -68,7 +68,8 @@ TEST_F(OneOfEverything, ProductWithVectorsEqualsTheDenseProduct) {
 }
 
 TEST(Parametric, ErnstModulusAndItsDerivative) {
-  // gamma l = 4.8e6 N/m2, sigma = 100 MPa: q = (gamma l)²/(12 sigma³) = 1.92e-12 1/Pa, E_eq = E/(1 + qE), dE_eq/dE = 1/(1 + qE)².
+  // gamma l = 4.8e6 N/m2, sigma = 100 MPa: q = (gamma l)²/(12 sigma³) = 1.92e-12 1/Pa, E_eq = E/(1 + qE), dE_eq/dE = 1/(1 +
+  // qE)².
   const Dischinger sag{80e3, 60.0, 100e6};
   EXPECT_NEAR(sag.modulus(200e9), 200e9 / 1.384, 1.0);
   EXPECT_NEAR(sag.modulus_derivative(200e9), 1.0 / (1.384 * 1.384), 1e-12);

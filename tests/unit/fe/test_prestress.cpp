@@ -107,7 +107,7 @@ TEST(DeadLoad, IsConsistentAlongABeam) {
   const Eigen::VectorXd load = dead_load(test::cantilever());  // w = 800 N/m over 2 + 2 m
   EXPECT_NEAR(load[2], -800.0, 1e-9);
   EXPECT_NEAR(load[8], -1600.0, 1e-9);
-  EXPECT_NEAR(load[4], 800.0 * 4.0 / 12.0, 1e-9);    // w L²/12, about y: a load downwards tips the near end by +ry
+  EXPECT_NEAR(load[4], 800.0 * 4.0 / 12.0, 1e-9);  // w L²/12, about y: a load downwards tips the near end by +ry
   EXPECT_NEAR(load[10], 0.0, 1e-9);
   EXPECT_NEAR(load[16], -800.0 * 4.0 / 12.0, 1e-9);
 }

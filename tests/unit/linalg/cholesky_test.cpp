@@ -25,8 +25,8 @@ SparseMatrix grid(int m, double add) {
   return a;
 }
 
-// Oracle: the residual of the solution, for a factor that CHOLMOD holds simplicially (small) and supernodally (large), and again
-// after new values on the same pattern.
+// Oracle: the residual of the solution, for a factor that CHOLMOD holds simplicially (small) and supernodally (large), and
+// again after new values on the same pattern.
 TEST(Cholesky, SolvesWithOneSymbolicFactorisation) {
   for (const int m : {5, 60}) {
     Cholesky factor;
@@ -71,7 +71,8 @@ TEST(Cholesky, NamesTheRowThatBreaksDown) {
   }
 }
 
-// Oracle: a chain of springs that nothing holds is singular (rigid translation), and a matrix with a negative eigenvalue is refused.
+// Oracle: a chain of springs that nothing holds is singular (rigid translation), and a matrix with a negative eigenvalue is
+// refused.
 TEST(Cholesky, RefusesFreeAndIndefinite) {
   const int n = 400;
   std::vector<Eigen::Triplet<double>> entries;

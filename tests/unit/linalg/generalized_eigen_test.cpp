@@ -50,7 +50,8 @@ void expect_residuals(const SparseMatrix& k, const SparseMatrix& m, const EigenP
   const Eigen::MatrixXd kx = k.selfadjointView<Eigen::Lower>() * pairs.vectors;
   const Eigen::MatrixXd mx = m.selfadjointView<Eigen::Lower>() * pairs.vectors;
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
-    EXPECT_LT((kx.col(i) - pairs.values[i] * mx.col(i)).norm(), tolerance * (pairs.values[i] * mx.col(i)).norm()) << "pair " << i;
+    EXPECT_LT((kx.col(i) - pairs.values[i] * mx.col(i)).norm(), tolerance * (pairs.values[i] * mx.col(i)).norm())
+        << "pair " << i;
   }
   const Eigen::MatrixXd gram = pairs.vectors.transpose() * mx;
   EXPECT_LT((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff(), 1e-10);
@@ -67,7 +68,8 @@ TEST(LowestEigenpairs, MeetTheChainInClosedForm) {
       EXPECT_NEAR(pairs.values[j - 1] / chain_eigenvalue(j, n, 3e4, 2.5), 1.0, 1e-11) << "n " << n << " mode " << j;
     }
     expect_residuals(k, m, pairs, 1e-7);
-    for (Eigen::Index i = 0; i < 10; ++i) EXPECT_GT(pairs.vectors.col(i).maxCoeff(), (1.0 - 1e-9) * -pairs.vectors.col(i).minCoeff());
+    for (Eigen::Index i = 0; i < 10; ++i)
+      EXPECT_GT(pairs.vectors.col(i).maxCoeff(), (1.0 - 1e-9) * -pairs.vectors.col(i).minCoeff());
   }
 }
 
@@ -151,7 +153,8 @@ struct PeerMass {
   Eigen::Index rows() const { return matrix.rows(); }
   Eigen::Index cols() const { return matrix.cols(); }
   void perform_op(const double* x, double* y) const {
-    Eigen::Map<Eigen::VectorXd>(y, rows()) = matrix.selfadjointView<Eigen::Lower>() * Eigen::Map<const Eigen::VectorXd>(x, rows());
+    Eigen::Map<Eigen::VectorXd>(y, rows()) =
+        matrix.selfadjointView<Eigen::Lower>() * Eigen::Map<const Eigen::VectorXd>(x, rows());
   }
   const SparseMatrix& matrix;
 };

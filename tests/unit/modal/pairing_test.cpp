@@ -38,8 +38,8 @@ TEST(PairByMac, LeavesOutWhatIsNotAdmissible) {
   EXPECT_EQ(pair_by_mac(one, mixed, one, phi, {.minimum_mac = 0.6}).size(), 0U);
 }
 
-// Oracle: hand calculation. Two close computed modes rotated by 45 degrees: each measured shape has MAC 1/2 with either, and lies
-// wholly in their span. Modes that are not close are not a cluster, whatever their span.
+// Oracle: hand calculation. Two close computed modes rotated by 45 degrees: each measured shape has MAC 1/2 with either, and
+// lies wholly in their span. Modes that are not close are not a cluster, whatever their span.
 TEST(PairByMac, RecognisesARotatedPair) {
   const double c = std::sqrt(0.5);
   const Eigen::MatrixXcd phi_n = shapes(3);
