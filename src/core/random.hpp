@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+namespace twindeck {
+
+/// Numbers that look random and are a pure function of (seed, stream, index): no state, so that a result depends neither on the
+/// order in which they are asked for nor on the number of threads, and is the same on every machine.
+///
+/// Each argument is folded in by the finaliser of SplitMix64. Reference: Steele, Lea and Flood (2014), OOPSLA, 453-472.
+/// @return  uniform in [0, 1[ with 53 bits
+[[nodiscard]] double uniform_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
+
+/// Standard normal number of two uniform ones (Box and Muller, 1958, Ann. Math. Stat. 29, 610-611): sqrt(-2 ln u1) cos(2 pi
+/// u2), u1 in ]0, 1]. Takes the places 2 index and 2 index + 1 of the stream.
+[[nodiscard]] double normal_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
+
+}  // namespace twindeck

@@ -1,0 +1,102 @@
+#include "wind/field.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "wind/spectrum.hpp"
+
+namespace twindeck::wind {
+
+using Eigen::Index;
+
+void check(const FieldDefinition& field) {
+  const Index n = field.size();
+  if (n == 0 || field.speed_m_s.size() != n || field.sigma_m_s.size() != n || field.length_m.size() != n) {
+    throw InputError(
+        {"", 0, "wind field"},
+        fmt::format("has {} points, {} speeds, {} standard deviations and {} length scales, expected as many of each", n,
+                    field.speed_m_s.size(), field.sigma_m_s.size(), field.length_m.size()));
+  }
+  for (Index j = 0; j < n; ++j) {
+    if (!(field.speed_m_s[j] > 0.0) || !(field.length_m[j] > 0.0) || !(field.sigma_m_s[j] >= 0.0)) {
+      throw InputError(
+          {"", 0, "wind field"},
+          fmt::format("has a mean speed of {} m/s, a length scale of {} m and a standard deviation of {} m/s at point "
+                      "{}, expected positive numbers",
+                      field.speed_m_s[j], field.length_m[j], field.sigma_m_s[j], j + 1));
+    }
+  }
+}
+
+Eigen::VectorXd spectra(const FieldDefinition& field, double f_Hz) {
+  Eigen::VectorXd s(field.size());
+  for (Index j = 0; j < s.size(); ++j) {
+    if (j > 0 && field.sigma_m_s[j] == field.sigma_m_s[j - 1] && field.length_m[j] == field.length_m[j - 1] &&
+        field.speed_m_s[j] == field.speed_m_s[j - 1]) {
+      s[j] = s[j - 1];  // points at one height: a power the less
+      continue;
+    }
+    s[j] = von_karman_spectrum(field.component, f_Hz, field.sigma_m_s[j], field.length_m[j], field.speed_m_s[j]);
+  }
+  return s;
+}
+
+Eigen::MatrixXd coherence(const FieldDefinition& field, double f_Hz) {
+  const Index n = field.size();
+  const Eigen::RowVector3d decay(field.decay[0], field.decay[1], field.decay[2]);
+  Eigen::MatrixXd gamma(n, n);
+  for (Index k = 0; k < n; ++k) {
+    gamma(k, k) = 1.0;
+    for (Index j = k + 1; j < n; ++j) {
+      const double scaled = (field.position_m.row(j) - field.position_m.row(k)).cwiseProduct(decay).norm();
+      const double speed = 0.5 * (field.speed_m_s[j] + field.speed_m_s[k]);
+      gamma(j, k) = gamma(k, j) = std::exp(-f_Hz * scaled / speed);
+    }
+  }
+  return gamma;
+}
+
+Eigen::VectorXcd drift(const FieldDefinition& field, double f_Hz) {
+  if (!field.frozen) return Eigen::VectorXcd::Ones(field.size());
+  const double wave_number = 2.0 * std::numbers::pi * f_Hz / field.speed_m_s.mean();
+  Eigen::VectorXcd phase(field.size());
+  for (Index j = 0; j < phase.size(); ++j) phase[j] = std::polar(1.0, -wave_number * field.position_m(j, 0));
+  return phase;
+}
+
+Eigen::MatrixXcd cross_spectrum(const FieldDefinition& field, double f_Hz) {
+  const Eigen::VectorXcd point = spectra(field, f_Hz).cwiseSqrt().cwiseProduct(drift(field, f_Hz));
+  return point.asDiagonal() * coherence(field, f_Hz) * point.conjugate().asDiagonal();
+}
+
+Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz) {
+  Eigen::MatrixXd lower = coherence(field, f_Hz);
+  const Index n = lower.rows();
+  for (Index j = 0; j < n; ++j) {
+    // What is left of a point's unit variance once the points before it are known; rounding of the sums is of the order 1e-15.
+    const double pivot = lower(j, j) - lower.row(j).head(j).squaredNorm();
+    if (!(pivot > 1e-13)) {
+      throw InputError(
+          {"", 0, "wind field"},
+          fmt::format("has a coherence that is not positive definite at {} Hz (found at point {} of {})", f_Hz, j + 1, n),
+          "take away points that coincide, or give neighbouring points more alike mean speeds");
+    }
+    lower(j, j) = std::sqrt(pivot);
+    const Index below = n - j - 1;
+    lower.col(j).tail(below) -= lower.bottomLeftCorner(below, j) * lower.row(j).head(j).transpose();
+    lower.col(j).tail(below) /= lower(j, j);
+    lower.col(j).head(j).setZero();
+  }
+  return lower;
+}
+
+Eigen::MatrixXcd spectral_factor(const FieldDefinition& field, double f_Hz) {
+  const Eigen::VectorXcd point = spectra(field, f_Hz).cwiseSqrt().cwiseProduct(drift(field, f_Hz));
+  return point.asDiagonal() * coherence_factor(field, f_Hz);
+}
+
+}  // namespace twindeck::wind

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "wind/field.hpp"
+
+namespace twindeck::wind {
+
+/// How the frequencies of Eq. (15) are placed.
+enum class Indexing {
+  single_index,  ///< omega_l for every m: one transform a point, period T = 1/df, not ergodic in the mean sense
+  double_index  ///< Deodatis' omega_ml = (l - 1 + m/n) d_omega: n(n+1)/2 transforms, period n T, each sample ergodic; for small
+                ///< n
+};
+/// Amplitudes of the waves.
+enum class Amplitudes {
+  fixed,    ///< as Eq. (15): only phases are random. The first point has the same variance in every sample, the last scatters
+  gaussian  ///< complex normal: exactly Gaussian, and all points alike
+};
+
+struct SimulationOptions {
+  double duration_s = 600.0;  ///< T; the sample repeats after it, so that it may be continued at its end
+  double rate_Hz = 16.0;      ///< samples a second; T times it is rounded to a whole number of samples
+  double cutoff_Hz = 0.0;     ///< no wave at or above; 0 means half the rate
+  /// Frequencies, evenly spaced on a logarithmic scale, at which the coherence is factorised; in between the factor is
+  /// interpolated and its rows brought back to length one, so that every point keeps its spectrum exactly. 0: at every
+  /// frequency.
+  int anchors = 40;
+  Indexing indexing = Indexing::single_index;
+  Amplitudes amplitudes = Amplitudes::fixed;
+};
+
+/// Deodatis' simulation of one component of the wind (paper Eq. 14-15), prepared once for any number of samples:
+///
+///     v_j(t) = sum_m sum_l sqrt(2 df) |H_jm(f_l)| cos(2 pi f_l t + theta_jm + phi_ml),   m <= j,   f_l = l df < cutoff, l >=
+///     1,
+///
+/// one-sided in Hz: Eq. (15) is two-sided in rad/s, S2(omega) = S1(f) / (4 pi). Phases phi_ml are pure functions of seed,
+/// component, m and l, so a sample does not depend on the number of threads. Reference: Deodatis (1996), J. Eng. Mech. 122,
+/// 778-787.
+class Simulator {
+ public:
+  /// @throws InputError  as `check` and `coherence_factor`; for a duration, rate or cutoff that leave no wave
+  Simulator(FieldDefinition field, const SimulationOptions& options);
+
+  /// One sample. @return [m/s] at t = 0, 1/rate, … over the whole period: (n_samples × n_points), with double indexing n times
+  /// as many rows
+  [[nodiscard]] Eigen::MatrixXd sample(std::uint64_t seed) const;
+
+  [[nodiscard]] const FieldDefinition& field() const { return field_; }
+  [[nodiscard]] Eigen::Index n_samples() const { return n_samples_; }
+  [[nodiscard]] double spacing_Hz() const { return df_; }
+  /// Number of waves l = 1 … n_waves a point.
+  [[nodiscard]] Eigen::Index n_waves() const { return n_waves_; }
+  /// |H_jm(f_l)| as it is used (interpolated where it is). @param l  from 1 @return (n × n) lower triangular
+  [[nodiscard]] Eigen::MatrixXd amplitude_factor(Eigen::Index l) const;
+
+ private:
+  struct Bracket {
+    Eigen::Index lower;  ///< anchor at or below
+    double share;        ///< of the anchor above it, in [0, 1]
+  };
+  [[nodiscard]] Bracket bracket(double f_Hz) const;
+  /// Row j of L: that of the two anchors around f, mixed and brought to length one.
+  [[nodiscard]] Eigen::RowVectorXd interpolated_row(double f_Hz, Eigen::Index j) const;
+  [[nodiscard]] Eigen::MatrixXcd waves(std::uint64_t seed, Eigen::Index first, Eigen::Index count) const;
+  [[nodiscard]] Eigen::MatrixXcd point_spectra(std::uint64_t seed) const;
+  [[nodiscard]] Eigen::MatrixXd sample_double_index(std::uint64_t seed) const;
+
+  FieldDefinition field_;
+  SimulationOptions options_;
+  Eigen::Index n_samples_ = 0, n_waves_ = 0;
+  double df_ = 0.0;
+  std::vector<double> anchor_Hz_;         ///< ascending
+  std::vector<Eigen::MatrixXd> factor_;   ///< L at the anchors
+  std::vector<Eigen::Index> first_wave_;  ///< waves first_wave_[a] … first_wave_[a+1] - 1 lie between anchors a and a + 1
+};
+
+}  // namespace twindeck::wind

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "wind/component.hpp"
+
+namespace twindeck::wind {
+
+/// What a code says about turbulence over one kind of terrain; a row of data/wind/turbulence_sets.csv.
+///
+/// Intensity and length scale of the along-wind component (EN 1991-1-4, 4.4 and annex B.1; CNR-DT 207/2008, 3.2.5, 3.2.6):
+///
+///     I(z) = 1 / ln(z / z0),   L(z) = 300 m (z / 200 m)^kappa,   kappa = 0.67 + 0.05 ln z0,   z = max(z, z_min).
+///
+/// The other components by ratios (Solari and Piccardo, 2001, Prob. Eng. Mech. 16, 73-86). All length scales run along the
+/// wind.
+struct TurbulenceSet {
+  std::string name;               ///< "CNR-DT 207 I"
+  double roughness_m = 0.0;       ///< z0
+  double minimum_height_m = 0.0;  ///< z_min: the profile is constant below
+  double kappa = 0.0;             ///< exponent of the length scale
+  PerComponent sigma_ratio{};     ///< standard deviation over that of the along-wind component
+  PerComponent scale_ratio{};     ///< length scale over that of the along-wind component
+  /// Decay C of Eq. (17) of each component with separations along, across and vertical.
+  std::array<PerComponent, 3> decay{};
+};
+
+/// Standard deviation of a component [m/s] at height z in a mean wind of V(z).
+[[nodiscard]] double standard_deviation(const TurbulenceSet& set, Component component, double z_m, double mean_speed_m_s);
+/// Along-wind length scale of a component [m].
+[[nodiscard]] double length_scale(const TurbulenceSet& set, Component component, double z_m);
+
+}  // namespace twindeck::wind
