@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "aero/flutter_derivatives.hpp"
+#include "core/error.hpp"
+
+namespace twindeck::aero {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+bool ascends(const std::vector<double>& axis) {
+  return !axis.empty() && std::adjacent_find(axis.begin(), axis.end(), std::greater_equal<>()) == axis.end();
+}
+
+// Place between two neighbours of an axis; at or beyond an end, the end.
+struct Between {
+  Eigen::Index lower, upper;
+  double part;
+};
+
+Between locate(const std::vector<double>& axis, double x) {
+  const auto last = static_cast<Eigen::Index>(axis.size()) - 1;
+  if (x <= axis.front()) return {0, 0, 0.0};
+  if (x >= axis.back()) return {last, last, 0.0};
+  const auto i = static_cast<Eigen::Index>(std::upper_bound(axis.begin(), axis.end(), x) - axis.begin());
+  const double a = axis[static_cast<std::size_t>(i - 1)], b = axis[static_cast<std::size_t>(i)];
+  return {i - 1, i, (x - a) / (b - a)};
+}
+
+double interpolate(const Eigen::MatrixXd& value, const Between& row, const Between& column) {
+  const auto along = [&](Eigen::Index r) {
+    return (1.0 - column.part) * value(r, column.lower) + column.part * value(r, column.upper);
+  };
+  return (1.0 - row.part) * along(row.lower) + row.part * along(row.upper);
+}
+
+std::string name_of(Convention convention, int index) {
+  const char* groups = convention == Convention::zasso ? "hpa" : "HPA";
+  return fmt::format("{}{}", groups[index / 6], index % 6 + 1);
+}
+
+}  // namespace
+
+DerivativeTable::DerivativeTable(Convention convention, std::vector<double> alpha_rad, std::array<DerivativeCurve, 18> curves,
+                                 std::string source, OutOfRange below, OutOfRange above)
+    : convention_(convention),
+      alpha_rad_(std::move(alpha_rad)),
+      curves_(std::move(curves)),
+      source_(std::move(source)),
+      below_(below),
+      above_(above) {
+  if (!ascends(alpha_rad_))
+    throw InputError({source_, 0, "alpha_deg"}, "is empty or does not ascend", "sort the angles of attack");
+  for (int i = 0; i < 18; ++i) {
+    const DerivativeCurve& curve = curves_[static_cast<std::size_t>(i)];
+    if (!ascends(curve.v_over_omegaB) || curve.v_over_omegaB.front() <= 0.0) {
+      throw InputError({source_, 0, name_of(convention, i)}, "its reduced velocities are empty, not positive or do not ascend",
+                       "give positive reduced velocities in ascending order");
+    }
+    if (curve.value.rows() != static_cast<Eigen::Index>(alpha_rad_.size()) ||
+        curve.value.cols() != static_cast<Eigen::Index>(curve.v_over_omegaB.size())) {
+      throw InputError({source_, 0, name_of(convention, i)}, "has no value for each angle of attack and reduced velocity",
+                       "give the full grid");
+    }
+  }
+}
+
+DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
+  // A single angle of attack is a section tested at one angle only: it stands for all.
+  if (alpha_rad_.size() > 1 && !(alpha_rad >= alpha_rad_.front() && alpha_rad <= alpha_rad_.back())) {
+    throw InputError({source_, 0, "alpha_deg"},
+                     fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
+                                 alpha_rad_.back() * degrees, alpha_rad * degrees),
+                     "extend the table, or lower the wind's angle of attack");
+  }
+  const Between row = locate(alpha_rad_, alpha_rad);
+  Derivatives18 values{};
+  const std::vector<double>* last_axis = nullptr;
+  Between column{0, 0, 0.0};
+  for (int i = 0; i < 18; ++i) {
+    const DerivativeCurve& curve = curves_[static_cast<std::size_t>(i)];
+    const std::vector<double>& axis = curve.v_over_omegaB;
+    if ((v < axis.front() && below_ == OutOfRange::refuse) || (v > axis.back() && above_ == OutOfRange::refuse)) {
+      throw InputError(
+          {source_, 0, name_of(convention_, i)},
+          fmt::format("covers V/(omega B) from {:.6g} to {:.6g} (V/(f B) {:.6g} to {:.6g}), {:.6g} is needed", axis.front(),
+                      axis.back(), 2 * std::numbers::pi * axis.front(), 2 * std::numbers::pi * axis.back(), v),
+          "extend the table, narrow the speeds, or ask for the end values by `hold`");
+    }
+    if (last_axis == nullptr || *last_axis != axis) column = locate(axis, v);
+    last_axis = &axis;
+    values[static_cast<std::size_t>(i)] = interpolate(curve.value, row, column);
+  }
+  return to_block(convention_, values, v);
+}
+
+DerivativeTable DerivativeTable::with_lift_slope_factor(double factor) const {
+  DerivativeTable scaled = *this;
+  for (std::size_t i = 0; i < 3; ++i) scaled.curves_[i].value *= factor;
+  return scaled;
+}
+
+}  // namespace twindeck::aero

@@ -1,0 +1,71 @@
+#include "aero/derivatives.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace twindeck::aero {
+namespace {
+
+constexpr int y = 0, z = 1, alpha = 2;
+// Number 1 … 6 -> motion and kind. Lift and moment of both conventions, and Zasso's drag, count from the vertical motion;
+// Scanlan's drag counts from the lateral one.
+constexpr std::array<int, 6> motion_vertical_first = {z, alpha, alpha, z, y, y};
+constexpr std::array<int, 6> motion_lateral_first = {y, alpha, alpha, y, z, z};
+constexpr std::array<bool, 6> is_damping = {true, true, false, false, true, false};
+constexpr std::array<int, 3> row_of_group = {1, 0, 2};  // H, P, A -> L, D, M
+
+// Zasso's value times this is Scanlan's.
+double scanlan_per_zasso(const DerivativeEntry& entry, double v) {
+  if (entry.damping) return -v;
+  return entry.column == alpha ? v * v : std::numbers::pi / 2;
+}
+
+}  // namespace
+
+DerivativeEntry entry_of(Convention convention, int index) {
+  TWINDECK_ASSERT(index >= 0 && index < 18);
+  const auto group = static_cast<std::size_t>(index / 6), number = static_cast<std::size_t>(index % 6);
+  const bool lateral_first = convention == Convention::scanlan && group == 1;
+  return {row_of_group[group], lateral_first ? motion_lateral_first[number] : motion_vertical_first[number],
+          is_damping[number]};
+}
+
+DerivativeBlock to_block(Convention convention, const Derivatives18& values, double v_over_omegaB) {
+  DerivativeBlock block;
+  for (int i = 0; i < 18; ++i) {
+    const DerivativeEntry e = entry_of(convention, i);
+    const double factor = convention == Convention::zasso ? scanlan_per_zasso(e, v_over_omegaB) : 1.0;
+    (e.damping ? block.damping : block.stiffness)(e.row, e.column) = factor * values[static_cast<std::size_t>(i)];
+  }
+  return block;
+}
+
+Derivatives18 from_block(Convention convention, const DerivativeBlock& block, double v_over_omegaB) {
+  Derivatives18 values{};
+  for (int i = 0; i < 18; ++i) {
+    const DerivativeEntry e = entry_of(convention, i);
+    const double factor = convention == Convention::zasso ? scanlan_per_zasso(e, v_over_omegaB) : 1.0;
+    values[static_cast<std::size_t>(i)] = (e.damping ? block.damping : block.stiffness)(e.row, e.column) / factor;
+  }
+  return values;
+}
+
+Derivatives18 zasso_from_scanlan_as_printed(const Derivatives18& scanlan, double v) {
+  Derivatives18 zasso{};
+  for (std::size_t i = 0; i < 18; ++i) {
+    const std::size_t number = i % 6;
+    const bool a2 = i == 13;
+    if (number == 3 || number == 5) {
+      zasso[i] = scanlan[i] / (std::numbers::pi / 2);
+    } else if (number == 2) {
+      zasso[i] = scanlan[i] / (v * v);
+    } else {
+      zasso[i] = -scanlan[i] / (a2 ? v * v : v);
+    }
+  }
+  return zasso;
+}
+
+}  // namespace twindeck::aero

@@ -1,0 +1,74 @@
+#include "aero/polar.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace twindeck::aero {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+StaticCoefficients mix(const StaticCoefficients& a, const StaticCoefficients& b, double t) {
+  const auto between = [t](double u, double v) { return u + t * (v - u); };
+  return {between(a.drag, b.drag),
+          between(a.lift, b.lift),
+          between(a.moment, b.moment),
+          between(a.drag_slope, b.drag_slope),
+          between(a.lift_slope, b.lift_slope),
+          between(a.moment_slope, b.moment_slope)};
+}
+
+}  // namespace
+
+Polar::Polar(std::vector<double> alpha_rad, std::vector<StaticCoefficients> rows, std::string source)
+    : alpha_rad_(std::move(alpha_rad)), rows_(std::move(rows)), source_(std::move(source)) {
+  if (alpha_rad_.empty() || alpha_rad_.size() != rows_.size() ||
+      std::adjacent_find(alpha_rad_.begin(), alpha_rad_.end(), std::greater_equal<>()) != alpha_rad_.end()) {
+    throw InputError({source_, 0, "alpha_deg"}, "is empty or does not ascend", "give one row an angle of attack, ascending");
+  }
+}
+
+Polar Polar::linear(const StaticCoefficients& at_zero) {
+  Polar polar({0.0}, {at_zero}, "linear coefficients");
+  polar.linear_ = true;
+  return polar;
+}
+
+StaticCoefficients Polar::at(double alpha) const {
+  if (linear_) {
+    StaticCoefficients c = rows_.front();
+    c.drag += c.drag_slope * alpha;
+    c.lift += c.lift_slope * alpha;
+    c.moment += c.moment_slope * alpha;
+    return c;
+  }
+  if (!(alpha >= alpha_rad_.front() && alpha <= alpha_rad_.back())) {
+    throw InputError({source_, 0, "alpha_deg"},
+                     fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
+                                 alpha_rad_.back() * degrees, alpha * degrees),
+                     "extend the table, or lower the wind's angle of attack");
+  }
+  const auto upper = std::upper_bound(alpha_rad_.begin(), alpha_rad_.end(), alpha);
+  if (upper == alpha_rad_.end()) return rows_.back();
+  const auto i = static_cast<std::size_t>(upper - alpha_rad_.begin());
+  return mix(rows_[i - 1], rows_[i], (alpha - alpha_rad_[i - 1]) / (alpha_rad_[i] - alpha_rad_[i - 1]));
+}
+
+Polar Polar::with_lift_slope_factor(double factor) const {
+  const bool has_zero = linear_ || (alpha_rad_.front() <= 0.0 && alpha_rad_.back() >= 0.0);
+  const double pivot = has_zero ? at(0.0).lift : rows_[rows_.size() / 2].lift;
+  Polar turned = *this;
+  for (StaticCoefficients& row : turned.rows_) {
+    row.lift = pivot + factor * (row.lift - pivot);
+    row.lift_slope *= factor;
+  }
+  return turned;
+}
+
+}  // namespace twindeck::aero

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace twindeck::aero {
+
+/// Static coefficients and their slopes at one angle of attack, all on the chord B:  D = qB C_D, L = qB C_L, M = qB² C_M.
+struct StaticCoefficients {
+  double drag = 0.0, lift = 0.0, moment = 0.0;
+  double drag_slope = 0.0, lift_slope = 0.0, moment_slope = 0.0;  ///< [1/rad]
+};
+
+/// C_D, C_L, C_M and slopes over the angle of attack, linear between rows.
+class Polar {
+ public:
+  /// @param alpha_rad  ascending, nose-up
+  /// @param source     where the numbers came from, for messages
+  Polar(std::vector<double> alpha_rad, std::vector<StaticCoefficients> rows, std::string source);
+  /// A section whose coefficients do not depend on more than their slope: C(alpha) = C + C' alpha, at any angle.
+  static Polar linear(const StaticCoefficients& at_zero);
+
+  /// @throws InputError  outside the table, naming its range
+  [[nodiscard]] StaticCoefficients at(double alpha_rad) const;
+  /// The polar with lift turned about its value at alpha = 0: C_L -> C_L(0) + factor (C_L - C_L(0)), C_L' -> factor C_L'.
+  [[nodiscard]] Polar with_lift_slope_factor(double factor) const;
+  [[nodiscard]] const std::vector<double>& alpha_rad() const { return alpha_rad_; }
+  [[nodiscard]] const std::string& source() const { return source_; }
+
+ private:
+  std::vector<double> alpha_rad_;
+  std::vector<StaticCoefficients> rows_;
+  std::string source_;
+  bool linear_ = false;
+};
+
+}  // namespace twindeck::aero
