@@ -49,8 +49,9 @@ def make_study(root, paper=None):
             shutil.copy(table, data / "paper")
     else:
         write_paper(data / "paper")
-    for name in ("tolerances.toml", "orders.toml", "errata.toml", "known_deviations.toml"):
+    for name in ("tolerances.toml", "orders.toml", "errata.toml"):
         shutil.copy(RULES / name, data / name)
+    (data / "known_deviations.toml").write_text("", encoding="utf-8")  # the real study's do not excuse made-up numbers
     workflow.mkdir()
     (workflow / "study.toml").write_text('title = "Made-up bridge"\nseed = 1\nmeasured = "published"\nsteps = '
                                          + json.dumps(STEPS) + "\n", encoding="utf-8")
