@@ -16,11 +16,12 @@ DerivativeBlock FlatPlate::at(double, double v_over_omegaB) const {
   const double size = (j1 + y0) * (j1 + y0) + (y1 - j0) * (y1 - j0);
   const double F = (j1 * (j1 + y0) + y1 * (y1 - j0)) / size;
   const double G = -(y1 * y0 + j1 * j0) / size;
+  const double inertia = apparent_inertia_ ? K * K / 32 : 0.0;
   DerivativeBlock block;
   const double H1 = -2 * pi * F / K, H2 = (pi * K / 2 + 2 * pi * (G + F * K / 4)) / (K * K);
   const double H3 = 2 * pi * (F - G * K / 4) / (K * K), H4 = pi / 2 + 2 * pi * G / K;
   const double A1 = -pi / 2 * F / K, A2 = pi / 2 * (G + F * K / 4 - K / 4) / (K * K);
-  const double A3 = pi / 2 * (F - G * K / 4 + K * K / 32) / (K * K), A4 = pi / 2 * G / K;
+  const double A3 = pi / 2 * (F - G * K / 4 + inertia) / (K * K), A4 = pi / 2 * G / K;
   block.damping << 0, 0, 0, 0, H1, H2, 0, A1, A2;
   block.stiffness << 0, 0, 0, 0, H4, H3, 0, A4, A3;
   return block;

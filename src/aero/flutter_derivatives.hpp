@@ -57,7 +57,14 @@ class DerivativeTable : public FlutterDerivatives {
 ///   A1 = -(π/2)F/K, A4 = (π/2)G/K, K²A2 = (π/2)(G + FK/4 - K/4), K²A3 = (π/2)(F - GK/4 + K²/32).
 class FlatPlate : public FlutterDerivatives {
  public:
+  /// @param apparent_inertia  false leaves out the plate's apparent moment of inertia (the K²/32 above), as the flat plate of
+  /// the
+  ///                          IABSE TG 3.1 benchmark does: half a per cent of its torsional frequency
+  explicit FlatPlate(bool apparent_inertia = true) : apparent_inertia_(apparent_inertia) {}
   [[nodiscard]] DerivativeBlock at(double alpha_rad, double v_over_omegaB) const override;
+
+ private:
+  bool apparent_inertia_;
 };
 
 /// Quasi-steady derivatives from a polar, the arm of the rotational rate mu = 0 or as given (Zasso's form):

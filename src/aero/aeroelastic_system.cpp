@@ -1,0 +1,87 @@
+#include "aero/aeroelastic_system.hpp"
+
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace twindeck::aero {
+
+Eigen::MatrixXd ReducedStructure::damping() const {
+  Eigen::MatrixXd c = viscous.size() > 0 ? viscous : Eigen::MatrixXd::Zero(size(), size());
+  c.diagonal() += 2.0 * damping_ratio.cwiseProduct(omega_rad_s);
+  return c;
+}
+
+ReducedStructure ReducedStructure::restricted(const std::vector<Eigen::Index>& coordinates) const {
+  ReducedStructure out;
+  out.omega_rad_s = omega_rad_s(coordinates);
+  out.damping_ratio = damping_ratio(coordinates);
+  if (viscous.size() > 0) out.viscous = viscous(coordinates, coordinates);
+  for (const MaxwellUnit& unit : maxwell) {
+    out.maxwell.push_back({unit.stiffness_N_m, unit.damping_N_s_m, unit.direction(coordinates)});
+  }
+  return out;
+}
+
+AeroelasticSystem::AeroelasticSystem(ReducedStructure structure, std::vector<SectionAero> sections, std::vector<Strip> strips,
+                                     std::vector<StripMotion> motions, Wind wind, Deployment deployment)
+    : structure_(std::move(structure)),
+      sections_(std::move(sections)),
+      strips_(std::move(strips)),
+      motions_(std::move(motions)),
+      wind_(std::move(wind)),
+      deployment_(std::move(deployment)) {
+  TWINDECK_ASSERT(strips_.size() == motions_.size());
+  along_rule_.resize(3 * static_cast<Eigen::Index>(strips_.size()), structure_.size());
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    TWINDECK_ASSERT(motions_[i].cols() == structure_.size());
+    TWINDECK_ASSERT(strips_[i].section >= 0 && static_cast<std::size_t>(strips_[i].section) < sections_.size());
+    along_rule_.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
+        kinematics(strips_[i], rule(strips_[i]).axes, wind_) * motions_[i];
+  }
+}
+
+AeroelasticSystem::Block AeroelasticSystem::self_excited(double speed_m_s, double omega_rad_s) const {
+  const Eigen::Index m = structure_.size();
+  if (speed_m_s == 0.0) return {Eigen::MatrixXd::Zero(m, m), Eigen::MatrixXd::Zero(m, m)};
+  Eigen::MatrixXd damped(along_rule_.rows(), m), stiff(along_rule_.rows(), m);
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    const Strip& strip = strips_[i];
+    const SectionAero& section = sections_[static_cast<std::size_t>(strip.section)];
+    const StripBlock block = aero::self_excited(section, strip, rule(strip), wind_.density_kg_m3, speed_m_s, omega_rad_s);
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
+    damped.middleRows<3>(row).noalias() = block.damping * along_rule_.middleRows<3>(row);
+    stiff.middleRows<3>(row).noalias() = block.stiffness * along_rule_.middleRows<3>(row);
+  }
+  return {along_rule_.transpose() * damped, along_rule_.transpose() * stiff};
+}
+
+Eigen::VectorXd AeroelasticSystem::static_force(double speed_m_s) const {
+  Eigen::VectorXd local(along_rule_.rows());
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    const Strip& strip = strips_[i];
+    local.segment<3>(3 * static_cast<Eigen::Index>(i)) = aero::static_force(sections_[static_cast<std::size_t>(strip.section)],
+                                                                            strip, rule(strip), wind_.density_kg_m3, speed_m_s);
+  }
+  return along_rule_.transpose() * local;
+}
+
+Eigen::MatrixXd AeroelasticSystem::static_stiffness() const {
+  Eigen::MatrixXd turned(along_rule_.rows(), structure_.size());
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    const Strip& strip = strips_[i];
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
+    const Eigen::Vector3d slope =
+        static_slope(sections_[static_cast<std::size_t>(strip.section)], strip, rule(strip), wind_.density_kg_m3, 1.0);
+    turned.middleRows<3>(row) = slope * along_rule_.row(row + 2);
+  }
+  return along_rule_.transpose() * turned;
+}
+
+AeroelasticSystem AeroelasticSystem::restricted(const std::vector<Eigen::Index>& coordinates) const {
+  std::vector<StripMotion> motions;
+  for (const StripMotion& motion : motions_) motions.push_back(motion(Eigen::all, coordinates));
+  return {structure_.restricted(coordinates), sections_, strips_, std::move(motions), wind_, deployment_};
+}
+
+}  // namespace twindeck::aero

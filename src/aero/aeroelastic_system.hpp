@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "aero/forces.hpp"
+
+namespace twindeck::aero {
+
+/// Spring and dashpot in series on a reduced structure: stiffness seen at s is k s c/(k + s c).
+struct MaxwellUnit {
+  double stiffness_N_m = 0.0, damping_N_s_m = 0.0;
+  Eigen::VectorXd direction;  ///< (m) elongation per unit of each coordinate
+};
+
+/// A structure in m coordinates that make mass the unit matrix and stiffness diagonal: modes, or modes and static corrections
+/// orthogonalised among each other.
+struct ReducedStructure {
+  Eigen::VectorXd omega_rad_s;    ///< (m) of each coordinate
+  Eigen::VectorXd damping_ratio;  ///< (m) structural, of each coordinate
+  Eigen::MatrixXd viscous;        ///< (m × m) of dashpots [N s/m]; empty: none
+  std::vector<MaxwellUnit> maxwell;
+  [[nodiscard]] Eigen::Index size() const { return omega_rad_s.size(); }
+  /// 2 ξ ω on the diagonal, and the dashpots.
+  [[nodiscard]] Eigen::MatrixXd damping() const;
+  /// The coordinates listed alone: one mode at a time, for instance.
+  [[nodiscard]] ReducedStructure restricted(const std::vector<Eigen::Index>& coordinates) const;
+};
+
+/// Global motions (x y z rx ry rz) of one strip by each coordinate: (6 × m).
+using StripMotion = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// A reduced structure in wind:  q̈ + C q̇ + Λ q = Ca(V, ω) q̇ + Ka(V, ω) q, strips by the rules of a deployment.
+class AeroelasticSystem {
+ public:
+  /// @param motions  one a strip, columns as the structure's coordinates
+  AeroelasticSystem(ReducedStructure structure, std::vector<SectionAero> sections, std::vector<Strip> strips,
+                    std::vector<StripMotion> motions, Wind wind, Deployment deployment);
+
+  struct Block {
+    Eigen::MatrixXd damping, stiffness;  ///< (m × m) Ca, Ka
+  };
+  /// Self-excited forces on the coordinates, harmonic at omega; zero without wind.
+  [[nodiscard]] Block self_excited(double speed_m_s, double omega_rad_s) const;
+  /// Static wind forces (Eq. 7) on the coordinates. @return (m)
+  [[nodiscard]] Eigen::VectorXd static_force(double speed_m_s) const;
+  /// Static aerodynamic stiffness at 1 m/s, slopes of the polars on alpha: grows with V². @return (m × m)
+  [[nodiscard]] Eigen::MatrixXd static_stiffness() const;
+  /// The same system of the coordinates listed alone.
+  [[nodiscard]] AeroelasticSystem restricted(const std::vector<Eigen::Index>& coordinates) const;
+
+  [[nodiscard]] const ReducedStructure& structure() const { return structure_; }
+  [[nodiscard]] const std::vector<Strip>& strips() const { return strips_; }
+  [[nodiscard]] const std::vector<SectionAero>& sections() const { return sections_; }
+  [[nodiscard]] const std::vector<StripMotion>& motions() const { return motions_; }
+  [[nodiscard]] const Wind& wind() const { return wind_; }
+  [[nodiscard]] const Deployment& deployment() const { return deployment_; }
+  [[nodiscard]] const YawRule& rule(const Strip& strip) const { return deployment_.at(strip.deck, strip.yaw_rad); }
+
+ private:
+  ReducedStructure structure_;
+  std::vector<SectionAero> sections_;
+  std::vector<Strip> strips_;
+  std::vector<StripMotion> motions_;
+  Wind wind_;
+  Deployment deployment_;
+  Eigen::MatrixXd along_rule_;  ///< (3 n_strips × m) y, z, alpha of each strip along its rule's axes
+};
+
+}  // namespace twindeck::aero

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aero/aeroelastic_system.hpp"
+#include "core/error.hpp"
+
+namespace twindeck::aero {
+
+/// A free vibration q = Re(vector e^(λt)).
+struct ComplexMode {
+  std::complex<double> lambda;
+  Eigen::VectorXcd vector;                     ///< (m) of unit length
+  [[nodiscard]] double frequency_Hz() const;   ///< Im λ/2π: of the oscillation itself
+  [[nodiscard]] double damping_ratio() const;  ///< -Re λ/|λ|, negative when it grows
+};
+
+/// Oscillating modes without wind, by |λ|, from the full state-space matrix (dashpots and Maxwell units included).
+[[nodiscard]] std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure);
+
+/// All eigenvalues of the state-space matrix with self-excited forces frozen at one frequency. @return (2m + n_maxwell)
+[[nodiscard]] Eigen::VectorXcd state_space_eigenvalues(const AeroelasticSystem& system, double speed_m_s, double omega_rad_s);
+
+/// One mode followed over the wind speed.
+struct Branch {
+  int mode = 0;  ///< position among still_air_modes, from 1
+  double still_air_frequency_Hz = 0.0;
+  std::vector<double> speed_m_s;
+  std::vector<ComplexMode> points;
+  Status status;  ///< not converged: where the mode was lost (it stopped oscillating, for instance)
+};
+
+/// Follows a mode through ascending speeds (p-K iteration: forces are those of harmonic motion at Im λ, so that the critical
+/// speed, where λ is imaginary, is exact). At each speed Newton's iteration on (λ² + λC + Λ - λCa - Ka) v = 0 from the mode at
+/// the speed before, forces renewed with Im λ; a step that loses the shape (MAC below one half) is halved.
+[[nodiscard]] Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air, int mode,
+                                 const std::vector<double>& speed_m_s);
+/// The mode at one speed, from a mode at a lower one. @return empty where it cannot be followed
+[[nodiscard]] std::optional<ComplexMode> mode_at(const AeroelasticSystem& system, const ComplexMode& from,
+                                                 double from_speed_m_s, double speed_m_s);
+
+/// Where a mode's damping passes through zero from above.
+struct CriticalPoint {
+  int mode = 0;
+  double speed_m_s = 0.0, frequency_Hz = 0.0;
+  double still_air_frequency_Hz = 0.0;
+  ComplexMode motion;
+};
+/// First sign change along a branch, refined until the bracket is below 1e-10 of the speed. Empty if damping stays positive.
+[[nodiscard]] std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, const Branch& branch);
+/// The lowest critical point of the branches.
+[[nodiscard]] std::optional<CriticalPoint> lowest_critical_point(const AeroelasticSystem& system,
+                                                                 const std::vector<Branch>& branches);
+
+/// What explains a critical speed (by yaw rule): where the mode moves vertically, and how steeply its lift damping grows.
+struct GallopingCharacter {
+  std::string deck;            ///< with the larger sum of z² L
+  double theta_rms_rad = 0.0;  ///< yaw on that deck, weighted with z² L
+  double deck_share = 0.0;     ///< of that deck in the sum of z² L
+  double exponent = 0.0;       ///< p = d ln|h1*| / d ln V*, of the sum over strips, at the critical point
+};
+[[nodiscard]] GallopingCharacter galloping_character(const AeroelasticSystem& system, const ComplexMode& motion,
+                                                     double speed_m_s);
+
+/// Speed of static divergence, |Λ - V² S| = 0: the lowest, or empty if there is none.
+[[nodiscard]] std::optional<double> divergence_speed(const AeroelasticSystem& system);
+
+/// Den Hartog's criterion on one coordinate by quasi-steady theory, with h1 = C_L' + C_D:
+///   V = 4 ω ξ / (-ρ sum B h1 z² L); empty where the sum does not excite.
+[[nodiscard]] std::optional<double> den_hartog_speed(const AeroelasticSystem& system, Eigen::Index coordinate);
+
+}  // namespace twindeck::aero
