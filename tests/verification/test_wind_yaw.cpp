@@ -174,11 +174,11 @@ TEST(WindYaw, DampingOfTheStandInFollowsThePrototype) {
     const auto at = static_cast<std::size_t>(table.number(i, "V_m_s")) - 1;
     for (std::size_t mode = 0; mode < 6; ++mode) {
       const std::string name = std::to_string(mode + 1);
-      // The prototype had ten modes, its file eight: the sixth couples with those that are missing.
-      EXPECT_NEAR(branches[mode].points.at(at).frequency_Hz(), table.number(i, "f" + name + "_Hz"), mode < 5 ? 5e-5 : 3e-4)
-          << at + 1 << " m/s mode " << name;
-      EXPECT_NEAR(100 * branches[mode].points.at(at).damping_ratio(), table.number(i, "xi" + name + "_pct"), 2e-3)
-          << at + 1 << " m/s mode " << name;
+      // The prototype had ten modes, its file eight: those above the first couple, weakly, with the missing ones.
+      // It took the smooth functions behind the tables, whose lines lie up to 2 % of a derivative beside them.
+      const double f = table.number(i, "f" + name + "_Hz"), xi = table.number(i, "xi" + name + "_pct");
+      EXPECT_NEAR(branches[mode].points.at(at).frequency_Hz(), f, mode == 0 ? 2e-5 : 3e-4) << at + 1 << " m/s mode " << name;
+      EXPECT_NEAR(100 * branches[mode].points.at(at).damping_ratio(), xi, 1e-2) << at + 1 << " m/s mode " << name;
     }
   }
 }
