@@ -13,7 +13,7 @@ Term assemble_geometric_stiffness(const Model& model, const PrestressState& stat
     const Element& e = model.elements[i];
     const auto row = static_cast<Eigen::Index>(i);
     const double force = e.type == ElementType::stay ? state.stay_pull_N[row] : state.axial_force_N[row];
-    if (force == 0.0 || e.type == ElementType::shell) continue;
+    if (force == 0.0 || node_count(e.type) != 2) continue;
     if (e.type == ElementType::beam)
       scatter.add({six_per_node(e), beam_geometric_stiffness(beam_geometry(model, e), force)});
     else

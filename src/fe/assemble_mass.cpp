@@ -44,8 +44,12 @@ std::vector<TermPlan> plan_mass(const Model& model) {
   TermGroups groups;
   for (int i = 0; i < static_cast<int>(model.elements.size()); ++i) {
     const Element& e = element_at(model, i);
-    const std::string& section = section_of(model, e).name;
     const std::string of = " of " + material_of(model, e).name;
+    if (e.type == ElementType::solid) {
+      groups.add_element(model, i, e.group + of + " solid mass", {.density = 1}, whole);
+      continue;
+    }
+    const std::string& section = section_of(model, e).name;
     if (e.type == ElementType::shell) {
       groups.add_element(model, i, section + of + " mass", {.density = 1, .thickness = 1}, shell_translational);
       if (model.formulation.shell_rotary_inertia)

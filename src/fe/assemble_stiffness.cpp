@@ -55,6 +55,12 @@ ElementMatrix bending(const Model& model, int i) {
   return {six_per_node(e), shell_bending_stiffness(shell_geometry(model, e), shell_properties(model, e))};
 }
 
+ElementMatrix solid(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  const Material& m = material_of(model, e);
+  return {three_per_node(e), solid_stiffness(solid_geometry(model, e), {m.youngs_modulus_Pa, m.poisson_ratio})};
+}
+
 ElementMatrix spring(const Model& model, int i) { return spring_stiffness(model.springs[static_cast<std::size_t>(i)]); }
 
 }  // namespace
@@ -64,8 +70,12 @@ std::vector<TermPlan> plan_stiffness(const Model& model) {
   for (int i = 0; i < static_cast<int>(model.elements.size()); ++i) {
     const Element& e = element_at(model, i);
     if (e.type == ElementType::stay) continue;
-    const std::string& section = section_of(model, e).name;
     const std::string of = " of " + material_of(model, e).name;
+    if (e.type == ElementType::solid) {
+      groups.add_element(model, i, e.group + of + " solids", {.modulus = 1}, solid);
+      continue;
+    }
+    const std::string& section = section_of(model, e).name;
     if (e.type == ElementType::shell) {
       groups.add_element(model, i, section + of + " membrane", {.modulus = 1, .thickness = 1}, membrane);
       groups.add_element(model, i, section + of + " bending", {.modulus = 1, .thickness = 3, .ratio = 1}, bending);

@@ -22,6 +22,7 @@ const Material& material_of(const Model& model, const Element& element) {
 }
 
 const Section& section_of(const Model& model, const Element& element) {
+  TWINDECK_ASSERT(element.section >= 0);
   return model.sections[static_cast<std::size_t>(element.section)];
 }
 
@@ -54,13 +55,22 @@ ShellProperties shell_properties(const Model& model, const Element& element) {
   return {m.youngs_modulus_Pa, m.poisson_ratio, s.thickness_m, s.bending_inertia_ratio};
 }
 
+SolidGeometry solid_geometry(const Model& model, const Element& element) {
+  SolidGeometry geometry;
+  for (std::size_t i = 0; i < 8; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
+  return geometry;
+}
+
 std::vector<int> six_per_node(const Element& element) { return dofs_per_node(element, 6); }
 std::vector<int> three_per_node(const Element& element) { return dofs_per_node(element, 3); }
 
 ElementMatrix element_mass(const Model& model, const Element& element) {
   const double density = material_of(model, element).density_kg_m3;
+  if (element.type == ElementType::solid) return {three_per_node(element), solid_mass(solid_geometry(model, element), density)};
   const Section& s = section_of(model, element);
   switch (element.type) {
+    case ElementType::solid:
+      break;
     case ElementType::beam:
       return {six_per_node(element), beam_mass(beam_geometry(model, element), beam_properties(model, element), density,
                                                model.formulation.beam_rotary_inertia)};

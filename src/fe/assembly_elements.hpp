@@ -5,6 +5,7 @@
 
 #include "fe/elements.hpp"
 #include "fe/model.hpp"
+#include "fe/solid.hpp"
 
 /// From the model's data to the arguments of the element functions, and a matrix with the places where it is added.
 namespace twindeck::fe {
@@ -20,16 +21,19 @@ struct ElementMatrix {
 [[nodiscard]] BeamStiffnessProperties beam_properties(const Model& model, const Element& element);
 [[nodiscard]] ShellGeometry shell_geometry(const Model& model, const Element& element);
 [[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
+[[nodiscard]] SolidGeometry solid_geometry(const Model& model, const Element& element);
 [[nodiscard]] std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element);
 
 [[nodiscard]] const Material& material_of(const Model& model, const Element& element);
+/// @pre the element is no solid, which has no section
 [[nodiscard]] const Section& section_of(const Model& model, const Element& element);
 
 /// All six degrees of freedom of the element's nodes; the first three of each.
 [[nodiscard]] std::vector<int> six_per_node(const Element& element);
 [[nodiscard]] std::vector<int> three_per_node(const Element& element);
 
-/// Mass of an element of whatever type: beams and bars consistent, stays half at each end, shells as the formulation says.
+/// Mass of an element of whatever type: beams and bars consistent, stays half at each end, shells as the formulation
+/// says, solids consistent.
 [[nodiscard]] ElementMatrix element_mass(const Model& model, const Element& element);
 /// Stiffness k d d' of a spring; rotations where it acts on them.
 [[nodiscard]] ElementMatrix spring_stiffness(const Spring& spring);

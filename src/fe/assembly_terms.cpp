@@ -46,6 +46,7 @@ void TermGroups::add_element(const Model& model, int i, const std::string& label
   };
   factor(Target::youngs_modulus, material_of(model, e).name, powers.modulus);
   factor(Target::density, material_of(model, e).name, powers.density);
+  if (e.type == ElementType::solid) return;
   factor(Target::area, section_of(model, e).name, powers.area);
   factor(Target::thickness, section_of(model, e).name, powers.thickness);
   factor(Target::bending_inertia_ratio, section_of(model, e).name, powers.ratio);

@@ -40,7 +40,12 @@ struct Section {
   double bending_inertia_ratio = 1.0;  ///< multiplies t³/12 alone (RMI): not membrane, not mass
 };
 
-enum class ElementType { beam, bar, stay, shell };
+enum class ElementType { beam, bar, stay, shell, solid };
+
+/// Nodes of an element of this type.
+[[nodiscard]] constexpr std::size_t node_count(ElementType type) {
+  return type == ElementType::solid ? 8 : type == ElementType::shell ? 4 : 2;
+}
 
 struct Element {
   long id = 0;
@@ -48,8 +53,8 @@ struct Element {
   std::string name;                 ///< stays: "NE8"; else ""
   std::string group;                ///< "foot_top_chord", "slab_foot_B", "stay_44": the unit of parameters and of diagnosis
   int material = -1;
-  int section = -1;
-  std::vector<int> nodes;           ///< 2 (beam, bar, stay) or 4 (shell, anticlockwise)
+  int section = -1;                 ///< none (-1) for a solid
+  std::vector<int> nodes;           ///< 2 (beam, bar, stay), 4 (shell, anticlockwise) or 8 (solid, see solid.hpp)
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near to it as can be; 0 = global Z (X for vertical beams)
   std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< node -> beam end, global axes
   std::uint16_t releases = 0;       ///< beams: bit i set = local end degree of freedom i (0-11) carries no force

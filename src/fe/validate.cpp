@@ -18,7 +18,34 @@ namespace {
   throw InputError({model.source, 0, part}, problem, mend);
 }
 
+/// Whether a solid is sound once its two faces have changed places.
+bool solid_turned_is_sound(const Model& model, const Element& e) {
+  SolidGeometry turned = solid_geometry(model, e);
+  for (std::size_t i = 0; i < 4; ++i) std::swap(turned.node_m[i], turned.node_m[i + 4]);
+  const SolidShape shape = solid_shape(turned);
+  return shape.volume_m3 > 0.0 && shape.least_ratio > 1e-6;
+}
+
 std::string label(const Element& e) { return fmt::format("element {}{}", e.id, e.name.empty() ? "" : " (" + e.name + ")"); }
+
+/// A solid that is inside out, flat or folded at a corner.
+void check_solid(const Model& model, const Element& e) {
+  const SolidShape shape = solid_shape(solid_geometry(model, e));
+  if (shape.volume_m3 > 0.0 && shape.least_ratio > 1e-6) return;
+  std::vector<long> ids;
+  for (const int node : e.nodes) ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
+  const std::string solid = fmt::format("the solid {}", fmt::join(ids, "-"));
+  const std::string mend = "give four nodes round one face, then the four above them in the same order";
+  if (shape.least_ratio == 0.0 && shape.volume_m3 == 0.0) refuse(model, label(e), solid + " has no volume", mend);
+  if (shape.volume_m3 < 0.0 && solid_turned_is_sound(model, e))
+    refuse(model, label(e), solid + fmt::format(" is inverted: its volume is {:.6g} m3", shape.volume_m3),
+           "its faces run the wrong way round: give nodes 5-8 first, then 1-4");
+  refuse(model, label(e),
+         solid + fmt::format(" is folded or flat at node {}: the Jacobian there is {:.3g} of the element's mean, expected a "
+                             "positive part of it (volume {:.6g} m3)",
+                             ids[static_cast<std::size_t>(shape.least_corner)], shape.least_ratio, shape.volume_m3),
+         mend);
+}
 
 /// A position in one of the model's lists; `what` says which ("material").
 void require_position(const Model& model, const std::string& part, const char* what, int position, std::size_t count) {
@@ -31,11 +58,11 @@ void require_position(const Model& model, const std::string& part, const char* w
 
 void check_element(const Model& model, const Element& e) {
   require_position(model, label(e), "material", e.material, model.materials.size());
-  require_position(model, label(e), "section", e.section, model.sections.size());
-  const std::size_t expected = e.type == ElementType::shell ? 4 : 2;
+  if (e.type != ElementType::solid) require_position(model, label(e), "section", e.section, model.sections.size());
+  const std::size_t expected = node_count(e.type);
   if (e.nodes.size() != expected)
     refuse(model, label(e), fmt::format("has {} nodes, expected {}", e.nodes.size(), expected),
-           "beams, bars and stays join two nodes, shells four");
+           "beams, bars and stays join two nodes, shells four, solids eight");
   for (const int node : e.nodes) require_position(model, label(e), "node", node, model.nodes.size());
   if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != expected)
     refuse(model, label(e), "names the same node twice", "give different nodes");
@@ -133,6 +160,10 @@ void validate_geometry(const Model& model) {
       if (!(twice_area > 1e-12 * (x[2] - x[0]).squaredNorm()))
         refuse(model, label(e), fmt::format("the shell {}-{}-{}-{} has no area", id(0), id(1), id(2), id(3)),
                "give its four nodes anticlockwise");
+      continue;
+    }
+    if (e.type == ElementType::solid) {
+      check_solid(model, e);
       continue;
     }
     const auto ends = end_nodes(model, e);

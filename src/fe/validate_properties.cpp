@@ -41,13 +41,21 @@ void check_beam_section(const Model& model, const Section& s, const std::string&
 void validate_properties(const Model& model) {
   for (const Element& e : model.elements) {
     const Material& m = model.materials[static_cast<std::size_t>(e.material)];
-    const Section& s = model.sections[static_cast<std::size_t>(e.section)];
     const std::string material = "material '" + m.name + "'";
-    const std::string section = "section '" + s.name + "'";
     require_positive(model, material, "Young's modulus", m.youngs_modulus_Pa, "Pa");
     if (!(m.density_kg_m3 >= 0.0))
       refuse(model, material, fmt::format("density is {:g} kg/m3, expected 0 or more", m.density_kg_m3), "give a density");
+    if (e.type == ElementType::solid) {
+      if (!(m.poisson_ratio > -1.0 && m.poisson_ratio < 0.5))
+        refuse(model, material, fmt::format("Poisson's ratio is {:g}, expected a value in ]-1, 0.5[", m.poisson_ratio),
+               "give 0.2 for concrete, 0.3 for steel");
+      continue;
+    }
+    const Section& s = model.sections[static_cast<std::size_t>(e.section)];
+    const std::string section = "section '" + s.name + "'";
     switch (e.type) {
+      case ElementType::solid:
+        break;
       case ElementType::beam:
         require_positive(model, material, "shear modulus", m.shear_modulus_Pa, "Pa");
         check_beam_section(model, s, section);

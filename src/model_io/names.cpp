@@ -10,7 +10,7 @@ const std::vector<std::string>& direction_names() {
 }
 
 const std::vector<std::string>& element_type_names() {
-  static const std::vector<std::string> names = {"beam", "bar", "stay", "shell"};
+  static const std::vector<std::string> names = {"beam", "bar", "stay", "shell", "solid"};
   return names;
 }
 

@@ -10,7 +10,7 @@ namespace twindeck::model_io {
 
 /// "x", "y", "z", "rx", "ry", "rz": degree of freedom 0-5 of a node.
 [[nodiscard]] const std::vector<std::string>& direction_names();
-/// "beam", "bar", "stay", "shell" in the order of fe::ElementType.
+/// "beam", "bar", "stay", "shell", "solid" in the order of fe::ElementType.
 [[nodiscard]] const std::vector<std::string>& element_type_names();
 /// "youngs_modulus", "density", … "point_mass" in the order of fe::Target (those of a model folder, not of a matrix model).
 [[nodiscard]] const std::vector<std::string>& target_names();

@@ -9,7 +9,7 @@
 namespace twindeck::model_io {
 namespace {
 
-const std::array<const char*, 4> kNodeColumns = {"node1", "node2", "node3", "node4"};
+const std::array<const char*, 8> kNodeColumns = {"node1", "node2", "node3", "node4", "node5", "node6", "node7", "node8"};
 
 int position_by_name(const io::CsvTable& table, std::size_t row, const std::string& column,
                      const std::map<std::string, int>& known) {
@@ -20,6 +20,14 @@ int position_by_name(const io::CsvTable& table, std::size_t row, const std::stri
   for (const auto& [known_name, position] : known) names.push_back(known_name);
   table.fail(row, column, fmt::format("{} '{}' is not in {}s.csv{}", column, name, column, did_you_mean(name, names)),
              fmt::format("add it there or use one that is there"));
+}
+
+/// Solids have no section: the cell is empty.
+int read_section(const io::CsvTable& table, std::size_t row, const NameIndex& index, fe::ElementType type) {
+  if (type != fe::ElementType::solid) return position_by_name(table, row, "section", index.sections);
+  if (!table.text(row, "section").empty())
+    table.fail(row, "section", "is filled, but a solid has no section", "leave the cell empty");
+  return -1;
 }
 
 fe::ElementType read_type(const io::CsvTable& table, std::size_t row) {
@@ -33,12 +41,13 @@ fe::ElementType read_type(const io::CsvTable& table, std::size_t row) {
 }
 
 void read_element_nodes(const io::CsvTable& table, std::size_t row, const NameIndex& index, fe::Element& element) {
-  const std::size_t wanted = element.type == fe::ElementType::shell ? 4 : 2;
+  const std::size_t wanted = fe::node_count(element.type);
   for (std::size_t i = 0; i < wanted; ++i) element.nodes.push_back(index.node(table, row, kNodeColumns[i]));
-  for (std::size_t i = wanted; i < 4; ++i) {
+  for (std::size_t i = wanted; i < kNodeColumns.size(); ++i) {
     if (!table.text(row, kNodeColumns[i]).empty()) {
-      table.fail(row, kNodeColumns[i], fmt::format("is filled, but a {} has two nodes", name_of(element.type)),
-                 "leave the cell empty or make the element a shell");
+      table.fail(row, kNodeColumns[i],
+                 fmt::format("is filled, but a {} has {} nodes", name_of(element.type), wanted == 2 ? "two" : "four"),
+                 "leave the cell empty or make the element a shell (four nodes) or a solid (eight)");
     }
   }
   if (std::set<int>(element.nodes.begin(), element.nodes.end()).size() != wanted) {
@@ -53,7 +62,7 @@ Eigen::Vector3d read_vector(const io::CsvTable& table, std::size_t row, const st
 
 /// Two nodes at one place: said here, where the line is known.
 void check_length(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
-  if (element.type == fe::ElementType::shell) return;
+  if (fe::node_count(element.type) != 2) return;
   const auto& a = model.nodes[static_cast<std::size_t>(element.nodes[0])];
   const auto& b = model.nodes[static_cast<std::size_t>(element.nodes[1])];
   const double length = (b.x_m + element.offset_m[1] - a.x_m - element.offset_m[0]).norm();
@@ -66,6 +75,7 @@ void check_length(const io::CsvTable& table, std::size_t row, const fe::Model& m
 }
 
 void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
+  if (element.type == fe::ElementType::solid) return;
   const fe::Section& section = model.sections[static_cast<std::size_t>(element.section)];
   if (element.type == fe::ElementType::shell && section.thickness_m <= 0.0) {
     table.fail(row, "section", fmt::format("section '{}' has no thickness, which a shell needs", section.name),
@@ -80,10 +90,10 @@ void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& 
 }  // namespace
 
 void read_elements(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
-  const auto table =
-      io::CsvTable::read(folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
-                         {"name", "group", "node3", "node4", "orientation_x", "orientation_y", "orientation_z", "offset1_x_m",
-                          "offset1_y_m", "offset1_z_m", "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
+  const auto table = io::CsvTable::read(
+      folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
+      {"name", "group", "node3", "node4", "node5", "node6", "node7", "node8", "orientation_x", "orientation_y", "orientation_z",
+       "offset1_x_m", "offset1_y_m", "offset1_z_m", "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
   std::set<long> ids;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Element e;
@@ -95,7 +105,7 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
     e.name = table.text(row, "name");
     e.group = table.text(row, "group");
     e.material = position_by_name(table, row, "material", index.materials);
-    e.section = position_by_name(table, row, "section", index.sections);
+    e.section = read_section(table, row, index, e.type);
     read_element_nodes(table, row, index, e);
     e.orientation = read_vector(table, row, "orientation", "");
     e.offset_m = {read_vector(table, row, "offset1", "_m"), read_vector(table, row, "offset2", "_m")};

@@ -12,7 +12,8 @@
 namespace twindeck::model_io {
 namespace {
 
-constexpr int kVtkLine = 3, kVtkQuad = 9;
+/// VTK_LINE, VTK_QUAD, VTK_HEXAHEDRON: nodes in the order of the model's.
+int vtk_cell(const fe::Element& e) { return e.nodes.size() == 8 ? 12 : e.nodes.size() == 4 ? 9 : 3; }
 
 /// One DataArray; `body` is its text.
 std::string data_array(const std::string& type, const std::string& name, int components, const std::string& body) {
@@ -80,10 +81,7 @@ std::string mode_vectors(const Eigen::Ref<const Eigen::VectorXd>& full) {
 std::string points_and_cells(const fe::Model& model) {
   long offset = 0;
   const auto& elements = model.elements;
-  const auto connectivity = [](const fe::Element& e) {
-    return e.nodes.size() == 4 ? fmt::format("{} {} {} {}", e.nodes[0], e.nodes[1], e.nodes[2], e.nodes[3])
-                               : fmt::format("{} {}", e.nodes[0], e.nodes[1]);
-  };
+  const auto connectivity = [](const fe::Element& e) { return fmt::format("{}", fmt::join(e.nodes, " ")); };
   return "<Points>\n" +
          data_array(
              "Float64", "Points", 3,
@@ -94,9 +92,7 @@ std::string points_and_cells(const fe::Model& model) {
              "Int64", "offsets", 1,
              lines(elements,
                    [&offset](const fe::Element& e) { return std::to_string(offset += static_cast<long>(e.nodes.size())); })) +
-         data_array(
-             "UInt8", "types", 1,
-             lines(elements, [](const fe::Element& e) { return std::to_string(e.nodes.size() == 4 ? kVtkQuad : kVtkLine); })) +
+         data_array("UInt8", "types", 1, lines(elements, [](const fe::Element& e) { return std::to_string(vtk_cell(e)); })) +
          "</Cells>\n";
 }
 

@@ -69,7 +69,7 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
   summary.row({"degrees_of_freedom", static_cast<long>(system.size()), "-"});
   summary.row({"parameters", system.parameters.size(), "-"});
   if (model != nullptr) {
-    std::array<long, 4> count{};
+    std::array<long, 5> count{};
     for (const auto& e : model->elements) ++count[static_cast<std::size_t>(e.type)];
     summary.row({"nodes", model->nodes.size(), "-"});
     summary.row({"elements", model->elements.size(), "-"});
@@ -77,6 +77,7 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
     summary.row({"bars", count[static_cast<std::size_t>(fe::ElementType::bar)], "-"});
     summary.row({"stays", count[static_cast<std::size_t>(fe::ElementType::stay)], "-"});
     summary.row({"shells", count[static_cast<std::size_t>(fe::ElementType::shell)], "-"});
+    summary.row({"solids", count[static_cast<std::size_t>(fe::ElementType::solid)], "-"});
     summary.row({"springs", model->springs.size(), "-"});
     summary.row({"rigid_links", model->links.size(), "-"});
     summary.row({"point_masses", model->masses.size(), "-"});

@@ -1,0 +1,197 @@
+#include "fe/solid.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+using Matrix6x24 = Eigen::Matrix<double, 6, 24>;
+using Matrix6x9 = Eigen::Matrix<double, 6, 9>;
+using Matrix3x8 = Eigen::Matrix<double, 3, 8>;
+
+constexpr std::array<std::array<double, 3>, 8> kCorner = {
+    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+
+/// Trilinear map at ξ ∈ [-1, 1]³; rows of the Jacobian are d(x, y, z)/dξ, /dη, /dζ.
+struct Trilinear {
+  Eigen::Matrix<double, 8, 1> value;
+  Matrix3x8 natural;  ///< d/dξ, d/dη, d/dζ of the eight functions
+  Eigen::Matrix3d jacobian;
+  double determinant;
+  [[nodiscard]] Matrix3x8 gradient() const { return jacobian.inverse() * natural; }
+};
+
+Trilinear trilinear_at(const SolidGeometry& geometry, const Eigen::Vector3d& xi) {
+  Trilinear t;
+  t.jacobian.setZero();
+  for (int i = 0; i < 8; ++i) {
+    const auto& c = kCorner[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d f(1.0 + c[0] * xi[0], 1.0 + c[1] * xi[1], 1.0 + c[2] * xi[2]);
+    t.value[i] = 0.125 * f.prod();
+    t.natural.col(i) = 0.125 * Eigen::Vector3d(c[0] * f[1] * f[2], c[1] * f[0] * f[2], c[2] * f[0] * f[1]);
+    t.jacobian += t.natural.col(i) * geometry.node_m[static_cast<std::size_t>(i)].transpose();
+  }
+  t.determinant = t.jacobian.determinant();
+  return t;
+}
+
+struct Point {
+  Eigen::Vector3d xi;
+  double weight;
+};
+
+/// Product rule of `abscissa` and `weight`.
+std::vector<Point> gauss(const std::vector<double>& abscissa, const std::vector<double>& weight) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < abscissa.size(); ++i)
+    for (std::size_t j = 0; j < abscissa.size(); ++j)
+      for (std::size_t k = 0; k < abscissa.size(); ++k)
+        points.push_back({{abscissa[i], abscissa[j], abscissa[k]}, weight[i] * weight[j] * weight[k]});
+  return points;
+}
+
+const std::vector<Point>& gauss_2() {
+  static const double a = 1.0 / std::sqrt(3.0);
+  static const std::vector<Point> points = gauss({-a, a}, {1.0, 1.0});
+  return points;
+}
+
+const std::vector<Point>& gauss_3() {
+  static const double a = std::sqrt(0.6);
+  static const std::vector<Point> points = gauss({-a, 0.0, a}, {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0});
+  return points;
+}
+
+/// Columns 3i, 3i+1, 3i+2 of the strain matrix from the gradient of a function.
+template <typename Strain>
+void set_strain(const Eigen::Vector3d& g, int i, Strain& b) {
+  b.col(3 * i) << g.x(), 0.0, 0.0, g.y(), 0.0, g.z();
+  b.col(3 * i + 1) << 0.0, g.y(), 0.0, g.x(), g.z(), 0.0;
+  b.col(3 * i + 2) << 0.0, 0.0, g.z(), 0.0, g.y(), g.x();
+}
+
+/// Isotropic elasticity for unit E: stresses (xx, yy, zz, xy, yz, zx) from strains with engineering shears.
+Eigen::Matrix<double, 6, 6> elasticity(double nu) {
+  Eigen::Matrix<double, 6, 6> d = Eigen::Matrix<double, 6, 6>::Zero();
+  d.topLeftCorner<3, 3>().setConstant(nu);
+  d.topLeftCorner<3, 3>().diagonal().setConstant(1.0 - nu);
+  d.bottomRightCorner<3, 3>().diagonal().setConstant(0.5 - nu);
+  return d / ((1.0 + nu) * (1.0 - 2.0 * nu));
+}
+
+void require_sound(const SolidGeometry& geometry) {
+  const SolidShape shape = solid_shape(geometry);
+  if (shape.volume_m3 > 0.0 && shape.least_ratio > 1e-6) return;
+  const Eigen::Vector3d& x = geometry.node_m[0];
+  throw InputError(
+      {},
+      fmt::format("solid with first corner ({:.6g}, {:.6g}, {:.6g}) m has volume {:.3g} m3 and a corner with {:.3g} "
+                  "of the mean Jacobian, expected both positive",
+                  x.x(), x.y(), x.z(), shape.volume_m3, shape.least_ratio),
+      "give four corners round one face, then the four above them in the same order");
+}
+
+Matrix6x24 strain_at(const Trilinear& t) {
+  const Matrix3x8 gradient = t.gradient();
+  Matrix6x24 b;
+  for (int i = 0; i < 8; ++i) set_strain(gradient.col(i), i, b);
+  return b;
+}
+
+/// Strains of the nine internal displacements.
+Matrix6x9 internal_strain_at(const Eigen::Matrix3d& centre_inverse, double centre_determinant, const Trilinear& t,
+                             const Eigen::Vector3d& xi) {
+  Matrix6x9 b;
+  for (int m = 0; m < 3; ++m)  // d(1-ξ²)/dξ = -2ξ in direction m alone
+    set_strain(centre_determinant / t.determinant * -2.0 * xi[m] * centre_inverse.col(m), m, b);
+  return b;
+}
+
+struct Parts {
+  MatrixSolid uu = MatrixSolid::Zero();
+  Eigen::Matrix<double, 24, 9> ua = Eigen::Matrix<double, 24, 9>::Zero();
+  Eigen::Matrix<double, 9, 9> aa = Eigen::Matrix<double, 9, 9>::Zero();
+};
+
+/// Stiffness for unit E before the internal displacements are condensed.
+Parts integrate(const SolidGeometry& geometry, double nu) {
+  const Eigen::Matrix<double, 6, 6> d = elasticity(nu);
+  const Trilinear centre = trilinear_at(geometry, Eigen::Vector3d::Zero());
+  const Eigen::Matrix3d inverse = centre.jacobian.inverse();
+  Parts parts;
+  for (const Point& point : gauss_2()) {
+    const Trilinear t = trilinear_at(geometry, point.xi);
+    const Matrix6x24 b = strain_at(t);
+    const Matrix6x9 g = internal_strain_at(inverse, centre.determinant, t, point.xi);
+    const double w = point.weight * t.determinant;
+    const Matrix6x24 db = w * d * b;
+    parts.uu += b.transpose() * db;
+    parts.ua += db.transpose() * g;
+    parts.aa += g.transpose() * (w * d * g);
+  }
+  return parts;
+}
+
+}  // namespace
+
+SolidShape solid_shape(const SolidGeometry& geometry) {
+  SolidShape shape{0.0, 0.0, 0};
+  for (const Point& point : gauss_2()) shape.volume_m3 += point.weight * trilinear_at(geometry, point.xi).determinant;
+  // det J is of degree 2 in each variable, so two points an axis integrate it exactly; 8 det J is the volume of a box.
+  const double mean = std::abs(shape.volume_m3) / 8.0;
+  double least = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    const auto& c = kCorner[static_cast<std::size_t>(i)];
+    const double determinant = trilinear_at(geometry, {c[0], c[1], c[2]}).determinant;
+    if (i > 0 && determinant >= least) continue;
+    least = determinant;
+    shape.least_corner = i;
+  }
+  shape.least_ratio = mean > 0.0 ? least / mean : 0.0;
+  return shape;
+}
+
+MatrixSolid solid_stiffness(const SolidGeometry& geometry, const SolidProperties& properties) {
+  require_sound(geometry);
+  const Parts p = integrate(geometry, properties.poisson_ratio);
+  const MatrixSolid k = properties.youngs_modulus_Pa * (p.uu - p.ua * p.aa.ldlt().solve(p.ua.transpose()));
+  return 0.5 * (k + k.transpose());
+}
+
+MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3) {
+  require_sound(geometry);
+  Eigen::Matrix<double, 8, 8> scalar = Eigen::Matrix<double, 8, 8>::Zero();
+  for (const Point& point : gauss_3()) {
+    const Trilinear t = trilinear_at(geometry, point.xi);
+    scalar += density_kg_m3 * point.weight * t.determinant * t.value * t.value.transpose();
+  }
+  MatrixSolid m = MatrixSolid::Zero();
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      for (int d = 0; d < 3; ++d) m(3 * i + d, 3 * j + d) = scalar(i, j);
+  return m;
+}
+
+MatrixSolid solid_mass_lumped(const SolidGeometry& geometry, double density_kg_m3) {
+  const MatrixSolid consistent = solid_mass(geometry, density_kg_m3);
+  return consistent.rowwise().sum().asDiagonal();
+}
+
+SolidState solid_centre_state(const SolidGeometry& geometry, const SolidProperties& properties,
+                              const Eigen::Matrix<double, 24, 1>& u) {
+  require_sound(geometry);
+  // The internal strains vanish at the centre, where ξ = η = ζ = 0.
+  SolidState state;
+  state.strain = strain_at(trilinear_at(geometry, Eigen::Vector3d::Zero())) * u;
+  state.stress_Pa = properties.youngs_modulus_Pa * elasticity(properties.poisson_ratio) * state.strain;
+  return state;
+}
+
+}  // namespace twindeck::fe

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+/// Eight-node solid (hexahedron) with incompatible modes, as pure functions: translations of eight nodes, global axes, order
+/// x y z of node 1, x y z of node 2, … (24 × 24).
+///
+/// Nodes 1-4 go round one face so that (x2 - x1) × (x4 - x1) points towards the opposite face, nodes 5-8 round that face, each
+/// above its partner: the order of VTK_HEXAHEDRON, C3D8 and most meshers.
+///
+/// Displacements  u = sum N_i(ξ) u_i + sum P_m(ξ) a_m  with N_i trilinear and P = 1-ξ², 1-η², 1-ζ² inside of the element alone
+/// (Wilson, Taylor, Doherty and Ghaboussi 1973): a brick then bends without parasitic shear and does not stiffen with
+/// Poisson's ratio through its depth. Derivatives of P are taken with the Jacobian J_0 of the centre,
+/// dP/dx = (det J_0 / det J) J_0⁻¹ dP/dξ, so that ∫ dP/dx dV = 0 for every shape and the patch test holds on distorted meshes
+/// too (Taylor, Beresford and Wilson 1976). The nine a_m are condensed: K = K_uu - K_ua K_aa⁻¹ K_au.
+namespace twindeck::fe {
+
+using MatrixSolid = Eigen::Matrix<double, 24, 24>;
+
+struct SolidGeometry {
+  std::array<Eigen::Vector3d, 8> node_m;
+};
+struct SolidProperties {
+  double youngs_modulus_Pa, poisson_ratio;  ///< isotropic; -1 < nu < 0.5
+};
+
+/// Shape of an element: `least_ratio` is the smallest det J at its corners over the mean; 1 for a parallelepiped, 0 where an
+/// edge has collapsed or a corner lies flat, negative where a corner is turned inside out.
+struct SolidShape {
+  double volume_m3;  ///< signed: negative if the nodes run the wrong way round
+  double least_ratio;
+  int least_corner;  ///< 0-7, where it occurs
+};
+[[nodiscard]] SolidShape solid_shape(const SolidGeometry& geometry);
+
+/// Stiffness with 2 × 2 × 2 Gauss points; linear in E.
+/// @throws InputError for an element without volume, or with a corner inside out
+[[nodiscard]] MatrixSolid solid_stiffness(const SolidGeometry& geometry, const SolidProperties& properties);
+/// Consistent mass ρ ∫ NᵀN dV with 3 × 3 × 3 points: exact for every shape.
+[[nodiscard]] MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3);
+/// Row sums of the consistent mass on the diagonal, ρ ∫ N_i dV at node i: positive for every admissible shape.
+[[nodiscard]] MatrixSolid solid_mass_lumped(const SolidGeometry& geometry, double density_kg_m3);
+
+/// Strain (xx, yy, zz, xy, yz, zx; engineering shears) and stress [Pa] at the centre from nodal displacements (24).
+struct SolidState {
+  Eigen::Matrix<double, 6, 1> strain, stress_Pa;
+};
+[[nodiscard]] SolidState solid_centre_state(const SolidGeometry& geometry, const SolidProperties& properties,
+                                            const Eigen::Matrix<double, 24, 1>& u);
+
+}  // namespace twindeck::fe

@@ -1,0 +1,87 @@
+/// Oracle: identity (what was written comes back), the VTK numbers of a hexahedron (type 12, eight points), and messages that
+/// name file, line and column.
+#include "model_io/export.hpp"
+#include "model_io/model_folder.hpp"
+#include "test_folder.hpp"
+
+namespace twindeck::model_io::test {
+namespace {
+
+/// A cube of one solid with a bar on top.
+fe::Model cube() {
+  fe::Model m;
+  m.title = "cube";
+  for (long i = 0; i < 8; ++i) {
+    const double x = i % 4 == 1 || i % 4 == 2 ? 1.0 : 0.0, y = i % 4 >= 2 ? 1.0 : 0.0;
+    m.nodes.push_back({i + 1, {x, y, i >= 4 ? 1.0 : 0.0}});
+  }
+  m.materials = {{"concrete", 30e9, 12.5e9, 0.2, 2500.0}};
+  fe::Section rod;
+  rod.name = "rod";
+  rod.area_m2 = 1e-3;
+  m.sections = {rod};
+  fe::Element solid;
+  solid.id = 1;
+  solid.type = fe::ElementType::solid;
+  solid.group = "end_block";
+  solid.material = 0;
+  solid.nodes = {0, 1, 2, 3, 4, 5, 6, 7};
+  fe::Element bar;
+  bar.id = 2;
+  bar.type = fe::ElementType::bar;
+  bar.material = 0;
+  bar.section = 0;
+  bar.nodes = {4, 6};
+  m.elements = {solid, bar};
+  m.supports = {{"ground", 0, {true, true, true, false, false, false}}};
+  m.parameters = {{"E_c", fe::Target::youngs_modulus, {"concrete"}, "Pa", 30e9, 20e9, 40e9}};
+  return m;
+}
+
+TEST(SolidFolder, ComesBackAsItWas) {
+  const TestFolder folder;
+  write_model(cube(), folder.path());
+  const fe::Model back = read_model(folder.path());
+  ASSERT_EQ(back.elements.size(), 2u);
+  EXPECT_EQ(back.elements[0].type, fe::ElementType::solid);
+  EXPECT_EQ(back.elements[0].nodes, cube().elements[0].nodes);
+  EXPECT_EQ(back.elements[0].section, -1);
+  EXPECT_EQ(back.elements[1].nodes, cube().elements[1].nodes);
+  const std::string first = folder.read("elements.csv");
+  write_model(back, folder.path());
+  EXPECT_EQ(folder.read("elements.csv"), first);
+}
+
+TEST(SolidFolder, FaultsNameLineAndColumn) {
+  const auto says = [](const char* from, const char* to) {
+    const TestFolder folder;
+    write_model(cube(), folder.path());
+    folder.edit("elements.csv", from, to);
+    return message_of([&] { (void)read_model(folder.path()); });
+  };
+  EXPECT_NE(says("concrete,,1", "concrete,rod,1").find("elements.csv:2: section: is filled, but a solid has no section"),
+            std::string::npos);
+  EXPECT_NE(says("concrete,,1,2,3,4,5,6,7,8", "concrete,,1,2,3,4,5,6,7,").find("elements.csv:2: node8"), std::string::npos);
+  EXPECT_NE(says("rod,5,7,,", "rod,5,7,,3").find("elements.csv:3: node4: is filled, but a bar has two nodes"),
+            std::string::npos);
+}
+
+TEST(SolidFolder, IsAHexahedronInParaView) {
+  const TestFolder folder;
+  const fe::Model model = cube();
+  fe::ParametricSystem system;
+  system.pattern.resize(48, 48);
+  system.expansion.resize(48, 48);
+  system.expansion.setIdentity();
+  dynamics::EigenModes modes;
+  modes.frequency_Hz = Eigen::VectorXd::Constant(1, 1.0);
+  modes.shapes = Eigen::VectorXd::Unit(48, 0);
+  write_vtu(model, system, modes, folder.path() / "model.vtu");
+  const std::string text = folder.read("model.vtu");
+  EXPECT_NE(text.find("Name=\"connectivity\" format=\"ascii\">\n0 1 2 3 4 5 6 7\n4 6\n"), std::string::npos);
+  EXPECT_NE(text.find("Name=\"offsets\" format=\"ascii\">\n8\n10\n"), std::string::npos);
+  EXPECT_NE(text.find("Name=\"types\" format=\"ascii\">\n12\n3\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace twindeck::model_io::test
