@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/error.hpp"
@@ -143,18 +145,23 @@ Parts integrate(const SolidGeometry& geometry, double nu) {
 
 SolidShape solid_shape(const SolidGeometry& geometry) {
   SolidShape shape{0.0, 0.0, 0};
-  for (const Point& point : gauss_2()) shape.volume_m3 += point.weight * trilinear_at(geometry, point.xi).determinant;
-  // det J is of degree 2 in each variable, so two points an axis integrate it exactly; 8 det J is the volume of a box.
-  const double mean = std::abs(shape.volume_m3) / 8.0;
-  double least = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d where = Eigen::Vector3d::Zero();
+  for (const Point& point : gauss_3()) {
+    const double determinant = trilinear_at(geometry, point.xi).determinant;
+    shape.volume_m3 += point.weight * determinant;
+    if (determinant < least) least = determinant, where = point.xi;
+  }
+  double size2 = 0.0;
+  for (const Eigen::Vector3d& x : geometry.node_m) size2 = std::max(size2, (x - geometry.node_m[0]).squaredNorm());
+  if (std::abs(shape.volume_m3) < 1e-12 * size2 * std::sqrt(size2)) return {0.0, 0.0, 0};  // rounding of the coordinates
+  shape.least_ratio = 8.0 * least / std::abs(shape.volume_m3);                             // a box has volume 8 det J
+  double nearest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < 8; ++i) {
     const auto& c = kCorner[static_cast<std::size_t>(i)];
-    const double determinant = trilinear_at(geometry, {c[0], c[1], c[2]}).determinant;
-    if (i > 0 && determinant >= least) continue;
-    least = determinant;
-    shape.least_corner = i;
+    const double along = where.dot(Eigen::Vector3d(c[0], c[1], c[2]));
+    if (along > nearest) nearest = along, shape.least_corner = i;
   }
-  shape.least_ratio = mean > 0.0 ? least / mean : 0.0;
   return shape;
 }
 

@@ -25,17 +25,18 @@ struct SolidProperties {
   double youngs_modulus_Pa, poisson_ratio;  ///< isotropic; -1 < nu < 0.5
 };
 
-/// Shape of an element: `least_ratio` is the smallest det J at its corners over the mean; 1 for a parallelepiped, 0 where an
-/// edge has collapsed or a corner lies flat, negative where a corner is turned inside out.
+/// Shape of an element: `least_ratio` is the smallest det J at the 27 points of the mass over the mean; 1 for a parallelepiped,
+/// 0 where the element is flat, negative where it is folded or inside out. Corners themselves are no measure: one corner of
+/// MacNeal and Harder's patch of solids has a negative Jacobian, though the element is sound wherever it is integrated.
 struct SolidShape {
   double volume_m3;  ///< signed: negative if the nodes run the wrong way round
   double least_ratio;
-  int least_corner;  ///< 0-7, where it occurs
+  int least_corner;  ///< 0-7, the corner nearest to where it occurs
 };
 [[nodiscard]] SolidShape solid_shape(const SolidGeometry& geometry);
 
 /// Stiffness with 2 × 2 × 2 Gauss points; linear in E.
-/// @throws InputError for an element without volume, or with a corner inside out
+/// @throws InputError for an element without volume, folded or inside out
 [[nodiscard]] MatrixSolid solid_stiffness(const SolidGeometry& geometry, const SolidProperties& properties);
 /// Consistent mass ρ ∫ NᵀN dV with 3 × 3 × 3 points: exact for every shape.
 [[nodiscard]] MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3);

@@ -28,7 +28,7 @@ bool solid_turned_is_sound(const Model& model, const Element& e) {
 
 std::string label(const Element& e) { return fmt::format("element {}{}", e.id, e.name.empty() ? "" : " (" + e.name + ")"); }
 
-/// A solid that is inside out, flat or folded at a corner.
+/// A solid that is inside out, flat or folded.
 void check_solid(const Model& model, const Element& e) {
   const SolidShape shape = solid_shape(solid_geometry(model, e));
   if (shape.volume_m3 > 0.0 && shape.least_ratio > 1e-6) return;
@@ -36,12 +36,12 @@ void check_solid(const Model& model, const Element& e) {
   for (const int node : e.nodes) ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
   const std::string solid = fmt::format("the solid {}", fmt::join(ids, "-"));
   const std::string mend = "give four nodes round one face, then the four above them in the same order";
-  if (shape.least_ratio == 0.0 && shape.volume_m3 == 0.0) refuse(model, label(e), solid + " has no volume", mend);
+  if (shape.volume_m3 == 0.0) refuse(model, label(e), solid + " has no volume", mend);
   if (shape.volume_m3 < 0.0 && solid_turned_is_sound(model, e))
     refuse(model, label(e), solid + fmt::format(" is inverted: its volume is {:.6g} m3", shape.volume_m3),
            "its faces run the wrong way round: give nodes 5-8 first, then 1-4");
   refuse(model, label(e),
-         solid + fmt::format(" is folded or flat at node {}: the Jacobian there is {:.3g} of the element's mean, expected a "
+         solid + fmt::format(" is folded or flat near node {}: the Jacobian there is {:.3g} of the element's mean, expected a "
                              "positive part of it (volume {:.6g} m3)",
                              ids[static_cast<std::size_t>(shape.least_corner)], shape.least_ratio, shape.volume_m3),
          mend);

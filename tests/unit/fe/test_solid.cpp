@@ -174,7 +174,7 @@ TEST(Solid, FaultyShapesAreNamed) {
       << message_of(model);
   model = macneal_cube();
   std::swap(model.elements[0].nodes[0], model.elements[0].nodes[1]);
-  EXPECT_NE(message_of(model).find("element 1: the solid 2-1-3-4-5-6-7-8 is folded or flat at node"), std::string::npos)
+  EXPECT_NE(message_of(model).find("element 1: the solid 2-1-3-4-5-6-7-8 is folded or flat near node"), std::string::npos)
       << message_of(model);
   model = macneal_cube();
   for (std::size_t i = 4; i < 8; ++i) model.nodes[i].x_m = model.nodes[i - 4].x_m;
