@@ -175,10 +175,11 @@ TEST(WindYaw, DampingOfTheStandInFollowsThePrototype) {
     for (std::size_t mode = 0; mode < 6; ++mode) {
       const std::string name = std::to_string(mode + 1);
       // The prototype had ten modes, its file eight: those above the first couple, weakly, with the missing ones.
-      // It took the smooth functions behind the tables, whose lines lie up to 2 % of a derivative beside them.
+      // It took the smooth functions behind the tables, beside which their lines lie by up to 2 % of an aerodynamic damping of
+      // 1 %.
       const double f = table.number(i, "f" + name + "_Hz"), xi = table.number(i, "xi" + name + "_pct");
       EXPECT_NEAR(branches[mode].points.at(at).frequency_Hz(), f, mode == 0 ? 2e-5 : 3e-4) << at + 1 << " m/s mode " << name;
-      EXPECT_NEAR(100 * branches[mode].points.at(at).damping_ratio(), xi, 1e-2) << at + 1 << " m/s mode " << name;
+      EXPECT_NEAR(100 * branches[mode].points.at(at).damping_ratio(), xi, 2e-2) << at + 1 << " m/s mode " << name;
     }
   }
 }
