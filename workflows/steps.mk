@@ -11,6 +11,10 @@ READS_s1_model :=
 READS_s4_refinement := s1_model
 READS_s5_sensitivity := s4_refinement
 READS_s6_updating := s4_refinement s5_sensitivity
+READS_s7_aerodynamics := s6_updating
+
+# What a step reads of the study's data beside STUDY_INPUTS.
+INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
 
 # Somebody's own measured modes: make s6 MODES=dir
 MEASURED := $(if $(MODES),--modes $(MODES)) $(if $(FEATURES),--features $(FEATURES))
@@ -26,7 +30,7 @@ endif
 define step_rule
 .PHONY: $(firstword $(subst _, ,$(1))) $(1)
 $(firstword $(subst _, ,$(1))) $(1): $(RESULTS)/$(1)/manifest.json
-$(RESULTS)/$(1)/manifest.json: $(STUDY_INPUTS) $(wildcard $(WORKFLOW)/$(1).toml) $(BIN)/$(1) \
+$(RESULTS)/$(1)/manifest.json: $(STUDY_INPUTS) $(wildcard $(WORKFLOW)/$(1).toml) $(INPUTS_$(1)) $(BIN)/$(1) \
     $(foreach read,$(filter $(READS_$(1)),$(STEPS)),$(RESULTS)/$(read)/manifest.json)
 	@$(BIN)/$(1) --study $(WORKFLOW) --results $(RESULTS) --out $(RESULTS)/$(1) --threads $(THREADS) $$(OPTIONS_$(1))
 endef

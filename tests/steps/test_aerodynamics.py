@@ -1,0 +1,124 @@
+"""Step 7 on a user's own straight deck of beams, no study.
+
+Oracles: the cosine rule on a straight deck, V_cr = V_A/cos theta, exact; the closed form of galloping by a constant h1* in a mode
+whose shape and modal mass follow from the model's own modes; files that are not as they should be are refused by their names.
+"""
+import csv
+import math
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin"))
+NAMES = [g + str(i) for g in "hpa" for i in range(1, 7)]
+LENGTH, PANELS, WIDTH, CHORD, XI, H1 = 60.0, 24, 3.0, 4.0, 0.005, -3.0
+
+
+def write_model(folder):
+    """Two edge beams, floor beams between them, held at both ends against everything but rotation about the supports' line."""
+    folder.mkdir()
+    (folder / "model.toml").write_text('title = "straight deck"\ngravity = 9.81\n')
+    nodes, elements = [], []
+    for i in range(PANELS + 1):
+        x = LENGTH * i / PANELS
+        nodes += [f"{2 * i + 1},{x},{-WIDTH / 2},10", f"{2 * i + 2},{x},{WIDTH / 2},10"]
+        elements.append(("floor", 2 * i + 1, 2 * i + 2))
+        if i < PANELS:
+            elements += [("edge", 2 * i + 1, 2 * i + 3), ("edge", 2 * i + 2, 2 * i + 4)]
+    (folder / "nodes.csv").write_text("node,x_m,y_m,z_m\n" + "\n".join(nodes) + "\n")
+    (folder / "elements.csv").write_text(
+        "element,type,group,material,section,node1,node2\n" +
+        "".join(f"{n},beam,deck_{g},steel,{g},{a},{b}\n" for n, (g, a, b) in enumerate(elements, 1)))
+    (folder / "materials.csv").write_text("material,youngs_modulus_Pa,poisson_ratio,density_kg_m3\nsteel,2.1e11,0.3,7850\n")
+    (folder / "sections.csv").write_text("section,area_m2,inertia_y_m4,inertia_z_m4,torsion_m4\nedge,0.06,0.004,0.02,0.002\nfloor,0.02,0.002,0.02,0.002\n")
+    last = 2 * PANELS
+    (folder / "supports.csv").write_text("support,node,x,y,z,rx,ry,rz\n" + "".join(
+        f"s{n},{n},{1 if n <= 2 else 0},1,1,0,0,0\n" for n in (1, 2, last + 1, last + 2)))
+
+
+def write_flutter(path, column="V_over_fB", low=0.1, high=400.0):
+    """h1* = H1 at every reduced velocity."""
+    values = ",".join(str(H1) if n == "h1" else "0" for n in NAMES)
+    path.write_text(f"{column}," + ",".join(NAMES) + "\n" + "".join(f"{v},{values}\n" for v in (low, high)))
+
+
+class Aerodynamics(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        write_model(self.folder / "model")
+        write_flutter(self.folder / "flutter.csv")
+        (self.folder / "polar.csv").write_text("alpha_deg,C_D,C_L,C_M\n-10,0.1,0.54105,0\n0,0.1,0,0\n10,0.1,-0.54105,0\n")  # C_L' = -3.1
+
+    def run_step(self, *options, direction=90.0, models='["A"]', status=0):
+        study = self.folder / "study"
+        study.mkdir(exist_ok=True)
+        (study / "s7_aerodynamics.toml").write_text(
+            f'direction_deg = {direction}\nnodes_per_deck = 40\nmodels = {models}\nsets = ["standin"]\nstructural_damping = {XI}\n'
+            'n_modes = 6\nfollowed_modes = 2\nmax_speed = 150.0\nspeed_step = 5.0\n'
+            f'[[deck]]\nname = "deck"\ncross_group = "deck_floor"\nchord = {CHORD}\n'
+            f'polar = "{self.folder}/polar.csv"\nflutter = "{self.folder}/flutter.csv"\n')
+        done = subprocess.run([BIN / "s7_aerodynamics", "--study", study, "--model", self.folder / "model", "--out", self.folder / "out", "--quiet",
+                               *options], capture_output=True, text=True, cwd=ROOT)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stderr
+
+    def read(self, name):
+        with open(self.folder / "out" / name, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def critical(self, model):
+        return next(float(r["V_cr_m_s"]) for r in self.read("critical.csv") if r["model"] == model and r["structural_damping_pct"] == "0.5")
+
+    def test_cosine_rule_on_a_straight_deck(self):
+        self.run_step()
+        normal = self.critical("A")
+        for theta in (20.0, -40.0):
+            self.run_step(direction=90.0 + theta, models='["A", "C"]')
+            self.assertAlmostEqual(self.critical("C") * math.cos(math.radians(theta)) / normal, 1.0, delta=1e-9)
+            self.assertAlmostEqual(self.critical("A") / normal, 1.0, delta=1e-9)
+            self.assertTrue(all(abs(float(r["yaw_deg"]) - theta) < 1e-9 for r in self.read("nodes.csv")))
+
+    def test_galloping_meets_its_closed_form(self):
+        self.run_step()
+        row = self.read("critical.csv")[0]
+        # Simply supported: the first vertical mode is a sine, whose modal mass is half the deck's: V = 4 m w xi/(rho B |h1|), with m
+        # the mass per length (the end beams rest). Strips move along straight lines between sections, which loses (kh)²/6 of z².
+        mass = 7850 * (2 * 0.06 * LENGTH + 0.02 * WIDTH * PANELS) / LENGTH / (1 - (math.pi / PANELS) ** 2 / 6)
+        omega = 2 * math.pi * float(row["f_cr_Hz"])
+        closed = 4 * mass * omega * XI / (1.25 * CHORD * abs(H1))
+        self.assertEqual(row["mode"], "1")
+        self.assertAlmostEqual(float(row["V_cr_m_s"]) / closed, 1.0, delta=2e-3)
+        self.assertAlmostEqual(float(row["V_den_hartog_m_s"]) / closed, 1.0, delta=3e-3)  # C_L' + C_D = h1 to the digits of the polar
+        self.assertEqual(float(row["theta_rms_deg"]), 0.0)
+        self.assertAlmostEqual(float(row["exponent"]), 0.0, delta=1e-6)
+
+    def test_static_forces_add_up(self):
+        self.run_step()
+        drag = sum(float(r["drag_N"]) for r in self.read("static.csv"))
+        area = 0.5 * 1.25 * 40.4**2 * CHORD * 0.1 * LENGTH  # C_D = 0.1 at every angle
+        self.assertAlmostEqual(drag / area, 1.0, delta=1e-9)
+
+    def test_what_is_not_as_it_should_be_is_refused(self):
+        write_flutter(self.folder / "flutter.csv", column="V_star")
+        self.assertIn("does not say which reduced velocity", self.run_step(status=2))
+        write_flutter(self.folder / "flutter.csv", high=3.0)
+        message = self.run_step(status=2)
+        self.assertIn("flutter.csv", message)
+        self.assertIn("V/(f B) 0.1 to 3", message)
+        write_flutter(self.folder / "flutter.csv")
+        self.assertIn("expected less than 90 either way", self.run_step(direction=0.0, status=2))
+        self.assertIn("no model of Table 11", self.run_step(models='["Z"]', status=2))
+        self.assertIn("no aerodynamic set", self.run_step("--set", 'sets=["standing"]', status=2))
+
+    def test_holding_the_end_values_must_be_asked_for(self):
+        write_flutter(self.folder / "flutter.csv", high=3.0)
+        self.run_step(status=2)
+        self.run_step("--set", "above_range=hold")
+        self.assertGreater(self.critical("A"), 0.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
