@@ -1,0 +1,46 @@
+#include "buffeting/response.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace twindeck::buffeting {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+dynamics::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s, double frozen_omega_rad_s) {
+  const aero::ReducedStructure& structure = system.structure();
+  const aero::AeroelasticSystem::Block wind = system.self_excited(speed_m_s, frozen_omega_rad_s);
+  dynamics::LinearSystem out;
+  out.mass = MatrixXd::Identity(structure.size(), structure.size());
+  out.damping = structure.damping() - wind.damping;
+  out.stiffness = -wind.stiffness;
+  out.stiffness.diagonal() += structure.omega_rad_s.cwiseAbs2();
+  for (const aero::MaxwellUnit& unit : structure.maxwell) {
+    dynamics::add_maxwell(out, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);
+  }
+  return out;
+}
+
+Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const MatrixXd>& load, const Eigen::Ref<const MatrixXd>& wind_m_s,
+                 double step_s, const Eigen::Ref<const MatrixXd>& sensors, const ResponseOptions& options) {
+  const Index n = wind_m_s.rows();
+  const Index lead = std::min<Index>(n, static_cast<Index>(std::llround(options.lead_in_s / step_s)));
+  MatrixXd force(load.rows(), lead + n);
+  force.rightCols(n).noalias() = load * wind_m_s.transpose();
+  force.leftCols(lead) = MatrixXd(force.rightCols(lead));
+  // From rest: the load comes up over the first half of the lead-in, so that no jump rings on.
+  const Index ramp = lead / 2;
+  for (Index i = 0; i < ramp; ++i) force.col(i) *= 0.5 - 0.5 * std::cos(std::acos(-1.0) * static_cast<double>(i) / static_cast<double>(ramp));
+  const dynamics::History history = newmark.run(force);
+  return {(sensors * history.acceleration.topRightCorner(sensors.cols(), n)).transpose(), history.status};
+}
+
+VectorXd root_mean_squares(const Eigen::Ref<const MatrixXd>& history) {
+  const MatrixXd centred = history.rowwise() - history.colwise().mean();
+  return (centred.colwise().squaredNorm() / static_cast<double>(history.rows())).cwiseSqrt().transpose();
+}
+
+}  // namespace twindeck::buffeting

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "aero/aeroelastic_system.hpp"
+#include "dynamics/newmark.hpp"
+#include "wind/simulation.hpp"
+
+namespace twindeck::buffeting {
+
+/// A reduced structure in wind as equations in time:  q̈ + (C - Ca) q̇ + (Λ - Ka) q = f. Flutter derivatives hold for a harmonic
+/// motion, so that in time they are frozen at one frequency (the paper does not say which it took); Maxwell units get coordinates of
+/// their own at the end.
+[[nodiscard]] dynamics::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s,
+                                                         double frozen_omega_rad_s);
+
+/// Accelerations at sensors under one sample of turbulence.
+struct ResponseOptions {
+  double lead_in_s = 60.0;  ///< run before the record from the sample's own end, which it continues (its period is the record)
+};
+struct Response {
+  Eigen::MatrixXd acceleration_m_s2;  ///< (n_steps × n_sensors) over the sample's period, first columns first
+  Status status;
+};
+/// @param newmark        of equations_of_motion, its step that of the wind
+/// @param load           (m × n_inputs) of load_matrix
+/// @param wind_m_s       (n_steps × n_inputs) v' of every strip, then w'
+/// @param step_s         of the wind
+/// @param sensors        (n_sensors × m) what each sensor sees of each coordinate
+[[nodiscard]] Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const Eigen::MatrixXd>& load,
+                               const Eigen::Ref<const Eigen::MatrixXd>& wind_m_s, double step_s,
+                               const Eigen::Ref<const Eigen::MatrixXd>& sensors, const ResponseOptions& options = {});
+
+/// Root mean square of each column about its mean. @return (n_columns)
+[[nodiscard]] Eigen::VectorXd root_mean_squares(const Eigen::Ref<const Eigen::MatrixXd>& history);
+
+/// Mean of replicates with a confidence interval by Student's t: mean ± t s / sqrt(n).
+struct Interval {
+  double mean = 0.0, low = 0.0, high = 0.0;  ///< of the mean
+  double deviation = 0.0;                    ///< of one replicate
+};
+/// @param level  e.g. 0.95 @throws InputError for fewer than two replicates
+[[nodiscard]] Interval confidence_interval(const Eigen::Ref<const Eigen::VectorXd>& replicates, double level);
+
+}  // namespace twindeck::buffeting

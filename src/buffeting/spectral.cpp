@@ -1,0 +1,66 @@
+#include "buffeting/spectral.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace twindeck::buffeting {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// -omega² + i omega C + K, Maxwell units as their complex stiffness i omega k c / (k + i omega c).
+MatrixXcd impedance(const aero::AeroelasticSystem& system, double speed_m_s, double omega, double derivatives_at) {
+  const std::complex<double> i(0.0, 1.0);
+  const aero::ReducedStructure& structure = system.structure();
+  const aero::AeroelasticSystem::Block wind = system.self_excited(speed_m_s, derivatives_at);
+  MatrixXcd z = i * omega * (structure.damping() - wind.damping) - wind.stiffness.cast<std::complex<double>>();
+  z.diagonal().array() += structure.omega_rad_s.array().square() - omega * omega;
+  for (const aero::MaxwellUnit& unit : structure.maxwell) {
+    const std::complex<double> dashpot = i * omega * unit.damping_N_s_m;
+    z += (unit.stiffness_N_m * dashpot / (unit.stiffness_N_m + dashpot)) *
+         (unit.direction * unit.direction.transpose()).cast<std::complex<double>>();
+  }
+  return z;
+}
+
+}  // namespace
+
+MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_s, const Eigen::Ref<const MatrixXd>& load,
+                          const wind::FieldDefinition& along, const wind::FieldDefinition& vertical,
+                          const Eigen::Ref<const MatrixXd>& sensors, const Eigen::Ref<const VectorXd>& f_Hz,
+                          const SpectralOptions& options) {
+  const Index strips = along.size();
+  MatrixXd spectra = MatrixXd::Zero(f_Hz.size(), sensors.rows());
+#pragma omp parallel for schedule(dynamic)
+  for (Index k = 0; k < f_Hz.size(); ++k) {
+    const double omega = 2.0 * std::numbers::pi * f_Hz[k];
+    const double at = options.frozen_omega > 0.0 ? options.frozen_omega : omega;
+    // Few sensors and many loads: solved for the sensors, with the transpose.
+    const MatrixXcd z = impedance(system, speed_m_s, omega, at).transpose();
+    const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
+    const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
+    const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
+    for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
+      const MatrixXcd part = transfer.middleCols(first, strips);
+      const MatrixXcd cross = part * wind::cross_spectrum(*field, f_Hz[k]);
+      spectra.row(k) += chi * cross.cwiseProduct(part.conjugate()).rowwise().sum().real().transpose();
+    }
+  }
+  return spectra;
+}
+
+VectorXd band_rms(const Eigen::Ref<const VectorXd>& f_Hz, const Eigen::Ref<const MatrixXd>& spectra) {
+  VectorXd variance = VectorXd::Zero(spectra.cols());
+  for (Index k = 1; k < f_Hz.size(); ++k) {
+    variance += 0.5 * (f_Hz[k] - f_Hz[k - 1]) * (spectra.row(k) + spectra.row(k - 1)).transpose();
+  }
+  return variance.cwiseSqrt();
+}
+
+}  // namespace twindeck::buffeting

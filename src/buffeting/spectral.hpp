@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "aero/aeroelastic_system.hpp"
+#include "wind/field.hpp"
+
+namespace twindeck::buffeting {
+
+/// Stationary response in the frequency domain: no step, no seed, derivatives at every frequency's own. What time histories scatter
+/// around, and how far freezing the derivatives takes them from it.
+///
+///     S_a(f) = sum over v', w' of |T(f) S_c(f) T(f)*|,   T = (i omega)^p O (-omega² + i omega C(omega) + K(omega))⁻¹ R,
+///
+/// with sensors O, loads R; p = 0 displacements, 2 accelerations.
+struct SpectralOptions {
+  int derivative = 2;         ///< p
+  double frozen_omega = 0.0;  ///< [rad/s] at which derivatives are taken; 0: at each frequency
+  /// Aerodynamic admittance on the force spectra, |chi(f)|²; empty: 1 (quasi-steady).
+  std::function<double(double f_Hz)> admittance;
+};
+
+/// @param load       (m × 2 n_strips) of load_matrix
+/// @param along, vertical  the field's v' and w' at the strips; frequencies > 0
+/// @param sensors    (n_sensors × m)
+/// @return [unit²/Hz] one-sided (n_frequencies × n_sensors)
+[[nodiscard]] Eigen::MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_s,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& load, const wind::FieldDefinition& along,
+                                               const wind::FieldDefinition& vertical, const Eigen::Ref<const Eigen::MatrixXd>& sensors,
+                                               const Eigen::Ref<const Eigen::VectorXd>& f_Hz, const SpectralOptions& options = {});
+
+/// Square root of the integral over the frequencies (trapezoid). @return (n_columns)
+[[nodiscard]] Eigen::VectorXd band_rms(const Eigen::Ref<const Eigen::VectorXd>& f_Hz, const Eigen::Ref<const Eigen::MatrixXd>& spectra);
+
+}  // namespace twindeck::buffeting
