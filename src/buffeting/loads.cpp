@@ -29,7 +29,8 @@ Eigen::MatrixXd load_matrix(const aero::AeroelasticSystem& system, double speed_
     const aero::YawRule& rule = system.rule(strip);
     const LoadFactor factor = buffeting_factor(system.sections()[static_cast<std::size_t>(strip.section)], strip, rule,
                                                system.wind().density_kg_m3, speed_m_s, equations);
-    const Eigen::MatrixXd motion = aero::kinematics(strip, rule.axes, system.wind()) * system.motions()[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd motion =
+        aero::kinematics(strip, rule.axes, system.wind()) * system.motions()[static_cast<std::size_t>(i)];
     load.col(i) = motion.transpose() * factor.col(0);
     load.col(n + i) = motion.transpose() * factor.col(1);
   }

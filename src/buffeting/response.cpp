@@ -24,8 +24,9 @@ dynamics::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system
   return out;
 }
 
-Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const MatrixXd>& load, const Eigen::Ref<const MatrixXd>& wind_m_s,
-                 double step_s, const Eigen::Ref<const MatrixXd>& sensors, const ResponseOptions& options) {
+Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const MatrixXd>& load,
+                 const Eigen::Ref<const MatrixXd>& wind_m_s, double step_s, const Eigen::Ref<const MatrixXd>& sensors,
+                 const ResponseOptions& options) {
   const Index n = wind_m_s.rows();
   const Index lead = std::min<Index>(n, static_cast<Index>(std::llround(options.lead_in_s / step_s)));
   MatrixXd force(load.rows(), lead + n);
@@ -33,7 +34,8 @@ Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const Matrix
   force.leftCols(lead) = MatrixXd(force.rightCols(lead));
   // From rest: the load comes up over the first half of the lead-in, so that no jump rings on.
   const Index ramp = lead / 2;
-  for (Index i = 0; i < ramp; ++i) force.col(i) *= 0.5 - 0.5 * std::cos(std::acos(-1.0) * static_cast<double>(i) / static_cast<double>(ramp));
+  for (Index i = 0; i < ramp; ++i)
+    force.col(i) *= 0.5 - 0.5 * std::cos(std::acos(-1.0) * static_cast<double>(i) / static_cast<double>(ramp));
   const dynamics::History history = newmark.run(force);
   return {(sensors * history.acceleration.topRightCorner(sensors.cols(), n)).transpose(), history.status};
 }

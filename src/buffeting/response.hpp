@@ -11,8 +11,8 @@
 namespace twindeck::buffeting {
 
 /// A reduced structure in wind as equations in time:  q̈ + (C - Ca) q̇ + (Λ - Ka) q = f. Flutter derivatives hold for a harmonic
-/// motion, so that in time they are frozen at one frequency (the paper does not say which it took); Maxwell units get coordinates of
-/// their own at the end.
+/// motion, so that in time they are frozen at one frequency (the paper does not say which it took); Maxwell units get
+/// coordinates of their own at the end.
 [[nodiscard]] dynamics::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s,
                                                          double frozen_omega_rad_s);
 
@@ -35,13 +35,5 @@ struct Response {
 
 /// Root mean square of each column about its mean. @return (n_columns)
 [[nodiscard]] Eigen::VectorXd root_mean_squares(const Eigen::Ref<const Eigen::MatrixXd>& history);
-
-/// Mean of replicates with a confidence interval by Student's t: mean ± t s / sqrt(n).
-struct Interval {
-  double mean = 0.0, low = 0.0, high = 0.0;  ///< of the mean
-  double deviation = 0.0;                    ///< of one replicate
-};
-/// @param level  e.g. 0.95 @throws InputError for fewer than two replicates
-[[nodiscard]] Interval confidence_interval(const Eigen::Ref<const Eigen::VectorXd>& replicates, double level);
 
 }  // namespace twindeck::buffeting

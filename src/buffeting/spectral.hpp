@@ -8,8 +8,8 @@
 
 namespace twindeck::buffeting {
 
-/// Stationary response in the frequency domain: no step, no seed, derivatives at every frequency's own. What time histories scatter
-/// around, and how far freezing the derivatives takes them from it.
+/// Stationary response in the frequency domain: no step, no seed, derivatives at every frequency's own. What time histories
+/// scatter around, and how far freezing the derivatives takes them from it.
 ///
 ///     S_a(f) = sum over v', w' of |T(f) S_c(f) T(f)*|,   T = (i omega)^p O (-omega² + i omega C(omega) + K(omega))⁻¹ R,
 ///
@@ -26,11 +26,14 @@ struct SpectralOptions {
 /// @param sensors    (n_sensors × m)
 /// @return [unit²/Hz] one-sided (n_frequencies × n_sensors)
 [[nodiscard]] Eigen::MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_s,
-                                               const Eigen::Ref<const Eigen::MatrixXd>& load, const wind::FieldDefinition& along,
-                                               const wind::FieldDefinition& vertical, const Eigen::Ref<const Eigen::MatrixXd>& sensors,
-                                               const Eigen::Ref<const Eigen::VectorXd>& f_Hz, const SpectralOptions& options = {});
+                                               const Eigen::Ref<const Eigen::MatrixXd>& load,
+                                               const wind::FieldDefinition& along, const wind::FieldDefinition& vertical,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& sensors,
+                                               const Eigen::Ref<const Eigen::VectorXd>& f_Hz,
+                                               const SpectralOptions& options = {});
 
 /// Square root of the integral over the frequencies (trapezoid). @return (n_columns)
-[[nodiscard]] Eigen::VectorXd band_rms(const Eigen::Ref<const Eigen::VectorXd>& f_Hz, const Eigen::Ref<const Eigen::MatrixXd>& spectra);
+[[nodiscard]] Eigen::VectorXd band_rms(const Eigen::Ref<const Eigen::VectorXd>& f_Hz,
+                                       const Eigen::Ref<const Eigen::MatrixXd>& spectra);
 
 }  // namespace twindeck::buffeting

@@ -9,7 +9,15 @@ namespace twindeck {
 ///
 /// Each argument is folded in by the finaliser of SplitMix64. Reference: Steele, Lea and Flood (2014), OOPSLA, 453-472.
 /// @return  uniform in [0, 1[ with 53 bits
-[[nodiscard]] double uniform_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
+[[nodiscard]] inline double uniform_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
+  const auto mixed = [](std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15ULL;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
+  };
+  return static_cast<double>(mixed(mixed(mixed(seed) ^ stream) ^ index) >> 11) * 0x1.0p-53;
+}
 
 /// Standard normal number of two uniform ones (Box and Muller, 1958, Ann. Math. Stat. 29, 610-611): sqrt(-2 ln u1) cos(2 pi
 /// u2), u1 in ]0, 1]. Takes the places 2 index and 2 index + 1 of the stream.

@@ -32,15 +32,18 @@ void check(const FieldDefinition& field) {
   }
 }
 
+double FieldDefinition::spectrum(Index j, double f_Hz) const {
+  return von_karman_spectrum(component, f_Hz, sigma_m_s[j], length_m[j], speed_m_s[j]);
+}
+
+bool FieldDefinition::same_turbulence(Index j, Index k) const {
+  return sigma_m_s[j] == sigma_m_s[k] && length_m[j] == length_m[k] && speed_m_s[j] == speed_m_s[k];
+}
+
 Eigen::VectorXd spectra(const FieldDefinition& field, double f_Hz) {
   Eigen::VectorXd s(field.size());
   for (Index j = 0; j < s.size(); ++j) {
-    if (j > 0 && field.sigma_m_s[j] == field.sigma_m_s[j - 1] && field.length_m[j] == field.length_m[j - 1] &&
-        field.speed_m_s[j] == field.speed_m_s[j - 1]) {
-      s[j] = s[j - 1];  // points at one height: a power the less
-      continue;
-    }
-    s[j] = von_karman_spectrum(field.component, f_Hz, field.sigma_m_s[j], field.length_m[j], field.speed_m_s[j]);
+    s[j] = j > 0 && field.same_turbulence(j, j - 1) ? s[j - 1] : field.spectrum(j, f_Hz);
   }
   return s;
 }

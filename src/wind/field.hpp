@@ -24,6 +24,10 @@ struct FieldDefinition {
   bool frozen = true;
 
   [[nodiscard]] Eigen::Index size() const { return position_m.rows(); }
+  /// S_j(f) of one point [(m/s)²/Hz].
+  [[nodiscard]] double spectrum(Eigen::Index j, double f_Hz) const;
+  /// Whether two points have the same spectrum.
+  [[nodiscard]] bool same_turbulence(Eigen::Index j, Eigen::Index k) const;
 };
 
 /// @throws InputError  for lists of different lengths, a speed or length that is not positive

@@ -5,18 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "signal/fft.hpp"
+#include "wind/unit_wave.hpp"
 
 namespace twindeck::wind {
 
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : field_(std::move(field)), options_(options) {
   check(field_);
@@ -74,50 +75,73 @@ MatrixXd Simulator::amplitude_factor(Index l) const {
   return spectra(field_, f).cwiseSqrt().asDiagonal() * factor;
 }
 
-/// Random waves exp(i phi_ml), or complex normal numbers of unit mean square. @return (count × n) for l = first, first + 1, …
-MatrixXcd Simulator::waves(std::uint64_t seed, Index first, Index count) const {
-  MatrixXcd wave(count, field_.size());
+/// Random waves exp(i phi_ml), or complex normal numbers of unit mean square, l = first, first + 1, …
+/// @return (2 count × n) real parts, then imaginary parts
+MatrixXd Simulator::waves(std::uint64_t seed, Index first, Index count) const {
+  MatrixXd wave(2 * count, field_.size());
+  VectorXd turns(count);
   for (Index m = 0; m < wave.cols(); ++m) {
     const auto stream = static_cast<std::uint64_t>(field_.component) << 32 | static_cast<std::uint64_t>(m);
+    for (Index i = 0; i < count; ++i) turns[i] = uniform_number(seed, stream, 2 * static_cast<std::uint64_t>(first + i));
+    double *real = wave.col(m).data(), *imaginary = real + count;
+    for (Index i = 0; i < count; ++i) unit_wave(turns[i], real[i], imaginary[i]);
+    if (options_.amplitudes == Amplitudes::fixed) continue;
     for (Index i = 0; i < count; ++i) {
-      const auto l = static_cast<std::uint64_t>(first + i);
-      const double angle = 2.0 * std::numbers::pi * uniform_number(seed, stream, 2 * l);
       const double size =
-          options_.amplitudes == Amplitudes::fixed ? 1.0 : std::sqrt(-std::log(1.0 - uniform_number(seed, stream, 2 * l + 1)));
-      wave(i, m) = {size * std::cos(angle), size * std::sin(angle)};
+          std::sqrt(-std::log(1.0 - uniform_number(seed, stream, 2 * static_cast<std::uint64_t>(first + i) + 1)));
+      real[i] *= size;
+      imaginary[i] *= size;
     }
   }
   return wave;
 }
 
-/// sqrt(2 df) sum_m H_jm exp(i phi_ml) of every wave and point. @return (n_waves × n), row l - 1
+/// sqrt(2 df) sum_m H_jm exp(i phi_ml) of the waves of one bracket, into rows first - 1 … of `spectrum`.
+void Simulator::add_bracket(std::uint64_t seed, std::size_t a, Index first, Index count, MatrixXcd& spectrum) const {
+  // L is real: the product is done on real and imaginary parts stacked, with the factor at the anchor below and the one above.
+  const MatrixXd wave = waves(seed, first, count);
+  const MatrixXd below = wave * factor_[a].transpose().triangularView<Eigen::Upper>();
+  const MatrixXd above = wave * factor_[a + 1].transpose().triangularView<Eigen::Upper>();
+  const VectorXd cosine =
+      factor_[a].cwiseProduct(factor_[a + 1]).rowwise().sum();  // of the angle between the two rows of a point
+  VectorXd share(count), amplitude(count), c = VectorXd::Ones(count), s = VectorXd::Zero(count);
+  for (Index i = 0; i < count; ++i) share[i] = bracket(df_ * static_cast<double>(first + i)).share;
+  const double per_metre = df_ / field_.speed_m_s.mean();  // turns of wave l = 1 a metre along the wind
+  for (Index j = 0; j < field_.size(); ++j) {
+    if (j == 0 || !field_.same_turbulence(j, j - 1)) {
+      for (Index i = 0; i < count; ++i) {
+        amplitude[i] = std::sqrt(2.0 * df_ * field_.spectrum(j, df_ * static_cast<double>(first + i)));
+      }
+    }
+    if (field_.frozen) {
+      const double x = field_.position_m(j, 0) * per_metre, sign = x < 0.0 ? 1.0 : -1.0;
+      for (Index i = 0; i < count; ++i) {
+        unit_wave(std::abs(x) * static_cast<double>(first + i), c[i], s[i]);
+        s[i] *= sign;
+      }
+    }
+    const double *low = below.col(j).data(), *high = above.col(j).data();
+    auto* out = reinterpret_cast<double*>(&spectrum(first - 1, j));
+    for (Index i = 0; i < count; ++i) {
+      const double t = share[i], r = 1.0 - t;
+      const double size = amplitude[i] / std::sqrt(r * r + t * t + 2.0 * r * t * cosine[j]);  // rows back to length one
+      const double real = size * (r * low[i] + t * high[i]), imaginary = size * (r * low[count + i] + t * high[count + i]);
+      out[2 * i] = c[i] * real - s[i] * imaginary;
+      out[2 * i + 1] = c[i] * imaginary + s[i] * real;
+    }
+  }
+}
+
+/// Amplitudes of every wave and point. @return (n_waves × n), row l - 1
 MatrixXcd Simulator::point_spectra(std::uint64_t seed) const {
-  const Index n = field_.size();
-  MatrixXcd spectrum(n_waves_, n);
+  MatrixXcd spectrum(n_waves_, field_.size());
   const auto n_brackets = static_cast<Index>(factor_.size()) - 1;
 #pragma omp parallel for schedule(dynamic)
-  for (Index b = 0; b < n_brackets; ++b) {
+  for (Index b = n_brackets - 1; b >= 0; --b) {  // the largest first
     const auto a = static_cast<std::size_t>(b);
-    const Index first = first_wave_[a], count = (b + 1 < n_brackets ? first_wave_[a + 1] : n_waves_ + 1) - first;
-    if (count <= 0) continue;
-    const MatrixXcd wave = waves(seed, first, count);
-    Eigen::VectorXd share(count);
-    for (Index i = 0; i < count; ++i) share[i] = bracket(df_ * static_cast<double>(first + i)).share;
-    // L is real: the product is done on real and imaginary parts stacked, at the anchor below and the one above.
-    MatrixXd stacked(2 * count, n);
-    stacked << wave.real(), wave.imag();
-    const MatrixXd below = stacked * factor_[a].transpose().triangularView<Eigen::Upper>();
-    const MatrixXd above = stacked * factor_[a + 1].transpose().triangularView<Eigen::Upper>();
-    const Eigen::VectorXd cosine = factor_[a].cwiseProduct(factor_[a + 1]).rowwise().sum();  // of the angle between rows
-    for (Index i = 0; i < count; ++i) {
-      const double s = share[i], r = 1.0 - s, f = df_ * static_cast<double>(first + i);
-      const Eigen::VectorXcd phase = drift(field_, f);
-      const Eigen::VectorXd amplitude = (2.0 * df_ * spectra(field_, f)).cwiseSqrt();
-      for (Index j = 0; j < n; ++j) {
-        const double length = std::sqrt(r * r + s * s + 2.0 * r * s * cosine[j]);
-        const std::complex<double> sum(r * below(i, j) + s * above(i, j), r * below(count + i, j) + s * above(count + i, j));
-        spectrum(first - 1 + i, j) = amplitude[j] / length * phase[j] * sum;
-      }
+    const Index end = b + 1 < n_brackets ? first_wave_[a + 1] : n_waves_ + 1;
+    for (Index first = first_wave_[a]; first < end; first += 256) {  // pieces that stay in the cache
+      add_bracket(seed, a, first, std::min<Index>(256, end - first), spectrum);
     }
   }
   return spectrum;

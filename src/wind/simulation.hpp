@@ -65,7 +65,8 @@ class Simulator {
   [[nodiscard]] Bracket bracket(double f_Hz) const;
   /// Row j of L: that of the two anchors around f, mixed and brought to length one.
   [[nodiscard]] Eigen::RowVectorXd interpolated_row(double f_Hz, Eigen::Index j) const;
-  [[nodiscard]] Eigen::MatrixXcd waves(std::uint64_t seed, Eigen::Index first, Eigen::Index count) const;
+  [[nodiscard]] Eigen::MatrixXd waves(std::uint64_t seed, Eigen::Index first, Eigen::Index count) const;
+  void add_bracket(std::uint64_t seed, std::size_t a, Eigen::Index first, Eigen::Index count, Eigen::MatrixXcd& spectrum) const;
   [[nodiscard]] Eigen::MatrixXcd point_spectra(std::uint64_t seed) const;
   [[nodiscard]] Eigen::MatrixXd sample_double_index(std::uint64_t seed) const;
 

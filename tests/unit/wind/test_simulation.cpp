@@ -12,11 +12,23 @@
 #include "two_arcs.hpp"
 #include "wind/simulation.hpp"
 #include "wind/spectrum.hpp"
+#include "wind/unit_wave.hpp"
 
 namespace twindeck::wind {
 namespace {
 
 using Eigen::Index;
+
+TEST(Simulation, UnitWavesAreThoseOfTheLibrary) {
+  for (int i = 0; i < 100000; ++i) {
+    const double u = 3.7 * i / 100000.0;
+    double c = 0.0, s = 0.0;
+    unit_wave(u, c, s);
+    ASSERT_NEAR(c, std::cos(2.0 * std::numbers::pi * u), 4e-15) << u;  // the library's argument is itself rounded to 4e-15
+    ASSERT_NEAR(s, std::sin(2.0 * std::numbers::pi * u), 4e-15) << u;
+    ASSERT_NEAR(c * c + s * s, 1.0, 5e-16);
+  }
+}
 
 TEST(Simulation, AmplitudesSumToTheVarianceOfTheBand) {
   for (const int anchors : {0, 10, 40}) {
