@@ -14,6 +14,7 @@ READS_s6_updating := s4_refinement s5_sensitivity
 READS_s7_aerodynamics := s6_updating
 
 # What a step reads of the study's data beside STUDY_INPUTS.
+INPUTS_s0_campaign := $(wildcard data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)
 INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
 
 # Somebody's own measured modes: make s6 MODES=dir

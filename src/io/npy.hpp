@@ -14,5 +14,7 @@ namespace twindeck::io {
 
 /// Writes a float64 array in C order, NPY version 1.
 void write_npy(const Eigen::Ref<const Eigen::MatrixXd>& array, const std::filesystem::path& file);
+/// The same in single precision: half the size, for records, whose converters have fewer digits than that.
+void write_npy_single(const Eigen::Ref<const Eigen::MatrixXd>& array, const std::filesystem::path& file);
 
 }  // namespace twindeck::io
