@@ -32,7 +32,7 @@ void read_masses(const std::filesystem::path& folder, fe::Model& model, const Na
 void read_points(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
 
 /// model.toml: title, gravity, formulation, prestress, parameters. Called last, since parameters name parts of the others.
-void read_model_toml(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
+void read_model_toml(const std::filesystem::path& file, fe::Model& model);
 void write_model_toml(const fe::Model& model, const std::filesystem::path& folder);
 
 /// 1-based line of the first line of `file` that holds `text`, 0 if there is none.

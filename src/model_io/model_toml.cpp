@@ -155,9 +155,11 @@ std::string text_list(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-void read_model_toml(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
-  const auto file = folder / "model.toml";
+void read_model_toml(const std::filesystem::path& file, fe::Model& model) {
+  NameIndex index;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) index.nodes.emplace(model.nodes[i].id, static_cast<int>(i));
   ModelEntry entry;
+  entry.title = model.title;
   entry.fields().load(file);
   model.title = entry.title;
   model.gravity_m_s2 = entry.gravity_m_s2;

@@ -40,7 +40,7 @@ fe::Model read_model(const std::filesystem::path& folder) {
   read_links(folder, model, index);
   read_masses(folder, model, index);
   read_points(folder, model, index);
-  read_model_toml(folder, model, index);
+  read_model_toml(folder / "model.toml", model);
   return model;
 }
 

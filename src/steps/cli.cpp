@@ -55,7 +55,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
       ->type_name("DIR");
   app.add_option("--results", results, "root that results of earlier steps are read from (default: the folder above --out)")
       ->type_name("DIR");
-  app.add_option("--model", model, "model folder to use instead of the study's")->type_name("DIR");
+  app.add_option("--model", model, "model folder, or .inp file, to use instead of the study's")->type_name("DIR");
   app.add_option("--campaign", campaign, "campaign folder (raw records) to use instead of the study's")->type_name("DIR");
   app.add_option("--modes", modes, "folder with measured modes.csv to use instead of the study's")->type_name("DIR");
   app.add_option("--features", features, "features folder to use instead of the study's")->type_name("DIR");
@@ -132,7 +132,8 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
     throw InputError({"command line", 0, "--out"}, "is missing",
                      "name the folder to write, for example --out results/x/" + step.token);
   }
-  check_folder("--model", line.model);
+  if (!line.model || !fs::is_regular_file(*line.model) || line.model->extension() != ".inp")
+    check_folder("--model", line.model);
   check_folder("--campaign", line.campaign);
   check_folder("--modes", line.modes);
   check_folder("--features", line.features);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "model_io/inp.hpp"
 #include "model_io/model_folder.hpp"
 #include "ponte/generator.hpp"
 #include "steps/study.hpp"
@@ -29,8 +30,19 @@ LoadedModel read_model_folder(const std::filesystem::path& folder) {
   return loaded;
 }
 
+LoadedModel import_inp(StepContext& context, const std::filesystem::path& file) {
+  context.input(file);
+  auto beside = file;
+  beside.replace_extension(".toml");
+  if (std::filesystem::exists(beside)) context.input(beside);
+  model_io::InpModel imported = model_io::read_inp(file);
+  for (const std::string& note : imported.notes) context.say(note);
+  return from_model(std::move(imported.model));
+}
+
 LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
   const std::filesystem::path folder = context.model.value_or(default_folder);
+  if (std::filesystem::is_regular_file(folder)) return import_inp(context, folder);
   if (!std::filesystem::is_directory(folder)) {
     const std::string step = default_folder.parent_path().filename().string();
     throw InputError({folder.string(), 0, ""}, "is not there, expected a model folder",
@@ -46,6 +58,7 @@ LoadedModel load_study_model(StepContext& context, const std::string& variant) {
     throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
   }
   const Study study = read_study(context.study);
+  if (!study.model_inp.empty()) return import_inp(context, study.model_inp);
   if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
   return from_model(ponte::generate(context.input(study.model_file), variant));
 }

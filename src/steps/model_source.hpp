@@ -30,12 +30,15 @@ struct LoadedModel {
 /// Reads a model folder, of finite elements or of matrices.
 [[nodiscard]] LoadedModel read_model_folder(const std::filesystem::path& folder);
 
-/// The model that a step works on: `--model DIR` where it is given, otherwise the folder that an earlier step wrote, with its
+/// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp) and says what of it does not enter a model.
+[[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
+
+/// The model that a step works on: `--model DIR` (or an .inp file) where it is given, otherwise the folder that an earlier step wrote, with its
 /// files registered as inputs.
 /// @throws InputError  naming the step to run first if there is neither
 [[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
 
-/// The study's own model (study.toml [model]): a variant of the generator, or the folder, which has no variants. `--model DIR`
+/// The study's own model (study.toml [model]): a variant of the generator, or a folder or .inp file, which have no variants. `--model DIR`
 /// goes before both.
 [[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
 

@@ -3,6 +3,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "model_io/export.hpp"
+#include "model_io/inp.hpp"
 #include "steps/model_outputs.hpp"
 #include "steps/model_source.hpp"
 #include "steps/run_step.hpp"
@@ -22,6 +23,19 @@ struct ModelConfig {
     return table;
   }
 };
+
+/// model.inp for CalculiX, model_abaqus.inp for Abaqus, with a word on what such a file cannot carry.
+void export_inp(const ModelConfig& config, const steps::LoadedModel& loaded, const steps::StepContext& context) {
+  if (loaded.fe_model() == nullptr) {
+    throw InputError({"command line", 0, "--export-inp"}, "a matrix model has no elements to export", "use --export-matrices");
+  }
+  const int modes = static_cast<int>(config.n_modes);
+  for (const std::string& note :
+       model_io::write_inp(*loaded.model, loaded.state, model_io::InpFlavour::calculix, modes, context.out / "model.inp")) {
+    context.say("model.inp: " + note);
+  }
+  model_io::write_inp(*loaded.model, loaded.state, model_io::InpFlavour::abaqus, modes, context.out / "model_abaqus.inp");
+}
 
 Status run(const ModelConfig& config, steps::StepContext& context) {
   // 1. The model: generated or read, checked, prestressed, assembled; a mechanism is refused here.
@@ -46,6 +60,7 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   steps::write_summary(model, loaded.system, context.out);
   steps::save_model(loaded, loaded.theta, context.out / "model");
   if (context.has_flag("export-matrices")) model_io::write_matrices(loaded.system, loaded.theta, context.out);
+  if (context.has_flag("export-inp")) export_inp(config, loaded, context);
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }
 
@@ -57,9 +72,11 @@ int main(int argc, char** argv) {
   step.token = "s1_model";
   step.summary = "Builds or reads the finite element model, finds its prestress and its modes.";
   step.examples = {"s1_model --study workflows/ponte_del_mare --out results/ponte_del_mare/s1_model --set variant=refined",
-                   "s1_model --model my_bridge --out results/my_bridge/s1_model --export-matrices"};
+                   "s1_model --model my_bridge --out results/my_bridge/s1_model --export-matrices",
+                   "s1_model --model frame.inp --out results/frame/s1_model --export-inp"};
   step.fields = config.fields();
-  step.flags = {{"export-matrices", false, "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv"}};
+  step.flags = {{"export-matrices", false, "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv"},
+                {"export-inp", false, "also write the model for CalculiX (model.inp) and Abaqus (model_abaqus.inp)"}};
   step.run = [&config](steps::StepContext& context) { return run(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

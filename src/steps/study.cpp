@@ -8,7 +8,7 @@ namespace twindeck::steps {
 Study read_study(const std::filesystem::path& folder) {
   Study study;
   long seed = static_cast<long>(study.seed);
-  std::string file, model_folder, features;
+  std::string file, model_folder, inp, features;
   io::FieldTable fields;
   fields.text("title", study.title, "one line that names the study in reports", true)
       .integer("seed", seed, io::non_negative(), "seed of everything random in the study")
@@ -17,15 +17,17 @@ Study read_study(const std::filesystem::path& folder) {
       .texts("steps", study.steps, "tokens of the steps in the order in which they run")
       .choice("model.generator", study.model_generator, {"ponte"}, "parametric generator that writes the model")
       .text("model.file", file, "what the generator reads")
-      .text("model.folder", model_folder, "a model folder, instead of a generator");
+      .text("model.folder", model_folder, "a model folder, instead of a generator")
+      .text("model.inp", inp, "an .inp file of CalculiX or Abaqus, instead of a generator or a folder");
   const std::filesystem::path path = folder / "study.toml";
   fields.load(path);
   const bool generated = !study.model_generator.empty() || !file.empty();
-  if (generated && !model_folder.empty()) {
-    throw InputError({path.string(), 0, "model"}, "names both a generator and a folder", "keep one of the two");
+  const int sources = (generated ? 1 : 0) + (model_folder.empty() ? 0 : 1) + (inp.empty() ? 0 : 1);
+  if (sources > 1) {
+    throw InputError({path.string(), 0, "model"}, "names more than one of generator, folder and inp", "keep one of them");
   }
-  if (!generated && model_folder.empty()) {
-    throw InputError({path.string(), 0, "model"}, "names no model", "give [model] generator and file, or folder");
+  if (sources == 0) {
+    throw InputError({path.string(), 0, "model"}, "names no model", "give [model] generator and file, or folder, or inp");
   }
   if (generated && (study.model_generator.empty() || file.empty())) {
     throw InputError({path.string(), 0, "model"}, "names only one of generator and file", "give both");
@@ -33,6 +35,7 @@ Study read_study(const std::filesystem::path& folder) {
   study.seed = static_cast<std::uint64_t>(seed);
   study.model_file = file;
   study.model_folder = model_folder;
+  study.model_inp = inp;
   study.features = features;
   return study;
 }

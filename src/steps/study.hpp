@@ -15,13 +15,14 @@ struct Study {
   std::string model_generator;         ///< [model] generator = "ponte", together with `file`
   std::filesystem::path model_file;    ///< [model] file: what the generator reads
   std::filesystem::path model_folder;  ///< [model] folder: a model folder, instead of a generator
+  std::filesystem::path model_inp;     ///< [model] inp: a file of CalculiX or Abaqus
   std::filesystem::path features;      ///< folder of measured features (rows.csv, conditions.toml, channels.csv)
   std::vector<std::string> steps;      ///< tokens in the order in which they run
 };
 
 /// Reads `folder/study.toml`.
-/// @throws InputError  if the file is missing or wrong, or if it names neither or both of a generator with its file and a
-/// folder
+/// @throws InputError  if the file is missing or wrong, or if it does not name exactly one of a generator with its file, a
+/// folder, an .inp file
 [[nodiscard]] Study read_study(const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

@@ -1,0 +1,54 @@
+#include "model_io/inp_elements.hpp"
+
+#include <map>
+
+namespace twindeck::model_io {
+namespace {
+
+struct Type {
+  InpKind kind;
+  int nodes;
+};
+
+/// Reduced integration and hybrid variants describe the same member; which formulation is used is ours to say. A B32 becomes
+/// two beams, through its middle node.
+const std::map<std::string, Type>& types() {
+  static const std::map<std::string, Type> known = {
+      {"B31", {InpKind::beam, 2}},         {"B31R", {InpKind::beam, 2}},        {"B31H", {InpKind::beam, 2}},
+      {"B33", {InpKind::beam, 2}},         {"B32", {InpKind::beam, 3}},         {"B32R", {InpKind::beam, 3}},
+      {"B32H", {InpKind::beam, 3}},        {"T3D2", {InpKind::truss, 2}},       {"S4", {InpKind::shell, 4}},
+      {"S4R", {InpKind::shell, 4}},        {"C3D8", {InpKind::solid, 8}},       {"C3D8I", {InpKind::solid, 8}},
+      {"C3D8R", {InpKind::solid, 8}},      {"SPRINGA", {InpKind::spring, 2}},   {"SPRING1", {InpKind::spring, 1}},
+      {"SPRING2", {InpKind::spring, 2}},   {"DASHPOTA", {InpKind::dashpot, 2}}, {"DASHPOT1", {InpKind::dashpot, 1}},
+      {"DASHPOT2", {InpKind::dashpot, 2}}, {"MASS", {InpKind::mass, 1}},        {"ROTARYI", {InpKind::mass, 1}}};
+  return known;
+}
+
+}  // namespace
+
+InpKind inp_kind(const std::string& type) {
+  const auto found = types().find(type);
+  return found == types().end() ? InpKind::none : found->second.kind;
+}
+
+int inp_node_count(const std::string& type) {
+  const auto found = types().find(type);
+  return found == types().end() ? 0 : found->second.nodes;
+}
+
+const std::vector<std::string>& inp_element_types() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const auto& [name, type] : types()) list.push_back(name);
+    return list;
+  }();
+  return names;
+}
+
+std::string inp_element_type_list() {
+  std::string list;
+  for (const auto& name : inp_element_types()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace twindeck::model_io {
+
+/// What an element type of an .inp file becomes.
+enum class InpKind { none, beam, truss, shell, solid, spring, dashpot, mass };
+
+/// Kind of "B31", "S4R" …; none for a type that is not supported.
+[[nodiscard]] InpKind inp_kind(const std::string& type);
+/// Number of nodes that the type has; 0 for a type that is not supported.
+[[nodiscard]] int inp_node_count(const std::string& type);
+[[nodiscard]] const std::vector<std::string>& inp_element_types();
+/// "B31, B32 …" for messages.
+[[nodiscard]] std::string inp_element_type_list();
+
+}  // namespace twindeck::model_io

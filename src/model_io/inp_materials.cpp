@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "core/error.hpp"
+#include "model_io/inp_parts.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+/// *ELASTIC and *DENSITY belong to the last *MATERIAL.
+fe::Material& current(InpParts& parts, const InpCard& card) {
+  if (parts.model.materials.empty()) parts.file.fail(card, card.line, "stands before any *MATERIAL", "move it below one");
+  return parts.model.materials.back();
+}
+
+const InpLine& one_line(InpParts& parts, const InpCard& card, const char* what) {
+  if (card.data.empty()) parts.file.fail(card, card.line, "has no data line", fmt::format("give {} below it", what));
+  if (card.data.size() > 1) {
+    parts.file.fail(card, card.data[1].line, "has more than one data line: values that depend on temperature are not supported",
+                    fmt::format("give {} at one temperature", what));
+  }
+  return card.data.front();
+}
+
+}  // namespace
+
+void read_inp_material(InpParts& parts, const InpCard& card) {
+  const std::string name = parts.file.required(card, "NAME");
+  if (!parts.materials.emplace(upper_case(name), static_cast<int>(parts.model.materials.size())).second) {
+    parts.file.fail(card, card.line, fmt::format("material '{}' is defined twice", name), "keep one of the two");
+  }
+  fe::Material material;
+  material.name = name;
+  parts.model.materials.push_back(material);
+}
+
+void read_inp_elastic(InpParts& parts, const InpCard& card) {
+  fe::Material& material = current(parts, card);
+  parts.file.allow(card, {"TYPE"});
+  const std::string type = upper_case(card.get("TYPE", "ISOTROPIC"));
+  if (type != "ISOTROPIC" && type != "ISO") {
+    parts.file.fail(card, card.line, fmt::format("TYPE={} is not supported, expected ISOTROPIC", type),
+                    "the members of a frame or deck are isotropic here; give E and nu");
+  }
+  const InpLine& line = one_line(parts, card, "E and nu");
+  material.youngs_modulus_Pa = parts.file.number(card, line, 0);
+  material.poisson_ratio = parts.file.number_or(card, line, 1, 0.0);
+  if (material.youngs_modulus_Pa <= 0.0) parts.file.fail(card, line.line, "E must be above 0", "give E in Pa, and nu");
+  if (material.poisson_ratio <= -1.0 || material.poisson_ratio >= 0.5) {
+    parts.file.fail(card, line.line, "nu must lie in ]-1, 0.5[", "steel has 0.3, concrete 0.2");
+  }
+  material.shear_modulus_Pa = material.youngs_modulus_Pa / (2.0 * (1.0 + material.poisson_ratio));
+}
+
+void read_inp_density(InpParts& parts, const InpCard& card) {
+  fe::Material& material = current(parts, card);
+  const InpLine& line = one_line(parts, card, "the density");
+  material.density_kg_m3 = parts.file.number(card, line, 0);
+  if (material.density_kg_m3 < 0.0) parts.file.fail(card, line.line, "the density must not be negative", "give it in kg/m3");
+}
+
+void read_inp_orientation(InpParts& parts, const InpCard& card) {
+  parts.file.allow(card, {"NAME", "SYSTEM", "DEFINITION"});
+  if (upper_case(card.get("SYSTEM", "RECTANGULAR")) != "RECTANGULAR" ||
+      upper_case(card.get("DEFINITION", "COORDINATES")) != "COORDINATES") {
+    parts.file.fail(card, card.line, "only SYSTEM=RECTANGULAR by coordinates is supported", "give the points a and b");
+  }
+  if (card.data.empty()) parts.file.fail(card, card.line, "has no data line", "give the points a and b");
+  Eigen::Vector3d a, b;
+  for (std::size_t i = 0; i < 3; ++i) {
+    a[static_cast<int>(i)] = parts.file.number(card, card.data[0], i);
+    b[static_cast<int>(i)] = parts.file.number(card, card.data[0], i + 3);
+  }
+  const Eigen::Vector3d z = a.cross(b);
+  if (z.norm() < 1e-9 * a.norm() * b.norm() || a.norm() == 0.0) {
+    parts.file.fail(card, card.data[0].line, "points a and b lie in one direction", "b gives the x'-y' plane");
+  }
+  InpOrientation axes;
+  axes.row(0) = a.normalized();
+  axes.row(2) = z.normalized();
+  axes.row(1) = axes.row(2).cross(axes.row(0));
+  parts.orientations[upper_case(parts.file.required(card, "NAME"))] = axes;
+}
+
+}  // namespace twindeck::model_io

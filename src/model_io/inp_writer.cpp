@@ -1,0 +1,198 @@
+#include "model_io/inp_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "io/atomic.hpp"
+#include "io/csv.hpp"
+#include "model_io/inp_cards.hpp"
+
+namespace twindeck::model_io {
+
+using io::format_number;
+
+InpWriter::InpWriter(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour)
+    : model_(model), state_(state), flavour_(flavour) {
+  for (const fe::Node& node : model.nodes) {
+    if (node.id < 1 || node.id > 900'000'000) {
+      throw InputError({model.source, 0, "node"},
+                       fmt::format("node {} cannot be exported, expected numbers from 1 to 900000000", node.id),
+                       "number the nodes anew");
+    }
+    last_node_ = std::max(last_node_, node.id);
+    nodes_ += fmt::format("{}, {}, {}, {}\n", node.id, format_number(node.x_m.x()), format_number(node.x_m.y()),
+                          format_number(node.x_m.z()));
+  }
+  for (const fe::Element& element : model.elements) last_element_ = std::max(last_element_, element.id);
+}
+
+void InpWriter::heading() {
+  heading_ =
+      fmt::format("*HEADING\n{}\n** SI units; written by twindeck for {}\n", model_.title.empty() ? "model" : model_.title,
+                  flavour_ == InpFlavour::calculix ? "CalculiX" : "Abaqus");
+  if (!model_.monitoring_points.empty()) {
+    // One node a set: read back as monitoring points.
+    for (const auto& [name, node] : model_.monitoring_points)
+      supports_ += fmt::format("*NSET, NSET={}\n{}\n", set_name(name), node_id(node));
+  }
+}
+
+long InpWriter::node_id(int node) const { return model_.nodes[static_cast<std::size_t>(node)].id; }
+
+long InpWriter::add_node(const Eigen::Vector3d& x) {
+  nodes_ += fmt::format("{}, {}, {}, {}\n", ++last_node_, format_number(x.x()), format_number(x.y()), format_number(x.z()));
+  return last_node_;
+}
+
+std::string InpWriter::set_name(const std::string& wish) {
+  std::string name;
+  for (const char c : wish) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  if (name.empty() || std::isalpha(static_cast<unsigned char>(name.front())) == 0) name = "S" + name;
+  const int count = ++used_names_[upper_case(name)];
+  return count == 1 ? name : fmt::format("{}_v{}", name, count);
+}
+
+std::string InpWriter::material(const std::string& wish, double youngs_modulus, double poisson_ratio, double density) {
+  const std::string data = fmt::format("*ELASTIC\n{}, {}\n*DENSITY\n{}\n", format_number(youngs_modulus),
+                                       format_number(poisson_ratio), format_number(density));
+  const auto [place, fresh] = material_names_.emplace(wish + "\n" + data, "");
+  if (fresh) {
+    place->second = set_name("M_" + wish);
+    materials_ += fmt::format("*MATERIAL, NAME={}\n{}", place->second, data);
+  }
+  return place->second;
+}
+
+std::string InpWriter::element_block(const std::string& type, const std::string& group,
+                                     const std::vector<std::pair<long, std::vector<long>>>& rows) {
+  const auto [place, fresh] = group_sets_.emplace(group, "");
+  if (fresh) place->second = set_name(group);
+  elements_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", type, place->second);
+  for (const auto& [id, nodes] : rows) {
+    elements_ += std::to_string(id);
+    for (const long node : nodes) elements_ += fmt::format(", {}", node);
+    elements_ += '\n';
+  }
+  const std::string set = set_name(place->second + "_part");
+  elements_ += fmt::format("*ELSET, ELSET={}\n", set);
+  for (const auto& [id, nodes] : rows) elements_ += fmt::format("{}\n", id);
+  return set;
+}
+
+void InpWriter::note(const std::string& sentence) {
+  if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) notes_.push_back(sentence);
+}
+
+void InpWriter::rigid_equations(long master, const Eigen::Vector3d& master_x, long slave, const Eigen::Vector3d& slave_x,
+                                bool rotations) {
+  const Eigen::Vector3d r = slave_x - master_x;
+  for (int i = 0; i < (rotations ? 6 : 3); ++i) {
+    std::string terms = fmt::format("{}, {}, -1.\n{}, {}, 1.\n", slave, i + 1, master, i + 1);
+    int count = 2;
+    for (int j = 0; j < 3 && i < 3; ++j) {
+      const double factor = Eigen::Vector3d::Unit(j).cross(r)[i];
+      if (factor == 0.0) continue;
+      terms += fmt::format("{}, {}, {}\n", master, j + 4, format_number(factor));
+      ++count;
+    }
+    equations_ += fmt::format("*EQUATION\n{}\n{}", count, terms);
+  }
+}
+
+void InpWriter::links_and_supports() {
+  for (const fe::RigidLink& link : model_.links) {
+    const fe::Node &master = model_.nodes[static_cast<std::size_t>(link.master)],
+                   &slave = model_.nodes[static_cast<std::size_t>(link.slave)];
+    const bool turns = std::any_of(model_.elements.begin(), model_.elements.end(), [&](const fe::Element& e) {
+      const bool holds = e.type == fe::ElementType::beam || e.type == fe::ElementType::shell;
+      return holds && std::find(e.nodes.begin(), e.nodes.end(), link.slave) != e.nodes.end();
+    });
+    rigid_equations(master.id, master.x_m, slave.id, slave.x_m, turns);
+  }
+  if (model_.supports.empty()) return;
+  supports_ += "*BOUNDARY\n";
+  for (const fe::Support& support : model_.supports) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (support.fixed[i]) supports_ += fmt::format("{0}, {1}, {1}\n", node_id(support.node), i + 1);
+    }
+  }
+}
+
+void InpWriter::springs_and_masses() {
+  const auto direction_axes = [this](const Eigen::Vector3d& d) {
+    // x' of the local system is the spring's direction
+    const Eigen::Vector3d other = std::abs(d.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d b = other.cross(d).normalized();
+    const std::string name = set_name("O_spring");
+    elements_ += fmt::format("*ORIENTATION, NAME={}, SYSTEM=RECTANGULAR\n{}, {}, {}, {}, {}, {}\n", name, format_number(d.x()),
+                             format_number(d.y()), format_number(d.z()), format_number(b.x()), format_number(b.y()),
+                             format_number(b.z()));
+    return name;
+  };
+  for (const fe::Spring& spring : model_.springs) {
+    if (!spring.active || spring.series) {
+      note("springs that are inactive or in series with a dashpot are left out, as they are in the stiffness matrix");
+      continue;
+    }
+    if (spring.friction_N > 0.0) note("friction of springs is left out");
+    if (spring.damping > 0.0) note("dashpots are left out: they do not enter a frequency step");
+    if (spring.stiffness <= 0.0) continue;
+    int axis = -1;
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(std::abs(spring.direction[i]) - 1.0) < 1e-9) axis = i;
+    }
+    const std::string orientation = axis < 0 ? ", ORIENTATION=" + direction_axes(spring.direction) : "";
+    const int dof = std::max(axis, 0) + (spring.rotation ? 4 : 1);
+    std::vector<long> nodes = {node_id(spring.node)};
+    if (spring.node2 >= 0) nodes.push_back(node_id(spring.node2));
+    const std::string set = element_block(spring.node2 < 0 ? "SPRING1" : "SPRING2",
+                                          spring.group.empty() ? "springs" : spring.group, {{next_element(), nodes}});
+    elements_ +=
+        fmt::format("*SPRING, ELSET={}{}\n{}\n{}\n", set, orientation,
+                    spring.node2 < 0 ? std::to_string(dof) : fmt::format("{0}, {0}", dof), format_number(spring.stiffness));
+  }
+  for (const fe::PointMass& mass : model_.masses) {
+    if (mass.mass_kg > 0.0) {
+      const std::string set =
+          element_block("MASS", mass.group.empty() ? "masses" : mass.group, {{next_element(), {node_id(mass.node)}}});
+      elements_ += fmt::format("*MASS, ELSET={}\n{}\n", set, format_number(mass.mass_kg));
+    }
+    if (mass.inertia_kg_m2.maxCoeff() <= 0.0) continue;
+    if (flavour_ == InpFlavour::calculix) {
+      note("rotary inertia of point masses is left out: CalculiX has no such element");
+      continue;
+    }
+    const std::string set =
+        element_block("ROTARYI", mass.group.empty() ? "masses" : mass.group, {{next_element(), {node_id(mass.node)}}});
+    elements_ += fmt::format("*ROTARY INERTIA, ELSET={}\n{}, {}, {}\n", set, format_number(mass.inertia_kg_m2.x()),
+                             format_number(mass.inertia_kg_m2.y()), format_number(mass.inertia_kg_m2.z()));
+  }
+}
+
+void InpWriter::frequency_step(int n_modes) {
+  step_ = fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", n_modes);
+}
+
+std::string InpWriter::text() const {
+  std::string comments;
+  for (const auto& sentence : notes_) comments += "** " + sentence + "\n";
+  return heading_ + comments + "*NODE, NSET=NALL\n" + nodes_ + materials_ + elements_ + equations_ + supports_ + step_;
+}
+
+std::vector<std::string> write_inp(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour, int n_modes,
+                                   const std::filesystem::path& file) {
+  InpWriter writer(model, state, flavour);
+  writer.heading();
+  writer.beams_and_bars();
+  writer.faces_and_blocks();
+  writer.springs_and_masses();
+  writer.links_and_supports();
+  writer.frequency_step(n_modes);
+  io::write_file_atomically(file, writer.text());
+  return writer.notes();
+}
+
+}  // namespace twindeck::model_io
