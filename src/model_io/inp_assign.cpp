@@ -193,19 +193,24 @@ void assign_shell(InpParts& parts, const InpCard& card) {
   }
 }
 
-/// *SOLID SECTION: area of trusses; solids have none.
+/// *SOLID SECTION: area of trusses; solids have no section of their own.
 void assign_solid(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"ELSET", "MATERIAL", "CONTROLS"});
   const int material = material_of(parts, card);
   const auto elements = parts.elements_of(card);
   if (elements.empty()) return;
   const InpKind kind = inp_kind(elements.front()->type);
-  fe::Section s;
-  if (kind == InpKind::truss) s.area_m2 = above_zero(parts, card, data_line(parts, card, 0, "the area of the trusses"), 0);
-  const int section = add_section(parts, card, s);
+  int section = -1;
+  if (kind == InpKind::truss) {
+    fe::Section s;
+    s.area_m2 = above_zero(parts, card, data_line(parts, card, 0, "the area of the trusses"), 0);
+    section = add_section(parts, card, s);
+  }
+  const fe::ElementType type = kind == InpKind::truss ? fe::ElementType::bar : fe::ElementType::solid;
   for (const InpElement* element : elements) {
-    if (inp_kind(element->type) != kind || kind != InpKind::truss) refuse_kind(parts, card, *element);
-    parts.model.elements.push_back(to_element(parts, card, *element, fe::ElementType::bar, material, section));
+    if (inp_kind(element->type) != kind || (kind != InpKind::truss && kind != InpKind::solid))
+      refuse_kind(parts, card, *element);
+    parts.model.elements.push_back(to_element(parts, card, *element, type, material, section));
   }
 }
 

@@ -88,6 +88,7 @@ void InpWriter::beams_and_bars() {
   std::map<std::string, long> ends;  // nodes at the ends of offsets
   for (std::size_t i = 0; i < model_.elements.size(); ++i) {
     const fe::Element& e = model_.elements[i];
+    if (e.section < 0) continue;
     const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
     const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
     const auto wish = e.group.empty() ? s.name : e.group;
@@ -164,7 +165,7 @@ void InpWriter::beams_and_bars() {
 void InpWriter::faces_and_blocks() {
   std::map<std::string, std::pair<const fe::Element*, std::vector<std::pair<long, std::vector<long>>>>> groups;
   for (const fe::Element& e : model_.elements) {
-    if (e.type != fe::ElementType::shell) continue;
+    if (e.type != fe::ElementType::shell && e.type != fe::ElementType::solid) continue;
     std::vector<long> nodes;
     for (const int node : e.nodes) nodes.push_back(node_id(node));
     auto& group = groups[fmt::format("{}|{}|{}|{}", static_cast<int>(e.type), e.group, e.section, e.material)];
@@ -173,14 +174,20 @@ void InpWriter::faces_and_blocks() {
   }
   for (const auto& [text, group] : groups) {
     const fe::Element& e = *group.first;
-    const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
     const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
+    const std::string material_name = material(m.name, m.youngs_modulus_Pa, m.poisson_ratio, m.density_kg_m3);
+    if (e.type == fe::ElementType::solid) {
+      // Incompatible modes in both programs, as in ours.
+      const std::string set = element_block("C3D8I", e.group.empty() ? "solid" : e.group, group.second);
+      elements_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n", set, material_name);
+      continue;
+    }
+    const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
     const std::string set = element_block("S4", e.group.empty() ? s.name : e.group, group.second);
-    elements_ +=
-        fmt::format("*SHELL SECTION, ELSET={}, MATERIAL={}\n{}\n", set,
-                    material(m.name, m.youngs_modulus_Pa, m.poisson_ratio, m.density_kg_m3), format_number(s.thickness_m));
-    if (s.bending_inertia_ratio != 1.0)
+    elements_ += fmt::format("*SHELL SECTION, ELSET={}, MATERIAL={}\n{}\n", set, material_name, format_number(s.thickness_m));
+    if (s.bending_inertia_ratio != 1.0) {
       note(fmt::format("the bending inertia ratio {} of section '{}' is left out", s.bending_inertia_ratio, s.name));
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/error.hpp"
@@ -31,15 +32,18 @@ std::string lines(const Range& range, Text text) {
   return body;
 }
 
-/// A VTK string array: the characters as numbers, each string ended by 0.
-std::string string_array(const std::string& name, const std::vector<std::string>& texts) {
-  std::string body;
-  for (const auto& text : texts) {
-    for (const unsigned char c : text) body += fmt::format("{} ", static_cast<int>(c));
-    body += "0\n";
+/// Names behind the numbers of the cell fields, for people: an XML comment, since readers other than VTK's own (meshio) refuse
+/// string arrays.
+std::string names_comment(const std::string& field, const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) text += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, names[i]);
+  // "--" and tags must not stand in a comment
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '-' && text[i + 1] == '-') text[i + 1] = '_';
   }
-  return fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}</Array>\n", name,
-                     texts.size(), body);
+  std::replace(text.begin(), text.end(), '<', '(');
+  std::replace(text.begin(), text.end(), '>', ')');
+  return fmt::format("<!-- {}: {} -->\n", field, text);
 }
 
 /// Groups in alphabetical order, so that the numbers do not depend on the order of the elements.
@@ -55,8 +59,8 @@ std::string field_data(const fe::Model& model, const std::map<std::string, int>&
   std::vector<std::string> names;
   for (const auto& [name, number] : groups) names.push_back(name.empty() ? "(none)" : name);
   const std::vector<double> frequencies(modes.frequency_Hz.data(), modes.frequency_Hz.data() + modes.frequency_Hz.size());
-  return "<FieldData>\n" + string_array("title", {model.title}) + string_array("group_names", names) +
-         string_array("type_names", element_type_names()) +
+  return names_comment("title", {model.title}) + names_comment("group", names) + names_comment("type", element_type_names()) +
+         "<FieldData>\n" +
          fmt::format(
              "<DataArray type=\"Float64\" Name=\"frequency_Hz\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
              frequencies.size(), lines(frequencies, [](double f) { return fmt::format("{:.12g}", f); })) +

@@ -6,6 +6,7 @@
 
 #include "io/csv.hpp"
 #include "model_io/export.hpp"
+#include "model_io/inp.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -87,6 +88,16 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
     summary.row({"nodes", nodes.size(), "-"});
   }
   summary.save(folder / "summary.csv");
+}
+
+void export_inp(const LoadedModel& loaded, int n_modes, const StepContext& context) {
+  if (loaded.fe_model() == nullptr) {
+    throw InputError({"command line", 0, "--export-inp"}, "a matrix model has no elements to export", "use --export-matrices");
+  }
+  using model_io::InpFlavour;
+  const auto notes = model_io::write_inp(*loaded.model, loaded.state, InpFlavour::calculix, n_modes, context.out / "model.inp");
+  for (const std::string& note : notes) context.say("model.inp: " + note);
+  model_io::write_inp(*loaded.model, loaded.state, InpFlavour::abaqus, n_modes, context.out / "model_abaqus.inp");
 }
 
 }  // namespace twindeck::steps

@@ -6,6 +6,7 @@
 #include "fe/assembly.hpp"
 #include "fe/model.hpp"
 #include "modal/modes.hpp"
+#include "steps/model_source.hpp"
 
 /// What a step writes about a model and its modes, beside what model_io writes.
 namespace twindeck::steps {
@@ -28,5 +29,9 @@ void write_dampers(const fe::Model* model, const std::filesystem::path& folder);
 
 /// summary.csv: `quantity,value,unit`: degrees of freedom, nodes, elements of each type, springs, links, masses, parameters.
 void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const std::filesystem::path& folder);
+
+/// model.inp for CalculiX, model_abaqus.inp for Abaqus, with a word on what such a file cannot carry.
+/// @throws InputError  for a matrix model, which has no elements
+void export_inp(const LoadedModel& loaded, int n_modes, const StepContext& context);
 
 }  // namespace twindeck::steps

@@ -33,13 +33,13 @@ struct LoadedModel {
 /// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp) and says what of it does not enter a model.
 [[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
 
-/// The model that a step works on: `--model DIR` (or an .inp file) where it is given, otherwise the folder that an earlier step wrote, with its
-/// files registered as inputs.
+/// The model that a step works on: `--model DIR` (or an .inp file) where it is given, otherwise the folder that an earlier step
+/// wrote, with its files registered as inputs.
 /// @throws InputError  naming the step to run first if there is neither
 [[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
 
-/// The study's own model (study.toml [model]): a variant of the generator, or a folder or .inp file, which have no variants. `--model DIR`
-/// goes before both.
+/// The study's own model (study.toml [model]): a variant of the generator, or a folder or .inp file, which have no variants.
+/// `--model DIR` goes before both.
 [[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
 
 /// Writes the model as a model folder, with `theta` as its values.

@@ -3,7 +3,6 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "model_io/export.hpp"
-#include "model_io/inp.hpp"
 #include "steps/model_outputs.hpp"
 #include "steps/model_source.hpp"
 #include "steps/run_step.hpp"
@@ -23,19 +22,6 @@ struct ModelConfig {
     return table;
   }
 };
-
-/// model.inp for CalculiX, model_abaqus.inp for Abaqus, with a word on what such a file cannot carry.
-void export_inp(const ModelConfig& config, const steps::LoadedModel& loaded, const steps::StepContext& context) {
-  if (loaded.fe_model() == nullptr) {
-    throw InputError({"command line", 0, "--export-inp"}, "a matrix model has no elements to export", "use --export-matrices");
-  }
-  const int modes = static_cast<int>(config.n_modes);
-  for (const std::string& note :
-       model_io::write_inp(*loaded.model, loaded.state, model_io::InpFlavour::calculix, modes, context.out / "model.inp")) {
-    context.say("model.inp: " + note);
-  }
-  model_io::write_inp(*loaded.model, loaded.state, model_io::InpFlavour::abaqus, modes, context.out / "model_abaqus.inp");
-}
 
 Status run(const ModelConfig& config, steps::StepContext& context) {
   // 1. The model: generated or read, checked, prestressed, assembled; a mechanism is refused here.
@@ -60,7 +46,7 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   steps::write_summary(model, loaded.system, context.out);
   steps::save_model(loaded, loaded.theta, context.out / "model");
   if (context.has_flag("export-matrices")) model_io::write_matrices(loaded.system, loaded.theta, context.out);
-  if (context.has_flag("export-inp")) export_inp(config, loaded, context);
+  if (context.has_flag("export-inp")) steps::export_inp(loaded, static_cast<int>(config.n_modes), context);
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }
 

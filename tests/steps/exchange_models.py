@@ -36,7 +36,7 @@ def write_model(folder, title, nodes, elements, sections, supports, materials=No
               [[f"base_{i}", i, *flags] for i, flags in supports.items()])
 
 
-def space_frame(folder, pieces=8):
+def space_frame(folder, pieces=24):
     """Two storeys, two bays by one, of slender tubes with a bracing of another size: no two directions alike."""
     nodes, elements, ids = {}, [], {}
 
@@ -67,3 +67,107 @@ def space_frame(folder, pieces=8):
     base = {node(x, y, 0.0): [1] * 6 for x in xs for y in ys}
     write_model(folder, "space frame of tubes", nodes, elements,
                 {"column": pipe(0.0445, 0.004), "girder": pipe(0.038, 0.0036), "brace": pipe(0.024, 0.003)}, base)
+
+
+def read_csv(file):
+    with open(file, newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+class SolidOrShellModel:
+    """Nodes found by place, shells and solids; written as a model folder."""
+
+    def __init__(self):
+        self.nodes, self.ids, self.elements, self.supports = {}, {}, [], {}
+
+    def node(self, x):
+        key = tuple(round(c, 6) for c in x)
+        if key not in self.ids:
+            self.ids[key] = len(self.ids) + 1
+            self.nodes[self.ids[key]] = tuple(x)
+        return self.ids[key]
+
+    def shell(self, corners, group, pieces):
+        """A quadrilateral cut by its bilinear map into pieces[0] along its first edge and pieces[1] along its second."""
+        def at(i, j):
+            s, t = i / pieces[0], j / pieces[1]
+            weights = [(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t]
+            return self.node([sum(w * c[k] for w, c in zip(weights, corners)) for k in range(3)])
+
+        for i in range(pieces[0]):
+            for j in range(pieces[1]):
+                self.elements.append(("shell", group, [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]))
+
+    def block(self, front, along, down, pieces):
+        """Solids behind a line of nodes `front`: pieces[0] along and pieces[1] down."""
+        def at(p, i, j):
+            return self.node([p[k] + along[k] * i / pieces[0] + down[k] * j / pieces[1] for k in range(3)])
+
+        def cross(a, b):
+            return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+        across = [b - a for a, b in zip(front[0], front[1])]
+        if sum(a * b for a, b in zip(cross(across, along), down)) < 0:  # numbering of a solid turns with the sides' handedness
+            front = front[::-1]
+        for p, q in zip(front, front[1:]):
+            for i in range(pieces[0]):
+                for j in range(pieces[1]):
+                    lower = [at(p, i, j + 1), at(q, i, j + 1), at(q, i + 1, j + 1), at(p, i + 1, j + 1)]
+                    upper = [at(p, i, j), at(q, i, j), at(q, i + 1, j), at(p, i + 1, j)]
+                    self.elements.append(("solid", "end_block", upper + lower))
+
+    def write(self, folder, title, material, thickness):
+        folder.mkdir(parents=True)
+        (folder / "model.toml").write_text(f'title = "{title}"\n')
+        write_csv(folder / "nodes.csv", ["node", "x_m", "y_m", "z_m"], [[i, *x] for i, x in self.nodes.items()])
+        write_csv(folder / "materials.csv", ["material", "youngs_modulus_Pa", "poisson_ratio", "density_kg_m3"], [["concrete", *material]])
+        write_csv(folder / "sections.csv", ["section", "thickness_m"], [["slab", thickness]])
+        write_csv(folder / "elements.csv", ["element", "type", "group", "material", "section", *[f"node{i}" for i in range(1, 9)]],
+                  [[n, kind, group, "concrete", "slab" if kind == "shell" else "", *ids, *[""] * (8 - len(ids))]
+                   for n, (kind, group, ids) in enumerate(self.elements, 1)])
+        write_csv(folder / "supports.csv", ["support", "node", "x", "y", "z", "rx", "ry", "rz"],
+                  [[f"point_{i}", i, *flags] for i, flags in sorted(self.supports.items())])
+
+
+def bridge_part(folder, bridge, pieces=(22, 7), length_m=8.0):
+    """The foot deck's slab beside the crown, held at the chords' nodes as the truss holds it, with an end block in solids that
+    carries the slab's end: shells and solids of the bridge, from its own model folder."""
+    nodes = {int(r["node"]): tuple(float(r[c]) for c in ("x_m", "y_m", "z_m")) for r in read_csv(bridge / "nodes.csv")}
+    thickness = {r["section"]: float(r["thickness_m"] or 0) for r in read_csv(bridge / "sections.csv")}
+    materials = {r["material"]: (float(r["youngs_modulus_Pa"]), float(r["poisson_ratio"]), float(r["density_kg_m3"]))
+                 for r in read_csv(bridge / "materials.csv")}
+    slab = [r for r in read_csv(bridge / "elements.csv") if r["type"] == "shell" and r["group"].startswith("slab_foot")]
+    slab = [(r, [nodes[int(r[f"node{i}"])] for i in range(1, 5)]) for r in slab]
+    slab = [(r, q) for r, q in slab if all(-1e-6 <= p[0] for p in q) and sum(p[0] for p in q) / 4 <= length_m]
+    part = SolidOrShellModel()
+    edges = {}
+    for _, q in slab:
+        part.shell(q, "slab", pieces)
+        for a, b in zip(q, q[1:] + q[:1]):
+            key = tuple(sorted((part.node(a), part.node(b))))
+            edges[key] = edges.get(key, 0) + 1
+    start = min(p[0] for _, q in slab for p in q)
+    for (a, b), count in edges.items():
+        across = all(abs(part.nodes[i][0] - start) < 1e-6 for i in (a, b))
+        if count == 1 and not across:
+            for i in (a, b):
+                part.supports[i] = [1, 1, 1, 0, 0, 0]
+    front = sorted((x for x in part.nodes.values() if abs(x[0] - start) < 1e-6), key=lambda x: x[1])
+    down = (0.0, 0.0, -0.4)
+    part.block(front, (-0.8, 0.0, 0.0), down, (2, 2))
+    for x in (front[0], front[-1]):
+        for back in (0.0, -0.8):
+            part.supports[part.node([x[0] + back, x[1], x[2] - 0.4])] = [1, 1, 1, 0, 0, 0]
+    first = slab[0][0]
+    part.write(folder, "slab and end block of the foot deck", materials[first["material"]], thickness[first["section"]])
+
+
+def block_alone(folder):
+    """A slender end block of concrete, held at one face: bending, torsion and stretching within ten modes."""
+    part = SolidOrShellModel()
+    front = [(0.0, 0.5 * i / 7, 0.0) for i in range(8)]
+    part.block(front, (4.0, 0.0, 0.0), (0.0, 0.0, -0.8), (48, 10))
+    for i, x in part.nodes.items():
+        if abs(x[0]) < 1e-9:
+            part.supports[i] = [1, 1, 1, 0, 0, 0]
+    part.write(folder, "block of solids", (35e9, 0.2, 2500), 0.1)

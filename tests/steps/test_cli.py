@@ -84,7 +84,7 @@ class Refusals(unittest.TestCase):
             self.assertIn("s1_model.toml:3: is no valid TOML", self.refused("--study", folder, "--out", folder + "/out"))
 
     def test_contradictory_study_is_refused(self):
-        model = {"names both a generator and a folder": 'generator = "ponte"\nfile = "a"\nfolder = "b"\n', "names no model": "",
+        model = {"names more than one of generator, folder and inp": 'generator = "ponte"\nfile = "a"\nfolder = "b"\n', "names no model": "",
                  "names only one of generator and file": 'generator = "ponte"\n', "did you mean 'ponte'?": 'generator = "pont"\n'}
         for problem, lines in model.items():
             with tempfile.TemporaryDirectory() as folder:

@@ -1,0 +1,235 @@
+"""Models as .inp files: written for CalculiX and Abaqus, read back, and solved by CalculiX.
+
+Oracles: CalculiX (ccx), an independent solver, on models that twindeck exports; the model itself for the round trip, since the
+Abaqus flavour loses nothing; a cantilever's closed form for a file written by hand; the file's own line numbers for refusals.
+
+Tolerances, with their reasons: 0.5 % for shells and solids and 1 % for the frame are the product's own aim, on meshes fine enough
+that CalculiX has converged to about half of that (it expands shells and beams into solids of 8 and 20 nodes, which approach from
+above: halving the length of the frame's elements halves its difference, 1.5 % with 8 pieces a member, 0.6 % with 24).
+"""
+
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import exchange_models as models  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+STEP = pathlib.Path(os.environ["TWINDECK_BIN"]).resolve() / "s1_model"
+CCX = shutil.which("ccx")
+
+
+def run(model, out, *arguments):
+    return subprocess.run([STEP, "--model", model, "--out", out, *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=300)
+
+
+def frequencies(folder):
+    return [float(row["frequency_Hz"]) for row in models.read_csv(folder / "modes.csv")]
+
+
+def calculix(folder):
+    """Frequencies [Hz] of model.inp as ccx prints them: the fourth column of the eigenvalue table."""
+    done = subprocess.run([CCX, "-i", "model"], cwd=folder, capture_output=True, text=True, timeout=600, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    if "Job finished" not in done.stdout:
+        raise AssertionError("ccx did not finish: " + done.stdout[-2000:])
+    row = re.compile(r"\s+\d+\s+\S+E\S+\s+\S+E\S+\s+(\S+E\S+)\s")
+    return [float(m.group(1)) for m in map(row.match, (folder / "model.dat").read_text().splitlines()) if m]
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def exported(self, model, name="s1"):
+        done = run(model, self.folder / name, "--set", "n_modes=10", "--export-inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return frequencies(self.folder / name)
+
+
+@unittest.skipUnless(CCX, "ccx is not installed (Debian package calculix-ccx): CalculiX is not compared with")
+class AgainstCalculiX(Folder):
+    def compare(self, what, model, allowed):
+        ours, theirs = self.exported(model), calculix(self.folder / "s1")
+        self.assertGreaterEqual(len(theirs), 10)
+        print(f"\n{what}: mode, ours [Hz], CalculiX [Hz], difference")
+        for mode, (f, x) in enumerate(zip(ours, theirs), 1):
+            print(f"  {mode:2d} {f:10.4f} {x:10.4f} {100 * (x / f - 1):+.2f} %")
+        for f, x in zip(ours, theirs):
+            self.assertLess(abs(x / f - 1), allowed)
+
+    def test_space_frame_of_tubes(self):
+        models.space_frame(self.folder / "frame")
+        self.compare("space frame", self.folder / "frame", 0.01)
+
+    def test_block_of_solids(self):
+        models.block_alone(self.folder / "block")
+        self.compare("block of solids", self.folder / "block", 0.005)
+
+    def test_slab_and_end_block_of_the_bridge(self):
+        done = subprocess.run([STEP, "--study", "workflows/ponte_del_mare", "--out", self.folder / "bridge", "--set", "n_modes=1"], cwd=ROOT,
+                              capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        models.bridge_part(self.folder / "part", self.folder / "bridge" / "model")
+        self.compare("slab and end block of the foot deck", self.folder / "part", 0.005)
+
+
+class RoundTrip(Folder):
+    def test_abaqus_flavour_loses_nothing(self):
+        models.space_frame(self.folder / "frame", pieces=2)
+        before = self.exported(self.folder / "frame")
+        after = self.exported(self.folder / "s1" / "model_abaqus.inp", "again")
+        for f, g in zip(before, after):  # 12 digits in the file
+            self.assertAlmostEqual(g / f, 1.0, delta=1e-9)
+        groups = {row["group"] for row in models.read_csv(self.folder / "again" / "model" / "elements.csv")}
+        self.assertEqual(groups, {"column", "girder", "brace"})
+
+    def test_imported_model_is_a_model_folder(self):
+        models.block_alone(self.folder / "block")
+        before = self.exported(self.folder / "block")
+        self.exported(self.folder / "s1" / "model.inp", "read")
+        self.assertEqual(self.exported(self.folder / "read" / "model", "again"), frequencies(self.folder / "read"))
+        for f, g in zip(before, frequencies(self.folder / "read")):
+            self.assertAlmostEqual(g / f, 1.0, delta=1e-9)
+
+
+CANTILEVER = """*Heading
+A mast, as another program writes it
+** a comment
+*Part, name=Part-1
+*Node
+1, 0., 0., 0.
+{nodes}
+*Element, type=B33, elset=Mast
+{elements}
+*Nset, nset=Base
+ 1,
+*Nset, nset=Top
+ {last},
+*Elset, elset=All, generate
+ 1, {count}, 1
+*Beam Section, elset=All, material="Steel S355", section=RECT
+0.2, 0.1
+1., 0., 0.
+*End Part
+*Assembly, name=Assembly
+*Instance, name=Part-1-1, part=Part-1
+*End Instance
+*End Assembly
+*Material, name="Steel S355"
+*Density
+7850.,
+*Elastic
+ 2.1e11, 0.3
+*Boundary
+Part-1-1.Base, ENCASTRE
+*Step, name=Modes, nlgeom=NO
+*Frequency, eigensolver=Lanczos
+ 6, , , ,
+*Cload
+Top, 1, 1000.
+*Output, field
+*Node Output
+U,
+*End Step
+"""
+
+
+def cantilever(count=20, height=10.0):
+    return CANTILEVER.format(nodes="\n".join(f"{i + 1}, 0., 0., {height * i / count:.6f}" for i in range(1, count + 1)), count=count,
+                             elements="\n".join(f"{i}, {i}, {i + 1}" for i in range(1, count + 1)), last=count + 1)
+
+
+class ImportedByHand(Folder):
+    def imported(self, text):
+        file = self.folder / "mast.inp"
+        file.write_text(text)
+        return run(file, self.folder / "out", "--set", "n_modes=4")
+
+    def refused(self, text, *fragments):
+        done = self.imported(text)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+        for fragment in fragments:
+            self.assertIn(fragment, done.stderr)
+
+    def test_abaqus_flavour_cantilever(self):
+        done = self.imported(cantilever())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("*CLOAD (line ", done.stderr)  # what does not enter is said
+        # Euler cantilever, beta l = 1.8751041: bending about the weak axis first. n1 = x: 0.2 m along x, 0.1 m along y. Rotary inertia
+        # lowers it by about (pi r/2 l)^2/2 = 1e-5.
+        area, weak, strong = 0.02, 0.2 * 0.1**3 / 12, 0.1 * 0.2**3 / 12
+        exact = [1.8751040687**2 / (2 * math.pi * 100) * math.sqrt(2.1e11 * i / (7850 * area)) for i in (weak, strong)]
+        for f, wanted in zip(frequencies(self.folder / "out"), exact):
+            self.assertAlmostEqual(f / wanted, 1.0, delta=1e-3)
+        points = models.read_csv(self.folder / "out" / "model" / "points.csv")
+        self.assertEqual({row["point"] for row in points}, {"Base", "Top"})
+
+    def test_file_beside_gives_parameters(self):
+        (self.folder / "mast.toml").write_text('title = "mast"\n[[parameter]]\nname = "E"\ntarget = "youngs_modulus"\nof = ["Steel S355"]\n'
+                                               'unit = "Pa"\ninitial = 2.1e11\nlower = 1.9e11\nupper = 2.2e11\n')
+        self.assertEqual(self.imported(cantilever()).returncode, 0)
+        self.assertIn('name = "E"', (self.folder / "out" / "model" / "model.toml").read_text())
+
+    def test_unsupported_card_names_card_and_line(self):
+        text = cantilever().replace("*Boundary\n", "*Tie, name=T\nA, B\n*Boundary\n")
+        line = text[:text.index("*Tie")].count("\n") + 1
+        self.refused(text, f"mast.inp:{line}: *TIE: unsupported card")
+
+    def test_unsupported_element_type_and_section(self):
+        self.refused(cantilever().replace("type=B33", "type=B38"), "unsupported element type B38")
+        self.refused(cantilever().replace("section=RECT", "section=ARBITRARY"), "unsupported SECTION=ARBITRARY")
+
+    def test_other_faults(self):
+        self.refused(cantilever().replace("*End Part", "*Include, input=a.inp\n*End Part"), "*INCLUDE", "unsupported card")
+        self.refused(cantilever().replace("20, 20, 21", "20, 20, 99"), "node 99 is not defined")
+        self.refused(cantilever().replace("material=\"Steel S355\",", "material=steal,"), "material 'steal' is not defined")
+        self.refused(cantilever().replace("elset=All, material", "elset=Al, material"), "no set is called 'Al' (did you mean 'All'?)")
+        self.refused(cantilever().replace("7850.,", "heavy"), "'heavy' is no finite number")
+        self.refused(cantilever().replace(" 1, 20, 1\n", " 1, 19, 1\n"), "element 20 has no section")
+        self.refused(cantilever().replace("1., 0., 0.", "0., 0., 1."), "lies along element 1")
+        self.refused(cantilever().replace("Base, ENCASTRE", "Base, 1, 3, 0.01"), "prescribes a displacement that is not zero")
+        self.refused(cantilever().replace("*Elastic\n", "*Elastic, type=ORTHOTROPIC\n"), "TYPE=ORTHOTROPIC is not supported")
+
+
+class PartsOfAFile(Folder):
+    def test_springs_masses_and_links(self):
+        """Two masses on springs, one carried by a rigid link: m ω² = k for each, whatever the card that says so."""
+        text = "\n".join([
+            "*NODE", "1, 0, 0, 0", "2, 1, 0, 0", "3, 1, 1, 0", "4, 3, 0, 0", "5, 4, 0, 0",
+            "*ELEMENT, TYPE=SPRINGA, ELSET=K1", "1, 1, 2", "*SPRING, ELSET=K1", "", "4e6",
+            "*ELEMENT, TYPE=MASS, ELSET=M1", "2, 3", "*MASS, ELSET=M1", "100.",
+            "*ELEMENT, TYPE=SPRING1, ELSET=K2", "3, 4", "*SPRING, ELSET=K2", "1", "1D6",
+            "*ELEMENT, TYPE=T3D2, ELSET=BAR", "5, 4, 5", "*MATERIAL, NAME=S", "*ELASTIC", "1e-3, 0", "*DENSITY", "200.",
+            "*SOLID SECTION, ELSET=BAR, MATERIAL=S", "1.",
+            "*EQUATION", "2", "3, 1, -1., 2, 1, 1.", "2", "3, 2, 1., 2, 2, -1.", "2", "3,3,1.,2,3,-1.",
+            "*BOUNDARY", "1, 1, 6", "2, 2, 6", "4, 2, 3", "5, 1, 3", ""])
+        # node 3 hangs on node 2 by translations alone, which a rigid link with node 2's rotations held is: arm (0, 1, 0) enters only by
+        # rotations; written out it must be refused, since u_x = u_m - theta_z is what a rigid body does
+        (self.folder / "a.inp").write_text(text)
+        done = run(self.folder / "a.inp", self.folder / "out", "--set", "n_modes=2")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("are no rigid link", done.stderr)
+        rigid = text.replace("*EQUATION\n2\n3, 1, -1., 2, 1, 1.\n2", "*EQUATION\n3\n3, 1, -1., 2, 1, 1., 2, 6, -1.\n2")
+        rigid = rigid.replace("2\n3,3,1.,2,3,-1.", "3\n3,3,1.,2,3,-1.,2,4,-1.")
+        (self.folder / "a.inp").write_text(rigid)
+        done = run(self.folder / "a.inp", self.folder / "out", "--set", "n_modes=2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # K1 carries 100 kg; K2 carries a third of the bar's 200 kg (consistent mass, other end held)
+        wanted = sorted(math.sqrt(k / m) / (2 * math.pi) for k, m in ((4e6, 100.0), (1e6, 200.0 / 3)))
+        for f, w in zip(frequencies(self.folder / "out"), wanted):
+            self.assertAlmostEqual(f / w, 1.0, delta=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()
