@@ -80,6 +80,25 @@ def _mean_sign(values, where, entry):
     return mean is not None and (mean > 0) == (entry["sign"] == "positive") and mean != 0, f"mean {_text(mean)}"
 
 
+def _ranking(values, where, entry):
+    """Rows of `column` rank as `chain` says: "C > H > D >= G = I > A"; `equal`: relative difference that counts as none."""
+    words = str(entry.get("chain", "")).split()
+    rows, relations = words[::2], words[1::2]
+    if len(rows) < 2 or len(rows) != len(relations) + 1 or any(r not in (">", ">=", "=") for r in relations):
+        raise InputError(f"{where}: chain {entry.get('chain')!r}; expected rows with >, >= or = between them")
+    equal = entry.get("equal", 0.0)
+    column = values(entry.get("column"))
+    if any(row not in column for row in rows):
+        return False, f"no value in row {next(row for row in rows if row not in column)}"
+    wrong = []
+    for a, relation, b in zip(rows, relations, rows[1:]):
+        apart = column[a] / column[b] - 1.0
+        holds = {">": apart > equal, ">=": apart >= -equal, "=": abs(apart) <= equal}[relation]
+        if not holds:
+            wrong.append(f"{a} {column[a]:.4g} {relation} {b} {column[b]:.4g} is not so")
+    return not wrong, wrong[0] if wrong else ", ".join(f"{row} {column[row]:.4g}" for row in rows)
+
+
 def _mean(values):
     values = list(values)
     return sum(values) / len(values) if values else None
@@ -89,4 +108,4 @@ def _text(value):
     return "nothing" if value is None else f"{value:.4g}"
 
 
-RULES = {"ascending": _ascending, "mean_abs_below": _mean_abs_below, "mean_above": _mean_above, "mean_sign": _mean_sign}
+RULES = {"ascending": _ascending, "mean_abs_below": _mean_abs_below, "mean_above": _mean_above, "mean_sign": _mean_sign, "ranking": _ranking}

@@ -13,6 +13,7 @@ RULES = {
     "error_of": "propagated: 100 / measured x what the column `of` may deviate",
     "measurement": "not further from the measurement than the paper's plus `tolerance` percentage points",
     "identifiability": "range of the bounds, less what the data resolve (identifiability.py)",
+    "shown": "beside the paper's, not compared: no claim of agreement",
 }
 
 
@@ -29,6 +30,10 @@ class Column:
     of: str = ""  # error_of: the column it is computed from
     measured: str = ""  # error_of, measurement: the column with the measured value
     error: str = ""  # measurement: the column with the paper's error in percent
+    row_kinds: tuple = ()  # ((row, kind), ...) of rows of another kind than the column's
+
+    def kind_of(self, row: str) -> str:
+        return dict(self.row_kinds).get(row, self.kind)
 
 
 @dataclass(frozen=True)
@@ -70,15 +75,18 @@ def _column(path, table, name, rule) -> Column:
         raise InputError(f"{where}: kind {rule.get('kind')!r}; expected one of {', '.join(KINDS)}")
     if rule.get("rule") not in RULES:
         raise InputError(f"{where}: rule {rule.get('rule')!r}; expected one of {', '.join(RULES)}")
-    tolerance = rule.get("tolerance", 1.0 if rule["rule"] in ("rounding", "exact", "error_of") else None)
+    tolerance = rule.get("tolerance", 1.0 if rule["rule"] in ("rounding", "exact", "error_of", "shown") else None)
     if not isinstance(tolerance, (int, float)) or isinstance(tolerance, bool) or not 0 <= tolerance < float("inf"):
         raise InputError(f"{where}: tolerance {tolerance!r}; expected a number of at least 0")
     needed = {"error_of": ("of", "measured"), "measurement": ("measured", "error")}.get(rule["rule"], ())
     for key in needed:
         if not isinstance(rule.get(key), str):
             raise InputError(f"{where}: the rule {rule['rule']} needs {key} = \"<column>\"")
+    row_kinds = rule.get("row_kinds", {})
+    if not isinstance(row_kinds, dict) or any(kind not in KINDS for kind in row_kinds.values()):
+        raise InputError(f"{where}: row_kinds {row_kinds!r}; expected {{ <row> = \"<kind>\" }} with one of {', '.join(KINDS)}")
     return Column(table, name, rule["kind"], rule["rule"], float(tolerance), basis,
-                  rule.get("of", ""), rule.get("measured", ""), rule.get("error", ""))
+                  rule.get("of", ""), rule.get("measured", ""), rule.get("error", ""), tuple(row_kinds.items()))
 
 
 def _rms(path, table, rule) -> RmsRule:

@@ -10,7 +10,7 @@ import numpy as np
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 RULES = REPOSITORY / "data" / "ponte_del_mare"
-STEPS = ["s1_model", "s4_refinement", "s5_sensitivity", "s6_updating"]
+STEPS = ["s1_model", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics"]
 
 MEASURED = [0.8, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 1.9, 2.4, 2.5]
 SOFT = [0.92, 0.95, 0.96, 0.92, 0.98, 1.01, 0.90, 0.93, 0.75, 0.84]  # preliminary / measured
@@ -22,6 +22,11 @@ PARAMETERS = [  # name, the paper's unit, initial, half range, change in percent
     ("E_c1", "MPa", 35000, 0.15, 9.5), ("E_c2", "MPa", 16000, 0.15, -15), ("E_s", "MPa", 210000, 0.05, 5),
     ("E_s_stay_44", "MPa", 165000, 0.05, -5), ("rho_1", "kg/m3", 1500, 0.3, -24), ("rho_2", "kg/m3", 2500, 0.3, -30),
     ("C_c", "-", 25.4, 0.15, 9.9), ("C_pB", "-", 5.06, 0.15, 4.1), ("C_pD", "-", 1.15, 0.15, -0.4)]
+CRITICAL = [("A", "20.00"), ("C", "23.00"), ("D", "21.80"), ("G", "21.50"), ("H", "22.40"), ("I", "21.50")]
+QUASI_STEADY = {"A": 20.0, "C": 23.5, "D": 17.0, "G": 16.0, "H": 19.0, "I": 16.0}
+RULES_OF_11 = {  # statics, power of cos in the looked-up velocity, powers of 1/cos on the block, axes
+    "A": ("normal", 0, (0, 0, 0), "deck"), "C": ("cosine", 1, (0, 0, 0), "deck"), "D": ("cosine", 1, (2, 2, 2), "deck"),
+    "G": ("cosine", 1, (2, 2, 2), "wind"), "H": ("oblique_strip", 1, (1, 2, 3), "wind"), "I": ("oblique_strip", 1, (2, 2, 2), "wind")}
 OTHERS = ["E_s_stay_60", "E_s_stay_75", "k", "C_pC", "C_pE", "C_pF"]
 
 
@@ -88,7 +93,9 @@ def write_paper(folder):
                [[f"{i + 1}X", PARTNERS[i], *numbers(MEASURED[i], r, 2)] for i, r in zip(KEPT, UPDATED)]
                + [["11X", "13N", *numbers(2.7, 0.996, 2)]])
 
-
+    shutil.copy(RULES / "paper" / "table_11.csv", folder)  # words without numbers
+    write_rows(folder / "table_12.csv", ["ns", "group", "description", "V_cr_m_per_s", "f_cr_Hz"],
+               [[ns, "made up", "", speed, "0.7900"] for ns, speed in CRITICAL])
     write_rows(folder / "claims.csv", ["claim", "value", "unit", "source", "kind"],
                [["preliminary_f10", f"{soft[9]:.3f}", "Hz", "made up", "calibrated"],
                 ["degrees_of_freedom", "500", "-", "made up", "virtual"], ["friction_velocity", "1.76", "m/s", "made up", "input"]])
@@ -137,6 +144,7 @@ def write_steps(paper, results):
                [*compared("before", before, "published"), *compared("after", updated, "published")])
     write_sensitivity(results / "s5_sensitivity")
     write_updating(paper, results / "s6_updating")
+    write_aerodynamics(paper, results / "s7_aerodynamics")
 
 
 def write_model(folder):
@@ -194,6 +202,36 @@ def write_updating(paper, folder):
     write_rows(folder / "starts.csv",
                ["start", "cost", "projected_gradient_relative", "iterations", "converged", "optimum", "message", *names],
                [[s, history[8 * s + 7][3], 1e-8, 8, 1, s + 1, "converged", *history[8 * s + 7][7:]] for s in (0, 1)])
+
+
+def write_aerodynamics(paper, folder):
+    """A straight deck in yawed wind: critical speeds 0.2 % above the paper's, one smooth curve for everything else."""
+    critical = ["set", "model", "group", "description", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz"]
+    printed = read_rows(paper / "table_12.csv")
+    rows = [["standin", r["ns"], r["group"], r["description"], "off", 0.5, 1, 1.002 * float(r["V_cr_m_per_s"]), float(r["f_cr_Hz"])] for r in printed]
+    rows += [["quasi_steady", ns, "made up", "", "off", 0.5, 1, speed, 0.79] for ns, speed in QUASI_STEADY.items()]
+    write_rows(folder / "critical.csv", critical, rows)
+    words = {r["ns"]: r for r in read_rows(paper / "table_11.csv")}
+    write_rows(folder / "rules.csv",
+               ["deployment", "deck", "beyond_deg", "model", "group", "description", "statics", "lookup_cos_power",
+                "block_inverse_cos_power_force", "block_inverse_cos_power_cross", "block_inverse_cos_power_moment", "axes"],
+               [[ns, "", "", ns, words[ns]["group"], f"NS #{words[ns]['ns_number_in_table12']}", statics, power, *block, axes]
+                for ns, (statics, power, block, axes) in RULES_OF_11.items()])
+    write_rows(folder / "nodes.csv",
+               ["deck", "node", "station_m", "x_m", "y_m", "z_m", "yaw_deg", "angle_of_attack_deg", "chord_m", "length_m", "oblique_chord_m",
+                "oblique_length_m"],
+               [[deck, i + 1, 5.0 * i, 5.0 * i, y, 10.0, 30.0, 0.1 * i, 4.0, 5.0, 4.0 / 0.866, 5.0 * 0.866]
+                for deck, y in (("foot", 20.0), ("cycle", 0.0)) for i in range(6)])
+    write_rows(folder / "damping.csv",
+               ["set", "model", "dampers", "structural_damping_pct", "mode", "V_m_s", "frequency_Hz", "damping_ratio_pct"],
+               [[name, "A", dampers, xi, mode, v, 0.8 * mode, xi + (2 if dampers == "on" else 0) - (0.025 * v if mode == 1 else 0)]
+                for name in ("standin", "quasi_steady") for dampers, xi in (("off", 0.5), ("off", 1.1), ("on", 0.5))
+                for mode in (1, 2) for v in range(1, 41)])
+    write_rows(folder / "galloping.csv", ["set", "deck", "angle_of_attack_deg", "V_over_fB", "h1", "den_hartog"],
+               [[name, "foot", angle, v, -0.1 * v, -1.0] for name in ("standin", "quasi_steady") for angle in (-2.0, 0.0, 2.0) for v in (1, 5, 10)])
+    write_rows(folder / "polars.csv", ["set", "deck", "angle_of_attack_deg", "C_D", "C_L", "C_M"],
+               [[name, "foot", angle, 0.2, -0.1 * angle, 0.0] for name in ("standin", "quasi_steady") for angle in (-5.0, 0.0, 5.0)])
+    write_rows(folder / "summary.csv", ["quantity", "value", "unit"], [["still_air_frequency_1", 0.8, "Hz"]])
 
 
 def write_manifest(folder):

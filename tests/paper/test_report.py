@@ -18,6 +18,8 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 import made_up_study  # noqa: E402
 from twindeck_report import cli  # noqa: E402
 from twindeck_report.cells import shown  # noqa: E402
+from twindeck_report.figures import FIGURES  # noqa: E402
+from twindeck_report.tables import TABLES  # noqa: E402
 
 VOID = {"meta", "img", "br"}
 
@@ -90,8 +92,8 @@ class Report(unittest.TestCase):
         self.assertEqual((reader.wrong, reader.open), ([], []))
         self.assertTrue(all(link.startswith(("#", "data:image/png;base64,")) for link in reader.links))
         self.assertNotRegex(page, r"url\(|@import|<script")
-        self.assertEqual(page.count('class="paper-table"'), 7)
-        self.assertEqual(page.count("data:image/png"), 4)
+        self.assertEqual(page.count('class="paper-table"'), len(TABLES))
+        self.assertEqual(page.count("data:image/png"), len(FIGURES))
         for token in made_up_study.STEPS:
             self.assertIn(f"<strong>{token}</strong>", page)
 

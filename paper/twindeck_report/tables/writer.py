@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..manifests import write_manifest
 from ..study import Study
 from ..tolerances import Tolerances, read_tolerances
-from . import TABLES, table_name
+from . import TABLES, paper_number, table_name
 
 
 def write_tables(study: Study) -> list:
@@ -23,8 +23,8 @@ def write_tables(study: Study) -> list:
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     for number_, table in built.items():
-        printed = study.paper_table(number_)
-        title = f"Table {number_}. {TABLES[number_].TITLE}"
+        printed = study.paper_table(paper_number(number_))
+        title = f"Table {str(number_).replace('_', ' ')}. {TABLES[number_].TITLE}"
         name = folder / table_name(number_)
         write_csv(table, name.with_suffix(".csv"))
         name.with_suffix(".tex").write_text(latex(table, printed, title), encoding="utf-8")
@@ -34,9 +34,9 @@ def write_tables(study: Study) -> list:
     return [table_name(n) for n in built]
 
 
-def full_table(study: Study, number_: int, tolerances: Tolerances) -> pd.DataFrame:
+def full_table(study: Study, number_, tolerances: Tolerances) -> pd.DataFrame:
     """Ours in the paper's columns, then <column>_paper (as printed) and <column>_kind for each compared column."""
-    printed = study.paper_table(number_)
+    printed = study.paper_table(paper_number(number_))
     name = table_name(number_)
     if name not in tolerances.columns:
         raise InputError(f"{study.data / 'tolerances.toml'}: no entry {name}; every table needs its rules")
@@ -50,7 +50,8 @@ def full_table(study: Study, number_: int, tolerances: Tolerances) -> pd.DataFra
             raise InputError(f"{study.data / 'tolerances.toml'}: {name}.columns.{column}: no such column in the paper's table")
         table[f"{column}_paper"] = printed[column]
         # a cell that the paper leaves empty has nothing to be of a kind
-        table[f"{column}_kind"] = [rule.kind if text else "" for text in printed[column]]
+        rows = printed[tolerances.keys[name]]
+        table[f"{column}_kind"] = [rule.kind_of(row) if text else "" for row, text in zip(rows, printed[column])]
     return table
 
 
@@ -105,12 +106,12 @@ def latex(table: pd.DataFrame, printed: pd.DataFrame, title: str) -> str:
 
 
 def column_kinds(table: pd.DataFrame, printed: pd.DataFrame) -> list:
-    """[(column, kind)] of the compared columns."""
-    return [(c, next(k for k in table[f"{c}_kind"] if k)) for c in printed.columns
+    """[(column, kinds)] of the compared columns."""
+    return [(c, " and ".join(dict.fromkeys(k for k in table[f"{c}_kind"] if k))) for c in printed.columns
             if f"{c}_kind" in table and any(table[f"{c}_kind"])]
 
 
-UNITS = ("kNs_per_m", "kN_per_m", "Hz", "pct")
+UNITS = ("kNs_per_m", "kN_per_m", "m_per_s", "Hz", "pct")
 
 
 def heading(column: str) -> str:
