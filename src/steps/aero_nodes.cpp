@@ -168,7 +168,8 @@ void add_named(const fe::Model& model, const std::string& deck, std::vector<int>
     AeroNode node;
     node.deck = deck;
     node.station_m = station[i] - 0.5 * station.back();
-    node.length_m = 0.5 * (station[after] - station[before]);
+    // Nodes stand in the middle of their lengths, the outermost too: half way to each neighbour, at an end twice the one half.
+    node.length_m = (before == i || after == i ? 1.0 : 0.5) * (station[after] - station[before]);
     node.x_m = position(model, named[i]);
     // The circle through three neighbours: its tangent at the middle one; at an end that of the neighbour, mirrored in the
     // chord.

@@ -28,10 +28,11 @@ struct AeroNodes {
 /// Aerodynamic nodes of a finite element model, `per_deck` between the end stays of each deck.
 ///
 /// Where the model names its own (points.csv: aero_<deck>_01 … as many as asked for), those nodes and their rotations are
-/// taken, each with half the way to its neighbours. Otherwise they are laid evenly, by interpolation between the deck's cross
-/// sections: lines of elements of the group `cross_group` across the deck. A section moves with the mean of its two edges and
-/// turns about the deck's axis by their difference, about the horizontal normal by the slope to the next section (rotation
-/// about the vertical does not meet any wind force and is left zero). A deck without stays is taken from end to end.
+/// taken, each in the middle of its length: half the way to its neighbours, the outermost as far outwards. Otherwise they are
+/// laid evenly, by interpolation between the deck's cross sections: lines of elements of the group `cross_group` across the
+/// deck. A section moves with the mean of its two edges and turns about the deck's axis by their difference, about the
+/// horizontal normal by the slope to the next section (rotation about the vertical does not meet any wind force and is left
+/// zero). A deck without stays is taken from end to end.
 /// @throws InputError  for a deck that the model does not have
 [[nodiscard]] AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>& decks,
                                         const std::vector<std::string>& cross_groups, int per_deck);
