@@ -8,6 +8,7 @@ STUDY_INPUTS := $(WORKFLOW)/study.toml $(wildcard data/$(STUDY)/bridge.toml data
 
 # What each step reads of earlier ones.
 READS_s1_model :=
+READS_s2_sensors := s1_model
 READS_s4_refinement := s1_model
 READS_s5_sensitivity := s4_refinement
 READS_s6_updating := s4_refinement s5_sensitivity
@@ -15,6 +16,7 @@ READS_s7_aerodynamics := s6_updating
 
 # What a step reads of the study's data beside STUDY_INPUTS.
 INPUTS_s0_campaign := $(wildcard data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)
+INPUTS_s2_sensors := $(wildcard data/$(STUDY)/layout/*)
 INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
 
 # Somebody's own measured modes: make s6 MODES=dir

@@ -1,0 +1,18 @@
+#include "steps/run_step.hpp"
+#include "steps/sensor_layout.hpp"
+
+/// Step 2: sensor setups, how well they tell the modes apart, and the blind test (paper section 3.1, Table 3).
+int main(int argc, char** argv) {
+  using namespace twindeck::steps;
+  SensorsConfig config;
+  Step step;
+  step.token = "s2_sensors";
+  step.summary = "Scores sensor setups by AutoMAC, searches for better ones and tests them blindly on simulated records.";
+  step.examples = {
+      "s2_sensors --study workflows/ponte_del_mare --out results/ponte_del_mare/s2_sensors",
+      "s2_sensors --model my_bridge/model --out my_bridge/sensors --set points=my_points.csv --set setups=my_setups.csv",
+  };
+  step.fields = config.fields();
+  step.run = [&](StepContext& context) { return run_sensors(context, config); };
+  return run_step(argc, argv, std::move(step));
+}
