@@ -61,12 +61,13 @@ TEST(EffectiveIndependence, DropsWhatTheDeterminantMissesLeast) {
   }
 }
 
-// Oracle: enumeration. On a small problem the search must reach what no exchange betters, and here that is the best of all subsets.
+// Oracle: enumeration. On a small problem the search for the greatest determinant, begun where effective independence ends, must reach the
+// best of all subsets. (Least R_k has local optima even here: 0.015 by greedy start against 0.001, which is why step 2 starts it often.)
 TEST(GreedyExchange, FindsTheBestOfAllSubsets) {
   const MatrixXd phi = sines(10, 3);
   double best = -1e300;
-  subsets(10, 4, [&](const std::vector<Index>& rows) { best = std::max(best, -decoupling_score(phi(rows, Eigen::all))); });
-  const Layout layout = greedy_exchange(phi, 4, [](const MatrixXd& part) { return -decoupling_score(part); });
+  subsets(10, 4, [&](const std::vector<Index>& rows) { best = std::max(best, log_determinant(phi(rows, Eigen::all))); });
+  const Layout layout = greedy_exchange(phi, 4, [](const MatrixXd& part) { return log_determinant(part); }, effective_independence(phi, 4).rows);
   EXPECT_EQ(layout.rows.size(), 4U);
   EXPECT_NEAR(layout.worth, best, 1e-12);
 }
