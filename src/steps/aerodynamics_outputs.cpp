@@ -25,6 +25,11 @@ std::string word(aero::StaticRule rule) {
   return "";
 }
 
+std::string status_of(const CriticalRow& row, double max_speed_m_s) {
+  const std::string found = row.point ? "unstable" : "stable up to " + io::format_number(max_speed_m_s) + " m/s";
+  return row.lost.empty() ? found : found + "; " + row.lost;
+}
+
 }  // namespace
 
 void write_critical(const std::vector<CriticalRow>& rows, double max_speed_m_s, const std::filesystem::path& file) {
@@ -46,8 +51,7 @@ void write_critical(const std::vector<CriticalRow>& rows, double max_speed_m_s, 
              found ? Number(row.point->frequency_Hz / row.point->still_air_frequency_Hz) : Number(), row.character.deck,
              found ? Number(row.character.theta_rms_rad * degrees) : Number(),
              found ? Number(row.character.deck_share) : Number(), found ? Number(row.character.exponent) : Number(),
-             row.single_mode_m_s, row.den_hartog_m_s, row.divergence_m_s,
-             found ? "unstable" : "stable up to " + io::format_number(max_speed_m_s) + " m/s"});
+             row.single_mode_m_s, row.den_hartog_m_s, row.divergence_m_s, status_of(row, max_speed_m_s)});
   }
   csv.save(file);
 }

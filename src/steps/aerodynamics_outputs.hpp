@@ -17,6 +17,7 @@ struct CriticalRow {
   bool dampers = false;
   double structural_damping = 0.0;
   std::optional<aero::CriticalPoint> point;
+  std::string lost;                       ///< of modes that could not be followed to the highest speed, or to `point`
   aero::GallopingCharacter character;     ///< of `point`
   std::optional<double> single_mode_m_s;  ///< mode 1 alone, without coupling to the others
   std::optional<double> den_hartog_m_s;   ///< mode 1 by quasi-steady galloping of the polars

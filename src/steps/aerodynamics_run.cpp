@@ -27,15 +27,22 @@ std::vector<double> speeds_up_to(const AerodynamicsConfig& config, double limit)
   return speeds;
 }
 
-// The lowest instability of the first modes. A later mode only matters below what was found.
-std::optional<aero::CriticalPoint> first_instability(const AerodynamicsConfig& config, const aero::AeroelasticSystem& system) {
-  std::optional<aero::CriticalPoint> lowest;
+// The lowest instability of the first modes, and what is to be said of modes that could not be followed so far. A later mode
+// only matters below what was found.
+struct Instability {
+  std::optional<aero::CriticalPoint> point;
+  std::string lost;
+};
+Instability first_instability(const AerodynamicsConfig& config, const aero::AeroelasticSystem& system) {
+  Instability lowest;
   int mode = 0;
   for (const aero::ComplexMode& start : aero::still_air_modes(system.structure())) {
     if (++mode > config.followed_modes) break;
-    const double limit = lowest ? lowest->speed_m_s : config.max_speed_m_s;
-    const auto found = aero::critical_point(system, aero::follow_mode(system, start, mode, speeds_up_to(config, limit)));
-    if (found && (!lowest || found->speed_m_s < lowest->speed_m_s)) lowest = found;
+    const double limit = lowest.point ? lowest.point->speed_m_s : config.max_speed_m_s;
+    const aero::Branch branch = aero::follow_mode(system, start, mode, speeds_up_to(config, limit));
+    const auto found = aero::critical_point(system, branch);
+    if (found && (!lowest.point || found->speed_m_s < lowest.point->speed_m_s)) lowest.point = found;
+    if (!branch.status.converged && !found) lowest.lost += (lowest.lost.empty() ? "" : "; ") + branch.status.message;
   }
   return lowest;
 }
@@ -50,7 +57,9 @@ CriticalRow critical_row(const AerodynamicsConfig& config, const std::string& se
   row.description = deployment.zones.empty() ? deployment.everywhere.description : "Table 14";
   row.dampers = dampers;
   row.structural_damping = structural_damping;
-  row.point = first_instability(config, system);
+  const Instability instability = first_instability(config, system);
+  row.point = instability.point;
+  row.lost = instability.lost;
   if (row.point) row.character = aero::galloping_character(system, row.point->motion, row.point->speed_m_s);
   row.divergence_m_s = aero::divergence_speed(system);
   if (!dampers) {

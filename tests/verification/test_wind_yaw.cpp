@@ -197,6 +197,29 @@ TEST(WindStability, FollowedModesAreEigenvaluesOfTheStateMatrix) {
   }
 }
 
+TEST(WindStability, CriticalSpeedDoesNotHangOnTheStepOfTheSpeed) {
+  const aero::AeroelasticSystem system = stand_in(aero::published_yaw_rule("H"));
+  const double fine = critical_speed(system, speeds(0.5, 32, 0.5)), coarse = critical_speed(system, speeds(16, 32, 16));
+  EXPECT_NEAR(coarse / fine, 1.0, 1e-9);
+}
+
+TEST(WindStability, AModeThatStopsOscillatingIsReported) {
+  // h1 > 0 damps heave: 2 ω = 2 ξ ω + ½ρVB h1/m at V = 4 m ω (1 - ξ)/(ρ B h1), beyond which there is no oscillation to follow.
+  const double m = 1500, f = 0.7, xi = 0.005, B = 4.5, rho = 1.25, h1 = 40;
+  aero::Derivatives18 zasso{};
+  zasso[0] = h1;
+  const auto system =
+      section_model(structure({f}, xi), B, rho, std::make_shared<aero::ConstantZasso>(zasso), {{0, 1 / std::sqrt(m), 0}});
+  const double overdamped = 4 * m * 2 * pi * f * (1 - xi) / (rho * B * h1);
+  const auto branches = follow_all(system, speeds(1, 2 * overdamped, 1));
+  ASSERT_EQ(branches.size(), 1U);
+  EXPECT_FALSE(branches[0].status.converged);
+  EXPECT_NE(branches[0].status.message.find("stops oscillating"), std::string::npos);
+  EXPECT_LT(branches[0].speed_m_s.back(), overdamped);
+  EXPECT_GT(branches[0].speed_m_s.back(), overdamped - 2.0);
+  EXPECT_FALSE(aero::critical_point(system, branches[0]).has_value());
+}
+
 TEST(WindStability, MaxwellUnitsInStillAirAreThoseOfTheStateMatrix) {
   // One mass of 1 kg on 4 N/m with a Maxwell unit k = 3, c = 2: the roots of (s² + 4)(3 + 2s) + 6 s = 0.
   aero::ReducedStructure s;
