@@ -15,9 +15,15 @@ DATA ?=
 PAPER := data/$(STUDY)
 REPORT := workflows/python.sh -m twindeck_report
 
+# `make why s6`: the words after `why` name a step; they are not built.
+ifeq ($(firstword $(MAKECMDGOALS)),why)
+STEP ?= $(word 2,$(MAKECMDGOALS))
+$(filter-out why,$(MAKECMDGOALS)): why ; @:
+else
 include workflows/steps.mk
+endif
 
-.PHONY: help all deps build test unit steps tables figures report verify smoke why clean FORCE
+.PHONY: help all deps build test unit steps tables figures report verify smoke why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -30,8 +36,8 @@ help: ## this page
 
 all: report verify ## everything of the study: install, build, steps, tables, figures, report, check against the paper
 
-deps: ## what is missing is installed (apt, as root or with sudo); prints nothing when all is there
-	@workflows/deps.sh
+deps: ## packages and versions; what is missing is installed (apt, as root or with sudo)
+	@workflows/deps.sh $(if $(filter deps,$(MAKECMDGOALS)),--report)
 
 build: deps ## compile into build/
 	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
@@ -67,8 +73,14 @@ verify: $(RESULTS)/report/report.html ## hold the tables, as they lie there, aga
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
 
-why: ## make why STEP=s6: why that step would run again
-	@$(MAKE) --no-print-directory -n --debug=b $(STEP) STUDY=$(STUDY) NO_BUILD=1 2>/dev/null | grep -E "newer than target|does not exist" || echo "$(STEP): up to date"
+why: ## make why s6: why that step would run again
+	@workflows/why.sh "$(STEP)" $(STUDY)
+
+new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands
+	@workflows/new.sh $(if $(filter command line environment,$(origin STUDY)),$(STUDY))
+
+reference: build ## every configuration key and every column of a file, as docs/reference.md
+	@workflows/python.sh -m twindeck_reference --bin $(BIN) --out docs/reference.md
 
 clean: ## remove the build and all results
 	@rm -rf $(BUILD) && find results -mindepth 1 -not -name README.md -delete

@@ -15,6 +15,16 @@ if [ "${1:-}" = "--list" ]; then
   done
   exit 0
 fi
+if [ "${1:-}" = "--report" ]; then
+  for package in $wanted; do
+    printf '  %-28s %s\n' "$package" "$(dpkg-query -W -f='${Version}' "$package" 2>/dev/null | grep . || echo 'missing')"
+  done
+  if [ -z "$missing" ]; then
+    echo "deps: all $(echo "$wanted" | wc -w) packages are installed, nothing to do"
+  else
+    echo "deps: missing:$missing; to install them by hand: apt-get install --no-install-recommends$missing"
+  fi
+fi
 [ -n "$missing" ] || exit 0
 if ! command -v apt-get >/dev/null 2>&1; then
   echo "deps: missing:$missing; this system has no apt-get, install them with its own package manager" >&2

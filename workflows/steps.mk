@@ -4,7 +4,7 @@
 # The steps of the study as study.toml lists them.
 STEPS := $(shell sed -n '/^steps *=/,/\]/p' $(WORKFLOW)/study.toml 2>/dev/null | grep -o 's[0-9]_[a-z]*')
 STEP_MANIFESTS := $(STEPS:%=$(RESULTS)/%/manifest.json)
-STUDY_INPUTS := $(WORKFLOW)/study.toml $(wildcard data/$(STUDY)/bridge.toml data/$(STUDY)/features/*)
+STUDY_INPUTS := $(WORKFLOW)/study.toml $(wildcard data/$(STUDY)/bridge.toml data/$(STUDY)/features/* data/$(STUDY)/model/* data/$(STUDY)/*.inp)
 
 # What each step reads of earlier ones.
 READS_s1_model :=

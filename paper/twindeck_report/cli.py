@@ -6,6 +6,7 @@ from pathlib import Path
 from .check import run_check
 from .deviations import write_deviations
 from .errors import InputError
+from .own_study import is_own, verify_own, write_own_report, write_own_tables
 from .ratchet import write_ratchet
 from .study import Study
 
@@ -31,7 +32,7 @@ def main(arguments) -> int:
 def _tables(study: Study) -> int:
     from .tables.writer import write_tables
 
-    written = write_tables(study)
+    written = write_own_tables(study) if is_own(study) else write_tables(study)
     print(f"{len(written)} tables in {study.results / 'tables'}")
     return 0
 
@@ -47,11 +48,18 @@ def _figures(study: Study) -> int:
 def _report(study: Study) -> int:
     from .report import write_report
 
-    print(f"{write_report(study)} written")
+    print(f"{write_own_report(study) if is_own(study) else write_report(study)} written")
     return 0
 
 
 def _verify(study: Study) -> int:
+    if is_own(study):
+        stale = verify_own(study)
+        for line in stale:
+            print(f"check: {line}", file=sys.stderr)
+        print(f"study {study.name}: no printed tables to compare with; "
+              + (f"{len(stale)} stale or missing files" if stale else "every file is as its step wrote it"))
+        return 1 if stale else 0
     result = run_check(study)
     write_deviations(result, study.results / "report")
     print(result.summary())

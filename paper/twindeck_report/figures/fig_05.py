@@ -11,6 +11,7 @@ NAME = "fig_05"
 CAPTION = ("Modes 1 and 2 of the preliminary model: undeformed in grey, deformed coloured by the size of the displacement "
            "(largest = 1). Above from the side and above, below the vertical motion over the plan.")
 NEEDS = ("s1_model",)
+DRAWS_MESH = True
 MODES = (1, 2)
 AZIMUTH, ELEVATION = 24.0, 24.0  # of the view, in degrees
 LARGEST = 0.08  # drawn displacement over the largest extent of the bridge

@@ -1,0 +1,100 @@
+"""A study without a printed paper: an engineer's own structure. Tables of what the steps found, a report page, and a check of the
+files' hashes in place of the comparison with a paper."""
+import html
+import time
+
+import jinja2
+
+from .cells import csv_text, number
+from .figures import FIGURES
+from .figures.flow import flow
+from .manifests import stale_inputs, stale_outputs, write_manifest
+from .report import TEMPLATE, _image, _provenance, _quantities, _text
+from .study import Study
+from .tables.writer import heading, write_csv
+
+# file of a step -> (name of the table, what it shows)
+TABLES = {
+    "s1_model/modes.csv": ("modes", "Modes of the model"),
+    "s3_identification/modes.csv": ("identified_modes", "Modes identified from the records"),
+    "s4_refinement/comparison.csv": ("comparison", "Model and measurement, before updating"),
+    "s5_sensitivity/selection.csv": ("selection", "What the frequencies can tell about each parameter"),
+    "s6_updating/parameters.csv": ("parameters", "Parameters after updating"),
+    "s6_updating/comparison.csv": ("updated_comparison", "Model and measurement, before and after updating"),
+}
+CAPTIONS = {"fig_01": "The steps of the study.", "fig_05": "Modes 1 and 2 of the model."}
+
+
+def is_own(study: Study) -> bool:
+    """A study that holds no printed tables has nothing to be compared with."""
+    return not (study.data / "paper").is_dir()
+
+
+def write_own_tables(study: Study) -> list:
+    started, written, names = time.monotonic(), [], []
+    folder = study.results / "tables"
+    folder.mkdir(parents=True, exist_ok=True)
+    for file, (name, title) in TABLES.items():
+        if file.split("/")[0] not in study.steps():
+            continue
+        table = study.step_csv(file).astype(object)
+        table = table.where(table.notna(), "").loc[:, lambda t: [c for c in t.columns if (t[c].astype(str) != "").any()]]
+        write_csv(table, folder / f"{name}.csv")
+        (folder / f"{name}.html").write_text(_html(table, title), encoding="utf-8")
+        written += [folder / f"{name}.csv", folder / f"{name}.html"]
+        names.append(name)
+    write_manifest("tables", folder, study.used, written, started)
+    return names
+
+
+def _html(table, title: str) -> str:
+    head = "".join(f"<th>{html.escape(heading(c))}</th>" for c in table.columns)
+    rows = "\n".join("<tr>" + "".join(_cell(v) for v in row) + "</tr>" for row in table.itertuples(index=False))
+    return f'<table class="paper-table"><caption>{html.escape(title)}</caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table>\n'
+
+
+def _cell(value) -> str:
+    text = csv_text(value)
+    if number(text) is None:
+        return f"<td>{html.escape(text)}</td>"
+    return f'<td class="number">{float(text):.5g}</td>'
+
+
+def write_own_report(study: Study):
+    settings = study.read_toml(study.workflow / "study.toml")
+    declared = study.steps()
+    tables = [_text(study, f"tables/{name}.html") for file, (name, _) in TABLES.items() if file.split("/")[0] in declared]
+    figures = [{"name": f.NAME, "caption": CAPTIONS.get(f.NAME, f.CAPTION), "png": _image(study, f.NAME)}
+               for f in FIGURES if all(step in declared for step in f.NEEDS) and _image(study, f.NAME)]
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    steps = flow(study)
+    style = (TEMPLATE / "report.html.j2").read_text(encoding="utf-8").partition("<style>")[2].partition("</style>")[0]
+    page = environment.get_template("own_report.html.j2").render(
+        title=settings.get("title", study.name), study=study.name, style=style, steps=steps, tables=tables, figures=figures,
+        model=_quantities(study, "s1_model/summary.csv"), updating=_quantities(study, "s6_updating/summary.csv"),
+        bounds=_on_bounds(study), stale=_stale(study), provenance=_provenance(study, steps))
+    target = study.results / "report" / "report.html"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(page, encoding="utf-8")
+    return target
+
+
+def _on_bounds(study: Study) -> list:
+    if "s6_updating" not in study.steps():
+        return []
+    table = study.step_csv("s6_updating/parameters.csv", ["parameter", "bound"])
+    return [f"{r['parameter']} ({r['bound']})" for r in table.to_dict("records") if r["bound"] in ("lower", "upper")]
+
+
+def _stale(study: Study) -> list:
+    found = stale_outputs(study.results / "tables") + stale_inputs(study.results / "tables")
+    for folder in sorted(study.results.glob("s[0-9]_*")):
+        if folder.is_dir() and not folder.name.endswith(".unconverged"):
+            found += stale_outputs(folder)
+    return [f"{path}: {problem}" for path, problem in found]
+
+
+def verify_own(study: Study) -> list:
+    """What is wrong with the files, a line each; there are no printed tables to compare with."""
+    return _stale(study)
