@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "fe/model.hpp"
@@ -16,6 +17,9 @@ namespace twindeck::model_io {
 /// Writes a model folder that `read_model` returns unchanged to the 12 significant digits of the files: whatever has been read
 /// once is written again byte for byte.
 void write_model(const fe::Model& model, const std::filesystem::path& folder);
+
+/// Meaning, unit, range and default of each key of a model folder's model.toml.
+[[nodiscard]] std::string describe_model_toml();
 
 /// True if the folder is a matrix model (model.toml has [matrices]).
 [[nodiscard]] bool is_matrix_model(const std::filesystem::path& folder);

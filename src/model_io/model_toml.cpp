@@ -10,6 +10,7 @@
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
+#include "model_io/model_folder.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -154,6 +155,8 @@ std::string text_list(const std::vector<std::string>& texts) {
 }
 
 }  // namespace
+
+std::string describe_model_toml() { return ModelEntry{}.fields().describe(); }
 
 void read_model_toml(const std::filesystem::path& file, fe::Model& model) {
   NameIndex index;

@@ -71,7 +71,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
   app.add_flag("--quiet", line.quiet, "print errors only");
   app.add_flag("--print-config", print_config, "print the resolved configuration as TOML and end");
   CLI::Option* describe =
-      app.add_option("--describe", key, "print meaning, unit, range and default of one key, or of all, and end")
+      app.add_option("--describe", key, "print meaning, unit, range and default of one key, of all, or of study.toml or model.toml, and end")
           ->type_name("KEY")
           ->expected(0, 1);
   app.add_flag("--version", version_asked, "print the version and end");

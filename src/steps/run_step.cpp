@@ -9,6 +9,7 @@
 #include "core/build_info.hpp"
 #include "io/atomic.hpp"
 #include "io/manifest.hpp"
+#include "model_io/model_folder.hpp"
 #include "steps/cli.hpp"
 #include "steps/run_step_signals.hpp"
 #include "steps/run_step_threads.hpp"
@@ -63,6 +64,13 @@ std::map<std::string, std::string> hashes_below(const fs::path& folder) {
     if (entry.is_regular_file()) hashes[fs::relative(entry.path(), folder).generic_string()] = io::sha256(entry.path());
   }
   return hashes;
+}
+
+/// A key of the step's configuration, or all; or all of one of the files that are no step's own.
+std::string describe(const Step& step, const std::string& key) {
+  if (key == "study.toml") return describe_study();
+  if (key == "model.toml") return model_io::describe_model_toml();
+  return step.fields.describe(key);
 }
 
 int compute(int argc, char** argv, const CommandLine& line, Step& step, StepContext& context) {
@@ -168,7 +176,7 @@ int run_step(int argc, char** argv, Step step) {
         std::fputs((line.text + "\n").c_str(), stdout);
         return 0;
       case CommandLine::Action::describe:
-        std::fputs(step.fields.describe(line.text).c_str(), stdout);
+        std::fputs(describe(step, line.text).c_str(), stdout);
         return 0;
       case CommandLine::Action::print_config:
         read_configuration(line, step, context);

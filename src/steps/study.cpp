@@ -5,22 +5,38 @@
 
 namespace twindeck::steps {
 
-Study read_study(const std::filesystem::path& folder) {
+namespace {
+
+/// study.toml in the words of the file.
+struct StudyFile {
   Study study;
-  long seed = static_cast<long>(study.seed);
+  long seed = static_cast<long>(Study{}.seed);
   std::string file, model_folder, inp, features;
-  io::FieldTable fields;
-  fields.text("title", study.title, "one line that names the study in reports", true)
-      .integer("seed", seed, io::non_negative(), "seed of everything random in the study")
-      .choice("measured", study.measured, {"published", "virtual"}, "where the measured modes come from")
-      .text("features", features, "folder of measured features: rows.csv, conditions.toml, channels.csv")
-      .texts("steps", study.steps, "tokens of the steps in the order in which they run")
-      .choice("model.generator", study.model_generator, {"ponte"}, "parametric generator that writes the model")
-      .text("model.file", file, "what the generator reads")
-      .text("model.folder", model_folder, "a model folder, instead of a generator")
-      .text("model.inp", inp, "an .inp file of CalculiX or Abaqus, instead of a generator or a folder");
+
+  io::FieldTable fields() {
+    io::FieldTable table;
+    table.text("title", study.title, "one line that names the study in reports", true)
+        .integer("seed", seed, io::non_negative(), "seed of everything random in the study")
+        .choice("measured", study.measured, {"published", "virtual"}, "where the measured modes come from")
+        .text("features", features, "folder of measured features: rows.csv, conditions.toml, channels.csv")
+        .texts("steps", study.steps, "tokens of the steps in the order in which they run")
+        .choice("model.generator", study.model_generator, {"ponte"}, "parametric generator that writes the model")
+        .text("model.file", file, "what the generator reads")
+        .text("model.folder", model_folder, "a model folder, instead of a generator")
+        .text("model.inp", inp, "an .inp file of CalculiX or Abaqus, instead of a generator or a folder");
+    return table;
+  }
+};
+
+}  // namespace
+
+std::string describe_study() { return StudyFile{}.fields().describe(); }
+
+Study read_study(const std::filesystem::path& folder) {
+  StudyFile entry;
   const std::filesystem::path path = folder / "study.toml";
-  fields.load(path);
+  entry.fields().load(path);
+  auto& [study, seed, file, model_folder, inp, features] = entry;
   const bool generated = !study.model_generator.empty() || !file.empty();
   const int sources = (generated ? 1 : 0) + (model_folder.empty() ? 0 : 1) + (inp.empty() ? 0 : 1);
   if (sources > 1) {

@@ -25,4 +25,7 @@ struct Study {
 /// folder, an .inp file
 [[nodiscard]] Study read_study(const std::filesystem::path& folder);
 
+/// Meaning, unit, range and default of each key of study.toml.
+[[nodiscard]] std::string describe_study();
+
 }  // namespace twindeck::steps

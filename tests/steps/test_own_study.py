@@ -1,0 +1,117 @@
+"""An engineer's own study: `make new`, the template run untouched, faults in the user's own files, the reference page.
+
+Oracles: the values of the frame that the template's features were made from; Make itself for what is up to date; the files' lines for
+messages; the executables' --describe for the reference page.
+"""
+
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ["TWINDECK_BIN"]).resolve()
+sys.path.insert(0, str(ROOT / "paper"))
+import twindeck_reference.__main__ as reference  # noqa: E402
+
+
+class OwnStudy(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.holder.cleanup)
+        cls.root = pathlib.Path(cls.holder.name)
+        for part in ("workflows", "paper", "data/template"):
+            shutil.copytree(ROOT / part, cls.root / part, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(ROOT / "Makefile", cls.root / "Makefile")
+        cls.new = cls.make("new", "STUDY=mine")
+        cls.all = cls.make("all", "STUDY=mine")
+
+    @classmethod
+    def make(cls, *arguments):
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+        return subprocess.run(["make", "NO_BUILD=1", f"BIN={BIN}", *arguments], cwd=cls.root, env=environment, capture_output=True, text=True,
+                              timeout=600)
+
+    def test_template_runs_untouched_to_a_report(self):
+        self.assertEqual(self.new.returncode, 0, self.new.stderr)
+        self.assertEqual(self.all.returncode, 0, self.all.stderr)
+        page = (self.root / "results/mine/report/report.html").read_text(encoding="utf-8")
+        for part in ("two-storey frame", "Parameters after updating", "k_base", "data:image/png;base64,"):
+            self.assertIn(part, page)
+        self.assertNotIn("template", (self.root / "workflows/mine/study.toml").read_text().replace("the template", ""))
+
+    def test_updating_finds_what_the_records_were_made_with(self):
+        with open(self.root / "results/mine/s6_updating/parameters.csv", newline="") as stream:
+            found = {row["parameter"]: float(row["final_value"]) for row in csv.DictReader(stream)}
+        self.assertAlmostEqual(found["k_base"] / (7 / 12), 1.0, delta=0.05)
+        self.assertAlmostEqual(found["m_floor"] / 1.10, 1.0, delta=0.01)
+
+    def test_second_make_runs_no_step(self):
+        again = self.make("all", "STUDY=mine")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertNotIn("s6_updating:", again.stdout + again.stderr)
+
+    def test_every_column_is_described(self):
+        for step in ("s1_model", "s4_refinement", "s5_sensitivity", "s6_updating"):
+            self.assertEqual(reference.undescribed(self.root / "results/mine" / step), [])
+
+    def test_why_names_the_newer_file(self):
+        self.assertIn("s6_updating: up to date", self.make("why", "s6", "STUDY=mine").stdout)
+        file = self.root / "workflows/mine/s6_updating.toml"
+        stamp = file.stat()
+        newer = (self.root / "results/mine/s6_updating/manifest.json").stat().st_mtime + 10
+        os.utime(file, (newer, newer))
+        try:
+            self.assertIn("older than workflows/mine/s6_updating.toml", self.make("why", "s6", "STUDY=mine").stdout)
+        finally:
+            os.utime(file, (stamp.st_atime, stamp.st_mtime))
+
+    def test_faults_in_the_users_files_name_file_line_and_key(self):
+        self.make("new", "STUDY=faulty")
+        config = self.root / "workflows/faulty/s1_model.toml"
+        lines = config.read_text().splitlines()
+        config.write_text("\n".join(lines).replace("n_modes = 8", "n_mode = 8") + "\n")
+        line = next(i for i, text in enumerate(lines, 1) if text.startswith("n_modes"))
+        done = self.make("all", "STUDY=faulty")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(f"s1_model.toml:{line}: n_mode: is no known key (did you mean 'n_modes'?)", done.stderr)
+        config.write_text("\n".join(lines) + "\n")
+        masses = self.root / "data/faulty/model/masses.csv"
+        masses.write_text(masses.read_text().replace("floor,5,", "floor,500,", 1))
+        done = self.make("all", "STUDY=faulty")
+        self.assertIn("data/faulty/model/masses.csv:2: node: node 500 is not in nodes.csv", done.stderr)
+
+    def test_names_that_are_no_names_or_taken(self):
+        for arguments, part in ((("new",), "is no name for a study"), (("new", "STUDY=My-Bridge"), "is no name"), (("new", "STUDY=mine"), "is there already")):
+            done = self.make(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(part, done.stderr)
+
+    def test_edited_result_is_noticed(self):
+        self.make("new", "STUDY=edited")
+        self.assertEqual(self.make("all", "STUDY=edited").returncode, 0)
+        file = self.root / "results/edited/s6_updating/parameters.csv"
+        file.write_text(file.read_text().replace("m_floor", "m_flour"))
+        done = self.make("verify", "STUDY=edited")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("parameters.csv: stale hash", done.stderr)
+
+
+class Reference(unittest.TestCase):
+    def test_every_key_has_a_row(self):
+        page = reference.page(BIN)
+        for step in sorted(BIN.glob("s[0-9]_*")):
+            keys = reference.described(step)
+            self.assertTrue(keys, step.name)
+            self.assertIn(f"## {step.name}.toml", page)
+        for key in ("`model.inp`", "`parameter.lower`", "`n_modes`", "`youngs_modulus_Pa`"):
+            self.assertIn(f"| {key} |", page)
+
+
+if __name__ == "__main__":
+    unittest.main()
