@@ -23,6 +23,14 @@ INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
 MEASURED := $(if $(MODES),--modes $(MODES)) $(if $(FEATURES),--features $(FEATURES))
 OPTIONS_s4_refinement := $(MEASURED)
 OPTIONS_s6_updating := $(MEASURED)
+# Which modes the results rest on is kept beside them, so that the steps run again when that changes, and only then.
+MEASURED_STAMP := $(RESULTS)/.measured
+ifneq ($(strip $(MEASURED) $(wildcard $(MEASURED_STAMP))),)
+$(shell mkdir -p $(RESULTS); [ "$$(cat $(MEASURED_STAMP) 2>/dev/null)" = "measured: $(MEASURED)" ] || \
+  echo "measured: $(MEASURED)" > $(MEASURED_STAMP))
+INPUTS_s4_refinement += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
+INPUTS_s6_updating += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
+endif
 
 # An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
 # NO_BUILD=1 takes the executables as they are.

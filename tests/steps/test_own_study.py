@@ -93,13 +93,34 @@ class OwnStudy(unittest.TestCase):
             self.assertIn(part, done.stderr)
 
     def test_edited_result_is_noticed(self):
-        self.make("new", "STUDY=edited")
-        self.assertEqual(self.make("all", "STUDY=edited").returncode, 0)
-        file = self.root / "results/edited/s6_updating/parameters.csv"
-        file.write_text(file.read_text().replace("m_floor", "m_flour"))
-        done = self.make("verify", "STUDY=edited")
+        file = self.root / "results/mine/s6_updating/parameters.csv"
+        before = file.read_text()
+        file.write_text(before.replace("m_floor", "m_flour"))
+        done = self.make("verify", "STUDY=mine")
+        file.write_text(before)
         self.assertEqual(done.returncode, 2)
         self.assertIn("parameters.csv: stale hash", done.stderr)
+        self.assertEqual(self.make("verify", "STUDY=mine").returncode, 0)
+
+    def test_own_measured_modes_go_in_and_out_again(self):
+        """Modes that are the model's own leave the parameters at 1; taken away again, the study's features count."""
+        self.make("new", "STUDY=modes")
+        self.make("s1", "STUDY=modes")
+        (self.root / "measured").mkdir()
+        with open(self.root / "results/modes/s1_model/modes.csv", newline="") as stream:
+            rows = [f"{row['mode']},{row['frequency_Hz']},0.002" for row in csv.DictReader(stream)][:4]
+        (self.root / "measured/modes.csv").write_text("\n".join(["mode,frequency_Hz,frequency_std_Hz", *rows]) + "\n")
+
+        def parameters(*arguments):
+            done = self.make("s6", "STUDY=modes", *arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(self.root / "results/modes/s6_updating/parameters.csv", newline="") as stream:
+                return [float(row["final_value"]) for row in csv.DictReader(stream)], done.stderr
+
+        for value in parameters("MODES=measured")[0]:
+            self.assertAlmostEqual(value, 1.0, delta=1e-6)
+        self.assertNotIn("s6_updating:", parameters("MODES=measured")[1])
+        self.assertLess(min(parameters()[0]), 0.7)
 
 
 class Reference(unittest.TestCase):
