@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "model_io/inp_elements.hpp"
@@ -142,6 +143,20 @@ void assign_beam(InpParts& parts, const InpCard& card) {
   add_beams(parts, card, first_axis(parts, card), material, add_section(parts, card, section));
 }
 
+/// A material of the file with these numbers, or this one under the name of its set.
+int find_or_add_material(InpParts& parts, fe::Material m) {
+  const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); };
+  auto& materials = parts.model.materials;
+  const auto same = std::find_if(materials.begin(), materials.end(), [&](const fe::Material& other) {
+    return near(other.youngs_modulus_Pa, m.youngs_modulus_Pa) && near(other.shear_modulus_Pa, m.shear_modulus_Pa) &&
+           near(other.density_kg_m3, m.density_kg_m3);
+  });
+  if (same != materials.end()) return static_cast<int>(same - materials.begin());
+  if (!parts.materials.emplace(upper_case(m.name), static_cast<int>(materials.size())).second) m.name += "_section";
+  materials.push_back(m);
+  return static_cast<int>(materials.size()) - 1;
+}
+
 void assign_general_beam(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"ELSET", "SECTION", "DENSITY", "POISSON"});
   if (upper_case(card.get("SECTION", "GENERAL")) != "GENERAL") {
@@ -174,9 +189,7 @@ void assign_general_beam(InpParts& parts, const InpCard& card) {
     const InpLine density{card.line, {card.get("DENSITY")}};
     m.density_kg_m3 = parts.file.number(card, density, 0);
   }
-  if (!parts.materials.emplace(upper_case(m.name), static_cast<int>(parts.model.materials.size())).second) m.name += "_section";
-  parts.model.materials.push_back(m);
-  const int material = static_cast<int>(parts.model.materials.size()) - 1;
+  const int material = find_or_add_material(parts, m);
   const int section = add_section(parts, card, s);
   add_beams(parts, card, first_axis(parts, card), material, section);
 }

@@ -49,6 +49,8 @@ EquivalentRectangle equivalent_rectangle(const fe::Section& s, const fe::Materia
 void InpWriter::beam_section(const std::string& set, const fe::Section& s, const fe::Material& m, const Eigen::Vector3d& n1,
                              bool shear) {
   if (flavour_ == InpFlavour::abaqus) {
+    // The card takes numbers, not a material; written beside it, its name comes back when the file is read.
+    (void)material(m.name, m.youngs_modulus_Pa, poisson_of(m), m.density_kg_m3);
     elements_ += fmt::format("*BEAM GENERAL SECTION, ELSET={}, SECTION=GENERAL, DENSITY={}\n{}, {}, {}, {}, {}\n{}\n{}, {}\n",
                              set, format_number(m.density_kg_m3), format_number(s.area_m2), format_number(s.inertia_y_m4),
                              format_number(s.inertia_yz_m4), format_number(s.inertia_z_m4), format_number(s.torsion_m4),

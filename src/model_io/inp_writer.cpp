@@ -47,11 +47,11 @@ long InpWriter::add_node(const Eigen::Vector3d& x) {
   return last_node_;
 }
 
-std::string InpWriter::set_name(const std::string& wish) {
+std::string InpWriter::unique(const std::string& wish, std::map<std::string, int>& used) {
   std::string name;
   for (const char c : wish) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   if (name.empty() || std::isalpha(static_cast<unsigned char>(name.front())) == 0) name = "S" + name;
-  const int count = ++used_names_[upper_case(name)];
+  const int count = ++used[upper_case(name)];
   return count == 1 ? name : fmt::format("{}_v{}", name, count);
 }
 
@@ -60,7 +60,7 @@ std::string InpWriter::material(const std::string& wish, double youngs_modulus, 
                                        format_number(poisson_ratio), format_number(density));
   const auto [place, fresh] = material_names_.emplace(wish + "\n" + data, "");
   if (fresh) {
-    place->second = set_name("M_" + wish);
+    place->second = unique(wish, used_materials_);
     materials_ += fmt::format("*MATERIAL, NAME={}\n{}", place->second, data);
   }
   return place->second;

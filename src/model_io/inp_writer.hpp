@@ -29,7 +29,8 @@ class InpWriter {
   /// Elements of a group; returns the set for their section: the group itself, or one of its own where the group has several.
   std::string element_block(const std::string& type, const std::string& group,
                             const std::vector<std::pair<long, std::vector<long>>>& rows);
-  std::string set_name(const std::string& wish);
+  static std::string unique(const std::string& wish, std::map<std::string, int>& used);
+  std::string set_name(const std::string& wish) { return unique(wish, used_names_); }
   std::string material(const std::string& wish, double youngs_modulus, double poisson_ratio, double density);
   long add_node(const Eigen::Vector3d& x);
   long node_id(int node) const;
@@ -45,7 +46,7 @@ class InpWriter {
   InpFlavour flavour_;
   std::string nodes_, materials_, elements_, equations_, supports_, step_, heading_;
   std::map<std::string, std::string> material_names_;  ///< data -> name
-  std::map<std::string, int> used_names_;
+  std::map<std::string, int> used_names_, used_materials_;
   std::map<std::string, std::string> group_sets_;  ///< group -> set
   std::vector<std::string> notes_;
   long last_node_ = 0, last_element_ = 0;

@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from random import Random
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import exchange_models as models  # noqa: E402
@@ -91,6 +92,8 @@ class RoundTrip(Folder):
             self.assertAlmostEqual(g / f, 1.0, delta=1e-9)
         groups = {row["group"] for row in models.read_csv(self.folder / "again" / "model" / "elements.csv")}
         self.assertEqual(groups, {"column", "girder", "brace"})
+        materials = {row["material"] for row in models.read_csv(self.folder / "again" / "model" / "materials.csv")}
+        self.assertEqual(materials, {"steel"})
 
     def test_imported_model_is_a_model_folder(self):
         models.block_alone(self.folder / "block")
@@ -229,6 +232,30 @@ class PartsOfAFile(Folder):
         wanted = sorted(math.sqrt(k / m) / (2 * math.pi) for k, m in ((4e6, 100.0), (1e6, 200.0 / 3)))
         for f, w in zip(frequencies(self.folder / "out"), wanted):
             self.assertAlmostEqual(f / w, 1.0, delta=1e-6)
+
+
+class SpoiltFiles(Folder):
+    def test_spoilt_lines_are_refused_in_one_line_or_read(self):
+        """Seeded mutations of both flavours: never a crash, never silence; a refusal names the file."""
+        models.space_frame(self.folder / "frame", pieces=1)
+        self.exported(self.folder / "frame")
+        texts = [(self.folder / "s1" / name).read_text().splitlines() for name in ("model.inp", "model_abaqus.inp")]
+        random = Random(3)
+        refused = 0
+        for _ in range(40):
+            lines = list(random.choice(texts))
+            i = random.randrange(len(lines))
+            fields = lines[i].split(",")
+            fields[random.randrange(len(fields))] = random.choice(["", "-1", "nan", "1e400", "word", "*", "="])
+            lines[i] = ",".join(fields)
+            (self.folder / "spoilt.inp").write_text("\n".join(lines) + "\n")
+            done = run(self.folder / "spoilt.inp", self.folder / "out", "--set", "n_modes=2", "--quiet")
+            self.assertIn(done.returncode, (0, 2), lines[i] + "\n" + done.stderr)
+            if done.returncode == 2:
+                refused += 1
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn("spoilt.inp:", done.stderr)
+        self.assertGreater(refused, 20)
 
 
 if __name__ == "__main__":

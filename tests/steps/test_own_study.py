@@ -102,6 +102,27 @@ class OwnStudy(unittest.TestCase):
         self.assertIn("parameters.csv: stale hash", done.stderr)
         self.assertEqual(self.make("verify", "STUDY=mine").returncode, 0)
 
+    def test_the_same_frame_as_an_inp_file_gives_the_same_parameters(self):
+        self.make("new", "STUDY=inp")
+        data, out = self.root / "data/inp", self.root / "exported" / "s1_model"
+        done = subprocess.run([BIN / "s1_model", "--model", data / "model", "--out", out, "--export-inp"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shutil.copy(out / "model_abaqus.inp", data / "frame.inp")
+        (data / "model" / "model.toml").rename(data / "frame.toml")
+        shutil.rmtree(data / "model")
+        study = self.root / "workflows/inp/study.toml"
+        study.write_text(study.read_text().replace('folder = "data/inp/model"', 'inp = "data/inp/frame.inp"'))
+        done = self.make("steps", "STUDY=inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+        def values(study):
+            with open(self.root / f"results/{study}/s6_updating/parameters.csv", newline="") as stream:
+                return {row["parameter"]: float(row["final_value"]) for row in csv.DictReader(stream)}
+
+        self.assertEqual(values("inp").keys(), values("mine").keys())
+        for name, value in values("inp").items():
+            self.assertAlmostEqual(value / values("mine")[name], 1.0, delta=1e-5)
+
     def test_own_measured_modes_go_in_and_out_again(self):
         """Modes that are the model's own leave the parameters at 1; taken away again, the study's features count."""
         self.make("new", "STUDY=modes")
