@@ -1,4 +1,4 @@
-"""Writes the model folder of a two-storey steel frame: python3 frame.py FOLDER [base spring N m/rad] [floor mass kg]"""
+"""Writes the model folder of a two-storey steel frame: python3 frame.py FOLDER [base spring N m/rad] [floor mass kg] [mass at D kg]"""
 import csv
 import pathlib
 import sys
@@ -6,6 +6,7 @@ import sys
 folder = pathlib.Path(sys.argv[1])
 base_spring = float(sys.argv[2]) if len(sys.argv) > 2 else 12e6
 floor_mass = float(sys.argv[3]) if len(sys.argv) > 3 else 1500.0
+mass_at_D = float(sys.argv[4]) if len(sys.argv) > 4 else 0.0
 folder.mkdir(parents=True, exist_ok=True)
 
 
@@ -45,7 +46,8 @@ table("supports.csv", "support,node,x,y,z,rx,ry,rz",
       [["foot" if n in feet else "plane", n, int(n in feet), 1, int(n in feet), 1, 0, 1] for n in nodes.values()])
 table("springs.csv", "spring,group,node,direction_x,direction_y,direction_z,quantity,stiffness_N_m",
       [[f"base_{i}", "base", n, 0, 1, 0, "rotation", base_spring] for i, n in enumerate(feet, 1)])
-table("masses.csv", "group,node,mass_kg", [["floor", node(x, z), floor_mass] for z in (3, 6) for x in (0, 2.5, 5)])
+floors = [["floor", node(x, z), floor_mass] for z in (3, 6) for x in (0, 2.5, 5)]
+table("masses.csv", "group,node,mass_kg", floors + ([["D", node(2.5, 6), mass_at_D]] if mass_at_D else []))
 table("points.csv", "point,node", [["A", node(0, 3)], ["B", node(0, 6)], ["C", node(2.5, 3)], ["D", node(2.5, 6)]])
 (folder / "model.toml").write_text("""title = "two-storey frame"
 
