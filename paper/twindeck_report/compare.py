@@ -54,21 +54,28 @@ class Cell:
 
 def load_table(study: Study, table: str, key: str) -> pd.DataFrame:
     """A generated table, cells as text, indexed by row."""
-    frame = study.step_csv(f"tables/{table}.csv", [key], text=True)
+    frame = study.step_csv(f"tables/{table}.csv", key.split("+"), text=True)
     return _indexed(frame, key, study.results / "tables" / f"{table}.csv")
 
 
 def load_paper(study: Study, table: str, key: str) -> pd.DataFrame:
     number = "_".join(table.split("_")[:2])  # table_12_quasi_steady is held against table_12
     path = study.data / "paper" / f"{number}.csv"
-    return _indexed(study.read_csv(path, [key], text=True), key, path)
+    return _indexed(study.read_csv(path, key.split("+"), text=True), key, path)
 
 
 def _indexed(frame, key, path) -> pd.DataFrame:
-    repeated = frame[key][frame[key].duplicated()]
+    rows = row_names(frame, key)
+    repeated = rows[rows.duplicated()]
     if len(repeated):
         raise InputError(f"{path}: row {repeated.iloc[0]} stands twice")
-    return frame.set_index(key)
+    return frame.set_index(rows)
+
+
+def row_names(frame, key) -> pd.Series:
+    """What rows are called: the key column's text, or that of several columns ("case+cable") with a blank between."""
+    columns = key.split("+")
+    return frame[columns[0]].str.cat([frame[c] for c in columns[1:]], sep=" ") if len(columns) > 1 else frame[key]
 
 
 def compare_table(study: Study, table: str, tolerances: Tolerances) -> list:

@@ -1,5 +1,6 @@
 """Files that are no longer what their manifest says, and, for an edited table, the cells that were edited."""
 from .cells import csv_text
+from .compare import row_names
 from .errors import InputError
 from .manifests import stale_inputs, stale_outputs
 from .study import Study
@@ -29,10 +30,10 @@ def _edited(study: Study, path, tolerances: Tolerances) -> str:
         lying = study.read_csv(path, text=True)
     except InputError:
         return ""  # the steps' own trouble is reported by itself
-    key = tolerances.keys[table_name(number)]
+    rows = list(row_names(lying, tolerances.keys[table_name(number)]))
     if list(lying.columns) != list(fresh.columns) or len(lying) != len(fresh):
         return "; rows or columns are not those that the steps' results give"
-    cells = [f"row {csv_text(fresh[key][i])} column {c}: {lying[c][i] or 'empty'}, the steps give "
+    cells = [f"row {rows[i]} column {c}: {lying[c][i] or 'empty'}, the steps give "
              f"{csv_text(fresh[c][i]) or 'empty'}"
              for i in range(len(fresh)) for c in fresh.columns if csv_text(fresh[c][i]) != lying[c][i]]
     more = f" and {len(cells) - 5} more" if len(cells) > 5 else ""

@@ -61,7 +61,7 @@ def read_tolerances(study: Study) -> Tolerances:
     keys, columns, rms = {}, {}, []
     for table, entry in study.read_toml(path).items():
         if not isinstance(entry, dict) or not isinstance(entry.get("key"), str):
-            raise InputError(f'{path}: {table}: expected a table with key = "<column that names the rows>"')
+            raise InputError(f'{path}: {table}: expected a table with key = "<column that names the rows>" (several: "a+b")')
         keys[table] = entry["key"]
         columns[table] = {name: _column(path, table, name, rule) for name, rule in entry.get("columns", {}).items()}
         rms += [_rms(path, table, rule) for rule in entry.get("rms", [])]

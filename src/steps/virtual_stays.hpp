@@ -22,7 +22,7 @@ struct StayRecord {
   Eigen::Vector3d x_m, direction;     ///< of the sensor
 };
 
-/// A record of an accelerometer on a stay that hangs between its anchorages in the model, as a chain of 40 pieces: pull as given, axial
+/// A record of an accelerometer on a stay that hangs between its anchorages in the model, as a chain of 96 pieces: pull as given, axial
 /// stiffness such that Irvine's parameter
 ///
 ///     lambda² = (m g L cos(theta) / T)² EA L / (T L_e),   L_e = L (1 + (m g L cos(theta) / T)² / 8)

@@ -8,9 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+import made_up_campaign
+
 REPOSITORY = Path(__file__).resolve().parents[2]
 RULES = REPOSITORY / "data" / "ponte_del_mare"
-STEPS = ["s1_model", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics"]
+STEPS = ["s1_model", "s2_sensors", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics"]
 
 MEASURED = [0.8, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 1.9, 2.4, 2.5]
 SOFT = [0.92, 0.95, 0.96, 0.92, 0.98, 1.01, 0.90, 0.93, 0.75, 0.84]  # preliminary / measured
@@ -78,6 +80,7 @@ def write_paper(folder):
     write_rows(folder / "table_04.csv",
                ["mode", "f_X_without_dampers_Hz", "zeta_without_dampers_pct", "f_X_with_dampers_Hz", "zeta_with_dampers_pct"],
                [[i + 1, f"{f:.3f}", "1.10", f"{1.05 * f:.2f}", "3.20"] for i, f in enumerate(MEASURED)])
+    made_up_campaign.write_paper(write_rows, folder)
     pair = ["experimental_mode", "numerical_mode", "f_X_Hz", "f_N_Hz", "error_pct"]
 
     def numbers(measured, ratio, digits):
@@ -144,6 +147,8 @@ def write_steps(paper, results):
                [*compared("before", before, "published"), *compared("after", updated, "published")])
     write_sensitivity(results / "s5_sensitivity")
     write_updating(paper, results / "s6_updating")
+    made_up_campaign.write_sensors(write_rows, results / "s2_sensors")
+    made_up_campaign.write_identification(write_rows, read_rows, paper, results / "s3_identification")
     write_aerodynamics(paper, results / "s7_aerodynamics")
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from ..cells import csv_text, number, shown
+from ..compare import row_names
 from ..errors import InputError
 from ..manifests import write_manifest
 from ..study import Study
@@ -50,7 +51,7 @@ def full_table(study: Study, number_, tolerances: Tolerances) -> pd.DataFrame:
             raise InputError(f"{study.data / 'tolerances.toml'}: {name}.columns.{column}: no such column in the paper's table")
         table[f"{column}_paper"] = printed[column]
         # a cell that the paper leaves empty has nothing to be of a kind
-        rows = printed[tolerances.keys[name]]
+        rows = row_names(printed, tolerances.keys[name])
         table[f"{column}_kind"] = [rule.kind_of(row) if text else "" for row, text in zip(rows, printed[column])]
     return table
 
