@@ -129,6 +129,6 @@ COMPUTED = {  # claim -> (ours, allowed deviation for the printed text, why)
     "f_cr_over_f1_wind_Y": (_critical("f_cr_over_f1", "G"), lambda text: 0.007,
                             "The range of the ratio over Table 12 and on a prototype's structure."),
     "critical_speed_least_model_A": (_critical("V_cr_m_s"), lambda text: 0.01 * float(text),
-                                     "The least of the six models; its lift slope was fitted to this speed: 1 %."),
+                                     "The least of the six models; its level was fitted to this speed: 1 %."),
     "degrees_of_freedom": (_degrees_of_freedom, None, "Another mesh: shown beside the paper's."),
 }

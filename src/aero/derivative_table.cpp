@@ -99,10 +99,10 @@ DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
   return to_block(convention_, values, v);
 }
 
-DerivativeTable DerivativeTable::with_lift_slope_factor(double factor) const {
-  DerivativeTable scaled = *this;
-  for (std::size_t i = 0; i < 3; ++i) scaled.curves_[i].value *= factor;
-  return scaled;
+DerivativeTable DerivativeTable::scaled(double factor) const {
+  DerivativeTable out = *this;
+  for (DerivativeCurve& curve : out.curves_) curve.value *= factor;
+  return out;
 }
 
 }  // namespace twindeck::aero

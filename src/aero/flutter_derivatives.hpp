@@ -40,9 +40,9 @@ class DerivativeTable : public FlutterDerivatives {
                   std::string source, OutOfRange below = OutOfRange::refuse, OutOfRange above = OutOfRange::refuse);
   /// @throws InputError  outside the table, naming derivative, range and what was asked for
   [[nodiscard]] DerivativeBlock at(double alpha_rad, double v_over_omegaB) const override;
-  /// The same table with the rows of lift due to heave and rotation (h1, h2, h3) multiplied: another lift slope, the shape over
-  /// the reduced velocity kept.
-  [[nodiscard]] DerivativeTable with_lift_slope_factor(double factor) const;
+  /// The same table with all eighteen derivatives multiplied: self-excited forces at another level, as another ratio of air to
+  /// deck mass would give them; signs and shapes over the reduced velocity are kept.
+  [[nodiscard]] DerivativeTable scaled(double factor) const;
 
  private:
   Convention convention_;

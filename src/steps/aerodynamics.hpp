@@ -65,8 +65,9 @@ struct DeckAerodynamics {
 /// @param context  registers the files as inputs
 [[nodiscard]] std::vector<DeckAerodynamics> read_deck_aerodynamics(const AerodynamicsConfig& config, StepContext& context);
 
-/// Aerodynamic sections of a set, the lift slope multiplied by `level`: "standin" (tables and polars), "quasi_steady"
-/// (derivatives from the polars alone).
+/// Aerodynamic sections of a set at a level. "standin": tables and polars, all self-excited forces multiplied by `level`
+/// (chord, mass and share of the mode are as unknown as the derivatives, and all of them enter as one factor); "quasi_steady":
+/// derivatives from the polars alone, whose lift slope is multiplied by `level`.
 [[nodiscard]] std::vector<aero::SectionAero> sections_of(const AerodynamicsConfig& config,
                                                          const std::vector<DeckAerodynamics>& data, const std::string& set,
                                                          double level);
@@ -93,8 +94,7 @@ struct DampedModel {
 };
 [[nodiscard]] DampedModel with_dampers(const WindModel& model, const LoadedModel& loaded, double damping_ratio);
 
-/// Level of the lift slope at which mode 1 is critical at the speed to fit, by the rule to fit. 1 where nothing is to be
-/// fitted.
+/// Level of a set at which mode 1 is critical at the speed to fit, by the rule to fit. 1 where nothing is to be fitted.
 /// @return empty if no level between 0.05 and 20 does it
 [[nodiscard]] std::optional<double> fit_level(const AerodynamicsConfig& config, const std::vector<DeckAerodynamics>& data,
                                               const std::string& set, const WindModel& model);

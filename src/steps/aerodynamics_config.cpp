@@ -36,7 +36,7 @@ io::FieldTable AerodynamicsConfig::fields() {
       .choice("above_range", above_range, {"refuse", "hold"}, "what a derivative table does above its reduced velocities")
       .texts("sets", sets,
              "aerodynamic sets: standin (the files), quasi_steady (derivatives from the polars); the first is the main one")
-      .text("fit_model", fit_model, "model of Table 11 at which a set's lift slope is fitted")
+      .text("fit_model", fit_model, "model of Table 11 at which a set's level is fitted")
       .number("fit_speed", fit_speed_m_s, "m/s", io::non_negative(),
               "critical speed to fit it to; 0: take the sets as they are")
       .texts("models", models, "models of Table 11")

@@ -21,6 +21,9 @@ struct FittedSet {
   std::vector<aero::SectionAero> sections;
 };
 
+// What a set's level multiplies, in words.
+std::string fitted_quantity(const std::string& set) { return set == "standin" ? "self-excited forces" : "lift slope"; }
+
 std::vector<double> speeds_up_to(const AerodynamicsConfig& config, double limit) {
   std::vector<double> speeds;
   for (int i = 1; speeds.empty() || speeds.back() < limit; ++i) speeds.push_back(std::min(i * config.speed_step_m_s, limit));
@@ -149,15 +152,14 @@ Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config) 
   const aero::ReducedStructure bare = bare_structure(model, config.structural_damping);
   const DampedModel damped = with_dampers(model, loaded, config.structural_damping);
 
-  // 2. The aerodynamic sets, their lift slope fitted to one critical speed.
+  // 2. The aerodynamic sets, their level fitted to one critical speed.
   std::vector<FittedSet> sets;
   for (const std::string& name : config.sets) {
     const std::optional<double> level = fit_level(config, data, name, model);
     if (!level)
-      return {false,
-              "set " + name + ": no lift slope makes mode 1 critical at " + io::format_number(config.fit_speed_m_s) + " m/s"};
+      return {false, "set " + name + ": no level makes mode 1 critical at " + io::format_number(config.fit_speed_m_s) + " m/s"};
     sets.push_back({name, *level, sections_of(config, data, name, *level)});
-    context.say(fmt::format("set {}: lift slope times {:.4f}", name, *level));
+    context.say(fmt::format("set {}: {} times {:.4f}", name, fitted_quantity(name), *level));
   }
   if (sets.empty()) throw InputError({"", 0, "sets"}, "is empty", "name at least one of standin, quasi_steady");
 
@@ -202,11 +204,11 @@ Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config) 
   // 5. Tables, and the outcome in words.
   std::vector<std::string> names;
   std::vector<std::vector<aero::SectionAero>> sections;
-  io::CsvWriter levels({"set", "lift_slope_factor", "fitted_model", "fitted_speed_m_s"});
+  io::CsvWriter levels({"set", "level", "fitted_quantity", "fitted_model", "fitted_speed_m_s"});
   for (const FittedSet& set : sets) {
     names.push_back(set.name);
     sections.push_back(set.sections);
-    levels.row({set.name, set.level, config.fit_model, config.fit_speed_m_s});
+    levels.row({set.name, set.level, fitted_quantity(set.name), config.fit_model, config.fit_speed_m_s});
   }
   levels.save(context.out / "sets.csv");
   write_critical(critical, config.max_speed_m_s, context.out / "critical.csv");

@@ -53,10 +53,10 @@ std::vector<aero::SectionAero> sections_of(const AerodynamicsConfig& config, con
   std::vector<aero::SectionAero> sections;
   for (std::size_t i = 0; i < data.size(); ++i) {
     const DeckWind& deck = config.decks[i];
-    const aero::Polar polar = data[i].polar.with_lift_slope_factor(level);
+    const aero::Polar polar = set == "standin" ? data[i].polar : data[i].polar.with_lift_slope_factor(level);
     aero::DerivativesPtr derivatives;
     if (set == "standin") {
-      derivatives = std::make_shared<aero::DerivativeTable>(data[i].flutter->with_lift_slope_factor(level));
+      derivatives = std::make_shared<aero::DerivativeTable>(data[i].flutter->scaled(level));
     } else {
       derivatives =
           std::make_shared<aero::QuasiSteady>(polar, aero::QuasiSteady::Arms{deck.arm_drag, deck.arm_lift, deck.arm_moment});

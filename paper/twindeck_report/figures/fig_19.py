@@ -9,7 +9,7 @@ from .wind import SYNTHETIC
 NAME = "fig_19"
 CAPTION = ("(a) Flutter derivative h1* of the foot deck over V/(fB) at several mean angles of attack; (b) static coefficients. " + SYNTHETIC
            + " As in the paper h1* is negative at realistic angles and C_L falls near the origin; the steep fall of h1* is what the order of "
-           "Table 12 demands. Dashed: the quasi-steady set, whose lift slope is its own.")
+           "Table 12 demands. Dashed: the quasi-steady set, whose lift slope is its own. Both at the level fitted to row A of Table 12.")
 NEEDS = ("s7_aerodynamics",)
 DECK = "foot"
 

@@ -6,7 +6,7 @@ from .wind import SYNTHETIC
 
 NAME = "fig_20"
 CAPTION = ("Total damping of the first modes over the wind velocity, without dampers, structural damping 0.5 %, wind orthogonal to the decks "
-           "(model A). The paper reads instability of mode 1 at about 24 m/s; the lift slope was fitted to 24.41 m/s. " + SYNTHETIC)
+           "(model A). The paper reads instability of mode 1 at about 24 m/s; the level of the self-excited forces was fitted to 24.41 m/s. " + SYNTHETIC)
 NEEDS = ("s7_aerodynamics",)
 SHOWN_MODES = 6
 
