@@ -129,7 +129,7 @@ class SolidOrShellModel:
                   [[f"point_{i}", i, *flags] for i, flags in sorted(self.supports.items())])
 
 
-def bridge_part(folder, bridge, pieces=(22, 7), length_m=8.0):
+def bridge_part(folder, bridge, size_m=0.115, length_m=8.0):
     """The foot deck's slab beside the crown, held at the chords' nodes as the truss holds it, with an end block in solids that
     carries the slab's end: shells and solids of the bridge, from its own model folder."""
     nodes = {int(r["node"]): tuple(float(r[c]) for c in ("x_m", "y_m", "z_m")) for r in read_csv(bridge / "nodes.csv")}
@@ -139,6 +139,8 @@ def bridge_part(folder, bridge, pieces=(22, 7), length_m=8.0):
     slab = [r for r in read_csv(bridge / "elements.csv") if r["type"] == "shell" and r["group"].startswith("slab_foot")]
     slab = [(r, [nodes[int(r[f"node{i}"])] for i in range(1, 5)]) for r in slab]
     slab = [(r, q) for r, q in slab if all(-1e-6 <= p[0] for p in q) and sum(p[0] for p in q) / 4 <= length_m]
+    # The same number of pieces in every quadrilateral, whatever the bridge's own mesh, so that neighbours meet.
+    pieces = [math.ceil(sum(math.dist(q[a], q[b]) for _, q in slab) / len(slab) / size_m) for a, b in ((0, 1), (1, 2))]
     part = SolidOrShellModel()
     edges = {}
     for _, q in slab:
