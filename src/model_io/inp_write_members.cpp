@@ -99,6 +99,12 @@ void InpWriter::beams_and_bars() {
       std::string name = m.name;
       const auto pull =
           static_cast<std::size_t>(state_.stay_pull_N.size()) > i ? state_.stay_pull_N[static_cast<Eigen::Index>(i)] : 0.0;
+      if (e.type == fe::ElementType::stay) {
+        // Half the mass at each end, as in our own matrices; a truss would spread it.
+        const Eigen::Vector3d chord =
+            model_.nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model_.nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
+        for (const int node : e.nodes) point_mass("stay_ends", node, 0.5 * m.density_kg_m3 * s.area_m2 * chord.norm());
+      }
       if (e.type == fe::ElementType::stay && pull > 0.0) {
         const Eigen::Vector3d chord =
             model_.nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model_.nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
@@ -155,8 +161,10 @@ void InpWriter::beams_and_bars() {
     } else {
       const std::string name = e.type == fe::ElementType::stay ? e.name : m.name;
       const std::string set = element_block("T3D2", wish, group.rows);
-      elements_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n{}\n", set,
-                               material(name, group.n1[0], m.poisson_ratio, m.density_kg_m3), format_number(s.area_m2));
+      elements_ +=
+          fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n{}\n", set,
+                      material(name, group.n1[0], m.poisson_ratio, e.type == fe::ElementType::stay ? 0.0 : m.density_kg_m3),
+                      format_number(s.area_m2));
     }
   }
   if (state_.axial_force_N.size() > 0 && model_.prestress.geometric_stiffness && model_.prestress.rule != fe::PullRule::none) {

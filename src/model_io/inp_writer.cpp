@@ -14,6 +14,18 @@ namespace twindeck::model_io {
 
 using io::format_number;
 
+namespace {
+
+/// CalculiX takes a number of *SPRING for a degree of freedom unless it has a decimal point.
+std::string with_point(double value) {
+  std::string text = format_number(value);
+  if (text.find('.') != std::string::npos) return text;
+  const auto exponent = text.find('e');
+  return text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
+}
+
+}  // namespace
+
 InpWriter::InpWriter(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour)
     : model_(model), state_(state), flavour_(flavour) {
   for (const fe::Node& node : model.nodes) {
@@ -47,12 +59,17 @@ long InpWriter::add_node(const Eigen::Vector3d& x) {
   return last_node_;
 }
 
-std::string InpWriter::unique(const std::string& wish, std::map<std::string, int>& used) {
+std::string InpWriter::unique(const std::string& wish, std::map<std::string, int>& used, std::size_t longest) {
   std::string name;
   for (const char c : wish) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   if (name.empty() || std::isalpha(static_cast<unsigned char>(name.front())) == 0) name = "S" + name;
-  const int count = ++used[upper_case(name)];
-  return count == 1 ? name : fmt::format("{}_v{}", name, count);
+  name = name.substr(0, longest);
+  if (used.emplace(upper_case(name), 1).second) return name;
+  for (;;) {
+    const std::string ending = fmt::format("_{}", ++used[upper_case(name)]);
+    const std::string numbered = name.substr(0, longest - ending.size()) + ending;
+    if (used.emplace(upper_case(numbered), 1).second) return numbered;
+  }
 }
 
 std::string InpWriter::material(const std::string& wish, double youngs_modulus, double poisson_ratio, double density) {
@@ -76,7 +93,7 @@ std::string InpWriter::element_block(const std::string& type, const std::string&
     for (const long node : nodes) elements_ += fmt::format(", {}", node);
     elements_ += '\n';
   }
-  const std::string set = set_name(place->second + "_part");
+  const std::string set = set_name("part");
   elements_ += fmt::format("*ELSET, ELSET={}\n", set);
   for (const auto& [id, nodes] : rows) elements_ += fmt::format("{}\n", id);
   return set;
@@ -121,6 +138,11 @@ void InpWriter::links_and_supports() {
   }
 }
 
+void InpWriter::point_mass(const std::string& group, int node, double mass_kg) {
+  const std::string set = element_block("MASS", group.empty() ? "masses" : group, {{next_element(), {node_id(node)}}});
+  elements_ += fmt::format("*MASS, ELSET={}\n{}\n", set, format_number(mass_kg));
+}
+
 void InpWriter::springs_and_masses() {
   const auto direction_axes = [this](const Eigen::Vector3d& d) {
     // x' of the local system is the spring's direction
@@ -152,14 +174,10 @@ void InpWriter::springs_and_masses() {
                                           spring.group.empty() ? "springs" : spring.group, {{next_element(), nodes}});
     elements_ +=
         fmt::format("*SPRING, ELSET={}{}\n{}\n{}\n", set, orientation,
-                    spring.node2 < 0 ? std::to_string(dof) : fmt::format("{0}, {0}", dof), format_number(spring.stiffness));
+                    spring.node2 < 0 ? std::to_string(dof) : fmt::format("{0}, {0}", dof), with_point(spring.stiffness));
   }
   for (const fe::PointMass& mass : model_.masses) {
-    if (mass.mass_kg > 0.0) {
-      const std::string set =
-          element_block("MASS", mass.group.empty() ? "masses" : mass.group, {{next_element(), {node_id(mass.node)}}});
-      elements_ += fmt::format("*MASS, ELSET={}\n{}\n", set, format_number(mass.mass_kg));
-    }
+    if (mass.mass_kg > 0.0) point_mass(mass.group, mass.node, mass.mass_kg);
     if (mass.inertia_kg_m2.maxCoeff() <= 0.0) continue;
     if (flavour_ == InpFlavour::calculix) {
       note("rotary inertia of point masses is left out: CalculiX has no such element");

@@ -29,8 +29,12 @@ class InpWriter {
   /// Elements of a group; returns the set for their section: the group itself, or one of its own where the group has several.
   std::string element_block(const std::string& type, const std::string& group,
                             const std::vector<std::pair<long, std::vector<long>>>& rows);
-  static std::string unique(const std::string& wish, std::map<std::string, int>& used);
-  std::string set_name(const std::string& wish) { return unique(wish, used_names_); }
+  void point_mass(const std::string& group, int node, double mass_kg);
+  static std::string unique(const std::string& wish, std::map<std::string, int>& used, std::size_t longest = 70);
+  /// CalculiX takes names of sets up to 20 letters.
+  std::string set_name(const std::string& wish) {
+    return unique(wish, used_names_, flavour_ == InpFlavour::calculix ? 20 : 70);
+  }
   std::string material(const std::string& wish, double youngs_modulus, double poisson_ratio, double density);
   long add_node(const Eigen::Vector3d& x);
   long node_id(int node) const;
