@@ -1,4 +1,5 @@
 #include "fe/assembly_terms.hpp"
+#include "fe/matrix_element.hpp"
 
 namespace twindeck::fe {
 
@@ -11,11 +12,11 @@ ElementMatrix whole(const Model& model, int i) { return element_mass(model, elem
 /// Part of a beam's mass that does not go with its area: the inertia of the section about its own axes.
 ElementMatrix beam_rotary(const Model& model, int i) {
   const Element& e = element_at(model, i);
-  BeamStiffnessProperties p = beam_properties(model, e);
-  p.area_m2 = 0.0;
+  TaperedProperties ends = beam_end_properties(model, e);
+  ends.end1.area_m2 = ends.end2.area_m2 = 0.0;
   BeamGeometry geometry = beam_geometry(model, e);
   geometry.releases &= static_cast<std::uint16_t>(~((1U << 0) | (1U << 6)));  // nothing is left along the axis
-  return {six_per_node(e), beam_mass(geometry, p, material_of(model, e).density_kg_m3, model.formulation.beam_rotary_inertia)};
+  return beam_mass_of(model, e, geometry, ends);
 }
 
 ElementMatrix beam_translational(const Model& model, int i) {
@@ -26,14 +27,17 @@ ElementMatrix beam_translational(const Model& model, int i) {
 
 ElementMatrix shell_translational(const Model& model, int i) {
   const Element& e = element_at(model, i);
-  const double mass_per_area = material_of(model, e).density_kg_m3 * section_of(model, e).thickness_m;
-  return {six_per_node(e), shell_mass(shell_geometry(model, e), mass_per_area, 0.0)};
+  return shell_mass_of(model, e, material_of(model, e).density_kg_m3 * section_of(model, e).thickness_m, 0.0);
 }
 
 ElementMatrix shell_rotary(const Model& model, int i) {
   const Element& e = element_at(model, i);
   const double t = section_of(model, e).thickness_m;
-  return {six_per_node(e), shell_mass(shell_geometry(model, e), 0.0, material_of(model, e).density_kg_m3 * t * t * t / 12.0)};
+  return shell_mass_of(model, e, 0.0, material_of(model, e).density_kg_m3 * t * t * t / 12.0);
+}
+
+ElementMatrix matrix_part(const Model& model, int i) {
+  return conservative_part(model.matrix_elements[static_cast<std::size_t>(i)]).mass;
 }
 
 ElementMatrix mass_at_node(const Model& model, int i) { return point_mass(model.masses[static_cast<std::size_t>(i)]); }
@@ -68,6 +72,7 @@ std::vector<TermPlan> plan_mass(const Model& model) {
     TermPlan& term = groups.add("point masses " + mass.group, i, mass_at_node);
     if (term.parts.size() == 1) add_factors(model, Target::point_mass, mass.group, 1.0, term.coefficient);
   }
+  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_part);
   return groups.take();
 }
 

@@ -1,5 +1,6 @@
 #include "fe/assembly_drilling.hpp"
 #include "fe/assembly_terms.hpp"
+#include "fe/matrix_element.hpp"
 
 namespace twindeck::fe {
 
@@ -9,9 +10,13 @@ constexpr std::uint16_t axial_releases = (1U << 0) | (1U << 6);
 
 const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
 
+ElementMatrix beam_with(const Element& e, const BeamGeometry& geometry, const TaperedProperties& ends) {
+  return {six_per_node(e), e.section2 >= 0 ? tapered_beam_stiffness(geometry, ends) : beam_stiffness(geometry, ends.end1)};
+}
+
 ElementMatrix beam_whole(const Model& model, int i) {
   const Element& e = element_at(model, i);
-  return {six_per_node(e), beam_stiffness(beam_geometry(model, e), beam_properties(model, e))};
+  return beam_with(e, beam_geometry(model, e), beam_end_properties(model, e));
 }
 
 /// Stiffness along the beam's axis alone; releases of the other directions do not touch it.
@@ -19,8 +24,10 @@ ElementMatrix beam_axial(const Model& model, int i) {
   const Element& e = element_at(model, i);
   BeamGeometry geometry = beam_geometry(model, e);
   geometry.releases &= axial_releases;
-  const BeamStiffnessProperties p = beam_properties(model, e);
-  return {six_per_node(e), beam_stiffness(geometry, {p.youngs_modulus_Pa, p.shear_modulus_Pa, p.area_m2, 0, 0, 0, 0, 0, 0})};
+  TaperedProperties ends = beam_end_properties(model, e);
+  for (BeamStiffnessProperties* p : {&ends.end1, &ends.end2})
+    *p = {p->youngs_modulus_Pa, p->shear_modulus_Pa, p->area_m2, 0, 0, 0, 0, 0, 0};
+  return beam_with(e, geometry, ends);
 }
 
 /// The rest: bending, shear and torsion.
@@ -28,9 +35,9 @@ ElementMatrix beam_transverse(const Model& model, int i) {
   const Element& e = element_at(model, i);
   BeamGeometry geometry = beam_geometry(model, e);
   geometry.releases &= static_cast<std::uint16_t>(~axial_releases);
-  BeamStiffnessProperties p = beam_properties(model, e);
-  p.area_m2 = 0.0;
-  return {six_per_node(e), beam_stiffness(geometry, p)};
+  TaperedProperties ends = beam_end_properties(model, e);
+  ends.end1.area_m2 = ends.end2.area_m2 = 0.0;
+  return beam_with(e, geometry, ends);
 }
 
 ElementMatrix bar_axial(const Model& model, int i) {
@@ -59,6 +66,10 @@ ElementMatrix solid(const Model& model, int i) {
   const Element& e = element_at(model, i);
   const Material& m = material_of(model, e);
   return {three_per_node(e), solid_stiffness(solid_geometry(model, e), {m.youngs_modulus_Pa, m.poisson_ratio})};
+}
+
+ElementMatrix matrix_part(const Model& model, int i) {
+  return conservative_part(model.matrix_elements[static_cast<std::size_t>(i)]).stiffness;
 }
 
 ElementMatrix spring(const Model& model, int i) { return spring_stiffness(model.springs[static_cast<std::size_t>(i)]); }
@@ -94,6 +105,7 @@ std::vector<TermPlan> plan_stiffness(const Model& model) {
     TermPlan& term = groups.add("springs " + s.group, i, spring);
     if (term.parts.size() == 1) add_factors(model, Target::spring_stiffness, s.group, 1.0, term.coefficient);
   }
+  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_part);
   return groups.take();
 }
 

@@ -34,13 +34,26 @@ BeamGeometry beam_geometry(const Model& model, const Element& element) {
   return {end_nodes(model, element), element.offset_m, element.orientation, element.releases};
 }
 
-BeamStiffnessProperties beam_properties(const Model& model, const Element& element) {
-  const Material& m = material_of(model, element);
-  const Section& s = section_of(model, element);
+namespace {
+
+BeamStiffnessProperties properties_with(const Model& model, const Material& m, const Section& s) {
   const double shear = model.formulation.shear_flexible ? 1.0 : 0.0;
   return {m.youngs_modulus_Pa,      m.shear_modulus_Pa, s.area_m2,    s.inertia_y_m4,
           s.inertia_z_m4,           s.inertia_yz_m4,    s.torsion_m4, shear * s.shear_area_y_m2,
           shear * s.shear_area_z_m2};
+}
+
+}  // namespace
+
+BeamStiffnessProperties beam_properties(const Model& model, const Element& element) {
+  return properties_with(model, material_of(model, element), section_of(model, element));
+}
+
+TaperedProperties beam_end_properties(const Model& model, const Element& element) {
+  const BeamStiffnessProperties first = beam_properties(model, element);
+  if (element.section2 < 0) return {first, first};
+  return {first,
+          properties_with(model, material_of(model, element), model.sections[static_cast<std::size_t>(element.section2)])};
 }
 
 ShellGeometry shell_geometry(const Model& model, const Element& element) {
@@ -64,24 +77,44 @@ SolidGeometry solid_geometry(const Model& model, const Element& element) {
 std::vector<int> six_per_node(const Element& element) { return dofs_per_node(element, 6); }
 std::vector<int> three_per_node(const Element& element) { return dofs_per_node(element, 3); }
 
+ElementMatrix beam_mass_of(const Model& model, const Element& element, const BeamGeometry& geometry,
+                           const TaperedProperties& ends) {
+  const double density = material_of(model, element).density_kg_m3;
+  const bool rotary = model.formulation.beam_rotary_inertia, lumped = model.formulation.lumped_mass;
+  if (element.section2 >= 0)
+    return {six_per_node(element), lumped ? tapered_beam_mass_lumped(geometry, ends, density, rotary)
+                                          : tapered_beam_mass(geometry, ends, density, rotary)};
+  return {six_per_node(element),
+          lumped ? beam_mass_lumped(geometry, ends.end1, density, rotary) : beam_mass(geometry, ends.end1, density, rotary)};
+}
+
+ElementMatrix shell_mass_of(const Model& model, const Element& element, double mass_per_area, double rotary_per_area) {
+  const ShellGeometry geometry = shell_geometry(model, element);
+  return {six_per_node(element), model.formulation.lumped_mass ? shell_mass_lumped(geometry, mass_per_area, rotary_per_area)
+                                                               : shell_mass(geometry, mass_per_area, rotary_per_area)};
+}
+
 ElementMatrix element_mass(const Model& model, const Element& element) {
   const double density = material_of(model, element).density_kg_m3;
-  if (element.type == ElementType::solid) return {three_per_node(element), solid_mass(solid_geometry(model, element), density)};
-  const Section& s = section_of(model, element);
+  const bool lumped = model.formulation.lumped_mass;
   switch (element.type) {
-    case ElementType::solid:
-      break;
     case ElementType::beam:
-      return {six_per_node(element), beam_mass(beam_geometry(model, element), beam_properties(model, element), density,
-                                               model.formulation.beam_rotary_inertia)};
+      return beam_mass_of(model, element, beam_geometry(model, element), beam_end_properties(model, element));
     case ElementType::bar:
-      return {three_per_node(element), bar_mass_consistent(end_nodes(model, element), density * s.area_m2)};
-    case ElementType::stay:
-      return {three_per_node(element), bar_mass_lumped(end_nodes(model, element), density * s.area_m2)};
+    case ElementType::stay: {
+      const auto ends = end_nodes(model, element);
+      const double per_length = density * section_of(model, element).area_m2;
+      return {three_per_node(element), lumped || element.type == ElementType::stay ? bar_mass_lumped(ends, per_length)
+                                                                                   : bar_mass_consistent(ends, per_length)};
+    }
     case ElementType::shell: {
-      const double t = s.thickness_m;
+      const double t = section_of(model, element).thickness_m;
       const double rotary = model.formulation.shell_rotary_inertia ? density * t * t * t / 12.0 : 0.0;
-      return {six_per_node(element), shell_mass(shell_geometry(model, element), density * t, rotary)};
+      return shell_mass_of(model, element, density * t, rotary);
+    }
+    case ElementType::solid: {
+      const SolidGeometry geometry = solid_geometry(model, element);
+      return {three_per_node(element), lumped ? solid_mass_lumped(geometry, density) : solid_mass(geometry, density)};
     }
   }
   TWINDECK_ASSERT(false);

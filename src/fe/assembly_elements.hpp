@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fe/beam_tapered.hpp"
 #include "fe/elements.hpp"
 #include "fe/model.hpp"
 #include "fe/solid.hpp"
@@ -19,6 +20,8 @@ struct ElementMatrix {
 [[nodiscard]] BeamGeometry beam_geometry(const Model& model, const Element& element);
 /// Section and material of a beam; shear areas are zero for a formulation that is rigid in shear.
 [[nodiscard]] BeamStiffnessProperties beam_properties(const Model& model, const Element& element);
+/// The same at both ends; they differ for a tapered beam (section2 given).
+[[nodiscard]] TaperedProperties beam_end_properties(const Model& model, const Element& element);
 [[nodiscard]] ShellGeometry shell_geometry(const Model& model, const Element& element);
 [[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
 [[nodiscard]] SolidGeometry solid_geometry(const Model& model, const Element& element);
@@ -32,11 +35,15 @@ struct ElementMatrix {
 [[nodiscard]] std::vector<int> six_per_node(const Element& element);
 [[nodiscard]] std::vector<int> three_per_node(const Element& element);
 
-/// Mass of an element of whatever type: beams and bars consistent, stays half at each end, shells as the formulation
-/// says, solids consistent.
+/// Mass of an element of whatever type: consistent or lumped as the formulation says, stays half at each end always.
 [[nodiscard]] ElementMatrix element_mass(const Model& model, const Element& element);
 /// Stiffness k d d' of a spring; rotations where it acts on them.
 [[nodiscard]] ElementMatrix spring_stiffness(const Spring& spring);
+/// Mass of a beam of these end sections, of a shell of this mass and rotary inertia per area; consistent or lumped.
+[[nodiscard]] ElementMatrix beam_mass_of(const Model& model, const Element& element, const BeamGeometry& geometry,
+                                         const TaperedProperties& ends);
+[[nodiscard]] ElementMatrix shell_mass_of(const Model& model, const Element& element, double mass_per_area,
+                                          double rotary_per_area);
 /// Diagonal of a point mass and its rotary inertia.
 [[nodiscard]] ElementMatrix point_mass(const PointMass& mass);
 /// Whether a spring takes part in K: active and not in series with a dashpot, which lets go of a steady force.

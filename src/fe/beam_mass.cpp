@@ -2,6 +2,19 @@
 
 namespace twindeck::fe {
 
+namespace {
+
+/// The element's matrix in global axes at the nodes, released displacements following statically.
+Matrix12 at_nodes(const BeamGeometry& geometry, const BeamStiffnessProperties& properties, const Matrix12& local) {
+  Matrix12 t = beam::end_displacements(geometry);
+  if (geometry.releases != 0)
+    t = (beam::release_transformation(beam::local_stiffness(properties, beam_length(geometry)), geometry.releases) * t).eval();
+  const Matrix12 m = t.transpose() * local * t;
+  return 0.5 * (m + m.transpose());
+}
+
+}  // namespace
+
 /// The shape functions are those of the stiffness, shear flexibility included, so that mass and stiffness belong together.
 /// Torsion carries its polar inertia rho (Iy + Iz) always: without it, twist would have no mass. Releases: the released
 /// displacements follow statically, as in the stiffness.
@@ -25,12 +38,19 @@ Matrix12 beam_mass(const BeamGeometry& geometry, const BeamStiffnessProperties& 
   };
   add_linear(0, 6, density_kg_m3 * properties.area_m2 * length);
   add_linear(3, 9, density_kg_m3 * (properties.inertia_y_m4 + properties.inertia_z_m4) * length);
+  return at_nodes(geometry, properties, local);
+}
 
-  Matrix12 t = beam::end_displacements(geometry);
-  if (geometry.releases != 0)
-    t = (beam::release_transformation(beam::local_stiffness(properties, length), geometry.releases) * t).eval();
-  const Matrix12 m = t.transpose() * local * t;
-  return 0.5 * (m + m.transpose());
+Matrix12 beam_mass_lumped(const BeamGeometry& geometry, const BeamStiffnessProperties& properties, double density_kg_m3,
+                          bool rotary_inertia) {
+  const double half = 0.5 * density_kg_m3 * beam_length(geometry);  // per area, or per moment of area
+  Matrix12 local = Matrix12::Zero();
+  for (int end = 0; end < 2; ++end) {
+    for (int d = 0; d < 3; ++d) local(6 * end + d, 6 * end + d) = half * properties.area_m2;
+    local(6 * end + 3, 6 * end + 3) = half * (properties.inertia_y_m4 + properties.inertia_z_m4);
+    if (rotary_inertia) local += half * beam::slope_of(end).transpose() * beam::area_moments(properties) * beam::slope_of(end);
+  }
+  return at_nodes(geometry, properties, local);
 }
 
 }  // namespace twindeck::fe

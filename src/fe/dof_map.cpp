@@ -80,6 +80,8 @@ std::vector<bool> find_reached(const Model& model) {
       for (int d = 0; node >= 0 && d < 3; ++d)
         if (spring.direction[d] != 0.0) reached[at(6 * node + (spring.rotation ? 3 : 0) + d)] = true;
   }
+  for (const MatrixElement& element : model.matrix_elements)
+    for (const MatrixElement::Dof& dof : element.dofs) reached[at(6 * dof.node + dof.direction)] = true;
   for (const PointMass& mass : model.masses)
     for (int d = 0; d < 3; ++d)
       if (mass.inertia_kg_m2[d] != 0.0) reached[at(6 * mass.node + 3 + d)] = true;

@@ -36,6 +36,9 @@ struct BeamStiffnessProperties {
 /// `rotary_inertia` adds ρ ∫ ψᵀ I ψ dx of the section's tilt; the polar inertia ρ (Iy + Iz) of twist is there always.
 [[nodiscard]] Matrix12 beam_mass(const BeamGeometry& geometry, const BeamStiffnessProperties& properties, double density_kg_m3,
                                  bool rotary_inertia);
+/// Half of the mass at each end, and half of the section's rotary inertia (about its axis always, across it if asked for).
+[[nodiscard]] Matrix12 beam_mass_lumped(const BeamGeometry& geometry, const BeamStiffnessProperties& properties,
+                                        double density_kg_m3, bool rotary_inertia);
 /// Geometric stiffness of an axial force N (tension positive), N ∫ w'ᵀ w' dx with cubic shape functions (no Wagner twist term).
 [[nodiscard]] Matrix12 beam_geometric_stiffness(const BeamGeometry& geometry, double axial_force_N);
 /// Axial force (tension positive) at mid-length from end displacements in global axes.
@@ -66,6 +69,8 @@ enum class DrillingRule { penalty, diagonal };
 /// Consistent mass of `mass_per_area` [kg/m²]: bilinear translations; `rotary_per_area` [kg] (rho t³/12) on the bending
 /// rotations; drilling carries none.
 [[nodiscard]] Matrix24 shell_mass(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area);
+/// Row sums of the same on the diagonal of each corner.
+[[nodiscard]] Matrix24 shell_mass_lumped(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area);
 [[nodiscard]] double shell_area(const ShellGeometry& geometry);
 
 }  // namespace twindeck::fe

@@ -54,11 +54,12 @@ struct Element {
   std::string group;                ///< "foot_top_chord", "slab_foot_B", "stay_44": the unit of parameters and of diagnosis
   int material = -1;
   int section = -1;                 ///< none (-1) for a solid
+  int section2 = -1;                ///< beams: section at the second end of a tapered one (see beam_tapered.hpp); -1 = uniform
   std::vector<int> nodes;           ///< 2 (beam, bar, stay), 4 (shell, anticlockwise) or 8 (solid, see solid.hpp)
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near to it as can be; 0 = global Z (X for vertical beams)
   std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< node -> beam end, global axes
   std::uint16_t releases = 0;       ///< beams: bit i set = local end degree of freedom i (0-11) carries no force
-  double pull_N = 0.0;              ///< stays: pretension (given, or the site value that shape finding blends with; 0 = none)
+  double pull_N = 0.0;              ///< stays: pretension (given, or the site value that shape finding blends with; 0 = none); bars: tension in the geometry of nodes.csv
 };
 
 /// Spring, dashpot or friction element between a node and ground, or two nodes, along a direction.
@@ -72,6 +73,17 @@ struct Spring {
   double friction_N = 0.0;          ///< Coulomb threshold; 0 = none
   bool series = false;              ///< true: spring and dashpot in series (Maxwell); false: in parallel (Kelvin)
   bool active = true;               ///< false: carried as data (a damper that is not fitted), not assembled
+};
+
+/// Element given by its matrices: force f = M a + C v + K u on its degrees of freedom and on unknowns of its own. The matrices
+/// may be unsymmetric (self-excited forces, the state space of a damper). The modes of the structure see the conservative part:
+/// own unknowns condensed as in statics, then the symmetric part of K and M. All of it enters the dynamic system.
+struct MatrixElement {
+  struct Dof { int node = -1; int direction = 0; };  ///< direction 0-5 = x y z rx ry rz
+  std::string name, group;
+  std::vector<Dof> dofs;
+  int internal = 0;                                  ///< unknowns of its own, which follow `dofs` in the matrices
+  Eigen::MatrixXd stiffness, damping, mass;          ///< (dofs + internal)²; empty = zero
 };
 
 struct RigidLink { std::string name; int master = -1; int slave = -1; };  ///< slave moves as a rigid body with master (6 dof)
@@ -103,6 +115,12 @@ struct Parameter {
   double upper = 0.0;
 };
 
+/// Displacements under dead load and pulls.
+enum class Displacements {
+  linear,   ///< small: equilibrium in the geometry of nodes.csv
+  large     ///< co-rotational, equilibrium in the deformed geometry; the modes are those about it
+};
+
 enum class PullRule {
   none,           ///< no prestress
   given,          ///< Element::pull_N as they stand
@@ -117,6 +135,8 @@ struct Prestress {
   double site_weight = 0.0;                  ///< weight of the site pulls against zero displacement (dimensionless), 0 = ignored
   struct Condition { int node; int dof; };   ///< displacement that should be zero (dof 0-2)
   std::vector<Condition> conditions;
+  Displacements displacements = Displacements::linear;
+  int load_steps = 1;                        ///< large displacements: dead load and pulls grow in so many equal steps
 };
 
 /// Options of element formulation; the default is the product's.
@@ -127,6 +147,7 @@ struct Formulation {
   /// penalty: Hughes-Brezzi; diagonal: factor E t A on each corner, spread so that a rigid turn meets no resistance
   enum class Drilling { penalty, diagonal } drilling = Drilling::penalty;
   double drilling_factor = 0.0;       ///< 0 = the formulation's own default
+  bool lumped_mass = false;           ///< true: masses at the nodes (diagonal but for arms and releases); false: consistent
 };
 
 struct Model {
@@ -139,6 +160,7 @@ struct Model {
   std::vector<Section> sections;
   std::vector<Element> elements;
   std::vector<Spring> springs;
+  std::vector<MatrixElement> matrix_elements;
   std::vector<RigidLink> links;
   std::vector<PointMass> masses;
   std::vector<Support> supports;

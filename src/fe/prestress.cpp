@@ -4,6 +4,7 @@
 #include "fe/assembly_pattern.hpp"
 #include "fe/assembly_terms.hpp"
 #include "fe/dead_load.hpp"
+#include "fe/large_displacement.hpp"
 #include "fe/mechanism.hpp"
 #include "fe/prestress_least_squares.hpp"
 
@@ -20,12 +21,41 @@ std::vector<int> find_stays(const Model& model) {
 
 const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
 
-/// Elastic stiffness of everything but the stays, at the model's own values.
+/// Bars that are under tension in the geometry of nodes.csv: what draws their ends together, and what holds a chain of them in
+/// shape.
+bool is_tensioned(const Element& e) { return e.type == ElementType::bar && e.pull_N > 0.0; }
+
+Eigen::VectorXd initial_tension_load(const Model& model) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()));
+  for (const Element& e : model.elements) {
+    if (!is_tensioned(e)) continue;
+    const auto ends = end_nodes(model, e);
+    const Eigen::Vector3d pull = e.pull_N * (ends[1] - ends[0]).normalized();
+    load.segment<3>(6 * e.nodes[0]) += pull;
+    load.segment<3>(6 * e.nodes[1]) -= pull;
+  }
+  return load;
+}
+
+Term initial_tension_stiffness(const Model& model, Scatter& scatter) {
+  for (const Element& e : model.elements)
+    if (is_tensioned(e)) scatter.add({three_per_node(e), string_stiffness(end_nodes(model, e), e.pull_N)});
+  Term term;
+  term.label = "initial tension";
+  scatter.take(term);
+  return term;
+}
+
+/// Stiffness of everything but the stays, at the model's own values.
 linalg::SparseMatrix stiffness_without_stays(const Model& model, const DofMap& map) {
   ParametricSystem system;
   system.pattern = make_pattern(model, map);
   Scatter scatter(system.pattern, map);
   system.stiffness_terms = assemble_terms(model, plan_stiffness(model), scatter);
+  if (model.prestress.geometric_stiffness) {
+    Term tension = initial_tension_stiffness(model, scatter);
+    if (!tension.position.empty()) system.stiffness_terms.push_back(std::move(tension));
+  }
   return system.stiffness(initial_parameters(model));
 }
 
@@ -78,16 +108,51 @@ Eigen::VectorXd axial_forces(const Model& model, const Eigen::VectorXd& u) {
     if (e.type == ElementType::beam) {
       Vector12 ends;
       ends << u.segment<6>(6 * e.nodes[0]), u.segment<6>(6 * e.nodes[1]);
-      force[static_cast<Eigen::Index>(i)] = beam_axial_force(beam_geometry(model, e), beam_properties(model, e), ends);
+      force[static_cast<Eigen::Index>(i)] =
+          e.section2 >= 0 ? tapered_beam_axial_force(beam_geometry(model, e), beam_end_properties(model, e), ends)
+                          : beam_axial_force(beam_geometry(model, e), beam_properties(model, e), ends);
     } else if (e.type == ElementType::bar) {
       const auto x = end_nodes(model, e);
       const Eigen::Vector3d chord = x[1] - x[0];
       const double stretch = chord.normalized().dot(u.segment<3>(6 * e.nodes[1]) - u.segment<3>(6 * e.nodes[0]));
       force[static_cast<Eigen::Index>(i)] =
-          material_of(model, e).youngs_modulus_Pa * section_of(model, e).area_m2 * stretch / chord.norm();
+          e.pull_N + material_of(model, e).youngs_modulus_Pa * section_of(model, e).area_m2 * stretch / chord.norm();
     }
   }
   return force;
+}
+
+/// Replaces the linear state by equilibrium in the deformed geometry. For shape finding the pulls follow: with the
+/// displacements of the true state in place of the linear ones, w(T) ~ w(T_k) + W (T - T_k), until they change by less than
+/// 1e-4.
+/// @param w  (n_conditions × 1 + n_stays) linear displacements of dead load and of one newton in each stay; empty for given
+/// pulls
+void deform(const Model& model, const std::vector<int>& stays, const Eigen::MatrixXd& w, double weight_N,
+            PrestressState& state) {
+  const Eigen::VectorXd load = dead_load(model);
+  Configuration c = find_equilibrium(model, load, state.stay_pull_N, model.prestress.load_steps);
+  for (int round = 0; w.size() > 0 && c.status.converged && round < 6; ++round) {
+    Eigen::VectorXd pull(std::ssize(stays)), displacement(w.rows());
+    for (std::size_t s = 0; s < stays.size(); ++s) pull[static_cast<Eigen::Index>(s)] = state.stay_pull_N[stays[s]];
+    for (Eigen::Index i = 0; i < w.rows(); ++i) {
+      const auto& condition = model.prestress.conditions[static_cast<std::size_t>(i)];
+      displacement[i] = c.displacement[6 * condition.node + condition.dof];
+    }
+    const Eigen::MatrixXd influence = w.rightCols(w.cols() - 1);
+    const BoundedLeastSquares found = find_shape(model, stays, influence, displacement - influence * pull, weight_N);
+    for (std::size_t s = 0; s < stays.size(); ++s) state.stay_pull_N[stays[s]] = found.x[static_cast<Eigen::Index>(s)];
+    state.status = found.status;
+    const Configuration last = std::move(c);
+    c = find_equilibrium(model, load, state.stay_pull_N, 1, &last);
+    if (!found.status.converged || (found.x - pull).norm() < 1e-4 * pull.norm()) break;
+  }
+  if (!c.status.converged) {  // the linear state stays, with the reason
+    state.status = c.status;
+    return;
+  }
+  state.displacement = c.displacement;
+  state.rotation = c.rotation;
+  state.axial_force_N = c.axial_force_N;
 }
 
 }  // namespace
@@ -99,6 +164,8 @@ PrestressState find_prestress(const Model& base, const Eigen::VectorXd& theta) {
   state.stay_pull_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.elements.size()));
   state.axial_force_N = state.stay_pull_N;
   state.displacement = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()));
+  for (std::size_t i = 0; i < model.elements.size(); ++i)
+    if (is_tensioned(model.elements[i])) state.axial_force_N[static_cast<Eigen::Index>(i)] = model.elements[i].pull_N;
   if (model.prestress.rule == PullRule::none) return state;
 
   // 1. One factorisation of the structure without stays, one solution a load: dead load and each stay's pull.
@@ -106,27 +173,29 @@ PrestressState find_prestress(const Model& base, const Eigen::VectorXd& theta) {
   const std::vector<int> stays = find_stays(model);
   const linalg::Cholesky factor =
       factorize_or_refuse(stiffness_without_stays(model, map), map.dofs, model.source, " without its stays");
-  const Eigen::VectorXd load = dead_load(model);
+  const Eigen::VectorXd load = dead_load(model) + initial_tension_load(model);
   const bool shape_finding = model.prestress.rule == PullRule::shape_finding;
   Eigen::VectorXd pull(std::ssize(stays));
   for (std::size_t s = 0; s < stays.size(); ++s) pull[static_cast<Eigen::Index>(s)] = element_at(model, stays[s]).pull_N;
   const Eigen::MatrixXd unit_loads = unit_pull_loads(model, stays);
 
   // 2. Pulls.
+  Eigen::MatrixXd w;  // displacements of the conditions: dead load, one newton in each stay
+  double weight = 0.0;
   Eigen::MatrixXd q;  // columns: dead load, then (for shape finding) one newton in each stay
   if (shape_finding) {
     Eigen::MatrixXd loads(load.size(), 1 + unit_loads.cols());
     loads << load, unit_loads;
     q = factor.solve(map.expansion.transpose() * loads);
     const Eigen::Index m = std::ssize(model.prestress.conditions);
-    Eigen::MatrixXd w(m, q.cols());
+    w.resize(m, q.cols());
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto& condition = model.prestress.conditions[static_cast<std::size_t>(i)];
       w.row(i).setZero();
       for (const DofMap::Entry& entry : map.rows[static_cast<std::size_t>(6 * condition.node + condition.dof)])
         w.row(i) += entry.factor * q.row(entry.dof);
     }
-    double weight = 0.0;
+    // tensions of bars are in balance with themselves
     for (Eigen::Index i = 2; i < load.size(); i += 6) weight -= load[i];
     BoundedLeastSquares found = find_shape(model, stays, w.rightCols(w.cols() - 1), w.col(0), weight);
     pull = std::move(found.x);
@@ -140,6 +209,7 @@ PrestressState find_prestress(const Model& base, const Eigen::VectorXd& theta) {
   const Eigen::VectorXd total = shape_finding ? Eigen::VectorXd(q.col(0) + q.rightCols(q.cols() - 1) * pull) : q.col(0);
   state.displacement = map.expansion * total;
   state.axial_force_N = axial_forces(model, state.displacement);
+  if (model.prestress.displacements == Displacements::large && state.status.converged) deform(model, stays, w, weight, state);
   return state;
 }
 

@@ -22,4 +22,13 @@ Matrix24 shell_mass(const ShellGeometry& geometry, double mass_per_area, double 
   return m;
 }
 
+Matrix24 shell_mass_lumped(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area) {
+  const Matrix24 consistent = shell_mass(geometry, mass_per_area, rotary_per_area);
+  Matrix24 m = Matrix24::Zero();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (const int d : {0, 3}) m.block<3, 3>(6 * i + d, 6 * i + d) += consistent.block<3, 3>(6 * i + d, 6 * j + d);
+  return m;
+}
+
 }  // namespace twindeck::fe

@@ -8,6 +8,7 @@
 #include "fe/assembly.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/dof_map.hpp"
+#include "fe/matrix_element.hpp"
 #include "fe/validate_parts.hpp"
 
 namespace twindeck::fe {
@@ -59,6 +60,13 @@ void require_position(const Model& model, const std::string& part, const char* w
 void check_element(const Model& model, const Element& e) {
   require_position(model, label(e), "material", e.material, model.materials.size());
   if (e.type != ElementType::solid) require_position(model, label(e), "section", e.section, model.sections.size());
+  if (e.section2 != -1) {
+    require_position(model, label(e), "second section", e.section2, model.sections.size());
+    if (e.type != ElementType::beam)
+      refuse(model, label(e), "has a section at its second end, but is no beam", "leave the second section out");
+  }
+  if (e.pull_N != 0.0 && e.type != ElementType::stay && e.type != ElementType::bar)
+    refuse(model, label(e), fmt::format("has a pull of {:g} N, but is neither stay nor bar", e.pull_N), "leave the pull out");
   const std::size_t expected = node_count(e.type);
   if (e.nodes.size() != expected)
     refuse(model, label(e), fmt::format("has {} nodes, expected {}", e.nodes.size(), expected),
@@ -144,6 +152,7 @@ void validate_references(const Model& model) {
   check_nodes(model);
   for (const Element& e : model.elements) check_element(model, e);
   check_springs(model);
+  validate_matrix_elements(model);
   check_attachments(model);
   check_prestress(model);
 }
@@ -178,6 +187,8 @@ void validate_geometry(const Model& model) {
     reach(spring.node);
     if (spring.node2 >= 0) reach(spring.node2);
   }
+  for (const MatrixElement& element : model.matrix_elements)
+    for (const MatrixElement::Dof& dof : element.dofs) reach(dof.node);
   for (const RigidLink& link : model.links) reach(link.slave), reach(link.master);
   for (const Support& support : model.supports) reach(support.node);
   for (std::size_t i = 0; i < reached.size(); ++i)

@@ -76,6 +76,19 @@ void check_values(const Model& model, const Parameter& p, double standing) {
            "write the same value in both places");
 }
 
+/// An area scales a tapered beam as a whole, so it must name the sections of both ends.
+void check_tapers(const Model& model, const Parameter& p) {
+  if (p.target != Target::area) return;
+  const auto is_named = [&](int section) {
+    const std::string& name = model.sections[static_cast<std::size_t>(section)].name;
+    return std::find(p.of.begin(), p.of.end(), name) != p.of.end();
+  };
+  for (const Element& e : model.elements)
+    if (e.section2 >= 0 && is_named(e.section) != is_named(e.section2))
+      refuse(model, p, fmt::format("scales the area at one end of the tapered beam {} alone", e.id),
+             "name the sections of both ends");
+}
+
 }  // namespace
 
 void validate_parameters(const Model& model) {
@@ -90,6 +103,7 @@ void validate_parameters(const Model& model) {
       if (!taken.insert({p.target, name}).second)
         refuse(model, p, fmt::format("'{}' is scaled by another parameter already", name),
                "let one parameter scale each property");
+    check_tapers(model, p);
     check_values(model, p, standing[static_cast<Eigen::Index>(i)]);
   }
 }

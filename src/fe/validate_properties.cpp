@@ -59,6 +59,10 @@ void validate_properties(const Model& model) {
       case ElementType::beam:
         require_positive(model, material, "shear modulus", m.shear_modulus_Pa, "Pa");
         check_beam_section(model, s, section);
+        if (e.section2 >= 0) {
+          const Section& other = model.sections[static_cast<std::size_t>(e.section2)];
+          check_beam_section(model, other, "section '" + other.name + "'");
+        }
         break;
       case ElementType::bar:
       case ElementType::stay:

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fe/model.hpp"
+#include "io/config.hpp"
 #include "io/csv.hpp"
 
 /// Inside of the library: a model folder is read one file at a time, in the order in which the files refer to one another.
@@ -34,6 +35,19 @@ void read_points(const std::filesystem::path& folder, fe::Model& model, const Na
 /// model.toml: title, gravity, formulation, prestress, parameters. Called last, since parameters name parts of the others.
 void read_model_toml(const std::filesystem::path& file, fe::Model& model);
 void write_model_toml(const fe::Model& model, const std::filesystem::path& folder);
+
+/// [[matrix_element]] of model.toml: elements given by matrices, which lie in the folder matrices/ (Matrix Market, general or
+/// symmetric). `MatrixElementEntry` is a table of the file as it stands.
+struct MatrixElementEntry {
+  std::string name, group, stiffness, damping, mass;  ///< the last three are files, relative to the model folder; "" = none
+  std::vector<std::string> dofs;                      ///< "node:direction"
+  long internal = 0;
+  io::FieldTable fields();
+};
+[[nodiscard]] fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const NameIndex& index,
+                                                  const MatrixElementEntry& entry);
+/// The tables of model.toml; the matrices are written to matrices/<name>_K.mtx, _C.mtx, _M.mtx.
+[[nodiscard]] std::string write_matrix_elements(const fe::Model& model, const std::filesystem::path& folder);
 
 /// 1-based line of the first line of `file` that holds `text`, 0 if there is none.
 [[nodiscard]] long line_of(const std::filesystem::path& file, const std::string& text);

@@ -144,6 +144,9 @@ void InpWriter::point_mass(const std::string& group, int node, double mass_kg) {
 }
 
 void InpWriter::springs_and_masses() {
+  if (!model_.matrix_elements.empty()) note("elements given by their matrices are left out");
+  for (const fe::Element& element : model_.elements)
+    if (element.section2 >= 0) note("tapered beams have the section of their first end throughout");
   const auto direction_axes = [this](const Eigen::Vector3d& d) {
     // x' of the local system is the spring's direction
     const Eigen::Vector3d other = std::abs(d.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();

@@ -143,16 +143,22 @@ std::vector<Eigen::Triplet<double, int>> symmetric_part(const Reader& reader, co
 
 }  // namespace
 
-linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
-  Reader reader(file);
-  const bool symmetric = reader.banner();
+namespace {
+
+struct Contents {
+  int n;
+  std::vector<Entry> entries;
+};
+
+/// Size line and entries of a square matrix, none of them twice.
+Contents read_square(Reader& reader) {
   std::vector<std::string> words;
   if (!reader.fields(words) || words.size() != 3) reader.fail("the size line is missing", "expected 'rows columns entries'");
   const int n = reader.number<int>(words[0]);
   if (reader.number<int>(words[1]) != n || n < 1)
     reader.fail(fmt::format("is {} x {}", words[0], words[1]), "a square matrix is expected");
   const long count = reader.number<long>(words[2]);
-  const std::vector<Entry> entries = read_entries(reader, n, count);
+  std::vector<Entry> entries = read_entries(reader, n, count);
 
   std::vector<std::pair<int, int>> seen;
   for (const Entry& e : entries) seen.emplace_back(e.row, e.column);
@@ -162,17 +168,57 @@ linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
     reader.fail(fmt::format("entry ({}, {}) stands twice", twice->first + 1, twice->second + 1), "sum or remove one of the two",
                 0);
   }
-  if (!symmetric) return from_entries(symmetric_part(reader, entries, n), n);
+  return {n, std::move(entries)};
+}
 
-  std::vector<Eigen::Triplet<double, int>> lower;
+void refuse_upper_triangle(const Reader& reader, const std::vector<Entry>& entries) {
   for (const Entry& e : entries) {
     if (e.row < e.column) {
       reader.fail(fmt::format("entry ({}, {}) lies above the diagonal of a symmetric matrix", e.row + 1, e.column + 1),
                   "write the lower triangle only, or call the matrix general", 0);
     }
-    lower.emplace_back(e.row, e.column, e.value);
   }
+}
+
+}  // namespace
+
+linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
+  Reader reader(file);
+  const bool symmetric = reader.banner();
+  const auto [n, entries] = read_square(reader);
+  if (!symmetric) return from_entries(symmetric_part(reader, entries, n), n);
+  refuse_upper_triangle(reader, entries);
+  std::vector<Eigen::Triplet<double, int>> lower;
+  for (const Entry& e : entries) lower.emplace_back(e.row, e.column, e.value);
   return from_entries(lower, n);
+}
+
+Eigen::MatrixXd read_square_matrix(const std::filesystem::path& file) {
+  Reader reader(file);
+  const bool symmetric = reader.banner();
+  const auto [n, entries] = read_square(reader);
+  if (symmetric) refuse_upper_triangle(reader, entries);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  for (const Entry& e : entries) {
+    matrix(e.row, e.column) = e.value;
+    if (symmetric) matrix(e.column, e.row) = e.value;
+  }
+  return matrix;
+}
+
+void write_square_matrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const std::filesystem::path& file) {
+  TWINDECK_ASSERT(matrix.rows() == matrix.cols());
+  std::string body;
+  long count = 0;
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+      if (matrix(row, column) == 0.0) continue;
+      fmt::format_to(std::back_inserter(body), "{} {} {:.17g}\n", row + 1, column + 1, matrix(row, column));
+      ++count;
+    }
+  }
+  io::write_file_atomically(
+      file, fmt::format("%%MatrixMarket matrix coordinate real general\n{0} {0} {1}\n", matrix.rows(), count) + body);
 }
 
 void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file) {

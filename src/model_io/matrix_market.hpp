@@ -20,4 +20,12 @@ namespace twindeck::model_io {
 /// @param lower  lower triangle (n × n)
 void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file);
 
+/// A small square matrix that need not be symmetric, for an element given by its matrices. Reads the same kinds; a symmetric
+/// file is completed.
+/// @return (n × n)
+/// @throws InputError as above, but for the symmetry of a general file
+[[nodiscard]] Eigen::MatrixXd read_square_matrix(const std::filesystem::path& file);
+/// Writes `coordinate real general` with 17 digits.
+void write_square_matrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const std::filesystem::path& file);
+
 }  // namespace twindeck::model_io

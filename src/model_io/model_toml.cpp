@@ -43,6 +43,9 @@ struct ModelEntry {
   std::string drilling = "penalty", rule = "none";
   fe::Prestress prestress;
   std::vector<std::string> conditions;
+  std::string displacements = "linear";
+  long load_steps = 1;
+  std::deque<MatrixElementEntry> matrix_elements;
   std::deque<ParameterEntry> parameters;  // a deque: the field tables keep references while it grows
 
   io::FieldTable fields() {
@@ -58,13 +61,20 @@ struct ModelEntry {
         .choice("formulation.drilling", drilling, {"penalty", "diagonal"}, "stiffness of shell rotations about the normal")
         .number("formulation.drilling_factor", formulation.drilling_factor, "", io::non_negative(),
                 "0: the formulation's default")
+        .boolean("formulation.lumped_mass", formulation.lumped_mass, "true: masses at the nodes; false: consistent")
         .choice("prestress.rule", rule, pull_rule_names(), "where the pulls of the stays come from")
         .boolean("prestress.geometric_stiffness", prestress.geometric_stiffness, "axial forces stiffen stays and members")
         .number("prestress.minimum_pull", prestress.minimum_pull_N, "N", io::non_negative(), "no stay goes slack below it")
         .number("prestress.ridge", prestress.ridge, "", io::non_negative(), "weight of least pulls against zero displacement")
         .number("prestress.site_weight", prestress.site_weight, "", io::non_negative(),
                 "weight of the pulls of elements.csv against zero displacement")
+        .choice("prestress.displacements", displacements, {"linear", "large"},
+                "equilibrium under dead load and pulls: in the geometry of nodes.csv, or in the deformed one")
+        .integer("prestress.load_steps", load_steps, {1.0, 1000.0},
+                 "large displacements: dead load and pulls grow in so many equal steps")
         .texts("prestress.conditions", conditions, "displacements that the pulls should bring to zero: \"node:direction\"")
+        .tables(
+            "matrix_element", [this] { return matrix_elements.emplace_back().fields(); }, "elements given by their matrices")
         .tables(
             "parameter", [this] { return parameters.emplace_back().fields(); },
             "what may be updated, and between which bounds");
@@ -171,6 +181,10 @@ void read_model_toml(const std::filesystem::path& file, fe::Model& model) {
       entry.drilling == "penalty" ? fe::Formulation::Drilling::penalty : fe::Formulation::Drilling::diagonal;
   model.prestress = entry.prestress;
   model.prestress.rule = static_cast<fe::PullRule>(position_of(entry.rule, pull_rule_names()));
+  model.prestress.displacements = entry.displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
+  model.prestress.load_steps = static_cast<int>(entry.load_steps);
+  for (const auto& element : entry.matrix_elements)
+    model.matrix_elements.push_back(to_matrix_element(file.parent_path(), index, element));
   for (const auto& text : entry.conditions) model.prestress.conditions.push_back(to_condition(file, index, text));
   for (const auto& parameter : entry.parameters) model.parameters.push_back(to_parameter(file, model, parameter));
 }
@@ -181,12 +195,12 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
   text += "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
   text += fmt::format("title = {}\ngravity = {}\n\n", io::toml_text(model.title), number(model.gravity_m_s2));
   // Bound by position: a field that is added to the struct does not compile here until it is written too.
-  const auto& [shear, beam_rotary, shell_rotary, drilling, factor] = model.formulation;
+  const auto& [shear, beam_rotary, shell_rotary, drilling, factor, lumped] = model.formulation;
   text += fmt::format(
       "[formulation]\nshear_flexible = {}\nbeam_rotary_inertia = {}\nshell_rotary_inertia = {}\ndrilling = \"{}\"\n"
-      "drilling_factor = {}\n\n",
-      shear, beam_rotary, shell_rotary, drilling == fe::Formulation::Drilling::penalty ? "penalty" : "diagonal",
-      number(factor));
+      "drilling_factor = {}\nlumped_mass = {}\n\n",
+      shear, beam_rotary, shell_rotary, drilling == fe::Formulation::Drilling::penalty ? "penalty" : "diagonal", number(factor),
+      lumped);
   const auto& p = model.prestress;
   std::vector<std::string> conditions;
   for (const auto& c : p.conditions) {
@@ -194,10 +208,12 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
                                      direction_names()[static_cast<std::size_t>(c.dof)]));
   }
   text += fmt::format(
-      "[prestress]\nrule = \"{}\"\ngeometric_stiffness = {}\nminimum_pull = {}\nridge = {}\nsite_weight = {}\nconditions = "
-      "{}\n",
+      "[prestress]\nrule = \"{}\"\ngeometric_stiffness = {}\nminimum_pull = {}\nridge = {}\nsite_weight = {}\ndisplacements = "
+      "\"{}\"\nload_steps = {}\nconditions = {}\n",
       pull_rule_names()[static_cast<std::size_t>(p.rule)], p.geometric_stiffness, number(p.minimum_pull_N), number(p.ridge),
-      number(p.site_weight), text_list(conditions));
+      number(p.site_weight), p.displacements == fe::Displacements::large ? "large" : "linear", p.load_steps,
+      text_list(conditions));
+  text += write_matrix_elements(model, folder);
   for (const auto& q : model.parameters) {
     TWINDECK_ASSERT(static_cast<std::size_t>(q.target) < target_names().size());
     text +=

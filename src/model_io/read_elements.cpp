@@ -14,11 +14,12 @@ const std::array<const char*, 8> kNodeColumns = {"node1", "node2", "node3", "nod
 int position_by_name(const io::CsvTable& table, std::size_t row, const std::string& column,
                      const std::map<std::string, int>& known) {
   const std::string name = table.text(row, column);
+  const std::string file = column.starts_with("section") ? "section" : column;  // section, section2: sections.csv
   const auto found = known.find(name);
   if (found != known.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [known_name, position] : known) names.push_back(known_name);
-  table.fail(row, column, fmt::format("{} '{}' is not in {}s.csv{}", column, name, column, did_you_mean(name, names)),
+  table.fail(row, column, fmt::format("{} '{}' is not in {}s.csv{}", column, name, file, did_you_mean(name, names)),
              fmt::format("add it there or use one that is there"));
 }
 
@@ -92,8 +93,9 @@ void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& 
 void read_elements(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
   const auto table = io::CsvTable::read(
       folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
-      {"name", "group", "node3", "node4", "node5", "node6", "node7", "node8", "orientation_x", "orientation_y", "orientation_z",
-       "offset1_x_m", "offset1_y_m", "offset1_z_m", "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"});
+      {"name",        "group",       "node3",         "node4",         "node5",         "node6",       "node7",
+       "node8",       "section2",    "orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m",
+       "offset1_z_m", "offset2_x_m", "offset2_y_m",   "offset2_z_m",   "releases",      "pull_N"});
   std::set<long> ids;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Element e;
@@ -106,6 +108,11 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
     e.group = table.text(row, "group");
     e.material = position_by_name(table, row, "material", index.materials);
     e.section = read_section(table, row, index, e.type);
+    if (!table.text(row, "section2").empty()) {
+      if (e.type != fe::ElementType::beam)
+        table.fail(row, "section2", "is filled, but only a beam can taper", "leave the cell empty");
+      e.section2 = position_by_name(table, row, "section2", index.sections);
+    }
     read_element_nodes(table, row, index, e);
     e.orientation = read_vector(table, row, "orientation", "");
     e.offset_m = {read_vector(table, row, "offset1", "_m"), read_vector(table, row, "offset2", "_m")};
@@ -116,6 +123,8 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
     }
     e.releases = static_cast<std::uint16_t>(releases);
     e.pull_N = table.number_or(row, "pull_N", 0.0);
+    if (e.pull_N != 0.0 && e.type != fe::ElementType::stay && e.type != fe::ElementType::bar)
+      table.fail(row, "pull_N", fmt::format("is filled, but a {} has no pull", name_of(e.type)), "leave the cell empty");
     if (e.pull_N < 0.0) {
       table.fail(row, "pull_N", fmt::format("is {}, expected a pull of at least 0", io::format_number(e.pull_N)),
                  "a stay cannot push");

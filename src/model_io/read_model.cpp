@@ -1,4 +1,4 @@
-
+#include <algorithm>
 #include <fstream>
 
 #include "core/error.hpp"
@@ -59,7 +59,14 @@ std::vector<std::filesystem::path> model_files(const std::filesystem::path& fold
                            "springs.csv", "links.csv", "masses.csv", "points.csv", "dofs.csv"}) {
     if (std::filesystem::exists(folder / name)) files.push_back(folder / name);
   }
-  if (!is_matrix_model(folder)) return files;
+  if (!is_matrix_model(folder)) {
+    const std::size_t named = files.size();
+    if (std::filesystem::is_directory(folder / "matrices"))
+      for (const auto& entry : std::filesystem::directory_iterator(folder / "matrices"))
+        if (entry.path().extension() == ".mtx") files.push_back(entry.path());
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(named), files.end());  // directories come in any order
+    return files;
+  }
   // The matrices have the names that model.toml gives them.
   const auto add = [&](const io::TomlValue::Table& table, const char* key) {
     const io::TomlValue* entry = find(table, key);

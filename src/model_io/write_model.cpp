@@ -36,12 +36,15 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
 }
 
 void write_elements(const fe::Model& model, const std::filesystem::path& folder) {
-  // Columns node5 to node8 are there only for solids.
+  // Columns node5 to node8 are there only for solids, section2 only for tapered beams.
   const bool solids = std::any_of(model.elements.begin(), model.elements.end(),
                                   [](const fe::Element& e) { return e.type == fe::ElementType::solid; });
   const std::size_t node_columns = solids ? 8 : 4;
   std::vector<std::string> header = {"element", "type", "name", "group", "material", "section"};
   for (std::size_t i = 1; i <= node_columns; ++i) header.push_back("node" + std::to_string(i));
+  const bool tapers =
+      std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.section2 >= 0; });
+  if (tapers) header.emplace_back("section2");
   for (const char* column : {"orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m", "offset1_z_m",
                              "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"})
     header.emplace_back(column);
@@ -54,6 +57,7 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
                model.materials[static_cast<std::size_t>(e.material)].name,
                e.section < 0 ? "" : model.sections[static_cast<std::size_t>(e.section)].name};
     for (std::size_t i = 0; i < node_columns; ++i) row.push_back(node_id(model, i < e.nodes.size() ? e.nodes[i] : -1));
+    if (tapers) row.emplace_back(e.section2 < 0 ? "" : model.sections[static_cast<std::size_t>(e.section2)].name);
     for (const Eigen::Vector3d& v : {e.orientation, e.offset_m[0], e.offset_m[1]}) {
       for (int i = 0; i < 3; ++i) row.emplace_back(v[i]);
     }

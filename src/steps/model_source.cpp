@@ -63,6 +63,14 @@ LoadedModel load_study_model(StepContext& context, const std::string& variant) {
   return from_model(ponte::generate(context.input(study.model_file), variant));
 }
 
+LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps) {
+  if (displacements == "as_model" || !loaded.model) return loaded;
+  fe::Model model = std::move(*loaded.model);
+  model.prestress.displacements = displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
+  model.prestress.load_steps = load_steps;
+  return from_model(std::move(model));
+}
+
 void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
   if (loaded.model) {
     model_io::write_model(fe::with_parameters(*loaded.model, theta), folder);

@@ -42,6 +42,10 @@ struct LoadedModel {
 /// `--model DIR` goes before both.
 [[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
 
+/// The same model in equilibrium under its dead load with displacements "linear" or "large" (fe::Displacements); "as_model", or
+/// a matrix model: as it is.
+[[nodiscard]] LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps);
+
 /// Writes the model as a model folder, with `theta` as its values.
 void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder);
 

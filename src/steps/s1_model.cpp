@@ -14,18 +14,25 @@ using namespace twindeck;
 struct ModelConfig {
   std::string variant = "preliminary";
   long n_modes = 15;
+  std::string displacements = "as_model";
+  long load_steps = 1;
 
   io::FieldTable fields() {
     io::FieldTable table;
     table.text("variant", variant, "variant of the generator: preliminary, refined, … (a model folder has none)")
-        .integer("n_modes", n_modes, {1.0, 200.0}, "number of modes, from the lowest");
+        .integer("n_modes", n_modes, {1.0, 200.0}, "number of modes, from the lowest")
+        .choice("displacements", displacements, {"as_model", "linear", "large"},
+                "equilibrium under dead load and pulls: as model.toml says, in the undeformed or in the deformed geometry")
+        .integer("load_steps", load_steps, {1.0, 1000.0},
+                 "large displacements: dead load and pulls grow in so many equal steps");
     return table;
   }
 };
 
 Status run(const ModelConfig& config, steps::StepContext& context) {
   // 1. The model: generated or read, checked, prestressed, assembled; a mechanism is refused here.
-  const steps::LoadedModel loaded = steps::load_study_model(context, config.variant);
+  const steps::LoadedModel loaded = steps::with_displacements(steps::load_study_model(context, config.variant),
+                                                              config.displacements, static_cast<int>(config.load_steps));
   const fe::Model* model = loaded.fe_model();
   if (config.n_modes > loaded.system.size()) {
     throw InputError({"", 0, "n_modes"},

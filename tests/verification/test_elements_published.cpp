@@ -4,19 +4,15 @@
 #include <cmath>
 
 #include "../unit/fe/test_shell_mesh.hpp"
+#include "verification_table.hpp"
 
-/// Published problems for the elements, on small dense systems. Each prints its digits of agreement, -log10 |computed/target -
-/// 1|.
+/// Published problems for the elements, on small dense systems; each is a row of the verification table.
 namespace twindeck::fe {
 namespace {
 
 using namespace testing_mesh;
 
-void report(const std::string& problem, double computed, double target) {
-  const double error = std::abs(computed / target - 1.0);
-  fmt::print("  {:<58} {:>12.6g} target {:>10.6g}  ratio {:.4f}  digits {:.1f}\n", problem, computed, target, computed / target,
-             -std::log10(std::max(error, 1e-16)));
-}
+void report(const std::string& problem, double computed, double target) { verification::record(problem, target, computed); }
 
 /// Membrane and bending together.
 Eigen::MatrixXd shells(const Mesh& mesh, const ShellProperties& s, DrillingRule rule, double factor) {

@@ -6,8 +6,8 @@ fe::Model one_of_everything() {
   fe::Model m;
   m.title = "one of everything, \"quoted\"";
   m.gravity_m_s2 = 9.80665;
-  m.formulation = {false, false, false, fe::Formulation::Drilling::diagonal, 0.03};
-  m.prestress = {fe::PullRule::shape_finding, false, 25e3, 2e-3, 0.25, {{1, 2}, {2, 0}}};
+  m.formulation = {false, false, false, fe::Formulation::Drilling::diagonal, 0.03, true};
+  m.prestress = {fe::PullRule::shape_finding, false, 25e3, 2e-3, 0.25, {{1, 2}, {2, 0}}, fe::Displacements::large, 7};
   m.nodes = {{1, {0.0, 0.0, 0.0}}, {2, {1.0 / 3.0, 0.0, 0.0}}, {5, {1.0, 1.0, 0.1}}, {7, {0.0, 1.0, 0.0}}};
   m.materials = {{"steel", 210e9, 210e9 / 2.6, 0.3, 7850.0}, {"concrete, light", 20e9, 20e9 / 2.4, 0.2, 1500.0}};
   fe::Section tube;
@@ -57,6 +57,8 @@ fe::Model one_of_everything() {
   m.elements = {beam, stay, bar, shell};
   m.springs = {{"C1", "damper_C", 2, -1, {0.6, 0.0, 0.8}, false, 1e6, 2e4, 3e3, true, false},
                {"turn", "bearing", 0, 3, Eigen::Vector3d(1.0, 2.0, 3.0).normalized(), true, 5e6, 0.0, 0.0, false, true}};
+  const Eigen::Matrix3d k{{1e6 / 3.0, -2e5, 0.0}, {3e5, 1e5, 7.0}, {0.0, 1.0, 4e4}};
+  m.matrix_elements = {{"self_excited", "wind", {{1, 2}, {2, 4}}, 1, k, Eigen::Matrix3d::Identity() / 7.0, {}}};
   m.links = {{"eccentric", 0, 3}};
   m.masses = {{"rail", 1, 120.5, {1.0, 2.0, 3.0}}};
   m.supports = {{"foot_north", 0, {true, true, true, false, true, false}}};

@@ -30,6 +30,19 @@ TEST(ModelRoundTrip, ReturnsEveryFieldToTwelveDigits) {
   EXPECT_EQ(a.formulation.shell_rotary_inertia, b.formulation.shell_rotary_inertia);
   EXPECT_EQ(a.formulation.drilling, b.formulation.drilling);
   EXPECT_EQ(a.formulation.drilling_factor, b.formulation.drilling_factor);
+  EXPECT_EQ(a.formulation.lumped_mass, b.formulation.lumped_mass);
+  EXPECT_EQ(a.prestress.displacements, b.prestress.displacements);
+  EXPECT_EQ(a.prestress.load_steps, b.prestress.load_steps);
+  ASSERT_EQ(b.matrix_elements.size(), 1u);
+  EXPECT_EQ(b.matrix_elements[0].name, "self_excited");
+  EXPECT_EQ(b.matrix_elements[0].group, "wind");
+  ASSERT_EQ(b.matrix_elements[0].dofs.size(), 2u);
+  EXPECT_EQ(b.matrix_elements[0].dofs[1].node, 2);
+  EXPECT_EQ(b.matrix_elements[0].dofs[1].direction, 4);
+  EXPECT_EQ(b.matrix_elements[0].internal, 1);
+  EXPECT_EQ(b.matrix_elements[0].stiffness, a.matrix_elements[0].stiffness);  // 17 digits: to the last bit
+  EXPECT_EQ(b.matrix_elements[0].damping, a.matrix_elements[0].damping);
+  EXPECT_EQ(b.matrix_elements[0].mass.size(), 0);
   EXPECT_EQ(a.prestress.rule, b.prestress.rule);
   EXPECT_EQ(a.prestress.geometric_stiffness, b.prestress.geometric_stiffness);
   EXPECT_EQ(a.prestress.minimum_pull_N, b.prestress.minimum_pull_N);
@@ -148,7 +161,7 @@ TEST(ModelRoundTrip, WritesTheSameBytesAgain) {
 TEST(ModelRoundTrip, ListsItsFilesForTheManifest) {
   const TestFolder folder;
   write_model(one_of_everything(), folder.path());
-  EXPECT_EQ(model_files(folder.path()).size(), std::size(kFiles));
+  EXPECT_EQ(model_files(folder.path()).size(), std::size(kFiles) + 2);  // and K, C of the matrix element
   EXPECT_FALSE(is_matrix_model(folder.path()));
 }
 

@@ -52,6 +52,28 @@ TEST(SolidFolder, ComesBackAsItWas) {
   EXPECT_EQ(folder.read("elements.csv"), first);
 }
 
+TEST(TaperedFolder, ComesBackAsItWas) {
+  const TestFolder folder;
+  fe::Model model = cube();
+  fe::Section foot = model.sections[0], tip = model.sections[0];
+  foot.name = "foot";
+  tip.name = "tip";
+  model.sections = {tip, foot};
+  model.elements[1].type = fe::ElementType::beam;
+  model.elements[1].section = 1;
+  model.elements[1].section2 = 0;
+  write_model(model, folder.path());
+  const fe::Model back = read_model(folder.path());
+  EXPECT_EQ(back.elements[1].section, 1);
+  EXPECT_EQ(back.elements[1].section2, 0);
+  EXPECT_EQ(back.elements[0].section2, -1);
+  folder.edit("elements.csv", ",tip,", ",top,");
+  EXPECT_NE(message_of([&] {
+              (void)read_model(folder.path());
+            }).find("elements.csv:3: section2: section2 'top' is not in sections.csv (did you mean 'tip'?)"),
+            std::string::npos);
+}
+
 TEST(SolidFolder, FaultsNameLineAndColumn) {
   const auto says = [](const char* from, const char* to) {
     const TestFolder folder;
