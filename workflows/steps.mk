@@ -9,6 +9,7 @@ STUDY_INPUTS := $(WORKFLOW)/study.toml $(wildcard data/$(STUDY)/bridge.toml data
 # What each step reads of earlier ones.
 READS_s1_model :=
 READS_s2_sensors := s1_model
+READS_s3_identification := s0_campaign
 READS_s4_refinement := s1_model
 READS_s5_sensitivity := s4_refinement
 READS_s6_updating := s4_refinement s5_sensitivity
@@ -31,6 +32,9 @@ $(shell mkdir -p $(RESULTS); [ "$$(cat $(MEASURED_STAMP) 2>/dev/null)" = "measur
 INPUTS_s4_refinement += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
 INPUTS_s6_updating += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
 endif
+
+# What a study has of its own, such as a campaign made of records that lie elsewhere.
+-include $(WORKFLOW)/study.mk
 
 # An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
 # NO_BUILD=1 takes the executables as they are.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <regex>
@@ -23,6 +24,7 @@ namespace {
 constexpr char kMagic[] = "\x93NUMPY";
 
 struct Header {
+  std::string type;  // "f8", "f4", "i2", "i4"
   std::size_t item_size = 8;
   bool fortran_order = false;
   Index rows = 0, columns = 1;
@@ -50,10 +52,11 @@ Header parse(const std::string& text, const fs::path& file) {
   Header header;
   if (!std::regex_search(text, match, std::regex("'descr':\\s*'([^']*)'"))) refuse(file, "has a header without 'descr'", "give a plain array");
   const std::string type = match[1];
-  if (type != "<f8" && type != "<f4") {
-    refuse(file, fmt::format("holds type '{}', expected '<f8' or '<f4'", type), "convert it with array.astype('<f8')");
+  if (type != "<f8" && type != "<f4" && type != "<i2" && type != "<i4") {
+    refuse(file, fmt::format("holds type '{}', expected '<f8', '<f4', '<i2' or '<i4'", type), "convert it with array.astype('<f8')");
   }
-  header.item_size = type == "<f8" ? 8 : 4;
+  header.type = type.substr(1);
+  header.item_size = static_cast<std::size_t>(type.back() - '0');
   header.fortran_order = std::regex_search(text, std::regex("'fortran_order':\\s*True"));
   if (!std::regex_search(text, match, std::regex("'shape':\\s*\\(\\s*(\\d+)\\s*,\\s*(?:(\\d+)\\s*,?\\s*)?\\)"))) {
     refuse(file, "has an array of another shape than one or two dimensions", "reshape it to samples x channels");
@@ -63,9 +66,22 @@ Header parse(const std::string& text, const fs::path& file) {
   return header;
 }
 
+template <typename T>
+double value_at(const char* at) {
+  T value;
+  std::memcpy(&value, at, sizeof(T));
+  return static_cast<double>(value);
+}
+
+double value_of(const std::string& type, const char* at) {
+  if (type == "f8") return value_at<double>(at);
+  if (type == "f4") return value_at<float>(at);
+  return type == "i2" ? value_at<std::int16_t>(at) : value_at<std::int32_t>(at);
+}
+
 }  // namespace
 
-Eigen::MatrixXd read_npy(const fs::path& file) {
+std::pair<Index, Index> visit_npy(const fs::path& file, const BlockVisitor& visit) {
   std::ifstream in(file, std::ios::binary);
   if (!in) refuse(file, "cannot be read", "check its name and your permissions");
   const Header header = parse(header_text(in, file), file);
@@ -75,28 +91,49 @@ Eigen::MatrixXd read_npy(const fs::path& file) {
     refuse(file, fmt::format("holds {} bytes of data, expected {} for {} x {} values", found, expected, header.rows, header.columns),
            "the file was cut off or is damaged; copy it again");
   }
-  Eigen::MatrixXd array(header.rows, header.columns);
-  // Line by line of what lies together: rows in C order, columns in Fortran order.
-  const Index line = std::max<Index>(1, header.fortran_order ? header.rows : header.columns);
-  const Index lines = array.size() / line;
-  const Index chunk = std::max<Index>(1, 131072 / line);
-  std::vector<char> buffer(static_cast<std::size_t>(chunk * line) * header.item_size);
-  for (Index first = 0; first < lines; first += chunk) {
-    const Index n = std::min(chunk, lines - first);
-    in.read(buffer.data(), static_cast<std::streamsize>(static_cast<std::size_t>(n * line) * header.item_size));
-    for (Index k = 0; k < n * line; ++k) {
-      double value = 0.0;
-      if (header.item_size == 8) {
-        std::memcpy(&value, buffer.data() + k * 8, 8);
-      } else {
-        float single = 0.0F;
-        std::memcpy(&single, buffer.data() + k * 4, 4);
-        value = static_cast<double>(single);
+  constexpr Index kValues = 131072;
+  std::vector<char> buffer;
+  const auto read = [&](Index values) {
+    buffer.resize(static_cast<std::size_t>(values) * header.item_size);
+    in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+  };
+  const auto value = [&](Index k) { return value_of(header.type, buffer.data() + static_cast<std::size_t>(k) * header.item_size); };
+  Eigen::MatrixXd block;
+  if (header.fortran_order) {
+    for (Index column = 0; column < header.columns; ++column) {
+      for (Index row = 0; row < header.rows; row += kValues) {
+        const Index n = std::min(kValues, header.rows - row);
+        read(n);
+        block.resize(n, 1);
+        for (Index k = 0; k < n; ++k) block(k, 0) = value(k);
+        visit(row, column, block);
       }
-      const Index at = first + k / line, within = k % line;
-      (header.fortran_order ? array(within, at) : array(at, within)) = value;
     }
+    return {header.rows, header.columns};
   }
+  const Index chunk = std::max<Index>(1, kValues / std::max<Index>(1, header.columns));
+  for (Index row = 0; row < header.rows; row += chunk) {
+    const Index n = std::min(chunk, header.rows - row);
+    read(n * header.columns);
+    block.resize(n, header.columns);
+    for (Index k = 0; k < n; ++k) {
+      for (Index c = 0; c < header.columns; ++c) block(k, c) = value(k * header.columns + c);
+    }
+    visit(row, 0, block);
+  }
+  return {header.rows, header.columns};
+}
+
+Eigen::MatrixXd read_npy(const fs::path& file) {
+  Eigen::MatrixXd array;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(file, "cannot be read", "check its name and your permissions");
+  const Header header = parse(header_text(in, file), file);
+  in.close();
+  // The size is checked before anything is asked of the memory: a damaged header must not ask for all of it.
+  const auto least = static_cast<std::uintmax_t>(header.rows) * static_cast<std::uintmax_t>(header.columns) * header.item_size;
+  if (least <= fs::file_size(file)) array.resize(header.rows, header.columns);
+  visit_npy(file, [&](Index row, Index column, const Eigen::MatrixXd& block) { array.block(row, column, block.rows(), block.cols()) = block; });
   return array;
 }
 

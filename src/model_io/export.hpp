@@ -22,7 +22,8 @@ void write_vtu(const fe::Model& model, const fe::ParametricSystem& system, const
 /// per cent; each shape is scaled so that its component of largest magnitude is +1; a column value_imag is written where a
 /// shape is complex; no shapes.csv where no shape is known.
 void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folder);
-/// Reads the same files, further columns are allowed; shapes.csv may be missing.
+/// Reads the same files, further columns are allowed; shapes.csv may be missing. Modes with 1 in a column `partial` (of several setups,
+/// of which some did not see the mode) are left out, because their shapes have holes.
 /// @throws InputError with file, line, column: a frequency that is not positive, a mode named twice, a shape of an unknown
 /// mode,
 ///         a component that one mode has and another lacks

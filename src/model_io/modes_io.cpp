@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
@@ -43,12 +44,13 @@ void write_shapes(const modal::ModeSet& modes, const std::filesystem::path& file
   writer.save(file);
 }
 
-void read_shapes(const std::filesystem::path& file, modal::ModeSet& modes) {
+void read_shapes(const std::filesystem::path& file, const std::set<std::string>& left_out, modal::ModeSet& modes) {
   const auto table = io::CsvTable::read(file, {"mode", "point", "direction", "value"}, {"value_imag"}, true);
   std::map<std::string, Eigen::Index> mode_at;
   for (std::size_t i = 0; i < modes.names.size(); ++i) mode_at.emplace(modes.names[i], static_cast<Eigen::Index>(i));
   std::map<std::pair<std::string, std::string>, Eigen::Index> dof_at;
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (left_out.contains(table.text(row, "mode"))) continue;
     const modal::ShapeDof dof{table.text(row, "point"), table.text(row, "direction")};
     if (dof_at.emplace(std::pair{dof.point, dof.direction}, static_cast<Eigen::Index>(modes.dofs.size())).second)
       modes.dofs.push_back(dof);
@@ -56,6 +58,7 @@ void read_shapes(const std::filesystem::path& file, modal::ModeSet& modes) {
   const auto n = static_cast<Eigen::Index>(modes.dofs.size());
   modes.shapes = Eigen::MatrixXcd::Constant(n, modes.size(), kUnknown);
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (left_out.contains(table.text(row, "mode"))) continue;
     const auto mode = mode_at.find(table.text(row, "mode"));
     if (mode == mode_at.end()) {
       table.fail(row, "mode",
@@ -95,7 +98,12 @@ void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folde
 modal::ModeSet read_modes(const std::filesystem::path& folder) {
   const auto table = io::CsvTable::read(folder / "modes.csv", {"mode", "frequency_Hz"},
                                         {"frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"}, true);
-  const auto n = static_cast<Eigen::Index>(table.rows());
+  // A mode that some setups did not see has a shape with holes; it is listed for people and not for comparisons.
+  std::set<std::string> left_out;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "partial") == "1") left_out.insert(table.text(row, "mode"));
+  }
+  const auto n = static_cast<Eigen::Index>(table.rows() - left_out.size());
   modal::ModeSet modes;
   modes.frequency_Hz.resize(n);
   modes.frequency_std_Hz.resize(n);
@@ -103,11 +111,12 @@ modal::ModeSet read_modes(const std::filesystem::path& folder) {
   modes.damping_ratio_std.resize(n);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string name = table.text(row, "mode");
+    if (left_out.contains(name)) continue;
     if (name.empty()) table.fail(row, "mode", "is empty", "name the mode");
     if (position_of(name, modes.names) >= 0)
       table.fail(row, "mode", fmt::format("mode '{}' appears twice", name), "give each mode a name of its own");
     modes.names.push_back(name);
-    const auto i = static_cast<Eigen::Index>(row);
+    const auto i = static_cast<Eigen::Index>(modes.names.size()) - 1;
     modes.frequency_Hz[i] = table.number(row, "frequency_Hz");
     if (modes.frequency_Hz[i] < 0.0) {
       table.fail(row, "frequency_Hz", fmt::format("is {}, expected a value of at least 0", table.text(row, "frequency_Hz")),
@@ -117,7 +126,7 @@ modal::ModeSet read_modes(const std::filesystem::path& folder) {
     modes.damping_ratio[i] = table.number_or(row, "damping_ratio_pct", kUnknown) / 100.0;
     modes.damping_ratio_std[i] = table.number_or(row, "damping_ratio_std_pct", kUnknown) / 100.0;
   }
-  if (std::filesystem::exists(folder / "shapes.csv")) read_shapes(folder / "shapes.csv", modes);
+  if (std::filesystem::exists(folder / "shapes.csv")) read_shapes(folder / "shapes.csv", left_out, modes);
   return modes;
 }
 

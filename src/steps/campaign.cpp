@@ -4,15 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <toml++/toml.h>
 
 #include "core/error.hpp"
 #include "io/config.hpp"
 #include "io/csv.hpp"
-#include "io/npy.hpp"
+#include "records/record.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -42,6 +42,11 @@ std::vector<CampaignChannel> read_channels(const fs::path& file) {
     if (channel.name.empty()) table.fail(row, "channel", "is empty", "name the channel");
     if (!names.insert(channel.name).second) table.fail(row, "channel", fmt::format("'{}' appears twice", channel.name), "remove one row");
     channel.point = table.text(row, "point").empty() ? channel.name : table.text(row, "point");
+    for (Index k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      channel.position_m[k] = table.number_or(row, std::array{"x_m", "y_m", "z_m"}[axis], channel.position_m[k]);
+      channel.direction[k] = table.number_or(row, std::array{"dx", "dy", "dz"}[axis], channel.direction[k]);
+    }
     channel.quantity = one_of(table, row, "quantity", kQuantities);
     channel.gain = table.number_or(row, "gain", 1.0);
     if (channel.gain == 0.0) table.fail(row, "gain", "is 0, expected the factor from recorded to physical values", "leave it empty for 1");
@@ -97,41 +102,44 @@ void check_record(const Campaign& campaign, const CampaignRecord& record, const 
   }
 }
 
-/// Names what there is to choose from.
-template <typename Get>
-void require_one(const Campaign& campaign, const std::vector<CampaignRecord>& records, const std::string& key, Get get) {
-  std::set<std::string> values;
-  for (const CampaignRecord& record : records) values.insert(get(record));
-  if (values.size() == 1) return;
-  throw InputError({(campaign.folder / "campaign.toml").string(), 0, key}, fmt::format("the chosen records have several: {}", fmt::join(values, ", ")),
-                   fmt::format("choose one, for example --set {}={}", key, *values.begin()));
+/// Placed by name where the file names its channels so, by position where it names none of them.
+Eigen::MatrixXd in_order(const CampaignRecord& record, records::Record file) {
+  std::vector<Index> columns;
+  std::vector<std::string> known;
+  for (const records::ChannelInfo& channel : file.info.channels) known.push_back(channel.name);
+  std::string missing;
+  for (const std::string& name : record.channels) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at != known.end()) {
+      columns.push_back(static_cast<Index>(at - known.begin()));
+    } else if (missing.empty()) {
+      missing = name;
+    }
+  }
+  if (!columns.empty() && !missing.empty()) {
+    throw InputError({record.file.string(), 0, missing}, fmt::format("is no channel of the file{}", did_you_mean(missing, known)),
+                     "correct `channels` in campaign.toml; the file has " + fmt::format("{}", fmt::join(known, ", ")));
+  }
+  if (!columns.empty()) return file.samples(Eigen::all, columns);
+  if (file.samples.cols() != static_cast<Index>(record.channels.size())) {
+    throw InputError({record.file.string(), 0, ""},
+                     fmt::format("has {} columns, but campaign.toml names {} channels", file.samples.cols(), record.channels.size()),
+                     "an array of samples x channels is expected");
+  }
+  return std::move(file.samples);
 }
 
-/// Places the samples by their time stamps; what is missing in between is NaN.
-Eigen::MatrixXd read_csv_record(const CampaignRecord& record) {
-  std::vector<std::string> required = record.channels;
-  required.insert(required.begin(), "time_s");
-  const auto table = io::CsvTable::read(record.file, required, {}, true);
-  if (table.rows() == 0) throw InputError({record.file.string(), 0, ""}, "has no samples", "check the record");
-  const double start = table.number(0, "time_s");
-  std::vector<Index> at(table.rows());
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double position = (table.number(row, "time_s") - start) * record.sampling_rate_Hz;
-    at[row] = std::lround(position);
-    if (std::abs(position - static_cast<double>(at[row])) > 0.25 || (row > 0 && at[row] <= at[row - 1]) ||
-        (row > 0 && at[row] > 100 * static_cast<Index>(table.rows()))) {
-      table.fail(row, "time_s", fmt::format("does not fit a sampling rate of {} Hz from {} s on", record.sampling_rate_Hz, start),
-                 "correct sampling_rate_Hz in campaign.toml, or the time stamps");
+void check_rate(const Campaign& campaign, const CampaignRecord& record, const records::RecordInfo& info) {
+  if (info.rate_Hz > 0.0 && std::abs(info.rate_Hz / record.sampling_rate_Hz - 1.0) > 1e-3) {
+    throw InputError({(campaign.folder / "campaign.toml").string(), record.line, "sampling_rate_Hz"},
+                     fmt::format("is {}, but {} runs at {:.6g} Hz ({})", record.sampling_rate_Hz, record.file.string(), info.rate_Hz, info.rate_source),
+                     "correct one of them; two clocks or a mixed rate show so");
+  }
+  for (const std::string& note : info.notes) {
+    if (note.find("backwards") != std::string::npos || note.find("different rates") != std::string::npos) {
+      throw InputError({record.file.string(), 0, ""}, note, "split the record where its clock jumps, or give each rate its own record");
     }
   }
-  const auto n = static_cast<Index>(record.channels.size());
-  Eigen::MatrixXd data = Eigen::MatrixXd::Constant(at.back() + 1, n, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (Index c = 0; c < n; ++c) {
-      data(at[row], c) = table.number_or(row, record.channels[static_cast<std::size_t>(c)], std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-  return data;
 }
 
 }  // namespace
@@ -166,7 +174,7 @@ Campaign read_campaign(const fs::path& folder) {
     io::FieldTable table;
     table.text("setup", r.record.setup, "name of the setup", true)
         .choice("kind", r.record.kind, kKinds, "what was recorded")
-        .text("file", r.file, "samples x channels (.npy), or time_s and a column a channel (.csv); relative to campaign.toml", true)
+        .text("file", r.file, "samples: CSV as loggers write it, NPY, MAT 5 or 7.3, HDF5, universal file; relative to campaign.toml", true)
         .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", io::positive(), "samples a second of each channel", true)
         .texts("channels", r.record.channels, "columns, names of channels.csv")
         .text("condition", r.record.condition, "table of conditions.toml");
@@ -184,45 +192,58 @@ Campaign read_campaign(const fs::path& folder) {
   return campaign;
 }
 
-std::vector<CampaignRecord> choose_records(const Campaign& campaign, const RecordChoice& choice) {
-  std::vector<CampaignRecord> chosen;
+std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordChoice& choice, bool or_none) {
+  std::vector<RecordGroup> groups;
   std::set<std::string> there;
   for (const CampaignRecord& record : campaign.records) {
     there.insert(fmt::format("{}/{}/{}", record.setup, record.condition, record.kind));
     const bool fits = (choice.setup.empty() || record.setup == choice.setup) && (choice.condition.empty() || record.condition == choice.condition) &&
-                      (choice.kind.empty() || record.kind == choice.kind);
-    if (fits) chosen.push_back(record);
+                      (choice.kind.empty() || record.kind == choice.kind) &&
+                      (choice.setups.empty() || std::find(choice.setups.begin(), choice.setups.end(), record.setup) != choice.setups.end());
+    if (!fits) continue;
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const RecordGroup& g) { return g.setup == record.setup && g.condition == record.condition; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {record.setup, record.condition, {}});
+    if (!group->records.empty()) {
+      const CampaignRecord& first = group->records.front();
+      if (record.sampling_rate_Hz != first.sampling_rate_Hz || record.channels != first.channels) {
+        throw InputError({(campaign.folder / "campaign.toml").string(), record.line, "record"},
+                         fmt::format("differs in rate or channels from the record on line {} of the same setup and condition", first.line),
+                         "give it a setup of its own");
+      }
+    }
+    group->records.push_back(record);
   }
-  if (chosen.empty()) {
+  if (groups.empty() && !or_none) {
     throw InputError({(campaign.folder / "campaign.toml").string(), 0, "record"},
                      fmt::format("no record has setup '{}', condition '{}', kind '{}'; there are {}", choice.setup, choice.condition, choice.kind,
                                  fmt::join(there, ", ")),
                      "choose by --set setup=…, condition=…, kind=…");
   }
-  require_one(campaign, chosen, "setup", [](const CampaignRecord& r) { return r.setup; });
-  require_one(campaign, chosen, "condition", [](const CampaignRecord& r) { return r.condition; });
-  require_one(campaign, chosen, "kind", [](const CampaignRecord& r) { return r.kind; });
-  for (const CampaignRecord& record : chosen) {
-    if (record.sampling_rate_Hz != chosen.front().sampling_rate_Hz || record.channels != chosen.front().channels) {
-      throw InputError({(campaign.folder / "campaign.toml").string(), record.line, "record"},
-                       fmt::format("differs in rate or channels from the record on line {} of the same setup and condition", chosen.front().line),
-                       "give it a setup of its own");
-    }
+  // Conditions stay together, in the order in which they first appear.
+  std::vector<std::string> order;
+  for (const RecordGroup& group : groups) {
+    if (std::find(order.begin(), order.end(), group.condition) == order.end()) order.push_back(group.condition);
   }
-  return chosen;
+  std::stable_sort(groups.begin(), groups.end(), [&](const RecordGroup& a, const RecordGroup& b) {
+    return std::find(order.begin(), order.end(), a.condition) < std::find(order.begin(), order.end(), b.condition);
+  });
+  return groups;
+}
+
+std::vector<std::vector<RecordGroup>> by_condition(const std::vector<RecordGroup>& groups) {
+  std::vector<std::vector<RecordGroup>> conditions;
+  for (const RecordGroup& group : groups) {
+    if (conditions.empty() || conditions.back().front().condition != group.condition) conditions.emplace_back();
+    conditions.back().push_back(group);
+  }
+  return conditions;
 }
 
 Eigen::MatrixXd read_record(const Campaign& campaign, const CampaignRecord& record) {
-  const std::string extension = record.file.extension().string();
-  if (extension != ".npy" && extension != ".csv") {
-    throw InputError({(campaign.folder / "campaign.toml").string(), record.line, "file"},
-                     fmt::format("'{}' has the ending '{}', expected .npy or .csv", record.file.string(), extension), "convert the record");
-  }
-  Eigen::MatrixXd data = extension == ".npy" ? io::read_npy(record.file) : read_csv_record(record);
-  if (data.cols() != static_cast<Index>(record.channels.size())) {
-    throw InputError({record.file.string(), 0, ""}, fmt::format("has {} columns, but campaign.toml names {} channels", data.cols(), record.channels.size()),
-                     "an array of samples x channels is expected");
-  }
+  records::Record file = records::read(record.file);
+  check_rate(campaign, record, file.info);
+  Eigen::MatrixXd data = in_order(record, std::move(file));
   for (Index c = 0; c < data.cols(); ++c) data.col(c) *= campaign.channel(record.channels[static_cast<std::size_t>(c)]).gain;
   return data;
 }

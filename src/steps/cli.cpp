@@ -118,6 +118,13 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
     line.text = step.token + " (twindeck) " + version();
     return line;
   }
+  for (const Flag& flag : step.flags) {
+    const std::string name = bare(flag.name);
+    if (!flag.instead || app.count("--" + name) == 0) continue;
+    line.action = CommandLine::Action::print;
+    for (const std::string& printed : flag.instead(flag.takes_value ? values[name] : "")) line.text += printed + "\n";
+    return line;
+  }
   check_folder("--study", optional_path(study));
   if (describe->count() > 0) {
     line.action = CommandLine::Action::describe;

@@ -13,7 +13,7 @@ namespace twindeck::steps {
 
 /// What the command line said. Private to run_step.
 struct CommandLine {
-  enum class Action { run, help, version, print_config, describe };
+  enum class Action { run, print, help, version, print_config, describe };
   Action action = Action::run;
   std::string text;  ///< of help and version: what to print; of describe: the key, "" for all
   std::filesystem::path study, out, results;

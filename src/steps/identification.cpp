@@ -8,40 +8,11 @@
 
 #include "core/error.hpp"
 #include "signal/condition.hpp"
+#include "sysid/input_output.hpp"
 
 namespace twindeck::steps {
 
 using Eigen::Index;
-
-io::FieldTable IdentificationConfig::fields() {
-  io::FieldTable table;
-  table.text("setup", setup, "setup whose records are used; empty where the campaign has one only")
-      .text("condition", condition, "condition whose records are used; empty where the setup has one only")
-      .text("kind", kind, "kind of record: ambient, wind or another whose excitation is broad")
-      .texts("references", references, "reference channels; empty: those marked in channels.csv, or all")
-      .texts("exclude", exclude, "channels that are left out")
-      .integer("longest_gap", longest_gap, io::non_negative(), "samples missing in a row that may be bridged by a straight line")
-      .integer("decimation", decimation, {1.0, 1000.0}, "every so many-th sample is kept, after a zero-phase low-pass")
-      .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below are left out")
-      .number("band.highest", highest_Hz, "Hz", io::non_negative(), "poles above are left out; 0: 0.8 of the Nyquist frequency")
-      .integer("block_rows", block_rows, {2.0, 500.0}, "block rows of the Toeplitz matrix; twice as many lags are used")
-      .integer("minimum_order", minimum_order, {2.0, 500.0}, "smallest model order")
-      .integer("maximum_order", maximum_order, {2.0, 500.0}, "largest model order")
-      .integer("order_step", order_step, {1.0, 100.0}, "step of the order")
-      .integer("blocks", blocks, {2.0, 1000.0}, "blocks a record is cut into for the standard deviations")
-      .integer("welch_segment", welch_segment, {8.0, 1e7}, "samples of a Welch segment, after decimation")
-      .number("stable.frequency", criteria.frequency, "", io::positive(), "paper 3.1: relative change of a stable frequency")
-      .number("stable.damping", criteria.damping, "", io::positive(), "paper 3.1: change of a stable damping ratio (0.01 = 1 % of critical)")
-      .number("stable.mac", criteria.mac, "", {0.0, 1.0}, "paper 3.1: MAC of a stable shape")
-      .number("largest_damping", largest_damping, "", {0.0, 1.0, true}, "poles with a larger damping ratio are left out")
-      .number("cleaning.mac", cleaning.mac, "", {0.0, 1.0}, "paper Eq. (3): MAC of shapes that count as the same")
-      .number("cleaning.frequency", cleaning.frequency, "", io::positive(), "relative distance of frequencies that may count as the same")
-      .number("cleaning.recursion", cleaning.recursion, "", io::non_negative(), "paper Eq. (4): index of recursion that a mode exceeds")
-      .number("cleaning.share", cleaning.share, "", {0.0, 1.0}, "share of the orders that a mode is found at, from its first; 0: paper's rule")
-      .number("cleaning.deviation", largest_deviation, "", io::non_negative(),
-              "largest relative standard deviation of a mode's frequency; 0: paper's rule, nothing is dropped for it");
-  return table;
-}
 
 namespace {
 
@@ -66,6 +37,14 @@ std::vector<Index> used_columns(const Campaign& campaign, const CampaignRecord& 
   return columns;
 }
 
+std::vector<Index> inputs_of(const Campaign& campaign, const CampaignRecord& record, const IdentificationConfig& config) {
+  std::vector<Index> columns;
+  for (std::size_t c = 0; c < record.channels.size(); ++c) {
+    if (campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c])) columns.push_back(static_cast<Index>(c));
+  }
+  return columns;
+}
+
 void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked) {
   std::vector<std::string> names;
   for (const CampaignChannel& channel : conditioned.channels) names.push_back(channel.name);
@@ -87,73 +66,72 @@ void refuse_dead(const std::vector<ChannelQuality>& quality, const std::vector<C
   }
 }
 
-int derivative(const std::string& quantity) { return quantity == "acceleration" ? 2 : quantity == "velocity" ? 1 : 0; }
-
-double highest_of(const Conditioned& conditioned, const IdentificationConfig& config) {
-  const double nyquist = 0.5 * conditioned.rate_Hz;
-  if (config.highest_Hz > nyquist || config.lowest_Hz >= (config.highest_Hz > 0.0 ? config.highest_Hz : 0.8 * nyquist)) {
-    throw InputError({"", 0, "band.highest"},
-                     fmt::format("the band {} to {} Hz does not lie below {} Hz, the Nyquist frequency after decimation", config.lowest_Hz,
-                                 config.highest_Hz, nyquist),
-                     "change the band, or decimate less");
-  }
-  return config.highest_Hz > 0.0 ? config.highest_Hz : 0.8 * nyquist;
-}
 
 }  // namespace
 
-Conditioned condition_records(const Campaign& campaign, const IdentificationConfig& config) {
-  const std::vector<CampaignRecord> records = choose_records(campaign, {config.setup, config.condition, config.kind});
-  const CampaignRecord& first = records.front();
-  const std::vector<Index> columns = used_columns(campaign, first, config);
+Conditioned condition_records(const Campaign& campaign, const RecordGroup& group, const IdentificationConfig& config, Index decimation) {
+  const CampaignRecord& first = group.records.front();
+  const std::vector<Index> columns = used_columns(campaign, first, config), input_columns = inputs_of(campaign, first, config);
   Conditioned conditioned;
   conditioned.setup = first.setup;
   conditioned.condition = first.condition;
-  conditioned.rate_Hz = first.sampling_rate_Hz / static_cast<double>(config.decimation);
+  conditioned.rate_Hz = first.sampling_rate_Hz / static_cast<double>(decimation);
   std::vector<std::string> names;
   for (const Index c : columns) {
     names.push_back(first.channels[static_cast<std::size_t>(c)]);
     conditioned.channels.push_back(campaign.channel(names.back()));
   }
+  std::vector<std::string> input_names;
+  for (const Index c : input_columns) {
+    input_names.push_back(first.channels[static_cast<std::size_t>(c)]);
+    conditioned.inputs.push_back(campaign.channel(input_names.back()));
+  }
   choose_references(conditioned, config.references);
-  for (const CampaignRecord& record : records) {
+  const auto ready = [&](const Eigen::MatrixXd& data) { return signal::detrended(signal::decimated(signal::detrended(data), decimation)); };
+  for (const CampaignRecord& record : group.records) {
     const Eigen::MatrixXd raw = read_record(campaign, record);
     const auto quality = channel_quality(raw, record.channels, record.setup, record.file.lexically_relative(campaign.folder).generic_string());
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
     refuse_dead(quality, conditioned.channels);
+    refuse_dead(quality, conditioned.inputs);
     Eigen::MatrixXd data = raw(Eigen::all, columns);
     fill_gaps(data, names, config.longest_gap, record.file.string());
-    conditioned.records.push_back(signal::detrended(signal::decimated(signal::detrended(data), config.decimation)));
+    conditioned.records.push_back(ready(data));
+    if (input_columns.empty()) continue;
+    Eigen::MatrixXd excitation = raw(Eigen::all, input_columns);
+    fill_gaps(excitation, input_names, config.longest_gap, record.file.string());
+    conditioned.excitation.push_back(ready(excitation));
   }
   return conditioned;
 }
 
-sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationConfig& config) {
-  sysid::IdentifyOptions options;
-  options.block_rows = config.block_rows;
-  options.minimum_order = static_cast<int>(config.minimum_order);
-  options.maximum_order = static_cast<int>(std::max(config.maximum_order, config.minimum_order));
-  options.order_step = static_cast<int>(config.order_step);
-  options.criteria = config.criteria;
-  options.limits = {config.lowest_Hz, highest_of(conditioned, config), config.largest_damping};
-  options.cleaning = config.cleaning;
-  options.largest_deviation = config.largest_deviation;
-  // Channels on one scale, so that a large or a distant one does not hide the others and units do not matter.
-  const auto n = static_cast<Index>(conditioned.channels.size());
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(n);
-  for (const Eigen::MatrixXd& record : conditioned.records) scale += record.colwise().squaredNorm().transpose() / static_cast<double>(record.rows());
-  scale = (scale / static_cast<double>(conditioned.records.size())).cwiseSqrt();
-  signal::BlockCorrelations blocks;
-  for (const Eigen::MatrixXd& record : conditioned.records) {
-    blocks.append(signal::correlations(record * scale.cwiseInverse().asDiagonal(), conditioned.references, 2 * config.block_rows, config.blocks));
+int derivative(const std::string& quantity) { return quantity == "acceleration" ? 2 : quantity == "velocity" ? 1 : 0; }
+
+Eigen::VectorXd channel_rms(const std::vector<Eigen::MatrixXd>& records) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(records.front().cols());
+  for (const Eigen::MatrixXd& record : records) squares += record.colwise().squaredNorm().transpose() / static_cast<double>(record.rows());
+  return (squares / static_cast<double>(records.size())).cwiseSqrt();
+}
+
+Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape, const std::vector<CampaignChannel>& channels, const Eigen::VectorXd& scale,
+                                double frequency_Hz, double damping_ratio) {
+  const std::complex<double> lambda = 2.0 * std::numbers::pi * frequency_Hz * std::complex<double>(-damping_ratio, std::sqrt(1.0 - damping_ratio * damping_ratio));
+  Eigen::VectorXcd physical = shape;
+  for (Index c = 0; c < shape.size(); ++c) {
+    const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
+    physical[c] *= scale[c] * std::pow(lambda, -order);
   }
-  sysid::Identification found = sysid::identify(blocks, conditioned.rate_Hz, options);
+  return sysid::normalised_shape(physical);
+}
+
+void to_physical_shapes(sysid::Identification& found, const std::vector<CampaignChannel>& channels, const Eigen::VectorXd& scale) {
+  const auto n = static_cast<Index>(channels.size());
   for (std::size_t m = 0; m < found.modes.size(); ++m) {
     sysid::Cluster& mode = found.modes[m];
     const std::complex<double> lambda = found.diagram[mode.representative].pole.eigenvalue;
     Eigen::VectorXcd factor(n);
     for (Index c = 0; c < n; ++c) {
-      const int order = derivative(conditioned.channels[static_cast<std::size_t>(c)].quantity) - derivative(conditioned.channels.front().quantity);
+      const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
       factor[c] = scale[c] * std::pow(lambda, -order);
     }
     const Eigen::VectorXcd physical = mode.shape.cwiseProduct(factor);
@@ -167,7 +145,49 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
     deviation.shape_real.array() *= magnitude.array();
     deviation.shape_imag.array() *= magnitude.array();
   }
+}
+
+sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationConfig& config) {
+  const sysid::IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
+  // Channels on one scale, so that a large or a distant one does not hide the others and units do not matter.
+  const Eigen::VectorXd scale = channel_rms(conditioned.records);
+  std::vector<Eigen::MatrixXd> scaled;
+  for (const Eigen::MatrixXd& record : conditioned.records) scaled.emplace_back(record * scale.cwiseInverse().asDiagonal());
+  sysid::Identification found;
+  if (!conditioned.excitation.empty()) {
+    if (scaled.size() > 1) {
+      throw InputError({"", 0, "setup"}, fmt::format("setup {} has {} records with measured inputs, expected one", conditioned.setup, scaled.size()),
+                       "give each its own setup");
+    }
+    const Eigen::MatrixXd& input = conditioned.excitation.front();
+    const Eigen::VectorXd input_scale = channel_rms(conditioned.excitation);
+    found = sysid::identify_input_output(input * input_scale.cwiseInverse().asDiagonal(), scaled.front(), conditioned.rate_Hz, options);
+  } else {
+    signal::BlockCorrelations blocks;
+    for (const Eigen::MatrixXd& record : scaled) {
+      blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
+    }
+    found = config.method == "data" ? sysid::identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
+                                    : sysid::identify(blocks, conditioned.rate_Hz, options);
+  }
+  to_physical_shapes(found, conditioned.channels, scale);
   return found;
+}
+
+sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationConfig& config) {
+  const Eigen::VectorXd scale = channel_rms(conditioned.records);
+  signal::CrossSpectra average;
+  for (const Eigen::MatrixXd& record : conditioned.records) {
+    const signal::CrossSpectra one = signal::cross_spectra(record * scale.cwiseInverse().asDiagonal(), conditioned.rate_Hz,
+                                                           {std::min<Index>(config.welch_segment, record.rows()), 0.5});
+    const auto weight = static_cast<double>(one.n_segments);
+    if (average.density.empty()) average.density.assign(one.density.size(), Eigen::MatrixXcd::Zero(scale.size(), scale.size()));
+    for (std::size_t f = 0; f < one.density.size(); ++f) average.density[f] += weight * one.density[f];
+    average.frequency_Hz = one.frequency_Hz;
+    average.n_segments += one.n_segments;
+  }
+  for (Eigen::MatrixXcd& density : average.density) density /= static_cast<double>(average.n_segments);
+  return sysid::singular_spectra(average, 3);
 }
 
 signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationConfig& config) {

@@ -59,6 +59,10 @@ LoadedModel load_study_model(StepContext& context, const std::string& variant) {
   }
   const Study study = read_study(context.study);
   if (!study.model_inp.empty()) return import_inp(context, study.model_inp);
+  if (study.model_folder.empty() && study.model_generator.empty()) {
+    throw InputError({(context.study / "study.toml").string(), 0, "model"}, "names no model",
+                     "give [model] generator and file, or folder, or a model folder by --model DIR");
+  }
   if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
   return from_model(ponte::generate(context.input(study.model_file), variant));
 }

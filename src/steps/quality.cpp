@@ -101,9 +101,10 @@ long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, 
 }
 
 void write_quality(const std::vector<ChannelQuality>& rows, const std::filesystem::path& file) {
-  io::CsvWriter csv({"setup", "record", "channel", "samples", "missing", "longest_gap", "clipped", "mean", "rms", "drift_rms", "dead"});
+  io::CsvWriter csv({"setup", "record", "channel", "samples", "missing", "longest_gap", "clipped", "mean", "rms", "drift_rms", "dead", "lag_s",
+                     "lag_std_s"});
   for (const ChannelQuality& q : rows) {
-    csv.row({q.setup, q.record, q.channel, q.samples, q.missing, q.longest_gap, q.clipped, q.mean, q.rms, q.drift, q.dead ? 1 : 0});
+    csv.row({q.setup, q.record, q.channel, q.samples, q.missing, q.longest_gap, q.clipped, q.mean, q.rms, q.drift, q.dead ? 1 : 0, q.lag_s, q.lag_std_s});
   }
   csv.save(file);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct ChannelQuality {
   double mean = 0.0, rms = 0.0;   ///< [channel's unit]; rms about the mean
   double drift = 0.0;        ///< change of the fitted straight line from begin to end, in units of the rms
   bool dead = false;         ///< constant
+  std::optional<double> lag_s, lag_std_s;  ///< of its clock behind the first channel's, where it could be told
 };
 
 /// @param data (n_samples × n_channels) NaN where missing @param channels  names of the columns
@@ -27,7 +29,7 @@ struct ChannelQuality {
 /// @throws InputError  naming channel and sample if a longer gap is left, or one at an end of the record
 long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, long longest, const std::string& record);
 
-/// quality.csv: `setup,record,channel,samples,missing,longest_gap,clipped,mean,rms,drift_rms,dead`.
+/// quality.csv: `setup,record,channel,samples,missing,longest_gap,clipped,mean,rms,drift_rms,dead,lag_s,lag_std_s`.
 void write_quality(const std::vector<ChannelQuality>& rows, const std::filesystem::path& file);
 
 }  // namespace twindeck::steps

@@ -172,6 +172,9 @@ int run_step(int argc, char** argv, Step step) {
       case CommandLine::Action::help:
         std::fputs(line.text.c_str(), stdout);
         return 0;
+      case CommandLine::Action::print:
+        std::fputs(line.text.c_str(), stdout);
+        return 0;
       case CommandLine::Action::version:
         std::fputs((line.text + "\n").c_str(), stdout);
         return 0;

@@ -47,6 +47,8 @@ struct Flag {
   std::string name;
   bool takes_value = false;
   std::string meaning;
+  /// Where it is set: what the option prints on stdout instead of running the step (no --out is needed then).
+  std::function<std::vector<std::string>(const std::string& value)> instead = {};
 };
 
 /// A step: everything its `main` has to say.

@@ -1,5 +1,7 @@
-/// Step 3 (paper section 3.2, Table 4, Figs. 10-13): modes with standard deviations from output-only records of one setup.
-#include "steps/identification.hpp"
+/// Step 3 (paper section 3.2, Table 4, Figs. 10-13): modes with standard deviations from records of one or several setups.
+#include <filesystem>
+
+#include "records/inspect.hpp"
 #include "steps/identification_outputs.hpp"
 #include "steps/run_step.hpp"
 
@@ -12,20 +14,30 @@ Status run(const steps::IdentificationConfig& config, steps::StepContext& contex
   const auto folder = context.input(context.campaign ? *context.campaign : context.results / "s0_campaign");
   const steps::Campaign campaign = steps::read_campaign(folder);
 
-  // 2. Records chosen, judged, repaired as asked, detrended and decimated.
-  const steps::Conditioned conditioned = steps::condition_records(campaign, config);
+  for (const steps::CampaignRecord& record : campaign.records) {
+    // Records that lie outside the campaign's folder are inputs too.
+    const auto place = record.file.lexically_relative(campaign.folder);
+    if ((place.empty() || *place.begin() == "..") && std::filesystem::exists(record.file)) context.input(record.file);
+  }
 
-  // 3. Welch spectra; subspace identification, stabilisation, cleaning (Eqs. 3-4), clusters, standard deviations.
-  const signal::PowerSpectra spectra = steps::average_spectra(conditioned, config);
-  const sysid::Identification found = steps::identify_modes(conditioned, config);
-  for (const std::string& line : steps::report_lines(found)) context.say(line);
+  // 2. Each condition: records chosen, judged, repaired as asked, detrended and decimated; spectra; subspace identification, stabilisation,
+  //    selection (Eqs. 3-4), standard deviations; setups merged.
+  std::vector<steps::ConditionResult> results;
+  for (const auto& groups : steps::by_condition(steps::record_groups(campaign, {config.setup, config.condition, config.kind, config.setups}))) {
+    results.push_back(steps::identify_condition(campaign, groups, config, context));
+    for (const std::string& line : steps::report_lines(results.back())) context.say(line);
+  }
 
-  // 4. Tables, and the features that updating and diagnosis read.
-  steps::write_identified_modes(conditioned, found, context.out);
-  steps::write_poles(conditioned, found, context.out);
-  steps::write_spectra(conditioned, spectra, context.out);
-  steps::write_features(campaign, conditioned, found, context.out / "features");
-  if (found.modes.empty()) return {false, "no mode is stable over the model orders; see poles.csv, and raise block_rows or the record's length"};
+  // 3. Free decays by ERA, with frequency and damping by amplitude; stays as strings.
+  const auto decays = steps::identify_free_decays(campaign, steps::record_groups(campaign, {"", config.condition, "free_decay", {}}, true), config, results,
+                                                  context.seed);
+  const auto stays = steps::identify_stays(campaign, steps::record_groups(campaign, {"", "", "stay", {}}, true), config);
+
+  // 4. Tables, exports, and the features that updating and diagnosis read. The first condition's stand at the top.
+  steps::write_identification(campaign, results, decays, stays, config, context.out);
+  if (results.front().modes.empty()) {
+    return {false, "no mode is stable over the model orders; see poles.csv, and raise block_rows or the record's length"};
+  }
   return {};
 }
 
@@ -35,9 +47,12 @@ int main(int argc, char** argv) {
   steps::IdentificationConfig config;
   steps::Step step;
   step.token = "s3_identification";
-  step.summary = "Identifies modes with standard deviations from ambient records (covariance-driven subspace identification).";
+  step.summary = "Identifies modes with standard deviations from vibration records: ambient, free decays, stays, measured inputs.";
   step.examples = {"s3_identification --campaign my_campaign --out results/my_bridge/s3_identification --set setup=ST1 --set decimation=8",
+                   "s3_identification --inspect measurement.csv",
                    "s3_identification --study workflows/ponte_del_mare --results results/ponte_del_mare --out results/ponte_del_mare/s3_identification"};
+  step.flags = {{"inspect", true, "tell what a record file holds (CSV, NPY, MAT, HDF5, universal file) and end",
+                 [](const std::string& file) { return records::describe(records::inspect(file)); }}};
   step.fields = config.fields();
   step.run = [&config](steps::StepContext& context) { return run(config, context); };
   return steps::run_step(argc, argv, std::move(step));

@@ -42,9 +42,6 @@ Study read_study(const std::filesystem::path& folder) {
   if (sources > 1) {
     throw InputError({path.string(), 0, "model"}, "names more than one of generator, folder and inp", "keep one of them");
   }
-  if (sources == 0) {
-    throw InputError({path.string(), 0, "model"}, "names no model", "give [model] generator and file, or folder, or inp");
-  }
   if (generated && (study.model_generator.empty() || file.empty())) {
     throw InputError({path.string(), 0, "model"}, "names only one of generator and file", "give both");
   }

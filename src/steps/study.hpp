@@ -21,8 +21,8 @@ struct Study {
 };
 
 /// Reads `folder/study.toml`.
-/// @throws InputError  if the file is missing or wrong, or if it does not name exactly one of a generator with its file, a
-/// folder, an .inp file
+/// @throws InputError  if the file is missing or wrong, or if it names more than one of a generator with its file, a folder, an .inp
+/// file. A study of records alone names none; the steps that need a model say so.
 [[nodiscard]] Study read_study(const std::filesystem::path& folder);
 
 /// Meaning, unit, range and default of each key of study.toml.

@@ -51,6 +51,14 @@ double deviation(const std::vector<double>& values) {
   return v.size() < 2 ? 0.0 : std::sqrt((v - v.mean()).square().sum() / static_cast<double>(v.size() - 1));
 }
 
+bool recurs(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, const std::vector<int>& orders,
+            const CleaningRule& rule) {
+  const auto n = static_cast<double>(members.size());
+  return n > rule.recursion && n >= rule.share * static_cast<double>(possible_orders(diagram, members, orders));
+}
+
+}  // namespace
+
 Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size_t> members) {
   Cluster cluster;
   std::sort(members.begin(), members.end());
@@ -73,17 +81,24 @@ Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size
   }
   cluster.representative = members[nearest];
   const Eigen::VectorXcd& reference = diagram[cluster.representative].pole.shape;
-  cluster.shape = Eigen::VectorXcd::Zero(reference.size());
+  // Component by component, so that one order at which the pole has split in two does not count.
+  std::vector<std::vector<double>> real(static_cast<std::size_t>(reference.size())), imag = real;
   for (const std::size_t i : members) {
     const Eigen::VectorXcd& shape = diagram[i].pole.shape;
-    cluster.shape += shape * std::polar(1.0, std::arg(shape.dot(reference)));
+    const std::complex<double> turn = std::polar(1.0, std::arg(shape.dot(reference)));
+    for (std::size_t c = 0; c < real.size(); ++c) {
+      const std::complex<double> value = shape[static_cast<Index>(c)] * turn;
+      real[c].push_back(value.real());
+      imag[c].push_back(value.imag());
+    }
   }
+  cluster.shape.resize(reference.size());
+  for (std::size_t c = 0; c < real.size(); ++c) cluster.shape[static_cast<Index>(c)] = {median(real[c]), median(imag[c])};
   cluster.shape = normalised_shape(cluster.shape);
   cluster.members = std::move(members);
   return cluster;
 }
 
-/// One pole an order: the one nearest to the seed in shape.
 std::vector<std::size_t> one_an_order(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, std::size_t seed) {
   const Eigen::VectorXcd& reference = diagram[seed].pole.shape;
   std::map<int, std::size_t> best;
@@ -96,16 +111,18 @@ std::vector<std::size_t> one_an_order(const std::vector<DiagramPole>& diagram, c
   return kept;
 }
 
-bool recurs(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, const std::vector<int>& orders,
-            const CleaningRule& rule) {
+std::size_t possible_orders(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, const std::vector<int>& orders) {
   int first = orders.back();
   for (const std::size_t i : members) first = std::min(first, diagram[i].pole.order);
-  const auto possible = std::count_if(orders.begin(), orders.end(), [&](int order) { return order >= first; });
-  const auto n = static_cast<double>(members.size());
-  return n > rule.recursion && n >= rule.share * static_cast<double>(possible);
+  return static_cast<std::size_t>(std::count_if(orders.begin(), orders.end(), [&](int order) { return order >= first; }));
 }
 
-}  // namespace
+void number_clusters(std::vector<DiagramPole>& diagram, std::vector<Cluster>& clusters) {
+  std::sort(clusters.begin(), clusters.end(), [](const Cluster& p, const Cluster& q) { return p.frequency_Hz < q.frequency_Hz; });
+  for (std::size_t m = 0; m < clusters.size(); ++m) {
+    for (const std::size_t i : clusters[m].members) diagram[i].mode = static_cast<int>(m);
+  }
+}
 
 Eigen::VectorXd recursion_index(const std::vector<DiagramPole>& diagram, const CleaningRule& rule) {
   Eigen::VectorXd index = Eigen::VectorXd::Zero(static_cast<Index>(diagram.size()));
@@ -135,10 +152,7 @@ std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const 
     members = one_an_order(diagram, members, stable[static_cast<std::size_t>(seed)]);
     if (recurs(diagram, members, orders, rule)) clusters.push_back(summarise(diagram, std::move(members)));
   }
-  std::sort(clusters.begin(), clusters.end(), [](const Cluster& p, const Cluster& q) { return p.frequency_Hz < q.frequency_Hz; });
-  for (std::size_t m = 0; m < clusters.size(); ++m) {
-    for (const std::size_t i : clusters[m].members) diagram[i].mode = static_cast<int>(m);
-  }
+  number_clusters(diagram, clusters);
   return clusters;
 }
 

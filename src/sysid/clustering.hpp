@@ -22,7 +22,7 @@ struct Cluster {
   double damping_ratio = 0.0;        ///< median of the members
   double frequency_scatter_Hz = 0.0;    ///< standard deviation over the members
   double damping_ratio_scatter = 0.0;
-  Eigen::VectorXcd shape;            ///< mean of the members' shapes, phases aligned, normalised
+  Eigen::VectorXcd shape;            ///< median of the members' shapes, phases aligned, normalised
 };
 
 /// Index of recursion of each shape, paper Eqs. (3) and (4):  A_ij = 1 if MAC(v_i, v_j) >= 0.95, else 0;  C_i = sum_j A_ij.
@@ -36,5 +36,19 @@ struct Cluster {
 /// @return ascending in frequency
 [[nodiscard]] std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
                                                      const CleaningRule& rule);
+
+/// Members gathered into a mode: medians, scatter, median shape. @param members positions in the diagram, at most one an order
+[[nodiscard]] Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size_t> members);
+
+/// Of the members, one pole an order: the one nearest to the seed in shape.
+[[nodiscard]] std::vector<std::size_t> one_an_order(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members,
+                                                    std::size_t seed);
+
+/// Number of orders from that of the members' lowest one on.
+[[nodiscard]] std::size_t possible_orders(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members,
+                                          const std::vector<int>& orders);
+
+/// Sorts by frequency and marks the members' `mode` in the diagram.
+void number_clusters(std::vector<DiagramPole>& diagram, std::vector<Cluster>& clusters);
 
 }  // namespace twindeck::sysid

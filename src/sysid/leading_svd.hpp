@@ -4,13 +4,16 @@
 
 namespace twindeck::sysid {
 
-/// Leading singular triplets without the right vectors.
+/// Leading singular triplets of a dense matrix.
 struct LeadingSvd {
   Eigen::MatrixXd u;        ///< (rows × n) orthonormal, entry of largest magnitude positive
   Eigen::VectorXd values;   ///< (n) descending
+  Eigen::MatrixXd v;        ///< (columns × n) orthonormal
 };
 
-/// Leading n left singular vectors of a dense matrix, by divide and conquer on its triangular factor.
+/// Leading n singular triplets of a dense matrix. Small ones by divide and conquer; large ones from the leading eigenvectors of
+/// A Aᵀ (or AᵀA, whichever is smaller) and steps of subspace iteration with A itself, which restore what the square lost: triplets
+/// with sigma_n > 1e-7 sigma_1 keep their digits.
 [[nodiscard]] LeadingSvd leading_svd(const Eigen::MatrixXd& a, Eigen::Index n);
 
 }  // namespace twindeck::sysid

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
+#include <utility>
 
 #include "core/error.hpp"
 #include "sysid/leading_svd.hpp"
@@ -12,15 +11,6 @@
 namespace twindeck::sysid {
 
 using Eigen::Index;
-
-namespace {
-
-Eigen::MatrixXd thin_q(const Eigen::MatrixXd& x) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(x);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), x.cols());
-}
-
-}  // namespace
 
 Eigen::MatrixXd block_toeplitz(const std::vector<Eigen::MatrixXd>& lags, Index block_rows) {
   TWINDECK_ASSERT(static_cast<Index>(lags.size()) >= 2 * block_rows);
@@ -41,17 +31,8 @@ Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Index block_rows
                                  lags.front().cols(), most),
                      "raise block_rows or lower maximum_order");
   }
-  const LeadingSvd svd = leading_svd(toeplitz, n_max);
-  return {svd.u * svd.values.cwiseSqrt().asDiagonal(), n_outputs, svd.values};
-}
-
-Observability ssi_cov_nearby(const std::vector<Eigen::MatrixXd>& lags, Index block_rows, const Observability& reference) {
-  const Eigen::MatrixXd toeplitz = block_toeplitz(lags, block_rows);
-  Eigen::MatrixXd u = thin_q(reference.matrix);
-  for (int step = 0; step < 2; ++step) u = thin_q(toeplitz * thin_q(toeplitz.transpose() * u));
-  // Back to singular vectors, so that the first n columns are again those of order n.
-  const Eigen::BDCSVD<Eigen::MatrixXd> small(thin_q(toeplitz.transpose() * u).transpose() * (toeplitz.transpose() * u), Eigen::ComputeThinV);
-  return {u * small.matrixV() * small.singularValues().cwiseSqrt().asDiagonal(), reference.n_outputs, small.singularValues()};
+  LeadingSvd svd = leading_svd(toeplitz, n_max);
+  return {std::move(svd.u), std::move(svd.values), std::move(svd.v), n_outputs};
 }
 
 }  // namespace twindeck::sysid

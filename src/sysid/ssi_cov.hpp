@@ -23,8 +23,4 @@ namespace twindeck::sysid {
 [[nodiscard]] Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Eigen::Index block_rows, Eigen::Index n_outputs,
                                     Eigen::Index n_max);
 
-/// The same for correlations near those that gave `reference`: two steps of subspace iteration with T T' from its columns. Their
-/// error, the change of T times (sigma_{n+1}/sigma_n)^4, is of no account beside the change itself. For resampling.
-[[nodiscard]] Observability ssi_cov_nearby(const std::vector<Eigen::MatrixXd>& lags, Eigen::Index block_rows, const Observability& reference);
-
 }  // namespace twindeck::sysid

@@ -1,13 +1,14 @@
 #include "sysid/state_space.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::sysid {
 
@@ -26,42 +27,66 @@ Eigen::VectorXcd normalised_shape(const Eigen::VectorXcd& shape) {
 
 namespace {
 
-std::vector<Pole> poles_of(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& c, int order, double rate_Hz) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(a);
-  std::vector<Pole> poles;
-  if (eigen.info() != Eigen::Success) return poles;
-  for (Index i = 0; i < a.rows(); ++i) {
-    const std::complex<double> mu = eigen.eigenvalues()[i];
-    if (!(mu.imag() > 0.0)) continue;
-    Pole pole;
-    pole.order = order;
-    pole.eigenvalue = std::log(mu) * rate_Hz;
-    pole.frequency_Hz = std::abs(pole.eigenvalue) / (2.0 * std::numbers::pi);
-    pole.damping_ratio = -pole.eigenvalue.real() / std::abs(pole.eigenvalue);
-    const Eigen::VectorXcd phi = eigen.eigenvectors().col(i);
-    pole.shape = normalised_shape(c * phi);
-    poles.push_back(pole);
+Pole pole_of(std::complex<double> mu, const Eigen::VectorXcd& shape, int order, double rate_Hz) {
+  Pole pole;
+  pole.order = order;
+  pole.eigenvalue = std::log(mu) * rate_Hz;
+  pole.frequency_Hz = std::abs(pole.eigenvalue) / (2.0 * std::numbers::pi);
+  pole.damping_ratio = -pole.eigenvalue.real() / std::abs(pole.eigenvalue);
+  pole.shape = normalised_shape(shape);
+  return pole;
+}
+
+void find_poles(OrderModel& model, double rate_Hz) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(model.a);
+  if (eigen.info() != Eigen::Success) return;
+  model.mu = eigen.eigenvalues();
+  model.right = eigen.eigenvectors();
+  model.left = model.right.partialPivLu().inverse();
+  for (Index i = 0; i < model.mu.size(); ++i) {
+    if (model.mu[i].imag() > 0.0) model.kept.push_back(i);
   }
-  std::sort(poles.begin(), poles.end(), [](const Pole& p, const Pole& q) { return p.frequency_Hz < q.frequency_Hz; });
-  return poles;
+  std::sort(model.kept.begin(), model.kept.end(),
+            [&](Index i, Index j) { return std::abs(std::log(model.mu[i])) < std::abs(std::log(model.mu[j])); });
+  for (const Index i : model.kept) {
+    const Eigen::VectorXcd phi = model.right.col(i);
+    model.poles.push_back(pole_of(model.mu[i], model.c * phi, model.order, rate_Hz));
+  }
 }
 
 }  // namespace
 
-std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders, double rate_Hz) {
-  const Eigen::MatrixXd& o = observability.matrix;
-  const Index rows = o.rows() - observability.n_outputs;
+ShiftModels shift_models(const Observability& observability, const std::vector<int>& orders, double rate_Hz) {
+  const Index rows = observability.left.rows() - observability.n_outputs;
   const Index n_max = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
-  TWINDECK_ASSERT(n_max <= o.cols() && n_max <= rows);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(o.topLeftCorner(rows, n_max));
-  const Eigen::MatrixXd rotated = (qr.householderQ().transpose() * o.bottomLeftCorner(rows, n_max)).topRows(n_max);
-  std::vector<std::vector<Pole>> poles;
+  TWINDECK_ASSERT(n_max <= observability.left.cols() && n_max <= rows);
+  const Eigen::MatrixXd o = observability.left.leftCols(n_max) * observability.singular_values.head(n_max).cwiseSqrt().asDiagonal();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(o.topRows(rows));
+  ShiftModels models;
+  models.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, n_max);
+  models.r = qr.matrixQR().topRows(n_max).triangularView<Eigen::Upper>();
+  models.rotated = linalg::product(models.q, o.bottomRows(rows), true);
+  models.cross = linalg::product(models.rotated, models.r, true);
+  models.rate_Hz = rate_Hz;
   for (const int order : orders) {
-    const Eigen::MatrixXd a =
-        qr.matrixQR().topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(rotated.topLeftCorner(order, order));
-    poles.push_back(poles_of(a, o.topLeftCorner(observability.n_outputs, order), order, rate_Hz));
+    OrderModel model;
+    model.order = order;
+    model.a = models.r.topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(models.rotated.topLeftCorner(order, order));
+    model.c = o.topLeftCorner(observability.n_outputs, order);
+    find_poles(model, rate_Hz);
+    models.orders.push_back(std::move(model));
   }
+  return models;
+}
+
+std::vector<std::vector<Pole>> poles_of(const ShiftModels& models) {
+  std::vector<std::vector<Pole>> poles;
+  for (const OrderModel& model : models.orders) poles.push_back(model.poles);
   return poles;
+}
+
+std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders, double rate_Hz) {
+  return poles_of(shift_models(observability, orders, rate_Hz));
 }
 
 }  // namespace twindeck::sysid

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <vector>
 
 namespace twindeck::sysid {
@@ -14,20 +15,45 @@ struct Pole {
   Eigen::VectorXcd shape;               ///< (n_outputs) C phi, unit norm, turned so that its real part is as large as it can be
 };
 
-/// An observability matrix of the largest order wanted, whose first n columns are that of order n.
+/// An observability matrix of the largest order wanted, whose first n columns are that of order n: O = U S^(1/2) of the leading
+/// singular triplets of a Hankel or Toeplitz matrix H.
 struct Observability {
-  Eigen::MatrixXd matrix;            ///< (n_outputs block_rows × n_max)
+  Eigen::MatrixXd left;              ///< U (n_outputs block_rows × n_max)
+  Eigen::VectorXd singular_values;   ///< S (n_max) descending
+  Eigen::MatrixXd right;             ///< V (columns of H × n_max)
   Eigen::Index n_outputs = 0;
-  Eigen::VectorXd singular_values;   ///< (n_max) of the Hankel or Toeplitz matrix, descending
+
+  [[nodiscard]] Eigen::MatrixXd matrix() const { return left * singular_values.cwiseSqrt().asDiagonal(); }
 };
 
-/// Poles of the models of several orders in one pass. The shift equation  O_up(:,1:n) A_n = O_down(:,1:n)  is solved for the
-/// largest order by one QR decomposition O_up = Q R; A_n = R(1:n,1:n)^-1 (Q' O_down)(1:n,1:n) is then the least-squares solution
-/// of every smaller order, exactly. Real and conjugate poles are left out, one of each pair is kept.
+/// The model of one order, by its eigenvalues: A = right · diag(mu) · left.
+struct OrderModel {
+  int order = 0;
+  Eigen::VectorXcd mu;               ///< (n) discrete eigenvalues
+  Eigen::MatrixXcd right, left;      ///< (n × n) eigenvectors phi (columns) and their inverse
+  Eigen::MatrixXd a, c;              ///< (n × n), (n_outputs × n)
+  std::vector<Eigen::Index> kept;    ///< position in mu of each of the poles
+  std::vector<Pole> poles;           ///< one of each conjugate pair, ascending in frequency
+};
+
+/// Models of several orders in one pass. The shift equation  O_up(:,1:n) A_n = O_down(:,1:n)  is solved for the largest order by one
+/// QR decomposition O_up = Q R; A_n = R(1:n,1:n)^-1 (Q' O_down)(1:n,1:n) is then the least-squares solution of every smaller order,
+/// exactly.
+/// Reference: Doehler and Mevel (2012), Mechanical Systems and Signal Processing 38(2), 346-366 (fast multi-order computation).
+struct ShiftModels {
+  Eigen::MatrixXd q, r;      ///< Q (rows of O_up × n_max), R (n_max × n_max)
+  Eigen::MatrixXd rotated;   ///< Q' O_down (n_max × n_max)
+  Eigen::MatrixXd cross;     ///< O_down' O_up (n_max × n_max)
+  double rate_Hz = 0.0;
+  std::vector<OrderModel> orders;
+};
+
 /// @param orders   ascending, each at most the number of columns of O
 /// @param rate_Hz  sampling rate of the correlations or data
-/// @return one list an order, ascending in frequency
-/// Reference: Doehler and Mevel (2012), Mechanical Systems and Signal Processing 38(2), 346-366 (fast multi-order computation).
+[[nodiscard]] ShiftModels shift_models(const Observability& observability, const std::vector<int>& orders, double rate_Hz);
+
+/// The poles of shift_models alone. @return one list an order, ascending in frequency; real poles are left out
+[[nodiscard]] std::vector<std::vector<Pole>> poles_of(const ShiftModels& models);
 [[nodiscard]] std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders,
                                                              double rate_Hz);
 

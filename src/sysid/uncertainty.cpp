@@ -5,10 +5,29 @@
 #include <complex>
 
 #include "core/error.hpp"
+#include "linalg/dense.hpp"
+#include "sysid/ssi_cov.hpp"
 
 namespace twindeck::sysid {
 
 using Eigen::Index;
+
+PoleFactors pole_factors(const Observability& observability, const ShiftModels& models, const Changes& changes) {
+  const Index l = observability.n_outputs;
+  PoleFactors factors;
+  for (const OrderModel& model : models.orders) {
+    factors.of.emplace_back(model.poles.size(), Eigen::MatrixXd(2 + 2 * l, static_cast<Index>(changes.size())));
+  }
+  for (std::size_t b = 0; b < changes.size(); ++b) {
+    for (std::size_t order = 0; order < models.orders.size(); ++order) {
+      const auto poles = pole_changes(observability, models, order, changes[b]);
+      for (std::size_t i = 0; i < poles.size(); ++i) {
+        factors.of[order][i].col(static_cast<Index>(b)) << poles[i].frequency_Hz, poles[i].damping_ratio, poles[i].shape.real(), poles[i].shape.imag();
+      }
+    }
+  }
+  return factors;
+}
 
 namespace {
 
@@ -18,61 +37,69 @@ double median(Eigen::VectorXd values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-const Pole& nearest(const std::vector<Pole>& candidates, const Pole& reference) {
-  TWINDECK_ASSERT(!candidates.empty());
-  return *std::min_element(candidates.begin(), candidates.end(), [&](const Pole& p, const Pole& q) {
-    return std::abs(p.eigenvalue - reference.eigenvalue) < std::abs(q.eigenvalue - reference.eigenvalue);
-  });
-}
-
-/// What a replicate says of a mode: frequency, damping, real and imaginary parts of the shape turned towards the reference.
-Eigen::VectorXd features(const std::vector<Pole>& mode, const std::vector<int>& orders, const std::vector<std::vector<Pole>>& found) {
-  const auto n = static_cast<Index>(mode.size());
-  const Eigen::VectorXcd& reference = mode.front().shape;
-  Eigen::VectorXd frequency(n), damping(n);
-  Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(reference.size());
-  for (Index i = 0; i < n; ++i) {
-    const Pole& member = mode[static_cast<std::size_t>(i)];
-    const auto at = static_cast<std::size_t>(std::lower_bound(orders.begin(), orders.end(), member.order) - orders.begin());
-    const Pole& pole = nearest(found[at], member);
-    frequency[i] = pole.frequency_Hz;
-    damping[i] = pole.damping_ratio;
-    shape += pole.shape * std::polar(1.0, std::arg(pole.shape.dot(reference)));
-  }
-  shape.normalize();
-  Eigen::VectorXd x(2 + 2 * shape.size());
-  x << median(frequency), median(damping), shape.real(), shape.imag();
-  return x;
+/// The factor of a pole of the models, its shape turned towards the reference.
+Eigen::MatrixXd turned_factor(const ShiftModels& models, const PoleFactors& factors, const Pole& pole, const Eigen::VectorXcd& reference) {
+  const auto model = std::find_if(models.orders.begin(), models.orders.end(), [&](const OrderModel& m) { return m.order == pole.order; });
+  TWINDECK_ASSERT(model != models.orders.end());
+  const auto at = std::find_if(model->poles.begin(), model->poles.end(), [&](const Pole& p) { return p.eigenvalue == pole.eigenvalue; });
+  TWINDECK_ASSERT(at != model->poles.end());
+  Eigen::MatrixXd factor = factors.of[static_cast<std::size_t>(model - models.orders.begin())][static_cast<std::size_t>(at - model->poles.begin())];
+  const Index l = pole.shape.size();
+  const double angle = std::arg(pole.shape.dot(reference)), c = std::cos(angle), s = std::sin(angle);
+  const Eigen::MatrixXd real = factor.middleRows(2, l), imag = factor.bottomRows(l);
+  factor.middleRows(2, l) = c * real - s * imag;
+  factor.bottomRows(l) = s * real + c * imag;
+  return factor;
 }
 
 }  // namespace
 
-std::vector<ModeDeviation> jackknife(const signal::BlockCorrelations& blocks, Index block_rows, const Observability& full,
-                                     const std::vector<std::vector<Pole>>& modes, double rate_Hz) {
-  const Index n_blocks = blocks.n_blocks();
-  TWINDECK_ASSERT(n_blocks >= 2);
-  if (modes.empty()) return {};
-  std::vector<int> orders;
-  for (const std::vector<Pole>& mode : modes) {
-    for (const Pole& pole : mode) orders.push_back(pole.order);
-  }
-  std::sort(orders.begin(), orders.end());
-  orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
-
-  std::vector<Eigen::MatrixXd> replicates(modes.size(), Eigen::MatrixXd(2 + 2 * full.n_outputs, n_blocks));
-  for (Index b = 0; b < n_blocks; ++b) {
-    const Observability without = ssi_cov_nearby(blocks.mean(b), block_rows, full);
-    const auto found = poles_of_orders(without, orders, rate_Hz);
-    for (std::size_t m = 0; m < modes.size(); ++m) replicates[m].col(b) = features(modes[m], orders, found);
-  }
+std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const PoleFactors& factors, const std::vector<std::vector<Pole>>& modes) {
   std::vector<ModeDeviation> deviations;
-  for (const Eigen::MatrixXd& x : replicates) {
-    const Eigen::VectorXd mean = x.rowwise().mean();
-    const double factor = static_cast<double>(n_blocks - 1) / static_cast<double>(n_blocks);
-    const Eigen::VectorXd deviation = ((x.colwise() - mean).rowwise().squaredNorm() * factor).cwiseSqrt();
-    deviations.push_back({deviation[0], deviation[1], deviation.segment(2, full.n_outputs), deviation.tail(full.n_outputs)});
+  for (const std::vector<Pole>& mode : modes) {
+    std::vector<Eigen::MatrixXd> members;
+    for (const Pole& pole : mode) members.push_back(turned_factor(models, factors, pole, mode.front().shape));
+    ModeDeviation deviation;
+    Eigen::MatrixXd& factor = deviation.factor = Eigen::MatrixXd::Zero(members.front().rows(), members.front().cols());
+    for (Index b = 0; b < factor.cols(); ++b) {
+      for (Index row = 0; row < factor.rows(); ++row) {
+        Eigen::VectorXd values(static_cast<Index>(members.size()));
+        for (Index i = 0; i < values.size(); ++i) values[i] = members[static_cast<std::size_t>(i)](row, b);
+        factor(row, b) = median(values);
+      }
+    }
+    const Eigen::VectorXd sigma = factor.rowwise().norm();
+    const Index l = (sigma.size() - 2) / 2;
+    deviation.frequency_Hz = sigma[0];
+    deviation.damping_ratio = sigma[1];
+    deviation.shape_real = sigma.segment(2, l);
+    deviation.shape_imag = sigma.tail(l);
+    deviations.push_back(std::move(deviation));
   }
   return deviations;
+}
+
+std::vector<Eigen::MatrixXd> lag_change(const signal::BlockCorrelations& blocks, const std::vector<Eigen::MatrixXd>& mean, Index block) {
+  const Index l = blocks.n_outputs, r = blocks.n_references;
+  const auto n_b = static_cast<double>(blocks.n_blocks());
+  std::vector<Eigen::MatrixXd> change;
+  for (Index k = 0; k < blocks.n_lags; ++k) {
+    const double count = blocks.counts(k, block), total = blocks.counts.row(k).sum();
+    const Eigen::Map<const Eigen::MatrixXd> sums(blocks.sums.col(block).data() + k * l * r, l, r);
+    change.emplace_back((sums - count * mean[static_cast<std::size_t>(k)]) / total * std::sqrt(n_b / (n_b - 1.0)));
+  }
+  return change;
+}
+
+Changes covariance_changes(const signal::BlockCorrelations& blocks, Index block_rows, const Observability& observability, const ShiftModels& models) {
+  TWINDECK_ASSERT(blocks.n_blocks() >= 2);
+  const std::vector<Eigen::MatrixXd> mean = blocks.mean();
+  Changes changes;
+  for (Index b = 0; b < blocks.n_blocks(); ++b) {
+    const Eigen::MatrixXd change = block_toeplitz(lag_change(blocks, mean, b), block_rows);
+    changes.push_back(subspace_change(observability, models, linalg::product(change, observability.right)));
+  }
+  return changes;
 }
 
 }  // namespace twindeck::sysid

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "signal/correlation.hpp"
-#include "sysid/ssi_cov.hpp"
+#include "sysid/perturbation.hpp"
 
 namespace twindeck::sysid {
 
@@ -13,23 +14,35 @@ struct ModeDeviation {
   double frequency_Hz = 0.0;
   double damping_ratio = 0.0;
   Eigen::VectorXd shape_real, shape_imag;  ///< (n_outputs) of the entries of the unit-norm shape
+  /// (2 + 2 n_outputs × n_changes) frequency [Hz], damping ratio, real and imaginary parts of the shape: F with covariance F Fᵀ, of
+  /// this mode's features among themselves and, side by side, with another mode's of the same record.
+  Eigen::MatrixXd factor;
 };
 
-/// Standard deviations of modes by the delete-one jackknife over data blocks: the correlations are taken again with each of the
-/// n_b blocks left out, each replicate's subspace is found from the full record's (ssi_cov_nearby), and
-///
-///     var(x) = (n_b - 1)/n_b · sum_b |x_b - mean of x_b|².
-///
-/// For a smooth function of means, as poles are of the correlations, this equals first-order propagation of the covariance of
-/// the block correlations, up to terms of second order, without forming that covariance. Blocks must be longer than the
-/// correlations last (1/(zeta omega) of the lowest mode); then they count as independent.
-/// x_b is made as the reported value is: the median over the model orders of frequency and damping, the mean of the shapes.
-/// @param modes  for each mode its poles, each of the model of its own order; a replicate's pole is the one nearest to it in the
-///               complex plane among those of the same order
-/// @param full   observability matrix of all blocks
-/// References: Efron and Stein (1981), Annals of Statistics 9, 586-596; Künsch (1989), Annals of Statistics 17, 1217-1241
-/// (blocks); the propagation it equals: Reynders, Pintelon and De Roeck (2008), Mech. Syst. Signal Process. 22, 948-969.
-[[nodiscard]] std::vector<ModeDeviation> jackknife(const signal::BlockCorrelations& blocks, Eigen::Index block_rows, const Observability& full,
-                                                   const std::vector<std::vector<Pole>>& modes, double rate_Hz);
+/// Independent changes whose sum of squares is the covariance of the matrix H that was decomposed.
+using Changes = std::vector<SubspaceChange>;
+
+/// First-order changes of every pole under each of the changes, rows as in ModeDeviation::factor.
+struct PoleFactors {
+  std::vector<std::vector<Eigen::MatrixXd>> of;  ///< [order][pole] (2 + 2 n_outputs × n_changes)
+};
+[[nodiscard]] PoleFactors pole_factors(const Observability& observability, const ShiftModels& models, const Changes& changes);
+
+/// The deviations of modes reported as the median over model orders of frequency, damping and each entry of the shape: per change, the
+/// median of the members' changes.
+/// @param modes  for each mode its poles, each of the model of its own order
+[[nodiscard]] std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const PoleFactors& factors,
+                                                         const std::vector<std::vector<Pole>>& modes);
+
+/// Covariance of the correlations from the scatter between blocks, as changes of the lags: with w_b the share of block b's products in
+/// the mean of all,  dR_b = w_b sqrt(n_b/(n_b - 1)) (R_b - R),  so that  cov(R) = sum over b of vec(dR_b) vec(dR_b)'. Blocks must be
+/// longer than the correlations last (1/(zeta omega) of the lowest mode); then they count as independent.
+/// @return lags 0 … n_lags - 1, each (n_outputs × n_references)
+[[nodiscard]] std::vector<Eigen::MatrixXd> lag_change(const signal::BlockCorrelations& blocks, const std::vector<Eigen::MatrixXd>& mean,
+                                                      Eigen::Index block);
+
+/// Changes of the block Toeplitz matrix of ssi_cov from those of the correlations.
+[[nodiscard]] Changes covariance_changes(const signal::BlockCorrelations& blocks, Eigen::Index block_rows, const Observability& observability,
+                                         const ShiftModels& models);
 
 }  // namespace twindeck::sysid

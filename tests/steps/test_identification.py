@@ -125,9 +125,11 @@ class Identification(unittest.TestCase):
     def test_poles_and_spectra(self):
         poles = rows(self.out / "poles.csv")
         self.assertEqual(list(poles[0]), ["setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping",
-                                          "stable_shape", "mode"])
+                                          "stable_shape", "mode", "condition"])
         self.assertEqual({p["mode"] for p in poles} - {""}, {"1", "2", "3", "4"})
-        self.assertTrue(all(p["stable_frequency"] + p["stable_damping"] + p["stable_shape"] == "111" for p in poles if p["mode"]))
+        # The automatic rule does not ask for the paper's three criteria, but what it takes nearly always meets them.
+        stable = [p["stable_frequency"] + p["stable_damping"] + p["stable_shape"] == "111" for p in poles if p["mode"]]
+        self.assertGreater(sum(stable), 0.8 * len(stable))
         spectra = rows(self.out / "psd.csv")
         self.assertEqual({s["channel"] for s in spectra}, set(CHANNELS))
         one = [(float(s["frequency_Hz"]), float(s["psd_m2_s3"])) for s in spectra if s["channel"] == "c01"]
@@ -145,6 +147,56 @@ class Identification(unittest.TestCase):
         for a, b in zip(rows(self.out / "shapes.csv"), rows(self.folder / "gain_out" / "shapes.csv")):
             self.assertAlmostEqual(float(a["value"]), float(b["value"]), places=6)
 
+    def test_modes_are_exported_for_other_programs(self):
+        text = (self.out / "modes.unv").read_text().splitlines()
+        self.assertEqual(sum(line == "    55" for line in text), N)
+        self.assertEqual([line.strip() for line in text if line.strip() in ("151", "164", "2411")][:3], ["151", "164", "2411"])
+        vtu = (self.out / "modes.vtu").read_text()
+        self.assertEqual(vtu.count('Name="mode '), N)
+        self.assertIn('NumberOfPoints="4"', vtu)
+
+    def test_data_driven_and_paper_rule_find_the_same_modes(self):
+        for name, setting in (("data", "method=data"), ("paper", "selection=paper")):
+            out = self.folder / f"out_{name}"
+            done = identify(self.folder / "campaign", out, setting)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            found = [float(m["frequency_Hz"]) for m in rows(out / "modes.csv")]
+            np.testing.assert_allclose(found, [frequency(r) for r in range(1, N + 1)], rtol=0.005)
+
+    def test_inspect_tells_what_a_logger_wrote(self):
+        file = self.folder / "logger.csv"
+        lines = ["sep=;", "Br\u00fccke;;", "Abtastrate;100;Hz", "Zeit;A1;A2", "s;m/s\u00b2;m/s\u00b2"]
+        lines += [f"{t / 100:.2f};{math.sin(0.3 * t):.4f};{1.0:.1f}".replace(".", ",") for t in range(300)]
+        file.write_bytes("\r\n".join(lines).encode("latin-1"))
+        done = subprocess.run([STEP, "--inspect", file], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for expected in ("separated by ';'", "decimal comma", "latin-1", "100 Hz", "A1", "m/s\u00b2", "constant", "missing"):
+            self.assertIn(expected, done.stdout)
+
+    def test_a_gigabyte_is_inspected_in_bounded_memory(self):
+        file = self.folder / "large.npy"
+        header = "{'descr': '<f8', 'fortran_order': False, 'shape': (16000000, 8), }"
+        header = b"\x93NUMPY\x01\x00" + (118).to_bytes(2, "little") + header.ljust(117).encode() + b"\n"
+        with open(file, "wb") as f:
+            f.write(header)
+            f.truncate(len(header) + 16000000 * 8 * 8)  # a sparse gigabyte
+        done = subprocess.run(["sh", "-c", f"ulimit -v 500000; exec '{STEP}' --inspect '{file}'"], capture_output=True, text=True, timeout=300)
+        file.unlink()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("16000000", done.stdout)
+
+    def test_a_lag_of_a_logger_shows_in_the_phases(self):
+        folder, data = self.folder / "lag", self.data.copy()
+        data[:, 3] = np.roll(data[:, 3], 2)  # the fourth channel's clock is 20 ms late
+        write_campaign(folder, data)
+        done = identify(folder, self.folder / "lag_out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name, out, expected in (("late", "lag_out", 0.02), ("sound", "out", 0.0)):
+            quality = {q["channel"]: q for q in rows(self.folder / out / "features" / "quality.csv")}
+            lag, std = float(quality["c04"]["lag_s"]), float(quality["c04"]["lag_std_s"])
+            self.assertLess(abs(lag - expected), max(4 * std, 5e-4), name)
+            self.assertLess(std, 2e-3)
+
     def test_bad_input_is_refused_in_one_line(self):
         nan, dead = self.data[:20000].copy(), self.data[:20000].copy()
         nan[700:720, 2] = np.nan
@@ -155,11 +207,18 @@ class Identification(unittest.TestCase):
                  ("reference", self.data[:20000], {}, ['references=["c99"]'], "'c99' is no channel of the record"),
                  ("short", self.data[:3000], {}, ["welch_segment=256"], "cut the record of 300 samples into 20 blocks of 15"),
                  ("order", self.data[:20000], {}, ["maximum_order=90"], "is 90, but 20 block rows of 4 channels with 4 references carry at most 76"),
+                 ("clock", self.data[:20000], {"toml": "CSV_CLOCK"}, [], "runs at 50 Hz"),
                  ("columns", self.data[:20000, :3], {}, [], "has 3 columns, but campaign.toml names 4 channels"),
                  ("condition", self.data[:20000], {"conditions": "[low_no_damper]\n"}, [], "did you mean 'low_no_damper'?")]
         for name, data, options, sets, expected in cases:
             with self.subTest(name):
+                csv_clock = options.pop("toml", "") == "CSV_CLOCK"
                 write_campaign(self.folder / name, data, **options)
+                if csv_clock:  # a second clock: the file's own time stamps run at half the rate of campaign.toml
+                    toml = self.folder / name / "campaign.toml"
+                    toml.write_text(toml.read_text().replace("record.npy", "record.csv"))
+                    np.savetxt(self.folder / name / "records" / "ST1" / "record.csv", np.column_stack([np.arange(2000) / 50, data[:2000]]),
+                               delimiter=",", header=",".join(["time_s", *CHANNELS]), comments="")
                 out = self.folder / (name + "_out")
                 done = identify(self.folder / name, out, *(["welch_segment=1024"] + sets))
                 self.assertEqual(done.returncode, 2, done.stderr)

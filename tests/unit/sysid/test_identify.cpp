@@ -47,6 +47,26 @@ TEST(Identify, ChainUnderWhiteNoise) {
   }
 }
 
+TEST(Identify, BothSelectionsFindTheSameModes) {
+  const double rate = 20.0;
+  const test::Chain chain(4, 25.0, 0.01, rate);
+  const auto blocks = signal::correlations(signal::detrended(chain.simulate(60000, 42, 0.05)), {0, 1, 2, 3}, 50, 20);
+  IdentifyOptions paper = options();
+  paper.selection = Selection::paper;
+  const Identification a = identify(blocks, rate, options()), b = identify(blocks, rate, paper);
+  ASSERT_EQ(a.modes.size(), 4U);
+  ASSERT_EQ(b.modes.size(), 4U);
+  for (std::size_t m = 0; m < 4; ++m) EXPECT_NEAR(a.modes[m].frequency_Hz / b.modes[m].frequency_Hz, 1.0, 1e-3);
+}
+
+TEST(PhaseCollinearity, OneForARealShapeAndZeroForACircle) {
+  Eigen::VectorXcd real(3), circle(2);
+  real << std::polar(1.0, 0.3), -std::polar(2.0, 0.3), std::polar(0.5, 0.3);
+  circle << 1.0, std::complex<double>(0.0, 1.0);
+  EXPECT_NEAR(phase_collinearity(real), 1.0, 1e-12);
+  EXPECT_NEAR(phase_collinearity(circle), 0.0, 1e-12);
+}
+
 TEST(Identify, GainAndPolarityOfAChannelChangeItsShapeOnly) {
   // Oracle: property. Correlations scale with the gains, so poles move only as far as the weighting does.
   const double rate = 20.0;
@@ -64,16 +84,32 @@ TEST(Identify, GainAndPolarityOfAChannelChangeItsShapeOnly) {
   }
 }
 
+TEST(Identify, OrderAndUnitOfTheChannelsDoNotMatter) {
+  // Oracle: property. A permutation permutes the shapes; one unit for all scales every correlation alike.
+  const double rate = 20.0;
+  const test::Chain chain(3, 20.0, 0.01, rate);
+  const Eigen::MatrixXd data = chain.simulate(20000, 8, 0.02);
+  const std::vector<Eigen::Index> order = {2, 0, 1};
+  const Identification plain = identified(data, rate, {0, 1, 2}), turned = identified(1000.0 * data(Eigen::all, order), rate, {0, 1, 2});
+  ASSERT_EQ(plain.modes.size(), turned.modes.size());
+  for (std::size_t m = 0; m < plain.modes.size(); ++m) {
+    EXPECT_NEAR(plain.modes[m].frequency_Hz, turned.modes[m].frequency_Hz, 1e-9);
+    EXPECT_NEAR(plain.modes[m].damping_ratio, turned.modes[m].damping_ratio, 1e-9);
+    EXPECT_NEAR(plain.deviations[m].frequency_Hz / turned.deviations[m].frequency_Hz, 1.0, 1e-6);
+    EXPECT_NEAR(std::norm(plain.modes[m].shape(order).dot(turned.modes[m].shape)), 1.0, 1e-9);
+  }
+}
+
 TEST(Identify, DeviationsAreCalibrated) {
-  // Normalised errors of 24 seeds and three modes, pooled: 72 values of unit deviation scatter by 8 %, the sigma of 20 blocks adds
-  // to it: at most 1.3. The jackknife errs on the large side (Efron and Stein 1981), more so for a weak mode: at least 0.6.
+  // Normalised errors of 30 seeds and three modes, pooled: 90 values of unit deviation scatter by 7.5 %, and a sigma from 20 blocks
+  // (19 degrees of freedom) raises their deviation by sqrt(19/17) = 1.06. Calibrated means 0.8 to 1.25.
   const double rate = 20.0, zeta = 0.01;
   const test::Chain chain(3, 20.0, zeta, rate);
   double frequency = 0.0, damping = 0.0;
   int count = 0;
-  for (std::uint64_t seed = 100; seed < 124; ++seed) {
+  for (std::uint64_t seed = 100; seed < 130; ++seed) {
     const Identification found = identified(chain.simulate(30000, seed, 0.05), rate, {0, 1, 2});
-    ASSERT_EQ(found.modes.size(), 3U) << "seed " << seed;
+    ASSERT_EQ(found.modes.size(), 3U) << "seed " << seed << " " << found.modes.back().frequency_Hz << " " << found.modes.back().members.size();
     for (int r = 0; r < 3; ++r, ++count) {
       const auto m = static_cast<std::size_t>(r);
       frequency += std::pow((found.modes[m].frequency_Hz - chain.frequency_Hz(r)) / found.deviations[m].frequency_Hz, 2);
@@ -81,10 +117,10 @@ TEST(Identify, DeviationsAreCalibrated) {
     }
   }
   std::printf("normalised deviation: frequency %.3f, damping %.3f\n", std::sqrt(frequency / count), std::sqrt(damping / count));
-  EXPECT_GT(std::sqrt(frequency / count), 0.6);
-  EXPECT_LT(std::sqrt(frequency / count), 1.3);
-  EXPECT_GT(std::sqrt(damping / count), 0.6);
-  EXPECT_LT(std::sqrt(damping / count), 1.3);
+  EXPECT_GT(std::sqrt(frequency / count), 0.8);
+  EXPECT_LT(std::sqrt(frequency / count), 1.25);
+  EXPECT_GT(std::sqrt(damping / count), 0.8);
+  EXPECT_LT(std::sqrt(damping / count), 1.25);
 }
 
 }  // namespace

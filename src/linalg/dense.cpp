@@ -1,0 +1,92 @@
+#include "linalg/dense.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "linalg/one_thread.hpp"
+
+// The Fortran interface, which every BLAS and LAPACK has.
+extern "C" {
+void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha, const double* a, const int* lda,
+            const double* b, const int* ldb, const double* beta, double* c, const int* ldc);
+void dsyevr_(const char* jobz, const char* range, const char* uplo, const int* n, double* a, const int* lda, const double* vl, const double* vu,
+             const int* il, const int* iu, const double* abstol, int* m, double* w, double* z, const int* ldz, int* isuppz, double* work,
+             const int* lwork, int* iwork, const int* liwork, int* info);
+void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int* lda, double* s, double* u, const int* ldu, double* vt, const int* ldvt,
+             double* work, const int* lwork, int* iwork, int* info);
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+}
+
+namespace twindeck::linalg {
+
+using Eigen::Index;
+
+namespace {
+
+int as_int(Index n) { return static_cast<int>(n); }
+
+}  // namespace
+
+Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b, bool transposed) {
+  use_one_thread();
+  const int m = as_int(transposed ? a.cols() : a.rows()), n = as_int(b.cols()), k = as_int(b.rows());
+  TWINDECK_ASSERT((transposed ? a.rows() : a.cols()) == b.rows());
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, n);
+  if (m == 0 || n == 0 || k == 0) return c;
+  const int lda = as_int(a.outerStride()), ldb = as_int(b.outerStride());
+  const double one = 1.0, zero = 0.0;
+  dgemm_(transposed ? "T" : "N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &m);
+  return c;
+}
+
+LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
+  use_one_thread();
+  const int size = as_int(symmetric.rows()), last = size, first = size - as_int(n) + 1;
+  TWINDECK_ASSERT(n >= 1 && n <= symmetric.rows() && symmetric.rows() == symmetric.cols());
+  Eigen::VectorXd values(size);
+  Eigen::MatrixXd vectors(size, n);
+  Eigen::VectorXi support(2 * size);
+  const double unused = 0.0, tolerance = 0.0;
+  int found = 0, info = 0, work_size = -1, int_work_size = -1, int_work_best = 0;
+  double work_best = 0.0;
+  const auto solve = [&](double* work, int* int_work) {
+    dsyevr_("V", "I", "L", &size, symmetric.data(), &size, &unused, &unused, &first, &last, &tolerance, &found, values.data(), vectors.data(), &size,
+            support.data(), work, &work_size, int_work, &int_work_size, &info);
+  };
+  solve(&work_best, &int_work_best);
+  work_size = static_cast<int>(work_best);
+  int_work_size = int_work_best;
+  Eigen::VectorXd work(work_size);
+  Eigen::VectorXi int_work(int_work_size);
+  solve(work.data(), int_work.data());
+  TWINDECK_ASSERT(info == 0 && found == n);
+  return {values.head(n).reverse(), vectors.rowwise().reverse()};
+}
+
+ThinSvd thin_svd(Eigen::MatrixXd a) {
+  use_one_thread();
+  const int m = as_int(a.rows()), n = as_int(a.cols()), k = std::min(m, n);
+  TWINDECK_ASSERT(k >= 1);
+  ThinSvd svd{Eigen::MatrixXd(m, k), Eigen::VectorXd(k), Eigen::MatrixXd(k, n)};
+  Eigen::VectorXi int_work(8 * k);
+  int work_size = -1, info = 0;
+  double work_best = 0.0;
+  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, &work_best, &work_size, int_work.data(), &info);
+  work_size = static_cast<int>(work_best);
+  Eigen::VectorXd work(work_size);
+  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, work.data(), &work_size, int_work.data(), &info);
+  TWINDECK_ASSERT(info == 0);
+  return svd;
+}
+
+Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a) {
+  use_one_thread();
+  const int size = as_int(a.rows());
+  int info = 0;
+  dpotrf_("L", &size, a.data(), &size, &info);
+  if (info != 0) return {};
+  a.triangularView<Eigen::StrictlyUpper>().setZero();
+  return a;
+}
+
+}  // namespace twindeck::linalg

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace twindeck::linalg {
+
+/// Dense kernels of the system's BLAS and LAPACK (OpenBLAS), on one thread: several times faster than Eigen's own at sizes of some
+/// hundreds, because they choose the machine's instructions at run time. Results don't depend on the number of threads.
+
+/// @return a b, or aᵀ b if `transposed`
+[[nodiscard]] Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                      bool transposed = false);
+
+/// Leading eigenpairs of a dense symmetric matrix.
+struct LeadingEigenpairs {
+  Eigen::VectorXd values;   ///< (n) descending
+  Eigen::MatrixXd vectors;  ///< (size × n) orthonormal
+};
+/// @param symmetric (size × size), its lower triangle is read @param n  1 … size
+/// Reference: LAPACK's DSYEVR (relatively robust representations).
+[[nodiscard]] LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Eigen::Index n);
+
+/// Thin singular value decomposition A = U S Vᵀ.
+struct ThinSvd {
+  Eigen::MatrixXd u;        ///< (rows × k), k the smaller dimension
+  Eigen::VectorXd values;   ///< (k) descending
+  Eigen::MatrixXd vt;       ///< (k × columns)
+};
+/// Reference: LAPACK's DGESDD (divide and conquer).
+[[nodiscard]] ThinSvd thin_svd(Eigen::MatrixXd a);
+
+/// Lower Cholesky factor L of a positive definite matrix, A = L Lᵀ; the upper triangle of the result is zero.
+/// @param a  its lower triangle is read @return an empty matrix if A is not positive definite
+[[nodiscard]] Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a);
+
+}  // namespace twindeck::linalg

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "records/record.hpp"
+
+namespace twindeck::records {
+
+/// An array of numbers in a file of named arrays (MAT, HDF5).
+struct NamedArray {
+  std::string name;
+  Eigen::Index rows = 0, columns = 0;
+  [[nodiscard]] Eigen::Index longer() const { return std::max(rows, columns); }
+  [[nodiscard]] Eigen::Index shorter() const { return std::min(rows, columns); }
+};
+
+/// Which arrays are the record.
+struct ArrayChoice {
+  std::vector<std::size_t> data;     ///< one matrix, or several vectors of one length
+  bool transposed = false;           ///< channels × samples
+  int time = -1;                     ///< vector of times
+  std::vector<std::size_t> scalars;  ///< single numbers, that may say the rate
+};
+
+/// The largest matrix is the record, its longer side the samples; vectors of one length are channels of their own. A vector of that
+/// length that is named t or time is the time.
+/// @throws InputError  if no array has sixteen values or more
+[[nodiscard]] ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::string& file);
+
+/// Rate that a scalar of this name and value says; 0 for none: fs, rate, sampling frequency …, dt, ts …
+[[nodiscard]] double rate_of(const std::string& name, double value);
+/// Rate of a vector of times; 0 if it does not run evenly.
+[[nodiscard]] double rate_of_times(const Eigen::VectorXd& times);
+
+}  // namespace twindeck::records

@@ -1,0 +1,175 @@
+#include "records/inspect.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace twindeck::records {
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+void ChannelStatistics::close_run() {
+  if (run_ < 3) return;
+  if (last_ == lowest_) at_lowest_ += run_;
+  if (last_ == highest_) at_highest_ += run_;
+}
+
+void ChannelStatistics::add(double value) {
+  ++seen_;
+  if (!std::isfinite(value)) {
+    longest_gap_ = std::max(longest_gap_, ++gap_);
+    close_run();
+    run_ = 0;
+    return;
+  }
+  gap_ = 0;
+  if (run_ > 0 && value == last_) {
+    ++run_;
+  } else {
+    close_run();
+    run_ = 1;
+  }
+  if (there_ == 0 || value < lowest_) {
+    lowest_ = value;
+    at_lowest_ = 0;
+  }
+  if (there_ == 0 || value > highest_) {
+    highest_ = value;
+    at_highest_ = 0;
+  }
+  last_ = value;
+  // Welford's sums, which keep their digits on a large mean.
+  ++there_;
+  const double off = value - mean_;
+  mean_ += off / static_cast<double>(there_);
+  squares_ += off * (value - mean_);
+}
+
+ChannelSummary ChannelStatistics::summary(Index count) const {
+  ChannelStatistics closed = *this;
+  closed.close_run();
+  ChannelSummary summary;
+  summary.samples = std::max(count, seen_);
+  summary.missing = summary.samples - there_;
+  summary.longest_gap = std::max(longest_gap_, gap_ + summary.samples - seen_);
+  summary.mean = mean_;
+  summary.rms = there_ > 0 ? std::sqrt(squares_ / static_cast<double>(there_)) : 0.0;
+  summary.lowest = lowest_;
+  summary.highest = highest_;
+  summary.dead = there_ == 0 || lowest_ == highest_;
+  summary.clipped = summary.dead ? 0 : closed.at_lowest_ + closed.at_highest_;
+  return summary;
+}
+
+Inspection inspect(const fs::path& file) {
+  Inspection result;
+  std::vector<ChannelStatistics> statistics;
+  Index samples = 0;
+  result.info = scan(file, [&](Index first_sample, Index first_channel, const Eigen::MatrixXd& block) {
+    statistics.resize(std::max(statistics.size(), static_cast<std::size_t>(first_channel + block.cols())));
+    samples = std::max(samples, first_sample + block.rows());
+    for (Index c = 0; c < block.cols(); ++c) {
+      ChannelStatistics& channel = statistics[static_cast<std::size_t>(first_channel + c)];
+      for (Index t = 0; t < block.rows(); ++t) channel.add(block(t, c));
+    }
+  });
+  for (const ChannelStatistics& channel : statistics) result.channels.push_back(channel.summary(samples));
+  result.channels.resize(result.info.channels.size());
+  return result;
+}
+
+namespace {
+
+/// Lower case without blanks and brackets; µ, ², ° in any spelling as u, 2, deg.
+std::string plain(const std::string& unit) {
+  static const std::map<std::string, std::string> spellings = {{"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xC2\xB2", "2"}, {"\xC2\xB0", "deg"}, {"^", ""},
+                                                               {"**", ""}, {" ", ""}, {"[", ""}, {"]", ""}, {"(", ""}, {")", ""}};
+  std::string text = unit;
+  for (const auto& [from, to] : spellings) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  }
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+struct Unit {
+  double factor;
+  const char* quantity;
+};
+
+const std::map<std::string, Unit>& units() {
+  static const std::map<std::string, Unit> known = {
+      {"m/s2", {1.0, "acceleration"}},      {"m/s/s", {1.0, "acceleration"}},   {"ms-2", {1.0, "acceleration"}},  {"m*s-2", {1.0, "acceleration"}},
+      {"m/sec2", {1.0, "acceleration"}},    {"mm/s2", {1e-3, "acceleration"}},  {"cm/s2", {1e-2, "acceleration"}}, {"cm/s/s", {1e-2, "acceleration"}},
+      {"gal", {1e-2, "acceleration"}},      {"cm/sec2", {1e-2, "acceleration"}}, {"g", {9.80665, "acceleration"}}, {"gn", {9.80665, "acceleration"}},
+      {"mg", {9.80665e-3, "acceleration"}}, {"ug", {9.80665e-6, "acceleration"}}, {"m/s", {1.0, "velocity"}},      {"mm/s", {1e-3, "velocity"}},
+      {"cm/s", {1e-2, "velocity"}},         {"um/s", {1e-6, "velocity"}},       {"m", {1.0, "displacement"}},      {"mm", {1e-3, "displacement"}},
+      {"cm", {1e-2, "displacement"}},       {"um", {1e-6, "displacement"}}};
+  return known;
+}
+
+/// Ambient vibration of a structure: what size of numbers speaks for which unit.
+std::string guess(const ChannelSummary& channel) {
+  const double mean = std::abs(channel.mean), rms = channel.rms;
+  if (channel.dead) return "";
+  if (std::abs(mean - 9.81) < 0.5) return "m/s² with gravity in it, by the mean";
+  if (std::abs(mean - 1.0) < 0.05 && rms < 0.2) return "g with gravity in it, by the mean";
+  if (std::abs(mean - 1000.0) < 50.0) return "mg with gravity in it, by the mean";
+  if (rms < 1e-7) return "too small for any usual unit: gain or volts?";
+  if (rms < 3e-3) return "g or m/s², by the size";
+  if (rms < 1.0) return "m/s² or V, by the size";
+  return "mg, mV, µm or counts, by the size";
+}
+
+}  // namespace
+
+double si_factor(const std::string& unit) {
+  const auto at = units().find(plain(unit));
+  return at == units().end() ? 0.0 : at->second.factor;
+}
+
+std::string quantity_of(const std::string& unit) {
+  const auto at = units().find(plain(unit));
+  return at == units().end() ? "" : at->second.quantity;
+}
+
+std::vector<std::string> describe(const Inspection& inspection) {
+  const RecordInfo& info = inspection.info;
+  std::vector<std::string> lines = {fmt::format("format    {}", info.format)};
+  Index samples = 0;
+  for (const ChannelSummary& channel : inspection.channels) samples = std::max(samples, channel.samples);
+  lines.push_back(fmt::format("channels  {}, {} samples{}", info.channels.size(), samples,
+                              info.rate_Hz > 0.0 ? fmt::format(", {:.6g} s", static_cast<double>(samples) / info.rate_Hz) : ""));
+  lines.push_back(info.rate_Hz > 0.0 ? fmt::format("rate      {:.9g} Hz, from the {}", info.rate_Hz, info.rate_source) : "rate      unknown");
+  lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12} {:>12}", "channel", "unit", "samples", "missing", "longest", "clipped", "mean",
+                              "rms"));
+  std::vector<std::string> missing;
+  bool unknown_unit = false;
+  for (std::size_t c = 0; c < info.channels.size(); ++c) {
+    const ChannelInfo& channel = info.channels[c];
+    const ChannelSummary& s = inspection.channels[c];
+    const bool known = si_factor(channel.unit) > 0.0;
+    std::string remark = s.dead ? "  constant" : "";
+    if (channel.unit.empty()) {
+      remark += s.dead ? "" : "  unit not given: " + guess(s);
+      unknown_unit = true;
+    } else if (!known) {
+      remark += "  no unit of motion";
+      unknown_unit = true;
+    }
+    if (s.clipped > 0) remark += fmt::format("  stays at {:.6g} or {:.6g}", s.lowest, s.highest);
+    lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12.5g} {:>12.5g}{}", channel.name, channel.unit.empty() ? "?" : channel.unit,
+                                s.samples, s.missing, s.longest_gap, s.clipped, s.mean, s.rms, remark));
+  }
+  for (const std::string& note : info.notes) lines.push_back("note      " + note);
+  if (info.rate_Hz == 0.0) missing.push_back("the sampling rate (campaign.toml: sampling_rate_Hz)");
+  if (unknown_unit) missing.push_back("units (channels.csv: unit and gain to SI)");
+  missing.push_back("positions and directions of the sensors (channels.csv)");
+  lines.push_back("missing   " + fmt::format("{}", fmt::join(missing, "; ")));
+  return lines;
+}
+
+}  // namespace twindeck::records

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "records/record.hpp"
+
+namespace twindeck::records {
+
+/// What a channel's samples look like.
+struct ChannelSummary {
+  Eigen::Index samples = 0, missing = 0, longest_gap = 0;
+  Eigen::Index clipped = 0;   ///< samples in runs of three or more at the largest or smallest value
+  double mean = 0.0, rms = 0.0, lowest = 0.0, highest = 0.0;  ///< rms about the mean
+  bool dead = false;          ///< constant
+};
+
+/// Sums over one channel as its samples come, in bounded memory.
+class ChannelStatistics {
+ public:
+  void add(double value);
+  /// Samples up to `count` that never came are missing.
+  [[nodiscard]] ChannelSummary summary(Eigen::Index count) const;
+
+ private:
+  Eigen::Index there_ = 0, seen_ = 0, gap_ = 0, longest_gap_ = 0;
+  double mean_ = 0.0, squares_ = 0.0, lowest_ = 0.0, highest_ = 0.0, last_ = 0.0;
+  Eigen::Index run_ = 0;                          ///< of equal values, the last one's
+  Eigen::Index at_lowest_ = 0, at_highest_ = 0;   ///< samples in runs of three or more there
+  void close_run();
+};
+
+struct Inspection {
+  RecordInfo info;
+  std::vector<ChannelSummary> channels;
+};
+/// One pass through the file.
+[[nodiscard]] Inspection inspect(const std::filesystem::path& file);
+
+/// Unit of an acceleration, velocity or displacement as a factor to SI; 0 where it is not known.
+/// "g" 9.80665, "mg", "m/s²", "mm/s", "µm" … in the spellings of loggers, latin-1 or UTF-8.
+[[nodiscard]] double si_factor(const std::string& unit);
+/// What the unit measures: "acceleration", "velocity", "displacement", or "".
+[[nodiscard]] std::string quantity_of(const std::string& unit);
+
+/// The inspection for people: format, rate and where it comes from, channels with unit (or a guess from the size of the numbers), gaps,
+/// clipping, dead channels, what is missing for an identification.
+[[nodiscard]] std::vector<std::string> describe(const Inspection& inspection);
+
+}  // namespace twindeck::records

@@ -1,0 +1,392 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "records/universal.hpp"
+#include "records/universal_lines.hpp"
+
+namespace twindeck::records {
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+namespace {
+
+constexpr Index kValues = 65536;  // a part
+
+const char* direction_name(long code) {
+  static const char* const names[] = {"-rz", "-ry", "-rx", "-z", "-y", "-x", "", "+x", "+y", "+z", "+rx", "+ry", "+rz"};
+  return code >= -6 && code <= 6 ? names[code + 6] : "";
+}
+
+void skip_set(UniversalLines& in) {
+  for (std::string line; in.next(line);) {
+    if (is_delimiter(line)) return;
+  }
+}
+
+/// The set's own end, which some writers leave out when the next one begins.
+void expect_end(UniversalLines& in, RecordInfo& info, const std::string& set) {
+  std::string line;
+  while (in.next(line)) {
+    if (is_delimiter(line)) return;
+    if (line.find_first_not_of(" \t") == std::string::npos) continue;
+    info.notes.push_back(fmt::format("line {}: set {} is longer than it says, the rest is left out", in.number(), set));
+    skip_set(in);
+    return;
+  }
+  info.notes.push_back(fmt::format("the last set ({}) has no end", set));
+}
+
+struct Series {
+  int function = 0, data_type = 0, abscissa = 17;
+  Index values = 0;
+  bool even = true, binary = false, swapped = false;
+  double start = 0.0, step = 0.0;
+  std::size_t bytes = 0;
+  ChannelInfo channel;
+  [[nodiscard]] bool is_complex() const { return data_type == 5 || data_type == 6; }
+  [[nodiscard]] bool is_double() const { return data_type == 4 || data_type == 6; }
+  [[nodiscard]] bool is_time() const { return (function == 1 || function == 0) && abscissa != 18; }
+};
+
+Series read_series_header(UniversalLines& in, const std::string& set_line, const std::string& what) {
+  Series series;
+  series.binary = field(set_line, 6, 1) == "b" || set_line.find('b') != std::string::npos;
+  if (series.binary) {
+    const auto numbers = numbers_in(set_line.substr(set_line.find('b') + 1));
+    if (!numbers.empty()) series.swapped = numbers[0] == 2.0;
+    if (numbers.size() >= 4) series.bytes = static_cast<std::size_t>(numbers[3]);
+  }
+  std::string title;
+  for (int i = 0; i < 5; ++i) {
+    const std::string line = in.need(what);
+    if (is_delimiter(line)) in.fail("ends within its five lines of text", "write the set again");
+    if (i == 0) title = field(line, 0, 80);
+  }
+  const std::string identity = in.need(what);
+  series.function = static_cast<int>(integer_or(field(identity, 0, 5), 0));
+  series.channel.point = field(identity, 41, 10);
+  series.channel.direction = direction_name(integer_or(field(identity, 51, 4), 0));
+  const std::string form = in.need(what);
+  const auto numbers = numbers_in(form);
+  if (numbers.size() < 5) in.fail(fmt::format("holds '{}', expected type, number of values, spacing, start and step", field(form, 0, 80)), "write the set again");
+  series.data_type = static_cast<int>(integer_or(field(form, 0, 10), static_cast<long>(numbers[0])));
+  series.values = static_cast<Index>(numbers[1]);
+  series.even = numbers[2] != 0.0;
+  series.start = numbers[3];
+  series.step = numbers[4];
+  if (series.data_type != 2 && series.data_type != 4 && !series.is_complex()) {
+    in.fail(fmt::format("has data of type {}, expected 2, 4 (real), 5 or 6 (complex)", series.data_type), "write the set again");
+  }
+  const std::string axis = in.need(what);
+  series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
+  const std::string ordinate = in.need(what);
+  series.channel.unit = field(ordinate, 47, 20);
+  if (series.channel.unit == "NONE") series.channel.unit.clear();
+  in.need(what);
+  in.need(what);
+  series.channel.samples = series.values;
+  if (series.even && series.step > 0.0) series.channel.rate_Hz = 1.0 / series.step;
+  const bool named = !title.empty() && title != "NONE";
+  series.channel.name = named ? title : fmt::format("{}{}", series.channel.point, series.channel.direction);
+  return series;
+}
+
+double binary_value(const char* at, bool is_double, bool swapped) {
+  char bytes[8] = {};
+  const std::size_t n = is_double ? 8 : 4;
+  std::memcpy(bytes, at, n);
+  if (swapped) std::reverse(bytes, bytes + n);
+  if (is_double) return std::bit_cast<double>(*reinterpret_cast<std::uint64_t*>(bytes));
+  float value = 0.0F;
+  std::memcpy(&value, bytes, 4);
+  return static_cast<double>(value);
+}
+
+/// Hands values on in parts.
+class Parts {
+ public:
+  Parts(const Visitor& visit, Index channel) : visit_(visit), channel_(channel), block_(kValues, 1) {}
+  void add(double value) {
+    block_(used_++, 0) = value;
+    if (used_ == kValues) flush();
+  }
+  void flush() {
+    if (used_ > 0 && channel_ >= 0) visit_(first_, channel_, block_.topRows(used_));
+    first_ += used_;
+    used_ = 0;
+  }
+
+ private:
+  const Visitor& visit_;
+  Index channel_, first_ = 0, used_ = 0;
+  Eigen::MatrixXd block_;
+};
+
+/// Values a sample takes up in the file: abscissa where uneven, real and imaginary part.
+Index width(const Series& series) { return (series.even ? 0 : 1) + (series.is_complex() ? 2 : 1); }
+
+void read_text_values(UniversalLines& in, const Series& series, const std::string& what, Parts& parts, double& step) {
+  const Index each = width(series), wanted = series.values * each;
+  double first = 0.0;
+  for (Index k = 0; k < wanted;) {
+    const std::string line = in.need(fmt::format("{} after {} of {} values", what, k / each, series.values));
+    if (is_delimiter(line)) in.fail(fmt::format("{} ends after {} of {} values", what, k / each, series.values), "write the set again");
+    for (const double value : numbers_in(line)) {
+      if (k >= wanted) break;
+      const Index within = k % each, sample = k / each;
+      if (!series.even && within == 0 && sample == 0) first = value;
+      if (!series.even && within == 0 && sample == 1) step = value - first;
+      if (within == (series.even ? 0 : 1)) parts.add(value);
+      ++k;
+    }
+  }
+}
+
+void read_binary_values(UniversalLines& in, const Series& series, const std::string& what, Parts& parts, double& step, RecordInfo& info) {
+  const std::size_t size = series.is_double() ? 8 : 4;
+  // An uneven abscissa is single in set 58, whatever the ordinate is.
+  const std::size_t abscissa = series.even ? 0 : 4, ordinate = size * (series.is_complex() ? 2 : 1);
+  const std::size_t sample = abscissa + ordinate, expected = sample * static_cast<std::size_t>(series.values);
+  if (series.bytes != 0 && series.bytes != expected) {
+    info.notes.push_back(fmt::format("{} says {} bytes, {} values take {}", what, series.bytes, series.values, expected));
+  }
+  // A newline too many before the data: then the set's end stands one byte later than it should.
+  const auto ends_at = [&](std::size_t offset) {
+    const std::string tail = in.peek(offset, 9);
+    const std::size_t first = tail.find_first_not_of("\r\n");
+    return first != std::string::npos && tail.compare(first, 6, "    -1") == 0;
+  };
+  const std::string ahead = in.peek(0, 1);
+  if (ahead == "\n" && !ends_at(expected) && ends_at(expected + 1)) {
+    in.bytes(1);
+    info.notes.push_back(what + " has a newline before its binary data");
+  }
+  double first = 0.0;
+  Index done = 0;
+  while (done < series.values) {
+    const Index n = std::min(kValues, series.values - done);
+    const std::string data = in.bytes(static_cast<std::size_t>(n) * sample);
+    const auto complete = static_cast<Index>(data.size() / sample);
+    for (Index k = 0; k < complete; ++k) {
+      const char* at = data.data() + static_cast<std::size_t>(k) * sample;
+      if (!series.even && done + k < 2) {
+        const double x = binary_value(at, false, series.swapped);
+        if (done + k == 0) first = x;
+        if (done + k == 1) step = x - first;
+      }
+      parts.add(binary_value(at + abscissa, series.is_double(), series.swapped));
+    }
+    done += complete;
+    if (complete < n) in.fail(fmt::format("breaks off in {} after {} of {} values", what, done, series.values), "the file was cut off; copy it again");
+  }
+}
+
+void read_series(UniversalLines& in, const std::string& set_line, const Visitor& visit, RecordInfo& info, int& others) {
+  const std::string what = fmt::format("set 58 number {}", info.channels.size() + static_cast<std::size_t>(others) + 1);
+  Series series = read_series_header(in, set_line, what);
+  Parts parts(visit, series.is_time() ? static_cast<Index>(info.channels.size()) : -1);
+  double step = series.step;
+  if (series.binary) {
+    read_binary_values(in, series, what, parts, step, info);
+  } else {
+    read_text_values(in, series, what, parts, step);
+  }
+  parts.flush();
+  if (!series.even && step > 0.0) series.channel.rate_Hz = 1.0 / step;
+  if (series.is_time()) {
+    info.channels.push_back(series.channel);
+  } else {
+    ++others;
+  }
+  expect_end(in, info, series.binary ? "58b" : "58");
+}
+
+void read_nodes(UniversalLines& in, bool double_precision, UniversalData& data) {
+  const std::string what = double_precision ? "set 2411" : "set 15";
+  for (std::string line; in.next(line);) {
+    if (is_delimiter(line)) return;
+    const auto numbers = numbers_in(line);
+    if (numbers.empty()) continue;
+    if (!double_precision) {
+      if (numbers.size() < 7) in.fail("holds fewer than a label, three codes and three coordinates", "write set 15 again");
+      data.nodes[static_cast<long>(numbers[0])] = Eigen::Vector3d(numbers[4], numbers[5], numbers[6]);
+      continue;
+    }
+    const auto coordinates = numbers_in(in.need(what));
+    if (coordinates.size() < 3) in.fail("holds fewer than three coordinates", "write set 2411 again");
+    data.nodes[static_cast<long>(numbers[0])] = Eigen::Vector3d(coordinates[0], coordinates[1], coordinates[2]);
+  }
+  in.fail("breaks off in " + what, "the file was cut off; copy it again");
+}
+
+void read_lines(UniversalLines& in, UniversalData& data) {
+  const auto head = numbers_in(in.need("set 82"));
+  in.need("set 82");
+  const long count = head.size() > 1 ? static_cast<long>(head[1]) : 0;
+  std::vector<long> chain;
+  const auto finish = [&] {
+    if (chain.size() > 1) data.lines.push_back(chain);
+    chain.clear();
+  };
+  long seen = 0;
+  for (std::string line; in.next(line);) {
+    if (is_delimiter(line)) {
+      finish();
+      return;
+    }
+    for (const double number : numbers_in(line)) {
+      if (seen++ >= count && count > 0) break;
+      if (number == 0.0) {
+        finish();
+      } else {
+        chain.push_back(static_cast<long>(number));
+      }
+    }
+  }
+  in.fail("breaks off in set 82", "the file was cut off; copy it again");
+}
+
+void read_result(UniversalLines& in, UniversalData& data) {
+  const std::string what = "set 55";
+  NodalResult result;
+  for (int i = 0; i < 5; ++i) {
+    const std::string line = in.need(what);
+    if (i == 0) result.title = field(line, 0, 80);
+  }
+  const auto type = numbers_in(in.need(what));
+  if (type.size() < 6) in.fail("holds fewer than six codes of the result's type", "write set 55 again");
+  result.analysis = static_cast<int>(type[1]);
+  result.complex = type[4] == 5.0 || type[4] == 6.0;
+  const auto per_node = static_cast<Index>(type[5]);
+  const auto integers = numbers_in(in.need(what));
+  // Two numbers tell how many integers and reals follow; lines of eight and six.
+  const auto n_integers = integers.empty() ? 0U : static_cast<std::size_t>(integers[0]);
+  const auto n_reals = integers.size() < 2 ? 0U : static_cast<std::size_t>(integers[1]);
+  std::vector<double> all = integers;
+  while (all.size() < 2 + n_integers) {
+    const auto more = numbers_in(in.need(what));
+    if (more.empty()) break;
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  std::vector<double> reals;
+  while (reals.size() < n_reals) {
+    const auto more = numbers_in(in.need(what));
+    if (more.empty()) break;
+    reals.insert(reals.end(), more.begin(), more.end());
+  }
+  if (all.size() > 3) result.mode = static_cast<int>(all[3]);
+  if (result.analysis == 3 && reals.size() >= 2) {
+    result.eigenvalue = {reals[0], reals[1]};
+    result.frequency_Hz = std::abs(result.eigenvalue) / (2.0 * std::numbers::pi);
+    if (std::abs(result.eigenvalue) > 0.0) result.damping_ratio = -reals[0] / std::abs(result.eigenvalue);
+  } else if (!reals.empty()) {
+    result.frequency_Hz = reals[0];
+    if (reals.size() >= 3) result.damping_ratio = reals[2];
+  }
+  for (std::string line; in.next(line);) {
+    if (is_delimiter(line)) {
+      data.results.push_back(std::move(result));
+      return;
+    }
+    if (line.find_first_not_of(" \t") == std::string::npos) continue;
+    const long node = integer_or(field(line, 0, 10), 0);
+    std::vector<double> values;
+    const auto wanted = static_cast<std::size_t>(per_node * (result.complex ? 2 : 1));
+    while (values.size() < wanted) {
+      const auto more = numbers_in(in.need(what));
+      if (more.empty()) break;
+      values.insert(values.end(), more.begin(), more.end());
+    }
+    if (values.size() < wanted) in.fail(fmt::format("has {} values at node {}, expected {}", values.size(), node, wanted), "write set 55 again");
+    Eigen::VectorXcd vector(per_node);
+    for (Index k = 0; k < per_node; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      vector[k] = result.complex ? std::complex<double>(values[2 * at], values[2 * at + 1]) : std::complex<double>(values[at]);
+    }
+    result.values[node] = vector;
+  }
+  in.fail("breaks off in set 55", "the file was cut off; copy it again");
+}
+
+void read_units(UniversalLines& in, UniversalData& data) {
+  in.need("set 164");
+  for (std::string line; in.next(line);) {
+    if (is_delimiter(line)) return;
+    const auto numbers = numbers_in(line);
+    if (!numbers.empty() && !data.has_units) {
+      data.has_units = true;
+      if (numbers[0] > 0.0) data.length_factor = numbers[0];
+    }
+  }
+}
+
+}  // namespace
+
+UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, RecordInfo& info) {
+  UniversalLines in(file);
+  UniversalData data;
+  int other_series = 0;
+  for (std::string line; in.next(line);) {
+    if (!is_delimiter(line)) continue;
+    std::string set_line;
+    if (!in.next(set_line)) break;
+    if (is_delimiter(set_line)) {
+      // An end without a beginning: this line begins a set.
+      in.back(set_line);
+      continue;
+    }
+    const long set = integer_or(field(set_line, 0, 6), integer_or(field(set_line, 0, 80), 0));
+    if (set == 58) {
+      read_series(in, set_line, visit, info, other_series);
+    } else if (set == 15 || set == 2411) {
+      read_nodes(in, set == 2411, data);
+    } else if (set == 82) {
+      read_lines(in, data);
+    } else if (set == 55) {
+      read_result(in, data);
+    } else if (set == 151) {
+      data.title = field(in.need("set 151"), 0, 80);
+      data.has_header = true;
+      skip_set(in);
+    } else if (set == 164) {
+      read_units(in, data);
+    } else {
+      ++data.others[std::to_string(set)];
+      skip_set(in);
+    }
+  }
+  for (auto& [label, position] : data.nodes) position /= data.length_factor;
+  if (other_series > 0) info.notes.push_back(fmt::format("{} sets 58 hold spectra or other functions, left out", other_series));
+  return data;
+}
+
+RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
+  RecordInfo info;
+  const UniversalData data = scan_universal_sets(file, visit, info);
+  info.format = fmt::format("universal file, {} time series, {} nodes, {} lines, {} shapes", info.channels.size(), data.nodes.size(), data.lines.size(),
+                            data.results.size());
+  for (const ChannelInfo& channel : info.channels) {
+    if (channel.rate_Hz > 0.0 && info.rate_Hz == 0.0) {
+      info.rate_Hz = channel.rate_Hz;
+      info.rate_source = "step of the abscissa";
+    }
+    if (std::abs(channel.rate_Hz - info.rate_Hz) > 1e-6 * info.rate_Hz) {
+      info.notes.push_back(fmt::format("channels have different rates: {} {} Hz, {} {} Hz", info.channels.front().name, info.channels.front().rate_Hz,
+                                       channel.name, channel.rate_Hz));
+      info.rate_Hz = 0.0;
+      break;
+    }
+  }
+  if (!data.has_header) info.notes.push_back("no set 151 (header)");
+  if (!data.has_units) info.notes.push_back("no set 164 (units): coordinates are taken as metres");
+  for (const auto& [set, count] : data.others) info.notes.push_back(fmt::format("{} set{} {} left out", count, count == 1 ? "" : "s", set));
+  return info;
+}
+
+}  // namespace twindeck::records

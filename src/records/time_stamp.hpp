@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace twindeck::records {
+
+/// Seconds that a time stamp may mean, since 1970-01-01 (a time of day alone: since midnight). Several where day and month can be
+/// exchanged: "03/04/2021 10:00:00" is 3 April or 4 March, the former first. Empty where the text is no time stamp.
+/// Read: 2021-04-03T10:00:00.25Z, 03.04.2021 10:00:00,25, 4/3/2021 10:00:00 PM, 10:00:00.25, with blanks, 'T' or '_' between.
+[[nodiscard]] std::vector<double> time_stamp_meanings(std::string_view text);
+
+/// Turns a column of time stamps into seconds, row by row: of the meanings of a stamp, the one that follows the last by the least. A logger
+/// that exchanges day and month on the first twelve days of a month is so put right.
+class TimeStampReader {
+ public:
+  /// @return seconds, empty for no time stamp
+  std::optional<double> next(std::string_view text);
+  /// Rows whose second meaning was taken although the first was there.
+  [[nodiscard]] long exchanged() const { return exchanged_; }
+
+ private:
+  std::optional<double> last_;
+  bool month_first_ = false;
+  long exchanged_ = 0;
+};
+
+}  // namespace twindeck::records

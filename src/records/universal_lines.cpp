@@ -1,0 +1,122 @@
+#include "records/universal_lines.hpp"
+
+#include <charconv>
+
+#include "core/error.hpp"
+
+namespace twindeck::records {
+
+UniversalLines::UniversalLines(const std::filesystem::path& file) : file_(file), in_(file, std::ios::binary) {
+  if (!in_) throw InputError({file.string(), 0, ""}, "cannot be read", "check its name and your permissions");
+}
+
+bool UniversalLines::next(std::string& line) {
+  if (has_back_) {
+    line = back_;
+    has_back_ = false;
+    ++number_;
+    return true;
+  }
+  if (!std::getline(in_, line)) return false;
+  ++number_;
+  while (!line.empty() && line.back() == '\r') line.pop_back();
+  if (line.size() > 100000) fail("has a line of over a hundred thousand characters", "is a binary set without the letter b?");
+  return true;
+}
+
+std::string UniversalLines::need(const std::string& what) {
+  std::string line;
+  if (!next(line)) fail("breaks off in " + what, "the file was cut off; copy it again");
+  return line;
+}
+
+void UniversalLines::back(const std::string& line) {
+  back_ = line;
+  has_back_ = true;
+  --number_;
+}
+
+std::string UniversalLines::bytes(std::size_t n) {
+  std::string data(n, '\0');
+  in_.read(data.data(), static_cast<std::streamsize>(n));
+  data.resize(static_cast<std::size_t>(in_.gcount()));
+  return data;
+}
+
+std::string UniversalLines::peek(std::size_t offset, std::size_t n) {
+  const std::streampos here = in_.tellg();
+  in_.seekg(static_cast<std::streamoff>(offset), std::ios::cur);
+  const std::string data = bytes(n);
+  in_.clear();
+  in_.seekg(here);
+  return data;
+}
+
+void UniversalLines::fail(const std::string& problem, const std::string& mend) const {
+  throw InputError({file_.string(), number_, ""}, problem, mend);
+}
+
+bool is_delimiter(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first == std::string::npos || line.compare(first, 2, "-1") != 0) return false;
+  return line.find_first_not_of(" \t", first + 2) == std::string::npos;
+}
+
+std::string field(const std::string& line, std::size_t from, std::size_t width) {
+  if (from >= line.size()) return "";
+  const std::string text = line.substr(from, width);
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<double> numbers_in(const std::string& line) {
+  std::vector<double> numbers;
+  std::size_t at = 0;
+  const auto is_digit = [&](std::size_t i) { return i < line.size() && line[i] >= '0' && line[i] <= '9'; };
+  while (at < line.size()) {
+    std::size_t i = at;
+    std::string text;
+    if (line[i] == '-' || line[i] == '+') text += line[i++] == '-' ? "-" : "";
+    const std::size_t digits = i;
+    while (is_digit(i)) text += line[i++];
+    if (i < line.size() && line[i] == '.') {
+      text += line[i++];
+      while (is_digit(i)) text += line[i++];
+    }
+    if (i == digits || (i == digits + 1 && line[digits] == '.')) {
+      ++at;
+      continue;
+    }
+    if (i < line.size() && std::string("EeDd").find(line[i]) != std::string::npos) {
+      std::size_t k = i + 1;
+      std::string exponent = "e";
+      if (k < line.size() && (line[k] == '-' || line[k] == '+')) exponent += line[k++];
+      if (is_digit(k)) {
+        while (is_digit(k)) exponent += line[k++];
+        if (exponent[1] == '+') exponent.erase(1, 1);
+        text += exponent;
+        i = k;
+      }
+    } else if (i + 1 < line.size() && (line[i] == '-' || line[i] == '+') && is_digit(i + 1) && text.find('.') != std::string::npos &&
+               i + 4 >= line.size() && line.find_first_of(" \t", i) == std::string::npos) {
+      // "1.0-100": an exponent of three digits that left no room for its letter.
+      text += "e" + line.substr(line[i] == '+' ? i + 1 : i);
+      i = line.size();
+    }
+    double value = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    numbers.push_back(value);
+    at = i;
+  }
+  return numbers;
+}
+
+long integer_or(const std::string& text, long fallback) {
+  long value = 0;
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  return error == std::errc() && end != begin ? value : fallback;
+}
+
+}  // namespace twindeck::records

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace twindeck::records {
+
+/// Lines of a universal file, with their numbers for messages.
+class UniversalLines {
+ public:
+  explicit UniversalLines(const std::filesystem::path& file);
+  /// The next line without its end; false at the end of the file.
+  bool next(std::string& line);
+  /// The next line; @throws InputError  if the file ends: "breaks off in <what>"
+  std::string need(const std::string& what);
+  /// The line just read is given again.
+  void back(const std::string& line);
+  /// `n` bytes of binary data, or fewer at the end of the file.
+  std::string bytes(std::size_t n);
+  /// `n` bytes that stand `offset` bytes ahead; nothing is taken.
+  std::string peek(std::size_t offset, std::size_t n);
+  [[noreturn]] void fail(const std::string& problem, const std::string& mend = "") const;
+  [[nodiscard]] long number() const { return number_; }
+
+ private:
+  std::filesystem::path file_;
+  std::ifstream in_;
+  long number_ = 0;
+  bool has_back_ = false;
+  std::string back_;
+};
+
+/// True for the line -1 that begins and ends a set.
+[[nodiscard]] bool is_delimiter(const std::string& line);
+/// Columns [from, from + width) without blanks at its ends; "" beyond the end.
+[[nodiscard]] std::string field(const std::string& line, std::size_t from, std::size_t width);
+/// All numbers in a line: Fortran's D exponents, numbers that touch ("1.0E+00-2.0E+00").
+[[nodiscard]] std::vector<double> numbers_in(const std::string& line);
+/// Whole number of a field, `fallback` if it is empty or none.
+[[nodiscard]] long integer_or(const std::string& text, long fallback);
+
+}  // namespace twindeck::records

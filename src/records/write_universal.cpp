@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "core/error.hpp"
+#include "io/atomic.hpp"
+#include "records/universal.hpp"
+
+namespace twindeck::records {
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+namespace {
+
+constexpr const char* kDelimiter = "    -1\n";
+
+std::string text_line(const std::string& text) { return fmt::format("{:<80}\n", text.substr(0, 80)); }
+
+/// E13.5 and its kin: values side by side, `a_line` of them.
+std::string value_lines(const std::vector<double>& values, std::size_t a_line, int total, int digits) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += fmt::format("{:>{}.{}E}", values[i], total, digits);
+    if (i % a_line == a_line - 1 || i + 1 == values.size()) text += '\n';
+  }
+  return text;
+}
+
+long direction_code(const std::string& direction) {
+  static const std::string names[] = {"x", "y", "z", "rx", "ry", "rz"};
+  const bool minus = direction.starts_with('-');
+  const std::string bare = minus || direction.starts_with('+') ? direction.substr(1) : direction;
+  for (int i = 0; i < 6; ++i) {
+    if (names[i] == bare) return minus ? -(i + 1) : i + 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void write_universal(const UniversalData& data, const fs::path& file) {
+  std::string text = kDelimiter;
+  text += "   151\n" + text_line(data.title) + text_line("") + text_line("twindeck") + text_line("") + text_line("") + text_line("") + text_line("") + kDelimiter;
+  text += kDelimiter;
+  text += fmt::format("   164\n{:>10}{:<20}{:>10}\n", 1, "SI: Meter (newton)", 2);
+  text += fmt::format("{:>25.17E}{:>25.17E}{:>25.17E}\n{:>25.17E}\n", 1.0, 1.0, 1.0, 273.15);
+  text += kDelimiter;
+  if (!data.nodes.empty()) {
+    text += kDelimiter;
+    text += "  2411\n";
+    for (const auto& [label, position] : data.nodes) {
+      text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n{:>25.16E}{:>25.16E}{:>25.16E}\n", label, 1, 1, 11, position[0], position[1], position[2]);
+    }
+    text += kDelimiter;
+  }
+  for (std::size_t i = 0; i < data.lines.size(); ++i) {
+    text += kDelimiter;
+    text += fmt::format("    82\n{:>10}{:>10}{:>10}\n{}", i + 1, data.lines[i].size(), 1, text_line("NONE"));
+    for (std::size_t k = 0; k < data.lines[i].size(); ++k) {
+      text += fmt::format("{:>10}", data.lines[i][k]);
+      if (k % 8 == 7 || k + 1 == data.lines[i].size()) text += '\n';
+    }
+    text += kDelimiter;
+  }
+  for (const NodalResult& result : data.results) {
+    TWINDECK_ASSERT(!result.values.empty());
+    const Index n = result.values.begin()->second.size();
+    text += kDelimiter;
+    text += "    55\n" + text_line(result.title) + text_line("NONE") + text_line("NONE") + text_line("NONE") + text_line("NONE");
+    // Structural; normal or complex mode; three or six directions; displacement; real or complex; values a node.
+    text += fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", 1, result.analysis, n == 6 ? 3 : 2, 8, result.complex ? 5 : 2, n);
+    if (result.analysis == 3) {
+      text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n", 2, 6, 1, result.mode);
+      text += value_lines({result.eigenvalue.real(), result.eigenvalue.imag(), 1.0, 0.0, 0.0, 0.0}, 6, 13, 5);
+    } else {
+      text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n", 2, 4, 1, result.mode);
+      text += value_lines({result.frequency_Hz, 1.0, result.damping_ratio, 0.0}, 6, 13, 5);
+    }
+    for (const auto& [node, values] : result.values) {
+      text += fmt::format("{:>10}\n", node);
+      std::vector<double> list;
+      for (const std::complex<double>& value : values) {
+        list.push_back(value.real());
+        if (result.complex) list.push_back(value.imag());
+      }
+      text += value_lines(list, 6, 13, 5);
+    }
+    text += kDelimiter;
+  }
+  io::write_file_atomically(file, text);
+}
+
+void write_universal_series(const RecordInfo& info, const Eigen::MatrixXd& samples, bool binary, const fs::path& file) {
+  TWINDECK_ASSERT(static_cast<Index>(info.channels.size()) == samples.cols());
+  std::string text;
+  for (Index c = 0; c < samples.cols(); ++c) {
+    const ChannelInfo& channel = info.channels[static_cast<std::size_t>(c)];
+    text += kDelimiter;
+    text += binary ? fmt::format("    58b{:>6}{:>6}{:>12}{:>12}{:>6}{:>6}{:>12}{:>12}\n", 1, 2, 11, 8 * samples.rows(), 0, 0, 0, 0) : std::string("    58\n");
+    text += text_line(channel.name) + text_line("NONE") + text_line("NONE") + text_line("NONE") + text_line("NONE");
+    text += fmt::format("{:>5}{:>10}{:>5}{:>10} {:<10}{:>10}{:>4} {:<10}{:>10}{:>4}\n", 1, c + 1, 0, 0, "NONE", channel.point.empty() ? "0" : channel.point,
+                        direction_code(channel.direction), "NONE", 0, 0);
+    text += fmt::format("{:>10}{:>10}{:>10}{:>13.5E}{:>13.5E}{:>13.5E}\n", 4, samples.rows(), 1, 0.0, 1.0 / info.rate_Hz, 0.0);
+    const auto axis = [](int type, const std::string& label, const std::string& unit) {
+      return fmt::format("{:>10}{:>5}{:>5}{:>5} {:<20} {:<20}\n", type, 0, 0, 0, label, unit);
+    };
+    text += axis(17, "Time", "s") + axis(12, "Response", channel.unit.empty() ? "NONE" : channel.unit) + axis(0, "NONE", "NONE") + axis(0, "NONE", "NONE");
+    if (binary) {
+      const Eigen::VectorXd column = samples.col(c);
+      text.append(reinterpret_cast<const char*>(column.data()), static_cast<std::size_t>(column.size()) * sizeof(double));
+      text += '\n';
+    } else {
+      text += value_lines(std::vector<double>(samples.col(c).begin(), samples.col(c).end()), 4, 20, 11);
+    }
+    text += kDelimiter;
+  }
+  io::write_file_atomically(file, text);
+}
+
+}  // namespace twindeck::records

@@ -1,0 +1,100 @@
+/// Times one part of the identification in a process of its own, so that its peak memory is its own:
+///
+///     bench_sysid write FILE.npy                     the record of sysid_record.hpp
+///     bench_sysid covariance|data|deviations|clustering FILE.npy
+///
+/// prints `cpu_s peak_MB modes_found spurious`. Peak memory is that of the whole process with the record in it.
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <ctime>
+#include <numeric>
+#include <string>
+
+#include "io/npy.hpp"
+#include "linalg/one_thread.hpp"
+#include "signal/condition.hpp"
+#include "sysid/identify.hpp"
+#include "sysid/ssi_cov.hpp"
+#include "sysid/ssi_data.hpp"
+#include "sysid_record.hpp"
+
+namespace {
+
+using namespace twindeck;
+using Eigen::Index;
+
+constexpr Index kBlockRows = 50, kBlocks = 50;
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+void judge(const std::vector<sysid::Cluster>& modes, int& found, int& spurious) {
+  std::vector<bool> taken(modes.size(), false);
+  found = 0;
+  for (const double truth : bench::kRecordFrequencies_Hz) {
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      if (taken[m] || std::abs(modes[m].frequency_Hz / truth - 1.0) > 0.005) continue;
+      taken[m] = true;
+      ++found;
+      break;
+    }
+  }
+  spurious = static_cast<int>(std::count(taken.begin(), taken.end(), false));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const std::string task = argv[1];
+  linalg::use_one_thread();
+  if (task == "write") {
+    io::write_npy(bench::sysid_record(), argv[2]);
+    return 0;
+  }
+  const Eigen::MatrixXd data = signal::detrended(io::read_npy(argv[2]));
+  std::vector<Index> references(static_cast<std::size_t>(data.cols()));
+  std::iota(references.begin(), references.end(), 0);
+  sysid::IdentifyOptions options;
+  options.block_rows = kBlockRows;
+  options.limits.highest_Hz = 8.0;
+  const std::vector<int> orders = options.orders();
+  const auto select = [&](const sysid::ShiftModels& models) {
+    auto diagram = sysid::stabilisation_diagram(sysid::poles_of(models), options.criteria, options.limits);
+    return sysid::automatic_clusters(diagram, orders, options.automatic);
+  };
+  double seconds = 0.0;
+  int found = 0, spurious = 0;
+  const double start = cpu_seconds();
+  if (task == "data") {
+    const auto samples = static_cast<double>(data.rows() - 2 * kBlockRows + 1);
+    const auto subspace = sysid::ssi_data({sysid::hankel_gram(data, references, kBlockRows)}, samples, data.cols(), data.cols(), kBlockRows, orders.back());
+    const auto models = sysid::shift_models(subspace.observability, orders, bench::kRecordRate_Hz);
+    seconds = cpu_seconds() - start;
+    judge(select(models), found, spurious);
+  } else {
+    const auto blocks = signal::correlations(data, references, 2 * kBlockRows, task == "deviations" ? kBlocks : 1);
+    const auto observability = sysid::ssi_cov(blocks.mean(), kBlockRows, data.cols(), orders.back());
+    const auto models = sysid::shift_models(observability, orders, bench::kRecordRate_Hz);
+    seconds = cpu_seconds() - start;
+    const double after = cpu_seconds();
+    if (task == "deviations") {
+      // Standard deviations of every pole of every order, beyond the identification itself.
+      const auto factors = sysid::pole_factors(observability, models, sysid::covariance_changes(blocks, kBlockRows, observability, models));
+      seconds = cpu_seconds() - after;
+      if (factors.of.empty()) return 3;
+    }
+    const double before = cpu_seconds();
+    const auto modes = select(models);
+    if (task == "clustering") seconds = cpu_seconds() - before;
+    judge(modes, found, spurious);
+  }
+  std::printf("%.3f %.0f %d %d\n", seconds, peak_megabytes(), found, spurious);
+  return 0;
+}

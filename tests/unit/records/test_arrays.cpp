@@ -1,0 +1,99 @@
+// Oracle: arrays written with matio and the HDF5 library, read back.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <matio.h>
+
+#include "core/error.hpp"
+#include "io/npy.hpp"
+#include "records/inspect.hpp"
+#include "scratch.hpp"
+
+namespace twindeck::records {
+namespace {
+
+Eigen::MatrixXd samples() {
+  Eigen::MatrixXd data(400, 3);
+  for (int t = 0; t < 400; ++t) {
+    for (int c = 0; c < 3; ++c) data(t, c) = t + 0.001 * c;
+  }
+  return data;
+}
+
+void add(mat_t* mat, const char* name, const Eigen::MatrixXd& values, matio_compression compression) {
+  Eigen::MatrixXd copy = values;
+  std::size_t dims[2] = {static_cast<std::size_t>(copy.rows()), static_cast<std::size_t>(copy.cols())};
+  matvar_t* variable = Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, copy.data(), 0);
+  ASSERT_EQ(Mat_VarWrite(mat, variable, compression), 0);
+  Mat_VarFree(variable);
+}
+
+TEST(MatRecord, Version5AndVersion73) {
+  const Scratch scratch;
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    for (const bool transposed : {false, true}) {
+      const std::string file = scratch.file(fmt::format("a{}{}.mat", static_cast<int>(version), transposed)).string();
+      mat_t* mat = Mat_CreateVer(file.c_str(), nullptr, version);
+      ASSERT_NE(mat, nullptr);
+      const auto compression = version == MAT_FT_MAT5 ? MAT_COMPRESSION_ZLIB : MAT_COMPRESSION_NONE;
+      add(mat, "acc", transposed ? Eigen::MatrixXd(samples().transpose()) : samples(), compression);
+      add(mat, "fs", Eigen::MatrixXd::Constant(1, 1, 128.0), compression);
+      Mat_Close(mat);
+      const Record record = read(file);
+      EXPECT_EQ(record.samples, samples()) << record.info.format;
+      EXPECT_NEAR(record.info.rate_Hz, 128.0, 1e-12);
+    }
+  }
+}
+
+TEST(MatRecord, VectorsWithATime) {
+  const Scratch scratch;
+  const std::string file = scratch.file("v.mat").string();
+  mat_t* mat = Mat_CreateVer(file.c_str(), nullptr, MAT_FT_MAT5);
+  add(mat, "a1", samples().col(0), MAT_COMPRESSION_NONE);
+  add(mat, "a2", samples().col(1), MAT_COMPRESSION_NONE);
+  add(mat, "t", Eigen::VectorXd::LinSpaced(400, 0.0, 399.0 / 50.0), MAT_COMPRESSION_NONE);
+  Mat_Close(mat);
+  const Record record = read(file);
+  EXPECT_EQ(record.samples, samples().leftCols(2));
+  EXPECT_NEAR(record.info.rate_Hz, 50.0, 1e-9);
+  EXPECT_EQ(record.info.channels[1].name, "a2");
+}
+
+TEST(Hdf5Record, DatasetInAGroupWithARateAttribute) {
+  const Scratch scratch;
+  const std::string file = scratch.file("a.h5").string();
+  const hid_t h5 = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), group = H5Gcreate2(h5, "run1", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const hsize_t dims[2] = {400, 3};
+  const hid_t space = H5Screate_simple(2, dims, nullptr);
+  const hid_t set = H5Dcreate2(group, "acceleration", H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = samples();
+  H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
+  const hid_t scalar = H5Screate(H5S_SCALAR), attribute = H5Acreate2(set, "sampling_rate", H5T_IEEE_F64LE, scalar, H5P_DEFAULT, H5P_DEFAULT);
+  const double rate = 250.0;
+  H5Awrite(attribute, H5T_NATIVE_DOUBLE, &rate);
+  H5Aclose(attribute);
+  H5Sclose(scalar);
+  H5Dclose(set);
+  H5Sclose(space);
+  H5Gclose(group);
+  H5Fclose(h5);
+  const Record record = read(file);
+  EXPECT_LT((record.samples - samples()).cwiseAbs().maxCoeff(), 4e-5);  // single precision
+  EXPECT_NEAR(record.info.rate_Hz, 250.0, 1e-12);
+}
+
+TEST(NpyRecord, ComesBack) {
+  const Scratch scratch;
+  io::write_npy(samples(), scratch.file("a.npy"));
+  EXPECT_EQ(read(scratch.file("a.npy")).samples, samples());
+  EXPECT_EQ(inspect(scratch.file("a.npy")).channels.size(), 3U);
+}
+
+TEST(ArrayRecord, DamagedFilesAreRefused) {
+  const Scratch scratch;
+  EXPECT_THROW(static_cast<void>(read(scratch.write("a.mat", "MATLAB 5.0 MAT-file, nothing follows"))), InputError);
+  EXPECT_THROW(static_cast<void>(read(scratch.write("a.h5", "\x89HDF\r\n\x1a\n and nothing"))), InputError);
+}
+
+}  // namespace
+}  // namespace twindeck::records

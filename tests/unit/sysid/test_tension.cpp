@@ -1,0 +1,79 @@
+// Oracles: Irvine's equation itself; the stays' frequencies as the paper prints them in Table 5 and the values of T/m and lambda² worked
+// out of them by hand (least squares f_n = c n over n = 2 … 5; lambda² from f_1/c); exact harmonics of a taut and of a stiff string.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "sysid/tension.hpp"
+
+namespace twindeck::sysid {
+namespace {
+
+TEST(Irvine, RatioSolvesTheTranscendentalEquation) {
+  for (const double lambda_squared : {0.1, 0.5, 2.6, 20.0, 39.0, 60.0}) {
+    const double half = 0.5 * std::numbers::pi * first_frequency_ratio(lambda_squared);
+    EXPECT_NEAR(std::tan(half), half - 4.0 / lambda_squared * half * half * half, 1e-8 * (1.0 + std::abs(std::tan(half))));
+    EXPECT_NEAR(lambda_squared_of(first_frequency_ratio(lambda_squared)), lambda_squared, 1e-9 * lambda_squared);
+  }
+  EXPECT_NEAR(first_frequency_ratio(4.0 * std::numbers::pi * std::numbers::pi), 2.0, 1e-9);  // the crossover of Irvine and Caughey
+  EXPECT_EQ(lambda_squared_of(0.99), 0.0);
+}
+
+TEST(FitStay, PrintedFrequenciesOfTable5) {
+  struct Row {
+    const char* stay;
+    double length, f[5], c, tension_per_mass, lambda_squared;
+  };
+  const Row rows[] = {{"NE8 without", 80.00, {0.84, 1.52, 2.30, 3.05, 3.81}, 0.7628, 14895, 2.60},
+                      {"NE8 with", 80.00, {0.86, 1.56, 2.30, 3.02, 3.78}, 0.7593, 14758, 3.46},
+                      {"NE7 without", 73.73, {1.06, 2.08, 3.11, 4.16, 5.19}, 1.0385, 23452, 0.51},
+                      {"NE7 with", 73.73, {1.13, 2.21, 3.31, 4.41, 5.52}, 1.1035, 26479, 0.59},
+                      {"NE5 without", 55.70, {1.66, 3.30, 4.95, 6.61, 8.28}, 1.6535, 33930, 0.10},
+                      {"NE5 with", 55.70, {1.72, 3.45, 5.15, 6.89, 8.59}, 1.7196, 36698, 0.00}};
+  for (const Row& row : rows) {
+    std::vector<Harmonic> harmonics;
+    for (int n = 1; n <= 5; ++n) harmonics.push_back({n, row.f[n - 1], 0.01 / std::sqrt(12.0)});  // printed to two decimals
+    const StayFit fit = fit_stay(harmonics, row.length);
+    EXPECT_NEAR(fit.c_Hz.value, row.c, 6e-5) << row.stay;                                  // printed digits
+    EXPECT_NEAR(fit.tension_per_mass.value / row.tension_per_mass, 1.0, 2e-4) << row.stay;
+    EXPECT_NEAR(fit.lambda_squared.value, row.lambda_squared, 0.006) << row.stay;
+    EXPECT_LE(fit.lambda_squared.low, fit.lambda_squared.value);
+    EXPECT_GE(fit.lambda_squared.high, fit.lambda_squared.value);
+    std::printf("%-12s c %.4f Hz, T/m %.0f m2/s2 [%.0f, %.0f], lambda2 %.2f [%.2f, %.2f]\n", row.stay, fit.c_Hz.value, fit.tension_per_mass.value,
+                fit.tension_per_mass.low, fit.tension_per_mass.high, fit.lambda_squared.value, fit.lambda_squared.low, fit.lambda_squared.high);
+  }
+}
+
+TEST(FitStay, BendingIsSeenOnlyWhereItIs) {
+  const double c = 1.2, b = 1e-3;
+  std::vector<Harmonic> stiff, taut;
+  for (int n = 1; n <= 8; ++n) {
+    stiff.push_back({n, n * c * std::sqrt(1.0 + b * n * n), 1e-4 * n * c});
+    taut.push_back({n, n * c, 1e-4 * n * c});
+  }
+  const StayFit with = fit_stay(stiff, 50.0), without = fit_stay(taut, 50.0);
+  EXPECT_TRUE(with.bending_seen);
+  EXPECT_NEAR(with.bending, b, 1e-9);
+  EXPECT_NEAR(with.c_Hz.value, c, 1e-9);
+  EXPECT_NEAR(with.lambda_squared.value, 0.0, 1e-6);
+  EXPECT_FALSE(without.bending_seen);
+  EXPECT_NEAR(without.tension_per_mass.value, std::pow(2.0 * 50.0 * c, 2), 1e-6);
+}
+
+TEST(FitStay, RefusesTooFewHarmonics) {
+  EXPECT_THROW(static_cast<void>(fit_stay({{1, 1.0, 0.01}}, 50.0)), InputError);
+  EXPECT_THROW(static_cast<void>(fit_stay({{1, 1.0, 0.01}, {1, 1.1, 0.01}}, 50.0)), InputError);
+  EXPECT_THROW(static_cast<void>(fit_stay({{1, 1.0, 0.01}, {2, 2.0, 0.01}}, 0.0)), InputError);
+}
+
+TEST(NumberHarmonics, FindsTheSeriesAmongOtherModes) {
+  const std::vector<double> found = {0.748, 0.84, 1.52, 1.79, 2.30, 3.05, 3.3, 3.81};
+  const auto numbered = number_harmonics(found, 0.4, 1.2);
+  const std::vector<std::pair<std::size_t, int>> expected = {{1, 1}, {2, 2}, {4, 3}, {5, 4}, {7, 5}};
+  EXPECT_EQ(numbered, expected);
+}
+
+}  // namespace
+}  // namespace twindeck::sysid
