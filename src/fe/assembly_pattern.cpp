@@ -68,35 +68,46 @@ linalg::SparseMatrix make_pattern(const Model& model, const DofMap& map) {
 Scatter::Scatter(const linalg::SparseMatrix& pattern, const DofMap& map)
     : pattern_(pattern), map_(map), sum_(static_cast<std::size_t>(pattern.nonZeros()), 0.0), is_touched_(sum_.size(), 0) {}
 
-int Scatter::position(int row, int column) const {
+int Scatter::position(int row, int column, int after) const {
   const int* inner = pattern_.innerIndexPtr();
-  const int* first = inner + pattern_.outerIndexPtr()[column];
-  const int* last = inner + pattern_.outerIndexPtr()[column + 1];
-  const int* found = std::lower_bound(first, last, row);
-  TWINDECK_ASSERT(found != last && *found == row);
+  const int last = pattern_.outerIndexPtr()[column + 1];
+  // Rows come one after another more often than not.
+  if (after >= 0 && after + 1 < last && inner[after + 1] == row) return after + 1;
+  const int* found = std::lower_bound(inner + pattern_.outerIndexPtr()[column], inner + last, row);
+  TWINDECK_ASSERT(found != inner + last && *found == row);
   return static_cast<int>(found - inner);
 }
 
 void Scatter::add(const ElementMatrix& element) {
-  for (std::size_t i = 0; i < element.dofs.size(); ++i)
-    for (std::size_t j = 0; j < element.dofs.size(); ++j) {
-      const double k = element.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      if (k == 0.0) continue;
-      for (const DofMap::Entry& row : map_.rows[at(element.dofs[i])])
-        for (const DofMap::Entry& column : map_.rows[at(element.dofs[j])]) {
+  for (std::size_t j = 0; j < element.dofs.size(); ++j)
+    for (const DofMap::Entry& column : map_.rows[at(element.dofs[j])]) {
+      int p = -1;  // position of the entry before, in this column
+      for (std::size_t i = 0; i < element.dofs.size(); ++i) {
+        const double k = element.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (k == 0.0) continue;
+        for (const DofMap::Entry& row : map_.rows[at(element.dofs[i])]) {
           if (row.dof < column.dof) continue;
-          const int p = position(row.dof, column.dof);
+          p = position(row.dof, column.dof, p);
           if (!is_touched_[at(p)]) {
             is_touched_[at(p)] = 1;
             touched_.push_back(p);
           }
           sum_[at(p)] += row.factor * column.factor * k;
         }
+      }
     }
 }
 
 void Scatter::take(Term& term) {
-  std::sort(touched_.begin(), touched_.end());
+  if (touched_.size() > sum_.size() / 16) {  // many: reading through the marks is quicker than sorting
+    touched_.clear();
+    for (std::size_t p = 0; p < sum_.size(); ++p)
+      if (is_touched_[p]) touched_.push_back(static_cast<int>(p));
+  } else {
+    std::sort(touched_.begin(), touched_.end());
+  }
+  term.position.reserve(touched_.size());
+  term.value.reserve(touched_.size());
   for (const int p : touched_) {
     if (sum_[at(p)] != 0.0) {
       term.position.push_back(p);

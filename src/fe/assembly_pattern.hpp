@@ -21,7 +21,7 @@ class Scatter {
   void take(Term& term);
 
  private:
-  [[nodiscard]] int position(int row, int column) const;
+  [[nodiscard]] int position(int row, int column, int after) const;
 
   const linalg::SparseMatrix& pattern_;
   const DofMap& map_;

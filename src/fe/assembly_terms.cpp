@@ -1,6 +1,7 @@
 #include "fe/assembly_terms.hpp"
 
 #include <algorithm>
+#include <exception>
 
 #include "fe/assembly_pattern.hpp"
 
@@ -52,16 +53,31 @@ void TermGroups::add_element(const Model& model, int i, const std::string& label
   factor(Target::bending_inertia_ratio, section_of(model, e).name, powers.ratio);
 }
 
-std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans, Scatter& scatter) {
-  std::vector<Term> terms;
-  for (const TermPlan& plan : plans) {
-    Term term;
-    term.label = plan.label;
-    term.coefficient = plan.coefficient;
-    for (const int part : plan.parts) scatter.add(plan.matrix(model, part));
-    scatter.take(term);
-    if (!term.position.empty()) terms.push_back(std::move(term));  // empty: all of it lies on supports
+std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans, const linalg::SparseMatrix& pattern,
+                                 const DofMap& map) {
+  std::vector<Term> terms(plans.size());
+  const auto n_plans = static_cast<int>(plans.size());
+  std::exception_ptr failure;
+#pragma omp parallel if (n_plans > 1)
+  {
+    Scatter scatter(pattern, map);  // one a thread
+#pragma omp for schedule(dynamic, 1)
+    for (int i = 0; i < n_plans; ++i) {
+      const TermPlan& plan = plans[static_cast<std::size_t>(i)];
+      Term& term = terms[static_cast<std::size_t>(i)];
+      try {
+        term.label = plan.label;
+        term.coefficient = plan.coefficient;
+        for (const int part : plan.parts) scatter.add(plan.matrix(model, part));
+        scatter.take(term);
+      } catch (...) {  // must not leave the parallel region
+#pragma omp critical(twindeck_assemble_terms)
+        if (!failure) failure = std::current_exception();
+      }
+    }
   }
+  if (failure) std::rethrow_exception(failure);
+  std::erase_if(terms, [](const Term& term) { return term.position.empty(); });
   return terms;
 }
 

@@ -6,10 +6,9 @@
 
 #include "fe/assembly.hpp"
 #include "fe/assembly_elements.hpp"
+#include "fe/dof_map.hpp"
 
 namespace twindeck::fe {
-
-class Scatter;
 
 /// A term a_g K_g before it is assembled: its coefficient and the element matrices that it sums.
 struct TermPlan {
@@ -47,8 +46,10 @@ class TermGroups {
 /// Mass of beams by group, shells by section (translations ~ rho t, rotations ~ rho t³), bars and stays, point masses.
 [[nodiscard]] std::vector<TermPlan> plan_mass(const Model& model);
 
-/// Scatters a plan into the pattern.
-[[nodiscard]] std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans, Scatter& scatter);
+/// Sums the plans over the pattern, side by side in several threads; each term is summed by one thread in the order of its parts,
+/// so that it does not depend on their number. Terms without an entry (all of it on supports) are left out.
+[[nodiscard]] std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans,
+                                               const linalg::SparseMatrix& pattern, const DofMap& map);
 
 /// Factors of a coefficient for one material or section or group: (theta / value as it stands)^power for each parameter that
 /// has this target and names this thing.

@@ -27,18 +27,6 @@ FactorValue evaluate(const Coefficient::Factor& factor, const Coefficient& coeff
   return {power_of(ratio, factor.power), factor.power * std::pow(ratio, factor.power - 1.0) / factor.reference};
 }
 
-linalg::SparseMatrix combine(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms,
-                             const Eigen::VectorXd& theta) {
-  linalg::SparseMatrix sum = pattern;
-  double* values = sum.valuePtr();
-  std::fill(values, values + sum.nonZeros(), 0.0);
-  for (const Term& term : terms) {
-    const double a = term.coefficient.value(theta);
-    for (std::size_t i = 0; i < term.position.size(); ++i) values[term.position[i]] += a * term.value[i];
-  }
-  return sum;
-}
-
 /// y += a · (symmetric matrix of the term) x, rows of x and y being the vectors' entries of one degree of freedom (m × n).
 void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a, const Eigen::MatrixXd& xt,
                  Eigen::MatrixXd& yt) {
@@ -69,6 +57,18 @@ Eigen::MatrixXd derivative_times(const linalg::SparseMatrix& pattern, const std:
 }
 
 }  // namespace
+
+linalg::SparseMatrix combine(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms,
+                             const Eigen::VectorXd& theta) {
+  linalg::SparseMatrix sum = pattern;
+  double* values = sum.valuePtr();
+  std::fill(values, values + sum.nonZeros(), 0.0);
+  for (const Term& term : terms) {
+    const double a = term.coefficient.value(theta);
+    for (std::size_t i = 0; i < term.position.size(); ++i) values[term.position[i]] += a * term.value[i];
+  }
+  return sum;
+}
 
 double Dischinger::modulus(double youngs_modulus_Pa) const {
   const double sag = weight_density_N_m3 * horizontal_length_m;

@@ -7,6 +7,7 @@
 #include "fe/large_displacement.hpp"
 #include "fe/mechanism.hpp"
 #include "fe/prestress_least_squares.hpp"
+#include "fe/structure_parts.hpp"
 
 namespace twindeck::fe {
 
@@ -35,28 +36,6 @@ Eigen::VectorXd initial_tension_load(const Model& model) {
     load.segment<3>(6 * e.nodes[1]) -= pull;
   }
   return load;
-}
-
-Term initial_tension_stiffness(const Model& model, Scatter& scatter) {
-  for (const Element& e : model.elements)
-    if (is_tensioned(e)) scatter.add({three_per_node(e), string_stiffness(end_nodes(model, e), e.pull_N)});
-  Term term;
-  term.label = "initial tension";
-  scatter.take(term);
-  return term;
-}
-
-/// Stiffness of everything but the stays, at the model's own values.
-linalg::SparseMatrix stiffness_without_stays(const Model& model, const DofMap& map) {
-  ParametricSystem system;
-  system.pattern = make_pattern(model, map);
-  Scatter scatter(system.pattern, map);
-  system.stiffness_terms = assemble_terms(model, plan_stiffness(model), scatter);
-  if (model.prestress.geometric_stiffness) {
-    Term tension = initial_tension_stiffness(model, scatter);
-    if (!tension.position.empty()) system.stiffness_terms.push_back(std::move(tension));
-  }
-  return system.stiffness(initial_parameters(model));
 }
 
 /// Loads of one newton of pull in each stay: its ends are drawn together. (6 n_nodes × n_stays)
@@ -157,22 +136,34 @@ void deform(const Model& model, const std::vector<int>& stays, const Eigen::Matr
 
 }  // namespace
 
-PrestressState find_prestress(const Model& base, const Eigen::VectorXd& theta) {
-  validate(base);
-  const Model model = with_parameters(base, theta);
+Term initial_tension_stiffness(const Model& model, const linalg::SparseMatrix& pattern, const DofMap& map) {
+  Scatter scatter(pattern, map);
+  for (const Element& e : model.elements)
+    if (is_tensioned(e)) scatter.add({three_per_node(e), string_stiffness(end_nodes(model, e), e.pull_N)});
+  Term term;
+  term.label = "initial tension";
+  scatter.take(term);
+  return term;
+}
+
+PrestressState unstressed(const Model& model) {
   PrestressState state;
   state.stay_pull_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.elements.size()));
   state.axial_force_N = state.stay_pull_N;
   state.displacement = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()));
   for (std::size_t i = 0; i < model.elements.size(); ++i)
     if (is_tensioned(model.elements[i])) state.axial_force_N[static_cast<Eigen::Index>(i)] = model.elements[i].pull_N;
-  if (model.prestress.rule == PullRule::none) return state;
+  return state;
+}
+
+PrestressState prestress_of(const Model& base, const DofMap& map, const linalg::SparseMatrix& lower,
+                            const Eigen::VectorXd& theta) {
+  const Model model = with_parameters(base, theta);
+  PrestressState state = unstressed(model);
 
   // 1. One factorisation of the structure without stays, one solution a load: dead load and each stay's pull.
-  const DofMap map = make_dof_map(model);
   const std::vector<int> stays = find_stays(model);
-  const linalg::Cholesky factor =
-      factorize_or_refuse(stiffness_without_stays(model, map), map.dofs, model.source, " without its stays");
+  const linalg::Cholesky factor = factorize_or_refuse(lower, map.dofs, model.source, " without its stays");
   const Eigen::VectorXd load = dead_load(model) + initial_tension_load(model);
   const bool shape_finding = model.prestress.rule == PullRule::shape_finding;
   Eigen::VectorXd pull(std::ssize(stays));

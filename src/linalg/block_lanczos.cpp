@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -19,10 +20,12 @@ struct OrthonormalBlock {
   MatrixXd q, mass_q, r;
 };
 
-/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding. `scale`: the norm
-/// of the columns before they were made orthogonal to the basis, below 1e-11 of which nothing but rounding is left.
-OrthonormalBlock orthonormalise(const SelfAdjointOperator& op, const MatrixXd& w, double scale) {
-  OrthonormalBlock out{w, op.times_mass(w), MatrixXd::Identity(w.cols(), w.cols())};
+/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding. `mass_w` = M w
+/// undergoes the same combinations as w, so that one product with M serves all. `scale`: the norm of the columns before they
+/// were made orthogonal to the basis, below 1e-11 of which nothing but rounding is left.
+OrthonormalBlock orthonormalise(MatrixXd w, MatrixXd mass_w, double scale) {
+  OrthonormalBlock out{std::move(w), std::move(mass_w), {}};
+  out.r = MatrixXd::Identity(out.q.cols(), out.q.cols());
   for (int pass = 0; pass < 2 && out.q.cols() > 0; ++pass) {
     MatrixXd gram = out.q.transpose() * out.mass_q;
     gram = 0.5 * (gram + gram.transpose()).eval();
@@ -32,8 +35,9 @@ OrthonormalBlock orthonormalise(const SelfAdjointOperator& op, const MatrixXd& w
     while (keep < gram.cols() && eig.eigenvalues()[gram.cols() - 1 - keep] > floor) ++keep;
     const VectorXd root = eig.eigenvalues().tail(keep).cwiseSqrt();
     const MatrixXd basis = eig.eigenvectors().rightCols(keep);
-    out.q = out.q * (basis * root.cwiseInverse().asDiagonal());
-    out.mass_q = op.times_mass(out.q);
+    const MatrixXd turn = basis * root.cwiseInverse().asDiagonal();
+    out.q = (out.q * turn).eval();
+    out.mass_q = (out.mass_q * turn).eval();
     out.r = root.asDiagonal() * basis.transpose() * out.r;
   }
   return out;
@@ -62,8 +66,9 @@ struct Basis {
   }
 };
 
-double mass_norm(const SelfAdjointOperator& op, const MatrixXd& w) {
-  return std::sqrt(std::max(0.0, w.cwiseProduct(op.times_mass(w)).colwise().sum().maxCoeff()));
+/// Largest M-norm of the columns.
+double mass_norm(const MatrixXd& w, const MatrixXd& mass_w) {
+  return std::sqrt(std::max(0.0, w.cwiseProduct(mass_w).colwise().sum().maxCoeff()));
 }
 
 }  // namespace
@@ -78,7 +83,8 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
   Basis basis{MatrixXd(op.size, capacity), MatrixXd(op.size, capacity), MatrixXd::Zero(capacity, capacity), 0};
 
   BlockLanczosResult result;
-  OrthonormalBlock next = orthonormalise(op, first_block, mass_norm(op, first_block));
+  const MatrixXd mass_first = op.times_mass(first_block);
+  OrthonormalBlock next = orthonormalise(first_block, mass_first, mass_norm(first_block, mass_first));
   int restarts = 0, draws = 0;
   while (next.q.cols() > 0) {
     const Index first = basis.size, columns = next.q.cols();
@@ -87,20 +93,23 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     // One step: T's new columns are what the image of the last block has in common with the basis.
     MatrixXd w = op.from_mass(next.mass_q);
     result.operations += static_cast<int>(columns);
-    const double scale = mass_norm(op, w);
     const MatrixXd c = basis.remove_from(w);
     basis.projected.block(0, first, basis.size, columns) = c;
     basis.projected.block(first, 0, columns, first) = c.topRows(first).transpose();
-    next = orthonormalise(op, w, scale);
+    const MatrixXd mass_w = op.times_mass(w);
+    // By Pythagoras: the basis is M-orthonormal.
+    const double scale = std::hypot(std::sqrt(c.colwise().squaredNorm().maxCoeff()), mass_norm(w, mass_w));
+    next = orthonormalise(std::move(w), mass_w, scale);
 
     MatrixXd coupling_r = next.r;
     bool exhausted = next.q.cols() == 0;
     if (exhausted && basis.size < std::min(op.size, wanted + width)) {
       // An invariant subspace: what lies outside it (further copies of its eigenvalues, say) needs a new start.
       MatrixXd fresh = start(++draws);
-      const double fresh_scale = mass_norm(op, fresh);
-      basis.remove_from(fresh);
-      next = orthonormalise(op, fresh, fresh_scale);
+      const MatrixXd known = basis.remove_from(fresh);
+      const MatrixXd mass_fresh = op.times_mass(fresh);
+      const double fresh_scale = std::hypot(std::sqrt(known.colwise().squaredNorm().maxCoeff()), mass_norm(fresh, mass_fresh));
+      next = orthonormalise(std::move(fresh), mass_fresh, fresh_scale);
       coupling_r = MatrixXd::Zero(next.q.cols(), columns);
       exhausted = next.q.cols() == 0;
     }

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "linalg/one_thread.hpp"
@@ -54,13 +57,62 @@ std::vector<double> pivots(const cholmod_factor& factor) {
   return pivot;
 }
 
+/// Pattern of a lower triangle.
+struct Pattern {
+  std::vector<int> outer, inner;
+
+  explicit Pattern(const SparseMatrix& a)
+      : outer(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1),
+        inner(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros()) {}
+  bool is_of(const SparseMatrix& a) const {
+    return outer.size() == static_cast<std::size_t>(a.outerSize() + 1) && inner.size() == static_cast<std::size_t>(a.nonZeros()) &&
+           std::equal(outer.begin(), outer.end(), a.outerIndexPtr()) && std::equal(inner.begin(), inner.end(), a.innerIndexPtr());
+  }
+};
+
+/// A symbolic factorisation with the pattern that it is of.
+struct Symbolic {
+  Pattern pattern;
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+
+  explicit Symbolic(const SparseMatrix& lower) : pattern(lower) {
+    cholmod_start(&common);
+    common.print = 0;
+    common.supernodal = CHOLMOD_AUTO;
+    const SerialScope serial;
+    cholmod_sparse a = view(lower);
+    factor = cholmod_analyze(&a, &common);
+    TWINDECK_ASSERT(factor != nullptr);
+  }
+  ~Symbolic() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  Symbolic(const Symbolic&) = delete;
+  Symbolic& operator=(const Symbolic&) = delete;
+};
+
+/// The symbolic factorisation of a pattern: found once and kept for the last few patterns, since prestress, modes, derivatives
+/// and every start of an update factorise the same one.
+std::shared_ptr<const Symbolic> symbolic_of(const SparseMatrix& lower) {
+  constexpr std::size_t kept = 4;
+  static std::mutex mutex;
+  static std::deque<std::shared_ptr<const Symbolic>> known;  // newest first
+  const std::lock_guard lock(mutex);
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one->pattern.is_of(lower); });
+  if (found != known.end()) return *found;
+  known.push_front(std::make_shared<const Symbolic>(lower));
+  if (known.size() > kept) known.pop_back();
+  return known.front();
+}
+
 }  // namespace
 
 struct Cholesky::Impl {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  // The pattern that was analysed, so that a changed one is noticed.
-  std::vector<int> outer, inner;
+  std::shared_ptr<const Symbolic> symbolic;  // what `factor` started from, so that a changed pattern is noticed
   Eigen::Index failed = -1;
   // Workspace of cholmod_solve2, kept between calls.
   cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;
@@ -81,12 +133,7 @@ struct Cholesky::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  bool same_pattern(const SparseMatrix& a) const {
-    return factor != nullptr && outer.size() == static_cast<std::size_t>(a.outerSize() + 1) &&
-           inner.size() == static_cast<std::size_t>(a.nonZeros()) &&
-           std::equal(outer.begin(), outer.end(), a.outerIndexPtr()) &&
-           std::equal(inner.begin(), inner.end(), a.innerIndexPtr());
-  }
+  bool same_pattern(const SparseMatrix& a) const { return symbolic && symbolic->pattern.is_of(a); }
 
   Eigen::Index row_of(std::size_t column) const { return static_cast<const int*>(factor->Perm)[column]; }
 };
@@ -100,11 +147,9 @@ void Cholesky::analyze(const SparseMatrix& lower) {
   TWINDECK_ASSERT(lower.rows() == lower.cols() && lower.isCompressed());
   use_one_thread();
   cholmod_free_factor(&impl_->factor, &impl_->common);
-  cholmod_sparse a = view(lower);
-  impl_->factor = cholmod_analyze(&a, &impl_->common);
+  impl_->symbolic = symbolic_of(lower);
+  impl_->factor = cholmod_copy_factor(impl_->symbolic->factor, &impl_->common);
   TWINDECK_ASSERT(impl_->factor != nullptr);
-  impl_->outer.assign(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.outerSize() + 1);
-  impl_->inner.assign(lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros());
 }
 
 Status Cholesky::factorize(const SparseMatrix& lower) {
@@ -112,6 +157,7 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
   use_one_thread();
   cholmod_sparse a = view(lower);
   impl_->failed = -1;
+  const SerialScope serial;
   cholmod_factorize(&a, impl_->factor, &impl_->common);
   const cholmod_factor& factor = *impl_->factor;
   if (impl_->common.status == CHOLMOD_NOT_POSDEF) {
@@ -135,6 +181,8 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
 
 Eigen::Index Cholesky::failed_column() const { return impl_->failed; }
 
+Eigen::Index Cholesky::size() const { return impl_->factor == nullptr ? 0 : static_cast<Eigen::Index>(impl_->factor->n); }
+
 Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
   TWINDECK_ASSERT(impl_->factor != nullptr && impl_->failed < 0);
   TWINDECK_ASSERT(static_cast<std::size_t>(b.rows()) == impl_->factor->n);
@@ -147,6 +195,7 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) cons
   right.x = const_cast<double*>(b.data());
   right.xtype = CHOLMOD_REAL;
   right.dtype = CHOLMOD_DOUBLE;
+  const SerialScope serial;
   const int solved = cholmod_solve2(CHOLMOD_A, impl_->factor, &right, nullptr, &impl_->solution, nullptr, &impl_->y, &impl_->e,
                                     &impl_->common);
   TWINDECK_ASSERT(solved == 1);

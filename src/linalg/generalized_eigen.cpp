@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "linalg/block_lanczos.hpp"
+#include "linalg/symmetric_product.hpp"
 
 namespace twindeck::linalg {
 
@@ -19,23 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kBlock = 4;
-
-MatrixXd times(const SparseMatrix& lower, const MatrixXd& x) { return lower.selfadjointView<Eigen::Lower>() * x; }
-
-/// Dofs that carry mass: rows of M with an entry other than zero.
-std::vector<Index> dofs_with_mass(const SparseMatrix& mass) {
-  Eigen::ArrayXi carries = Eigen::ArrayXi::Zero(mass.rows());
-  for (Index j = 0; j < mass.outerSize(); ++j) {
-    for (SparseMatrix::InnerIterator it(mass, j); it; ++it) {
-      if (it.value() != 0.0) carries[it.row()] = carries[j] = 1;
-    }
-  }
-  std::vector<Index> dofs;
-  for (Index i = 0; i < carries.size(); ++i) {
-    if (carries[i] != 0) dofs.push_back(i);
-  }
-  return dofs;
-}
 
 /// Numbers in [-1, 1[ from a fixed sequence (splitmix64), the same on every machine; another sequence for each `draw`.
 MatrixXd fixed_block(Index rows, Index columns, int draw) {
@@ -61,11 +45,11 @@ struct Candidates {
 };
 
 /// Exact condensation to the few dofs with mass: G = E' A^-1 E = C C', then C' M C z = mu z, x = A^-1 E M C z.
-Candidates condensed(const SparseMatrix& mass, const std::vector<Index>& dofs, int n_pairs, const Cholesky& factor) {
+Candidates condensed(const SymmetricProduct& mass, const std::vector<Index>& dofs, int n_pairs, const Cholesky& factor) {
   const auto m = static_cast<Index>(dofs.size());
-  MatrixXd unit = MatrixXd::Zero(mass.rows(), m);
+  MatrixXd unit = MatrixXd::Zero(factor.size(), m);
   for (Index j = 0; j < m; ++j) unit(dofs[static_cast<std::size_t>(j)], j) = 1.0;
-  const MatrixXd mass_unit = times(mass, unit);
+  const MatrixXd mass_unit = mass.times(unit);
   const MatrixXd flexibility = factor.solve(unit);
   MatrixXd small_mass(m, m), small_flexibility(m, m);
   for (Index i = 0; i < m; ++i) {
@@ -84,18 +68,18 @@ Candidates condensed(const SparseMatrix& mass, const std::vector<Index>& dofs, i
   return out;
 }
 
-Candidates by_lanczos(const SparseMatrix& mass, int n_pairs, const Cholesky& factor, const Eigen::Ref<const MatrixXd>& start) {
+Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor, const Eigen::Ref<const MatrixXd>& start) {
   SelfAdjointOperator op;
-  op.size = mass.rows();
-  op.times_mass = [&](const MatrixXd& x) { return times(mass, x); };
+  op.size = factor.size();
+  op.times_mass = [&](const MatrixXd& x) { return mass.times(x); };
   op.from_mass = [&](const MatrixXd& y) { return factor.solve(y); };
   const auto start_block = [&](int draw) {
     // One application puts the block into the range of the operator, away from the null space of M.
-    MatrixXd block = op.from_mass(times(mass, fixed_block(op.size, kBlock, draw)));
+    MatrixXd block = op.from_mass(mass.times(fixed_block(op.size, kBlock, draw)));
     if (draw > 0 || start.rows() != op.size || start.cols() == 0) return block;
     // Warm: the known modes fill the block, each column a sum of several; a little of the fixed block stays in so that a mode
     // that was not among them is found.
-    const VectorXd norm = block.cwiseProduct(times(mass, block)).colwise().sum().cwiseSqrt();
+    const VectorXd norm = block.cwiseProduct(mass.times(block)).colwise().sum().cwiseSqrt();
     block = (block * (1e-3 * norm.cwiseInverse()).asDiagonal()).eval();
     for (Index i = 0; i < start.cols(); ++i) block.col(i % kBlock) += start.col(i);
     return block;
@@ -131,18 +115,19 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
   }
   if (!out.status.converged) return out;
 
-  const std::vector<Index> massive = dofs_with_mass(mass);
+  const SymmetricProduct product(mass);
+  const std::vector<Index> massive = product.rows_in_use();
   if (massive.empty()) {
     out.status = {false, "no degree of freedom carries mass, so that there are no modes"};
     return out;
   }
   const bool few = static_cast<Index>(massive.size()) <= std::max<Index>(60, 3 * n_pairs);
-  const Candidates found = few ? condensed(mass, massive, n_pairs, factor) : by_lanczos(mass, n_pairs, factor, start);
+  const Candidates found = few ? condensed(product, massive, n_pairs, factor) : by_lanczos(product, n_pairs, factor, start);
 
   // Purification, then Rayleigh and Ritz on the purified block y = A^-1 M x: y'Ay = y'Mx and y'My give lambda - sigma.
-  const MatrixXd mass_x = times(mass, found.vectors);
+  const MatrixXd mass_x = product.times(found.vectors);
   const MatrixXd y = factor.solve(mass_x);
-  const MatrixXd mass_y = times(mass, y);
+  const MatrixXd mass_y = product.times(y);
   const MatrixXd a = y.transpose() * mass_x, b = y.transpose() * mass_y;
   out.operations = found.operations + static_cast<int>(found.vectors.cols());
   if (found.vectors.cols() > 0) {

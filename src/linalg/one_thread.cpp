@@ -1,6 +1,7 @@
 #include "linalg/one_thread.hpp"
 
 #include <dlfcn.h>
+#include <omp.h>
 
 #include <Eigen/Core>
 
@@ -13,5 +14,8 @@ void use_one_thread() {
   if (set_threads != nullptr) set_threads(1);
   Eigen::setNbThreads(1);
 }
+
+SerialScope::SerialScope() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+SerialScope::~SerialScope() { omp_set_max_active_levels(levels_); }
 
 }  // namespace twindeck::linalg

@@ -21,6 +21,9 @@ constexpr Range kFactor{1e-3, 1e3};        // [-]
 constexpr Range kPull{1.0, 1e8};           // [N]
 constexpr Range kMassPerLength{0.0, 1e5};  // [kg/m]
 
+/// Of the stiff members that connect solids with what meets them at a point: fifty times steel, without weight.
+const fe::Material kRigid{"rigid", 1e13, 1e13 / 2.6, 0.3, 0.0};
+
 fe::Material read_material(DefinitionFile& file, const std::string& name) {
   const std::string path = "material." + name;
   fe::Material out;
@@ -140,6 +143,29 @@ MastDefinition read_mast(DefinitionFile& file) {
   out.infill_z_m = file.number("mast.infill_z", "m", {out.base_m.z(), out.base_m.z() + out.height_m});
   out.head_mass_kg = steel_scale * file.number("mast.head_mass", "kg", {0.0, 1e6});
   out.node_z_m = file.numbers("mast.node_z", "m", {out.base_m.z(), out.base_m.z() + out.height_m});
+  return out;
+}
+
+EndDefinition read_ends(DefinitionFile& file) {
+  const Range size{0.05, 100.0};  // [m]
+  const auto length = [&](const std::string& key) { return file.number("ends." + key, "m", size); };
+  const auto count = [&](const std::string& key) { return static_cast<int>(file.integer("mesh." + key, 1, 40)); };
+  EndDefinition out;
+  out.material = "concrete_ends";
+  out.block_gap_m = length("block_gap");
+  out.block_length_m = length("block_length");
+  out.block_width_m = length("block_width");
+  out.block_height_m = length("block_height");
+  out.block_elements = {count("block_across"), count("block_along"), count("block_up")};
+  out.beams_per_span = count("beams_per_span");
+  out.ramp_length_m = file.number("ends.ramp_length", "m", {1.0, 1e3});
+  out.ramp_end_z_m = length("ramp_end_z");
+  out.ramp_spans = static_cast<int>(file.integer("ends.ramp_spans", 1, 100));
+  // Walls stand with their width across; their local z lies along the ramp.
+  out.pier = rectangle_section("pier", length("pier_thickness"), length("pier_width"));
+  out.ramp = rectangle_section("ramp", length("ramp_depth"), length("ramp_width"));
+  out.ramp_pier = rectangle_section("ramp_pier", length("ramp_pier_thickness"), length("ramp_pier_width"));
+  out.rigid_connection = solid_circle_section("rigid_connection", 0.3);
   return out;
 }
 
@@ -270,6 +296,14 @@ BridgeDefinition read_definition(DefinitionFile file, const std::string& variant
                        {file.number("ground_cable.x", "m", kCoordinate), file.number("ground_cable.y", "m", kCoordinate),
                         file.number("ground_cable.z", "m", kCoordinate)},
                        file.number("ground_cable.mast_z", "m", kCoordinate)};
+  if (file.has("ends")) {
+    out.materials.push_back(read_material(file, "concrete_ends"));
+    out.materials.push_back(kRigid);
+    out.ends = read_ends(file);
+  }
+  if (file.has("aerodynamics")) {
+    out.aerodynamic_nodes = static_cast<int>(file.integer("aerodynamics.nodes_per_deck", 2, 1000));
+  }
   out.minimum_pull_N = file.number("prestress.minimum_pull", "N", {0.0, 1e8});
   out.ridge = file.number("prestress.ridge", "", {0.0, 1e3});
   out.site_weight = file.number("prestress.site_weight", "", {0.0, 1e3});

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +60,18 @@ struct MastDefinition {
   std::vector<double> node_z_m;
 };
 
+/// End block, pier below it and ramp behind it, alike at both ends.
+struct EndDefinition {
+  std::string material;
+  double block_gap_m;  ///< between the deck ends and the block
+  double block_length_m, block_width_m, block_height_m;
+  std::array<int, 3> block_elements;  ///< across, along, up
+  int beams_per_span;                 ///< of a ramp, and of a pier
+  double ramp_length_m, ramp_end_z_m;
+  int ramp_spans;
+  fe::Section rigid_connection, pier, ramp, ramp_pier;
+};
+
 struct GroundCables {
   std::string type;
   Eigen::Vector3d anchor_m;  ///< of the northern one
@@ -95,6 +109,8 @@ struct BridgeDefinition {
   std::vector<DeckDefinition> decks;
   MastDefinition mast;
   GroundCables ground_cables;
+  std::optional<EndDefinition> ends;  ///< without: the decks' bearings stand on the ground
+  int aerodynamic_nodes = 0;          ///< a deck
   double minimum_pull_N, ridge, site_weight;
   std::map<std::string, double> site_pull_N;       ///< by stay, mirror images included
   std::map<std::string, double> prototype_pull_N;  ///< by stay; empty if the variant has none

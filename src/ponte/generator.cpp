@@ -1,5 +1,7 @@
 #include "ponte/generator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -43,18 +45,26 @@ std::vector<Change> read_changes(DefinitionFile& file) {
 // The file with every change and variant checked, none applied.
 DefinitionFile open(const std::filesystem::path& bridge_toml) {
   DefinitionFile file = DefinitionFile::load(bridge_toml);
-  for (const std::string list : {"change", "variant"}) {
+  for (const std::string list : {"change", "variant", "mesh_option"}) {
     for (std::size_t i = 0; i < file.size(list); ++i) {
       file.check_overrides(entry(list, i) + ".set");
     }
   }
   (void)read_changes(file);
+  for (const std::string key : {".name", ".meaning"}) {
+    for (std::size_t i = 0; i < file.size("mesh_option"); ++i) (void)file.text(entry("mesh_option", i) + key);
+  }
   for (std::size_t i = 0; i < file.size("variant"); ++i) {
     (void)file.text(entry("variant", i) + ".meaning");
     (void)file.text(entry("variant", i) + ".based_on");
     (void)file.choice(entry("variant", i) + ".changes", {"none", "all"});
   }
   return file;
+}
+
+void apply_mesh(DefinitionFile& file, const std::string& mesh) {
+  if (mesh.empty()) return;
+  file.apply(entry("mesh_option", position(file, "mesh_option", names_in(file, "mesh_option"), mesh)) + ".set");
 }
 
 // Overrides of a variant after those of the variant that it is based on.
@@ -153,6 +163,18 @@ void add_prestress(fe::Model& model, const BridgeDefinition& definition, const s
   }
 }
 
+// Nodes on the decks' axes where wind acts, evenly from one end stay to the other: aero_foot_01 … north to south.
+void add_aerodynamic_nodes(fe::Model& model, const BridgeDefinition& definition, const std::map<std::string, DeckNodes>& decks) {
+  for (const DeckDefinition& deck : definition.decks) {
+    const double last = stay_positions(deck.stay).back();
+    for (int i = 0; i < definition.aerodynamic_nodes; ++i) {
+      const double s = last * (1.0 - 2.0 * i / (definition.aerodynamic_nodes - 1));
+      const DeckNodes::Line& line = decks.at(deck.name).line_near(s);
+      model.monitoring_points[fmt::format("aero_{}_{:02d}", deck.name, i + 1)] = line.across[line.across.size() / 2];
+    }
+  }
+}
+
 fe::Model build(const BridgeDefinition& definition, const std::string& title) {
   ModelBuilder builder;
   builder.model.title = definition.title + ", " + title;
@@ -162,10 +184,9 @@ fe::Model build(const BridgeDefinition& definition, const std::string& title) {
     builder.add_material(material);
   }
   std::map<std::string, DeckNodes> decks;
-  for (const DeckDefinition& deck : definition.decks) {
-    decks[deck.name] = build_deck(builder, deck, definition.mesh);
-    build_deck_supports(builder, deck, decks[deck.name]);
-  }
+  for (const DeckDefinition& deck : definition.decks) decks[deck.name] = build_deck(builder, deck, definition.mesh);
+  const EndNodes ends = build_ends(builder, definition);
+  for (const DeckDefinition& deck : definition.decks) build_deck_supports(builder, deck, decks[deck.name], ends);
   const MastNodes mast = build_mast(builder, definition);
   build_stays(builder, definition, decks, mast);
   build_dampers(builder, definition, decks);
@@ -173,12 +194,23 @@ fe::Model build(const BridgeDefinition& definition, const std::string& title) {
     const DeckNodes::Line& line = decks.at(point.deck).station_near(point.s_m);
     builder.model.monitoring_points[point.name] = point.outer_edge ? line.across.back() : line.across.front();
   }
+  add_aerodynamic_nodes(builder.model, definition, decks);
   add_prestress(builder.model, definition, decks, mast);
   add_parameters(builder.model, definition);
   return builder.model;
 }
 
 }  // namespace
+
+std::string part_of(const std::string& group) {
+  static const std::vector<std::pair<std::string, std::string>> parts = {
+      {"foot_north", "bearings"},  {"foot_south", "bearings"}, {"cycle_north", "bearings"}, {"cycle_south", "bearings"},
+      {"damper", "dampers"},       {"foot", "decks"},          {"cycle", "decks"},          {"slab", "decks"},
+      {"mast", "mast"},            {"stay", "stays"},          {"end_block", "end_blocks"}, {"rigid_connection", "end_blocks"},
+      {"ramp", "ramps"},           {"pier", "piers"}};  // the first that fits
+  const auto found = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return group.starts_with(part.first); });
+  return found == parts.end() ? "other" : found->second;
+}
 
 std::vector<Change> as_built_changes(const std::filesystem::path& bridge_toml) {
   DefinitionFile file = open(bridge_toml);
@@ -190,8 +222,9 @@ std::vector<std::string> variants(const std::filesystem::path& bridge_toml) {
   return names_in(file, "variant");
 }
 
-fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant) {
+fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant, const std::string& mesh) {
   DefinitionFile file = open(bridge_toml);
+  apply_mesh(file, mesh);
   apply_variant(file, variant);
   return build(read_definition(std::move(file), variant), variant);
 }

@@ -21,11 +21,15 @@ struct Change {
 /// Names of the variants in bridge.toml.
 [[nodiscard]] std::vector<std::string> variants(const std::filesystem::path& bridge_toml);
 /// A variant of the bridge: preliminary, refined, refined_table8, fitted_to_measured.
-/// @throws InputError for an unknown variant or a bad value, naming file, line and key
-[[nodiscard]] fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant);
+/// @param mesh  a [[mesh_option]] of the file: full, medium, coarse; "": the file's own
+/// @throws InputError for an unknown variant or mesh, or a bad value, naming file, line and key
+[[nodiscard]] fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant,
+                                 const std::string& mesh = "");
 /// The preliminary variant with the named changes switched on.
 [[nodiscard]] fe::Model generate_with_changes(const std::filesystem::path& bridge_toml,
-                                              const std::vector<std::string>& changes);
+                                              const std::vector<std::string>& changes, const std::string& mesh = "");
+/// The part of the bridge that a group of elements or springs belongs to: decks, mast, stays, end_blocks, piers, ramps, bearings.
+[[nodiscard]] std::string part_of(const std::string& group);
 /// For the verification against the prototype alone: Euler beams, listed pulls, its drilling and mass rules.
 [[nodiscard]] fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,18 @@ fe::Section square_hollow_section(const std::string& name, double side_m, double
   out.inertia_y_m4 = out.inertia_z_m4 = (std::pow(side_m, 4) - std::pow(inner, 4)) / 12;
   out.torsion_m4 = wall_m * std::pow(side_m - wall_m, 3);
   out.shear_area_y_m2 = out.shear_area_z_m2 = 0.5 * out.area_m2;
+  return out;
+}
+
+fe::Section rectangle_section(const std::string& name, double depth_m, double width_m) {
+  const double b = std::max(depth_m, width_m), t = std::min(depth_m, width_m);
+  fe::Section out;
+  out.name = name;
+  out.area_m2 = depth_m * width_m;
+  out.inertia_y_m4 = width_m * std::pow(depth_m, 3) / 12;
+  out.inertia_z_m4 = depth_m * std::pow(width_m, 3) / 12;
+  out.torsion_m4 = b * std::pow(t, 3) * (1.0 / 3 - 0.21 * t / b * (1 - std::pow(t / b, 4) / 12));
+  out.shear_area_y_m2 = out.shear_area_z_m2 = out.area_m2 * 5 / 6;
   return out;
 }
 

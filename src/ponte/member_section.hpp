@@ -15,6 +15,9 @@ class DefinitionFile;
 [[nodiscard]] fe::Section square_hollow_section(const std::string& name, double side_m, double wall_m);
 /// Solid circle; shear areas 0.9 A.
 [[nodiscard]] fe::Section solid_circle_section(const std::string& name, double diameter_m);
+/// Solid rectangle; `depth` along local z, `width` along local y; torsion b t³ (1/3 - 0.21 t/b (1 - t⁴/(12 b⁴))) for b >= t
+/// (Roark), shear areas 5/6 A.
+[[nodiscard]] fe::Section rectangle_section(const std::string& name, double depth_m, double width_m);
 /// A, I_y, I_z, J and the shear areas times a factor: an effective section, fitted.
 [[nodiscard]] fe::Section scaled(fe::Section section, double factor);
 

@@ -36,22 +36,34 @@ void ModelBuilder::add_element(fe::ElementType type, const std::string& section,
   model.elements.push_back(std::move(element));
 }
 
-void ModelBuilder::add_member(const std::string& section, int from, int to, int pieces, const Eigen::Vector3d& orientation) {
+void ModelBuilder::add_solid(const std::string& group, const std::string& material, std::vector<int> nodes) {
+  fe::Element element;
+  element.id = static_cast<long>(model.elements.size()) + 1;
+  element.type = fe::ElementType::solid;
+  element.group = group;
+  element.material = materials_.at(material);
+  element.nodes = std::move(nodes);
+  model.elements.push_back(std::move(element));
+}
+
+void ModelBuilder::add_member(const std::string& section, int from, int to, int pieces, const Eigen::Vector3d& orientation,
+                              const std::string& material) {
   const Eigen::Vector3d start = x(from), end = x(to);
   int last = from;
   for (int piece = 1; piece <= pieces; ++piece) {
     const int next = piece == pieces ? to : add_node(start + (end - start) * (static_cast<double>(piece) / pieces));
-    add_element(fe::ElementType::beam, section, "steel", {last, next}, orientation);
+    add_element(fe::ElementType::beam, section, material, {last, next}, orientation);
     last = next;
   }
 }
 
 void ModelBuilder::add_spring(const std::string& group, const std::string& name, int node, const Eigen::Vector3d& direction,
-                              double stiffness_N_m) {
+                              double stiffness_N_m, int node2) {
   fe::Spring spring;
   spring.name = name;
   spring.group = group;
   spring.node = node;
+  spring.node2 = node2;
   spring.direction = direction;
   spring.stiffness = stiffness_N_m;
   model.springs.push_back(spring);

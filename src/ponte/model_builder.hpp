@@ -24,11 +24,14 @@ class ModelBuilder {
   /// An element; the group has the name of its section unless told otherwise.
   void add_element(fe::ElementType type, const std::string& section, const std::string& material, std::vector<int> nodes,
                    const Eigen::Vector3d& orientation = Eigen::Vector3d::Zero());
+  /// A solid of eight nodes (see fe/solid.hpp for their order).
+  void add_solid(const std::string& group, const std::string& material, std::vector<int> nodes);
   /// A straight member between two nodes, in `pieces` beams.
   void add_member(const std::string& section, int from, int to, int pieces,
-                  const Eigen::Vector3d& orientation = Eigen::Vector3d::Zero());
+                  const Eigen::Vector3d& orientation = Eigen::Vector3d::Zero(), const std::string& material = "steel");
+  /// @param node2  the other end; -1: ground
   void add_spring(const std::string& group, const std::string& name, int node, const Eigen::Vector3d& direction,
-                  double stiffness_N_m);
+                  double stiffness_N_m, int node2 = -1);
 
  private:
   std::map<std::string, int> materials_, sections_;
@@ -46,6 +49,8 @@ struct DeckNodes {
 
   /// The station (line with a bottom node) nearest to s.
   [[nodiscard]] const Line& station_near(double s_m) const;
+  /// The line, with or without a bottom node, nearest to s.
+  [[nodiscard]] const Line& line_near(double s_m) const;
 };
 
 /// Arc of a deck in space; the equations stand at the head of bridge.toml.
@@ -66,8 +71,15 @@ struct DeckAxis {
 
 /// Truss, slab, brackets and non-structural mass of a deck.
 [[nodiscard]] DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh);
-/// Springs of both ends: groups foot_north, foot_south, cycle_north, cycle_south.
-void build_deck_supports(ModelBuilder& builder, const DeckDefinition& deck, const DeckNodes& nodes);
+/// Nodes of the two ends that the decks' bearings lean on: the middle of the end blocks' front faces; -1: they stand on the ground.
+struct EndNodes {
+  int north = -1, south = -1;
+};
+/// End blocks of solids, the pier below each and the ramp behind it; nothing if the definition has no ends.
+[[nodiscard]] EndNodes build_ends(ModelBuilder& builder, const BridgeDefinition& definition);
+/// Springs of both ends: groups foot_north, foot_south, cycle_north, cycle_south. With end blocks each bearing stands on a node
+/// at its own place that moves with the block as a rigid body.
+void build_deck_supports(ModelBuilder& builder, const DeckDefinition& deck, const DeckNodes& nodes, const EndNodes& ends);
 
 /// Mast: node by height, built in steel and concrete; base fixed, mass at the head.
 struct MastNodes {

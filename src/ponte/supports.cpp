@@ -2,22 +2,31 @@
 
 namespace twindeck::ponte {
 
-void build_deck_supports(ModelBuilder& builder, const DeckDefinition& deck, const DeckNodes& nodes) {
+void build_deck_supports(ModelBuilder& builder, const DeckDefinition& deck, const DeckNodes& nodes, const EndNodes& ends) {
   const DeckAxis axis(deck);
   const BearingDefinition& k = deck.bearing;
   for (const bool north : {true, false}) {
     const DeckNodes::Line& end = north ? nodes.lines.back() : nodes.lines.front();
     const std::string group = deck.name + (north ? "_north" : "_south");
     const Eigen::Vector3d r = axis.radial(end.s_m), t = axis.tangent(end.s_m), z = Eigen::Vector3d::UnitZ();
-    builder.add_spring(group, group + "_bottom_radial", end.bottom, r, k.bottom_N_m);
-    builder.add_spring(group, group + "_bottom_tangential", end.bottom, t, k.bottom_N_m);
-    builder.add_spring(group, group + "_bottom_vertical", end.bottom, z, k.bottom_N_m);
+    const int block = north ? ends.north : ends.south;
+    const auto seat = [&](int node, const std::string& name) {
+      if (block < 0) return -1;
+      const int below = builder.add_node(builder.x(node));
+      builder.model.links.push_back({"seat_" + name, block, below});
+      return below;
+    };
+    const int bottom = seat(end.bottom, group + "_bottom");
+    builder.add_spring(group, group + "_bottom_radial", end.bottom, r, k.bottom_N_m, bottom);
+    builder.add_spring(group, group + "_bottom_tangential", end.bottom, t, k.bottom_N_m, bottom);
+    builder.add_spring(group, group + "_bottom_vertical", end.bottom, z, k.bottom_N_m, bottom);
     for (const bool outer : {false, true}) {
       const int corner = outer ? end.across.back() : end.across.front();
       const std::string name = group + (outer ? "_outer" : "_inner");
-      builder.add_spring(group, name + "_vertical", corner, z, k.vertical_N_m);
-      builder.add_spring(group, name + "_radial", corner, r, k.radial_N_m / 2);
-      builder.add_spring(group, name + "_tangential", corner, t, k.tangential_N_m);
+      const int below = seat(corner, name);
+      builder.add_spring(group, name + "_vertical", corner, z, k.vertical_N_m, below);
+      builder.add_spring(group, name + "_radial", corner, r, k.radial_N_m / 2, below);
+      builder.add_spring(group, name + "_tangential", corner, t, k.tangential_N_m, below);
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "steps/model_source.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "model_io/inp.hpp"
@@ -11,13 +12,16 @@ namespace twindeck::steps {
 
 LoadedModel from_model(fe::Model model) {
   LoadedModel loaded;
-  fe::validate(model);
   loaded.source = model.source;
   loaded.theta = fe::initial_parameters(model);
-  loaded.state = fe::find_prestress(model, loaded.theta);
-  loaded.system = fe::assemble(model, loaded.state);
-  fe::check_no_mechanism(loaded.system, loaded.theta, loaded.source);
-  loaded.model = std::move(model);
+  loaded.structure = std::make_shared<const fe::Structure>(std::move(model));
+  loaded.model = std::shared_ptr<const fe::Model>(loaded.structure, &loaded.structure->model());
+  loaded.state = loaded.structure->prestress(loaded.theta);
+  loaded.system = loaded.structure->system(loaded.state);
+  // A prestress is found on the structure without its stays, which refuses a mechanism already.
+  if (loaded.model->prestress.rule == fe::PullRule::none) {
+    fe::check_no_mechanism(loaded.system, loaded.theta, loaded.source);
+  }
   return loaded;
 }
 
@@ -64,7 +68,7 @@ LoadedModel load_study_model(StepContext& context, const std::string& variant) {
                      "give [model] generator and file, or folder, or a model folder by --model DIR");
   }
   if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
-  return from_model(ponte::generate(context.input(study.model_file), variant));
+  return from_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
 }
 
 LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps) {

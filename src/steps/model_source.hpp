@@ -2,25 +2,27 @@
 
 #include <Eigen/Core>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "fe/assembly.hpp"
 #include "fe/model.hpp"
 #include "fe/parametric_system.hpp"
+#include "fe/structure.hpp"
 #include "steps/run_step.hpp"
 
 namespace twindeck::steps {
 
 /// A model ready to be solved, wherever it came from.
 struct LoadedModel {
-  std::optional<fe::Model> model;  ///< empty for a matrix model
+  std::shared_ptr<const fe::Model> model;          ///< null for a matrix model
+  std::shared_ptr<const fe::Structure> structure;  ///< the same, numbered and assembled
   fe::ParametricSystem system;
   Eigen::VectorXd theta;     ///< (n_parameters) values as the model stands, in the parameters' units
   fe::PrestressState state;  ///< empty vectors for a matrix model
   std::string source;        ///< folder or generator, for messages
   /// Null for a matrix model: what model_io's writers take.
-  [[nodiscard]] const fe::Model* fe_model() const { return model ? &*model : nullptr; }
+  [[nodiscard]] const fe::Model* fe_model() const { return model.get(); }
 };
 
 /// Checks a model, finds its prestress and assembles it.

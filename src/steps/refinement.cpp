@@ -104,7 +104,7 @@ Status run_refinement(StepContext& context, const RefinementConfig& config) {
   // 3. What each as-built change does.
   ChangeStudy changes;
   if (!context.model && study && !study->model_generator.empty()) {
-    changes = study_changes(study->model_file, n, static_cast<int>(config.extra_modes),
+    changes = study_changes(study->model_file, study->model_mesh, n, static_cast<int>(config.extra_modes),
                             [&](int done, int of) { context.progress("as-built changes", done, of); });
   }
   write_changes(changes, context.out);

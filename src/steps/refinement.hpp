@@ -64,8 +64,8 @@ struct ChangeStudy {
 };
 
 /// Each change is generated, prestressed and solved on its own; models run side by side, results do not depend on how many.
-/// @param progress  called with the number of models done
-[[nodiscard]] ChangeStudy study_changes(const std::filesystem::path& bridge_toml, int n_modes, int extra_modes,
+/// @param mesh  of the generator, "" for its own  @param progress  called with the number of models done
+[[nodiscard]] ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::string& mesh, int n_modes, int extra_modes,
                                         const std::function<void(int done, int of)>& progress);
 
 /// changes.csv: `change,paper_item,meaning,mode,frequency_before_Hz,frequency_alone_Hz,effect_alone_pct,effect_cumulative_pct,

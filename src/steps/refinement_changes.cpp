@@ -111,7 +111,7 @@ FollowedModes follow(const SolvedModel& reference, const SolvedModel& changed, I
   return followed;
 }
 
-ChangeStudy study_changes(const std::filesystem::path& bridge_toml, int n_modes, int extra_modes,
+ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::string& mesh, int n_modes, int extra_modes,
                           const std::function<void(int done, int of)>& progress) {
   const std::vector<ponte::Change> changes = ponte::as_built_changes(bridge_toml);
   const auto n_changes = static_cast<int>(changes.size());
@@ -128,7 +128,7 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, int n_modes,
   std::atomic<int> done = 0;
   in_parallel(count, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    models[at] = solve_modes(from_model(ponte::generate_with_changes(bridge_toml, switched[at])), n_modes + extra_modes);
+    models[at] = solve_modes(from_model(ponte::generate_with_changes(bridge_toml, switched[at], mesh)), n_modes + extra_modes);
     const int now = ++done;
 #pragma omp critical(twindeck_progress)
     progress(now, count);

@@ -22,6 +22,7 @@ struct StudyFile {
         .texts("steps", study.steps, "tokens of the steps in the order in which they run")
         .choice("model.generator", study.model_generator, {"ponte"}, "parametric generator that writes the model")
         .text("model.file", file, "what the generator reads")
+        .text("model.mesh", study.model_mesh, "mesh of the generator by name (ponte: full, medium, coarse); empty: its own")
         .text("model.folder", model_folder, "a model folder, instead of a generator")
         .text("model.inp", inp, "an .inp file of CalculiX or Abaqus, instead of a generator or a folder");
     return table;

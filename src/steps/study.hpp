@@ -14,6 +14,7 @@ struct Study {
   std::string measured = "published";  ///< "published" | "virtual": where the measured modes come from
   std::string model_generator;         ///< [model] generator = "ponte", together with `file`
   std::filesystem::path model_file;    ///< [model] file: what the generator reads
+  std::string model_mesh;              ///< [model] mesh: one of the generator's meshes by name; "": its own
   std::filesystem::path model_folder;  ///< [model] folder: a model folder, instead of a generator
   std::filesystem::path model_inp;     ///< [model] inp: a file of CalculiX or Abaqus
   std::filesystem::path features;      ///< folder of measured features (rows.csv, conditions.toml, channels.csv)

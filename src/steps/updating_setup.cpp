@@ -83,9 +83,9 @@ dynamics::EigenModes available_modes(const fe::ParametricSystem& system, const E
 LoadedModel with_values(const LoadedModel& loaded, const Eigen::VectorXd& theta) {
   LoadedModel changed = loaded;
   changed.theta = theta;
-  if (loaded.model) {  // the matrices as the updating saw them: same parameters, prestress of the new values
-    changed.state = fe::find_prestress(*loaded.model, theta);
-    changed.system = fe::assemble(*loaded.model, changed.state);
+  if (loaded.structure) {  // the matrices as the updating saw them: same parameters, prestress of the new values
+    changed.state = loaded.structure->prestress(theta);
+    changed.system = loaded.structure->system(changed.state);
   }
   return changed;
 }
@@ -153,10 +153,8 @@ std::vector<updating::FrequencyTarget> frequency_targets(const Measured& measure
 }
 
 updating::Refresh prestress_refresh(const LoadedModel& loaded) {
-  if (!loaded.model) return {};
-  return [&loaded](const Eigen::VectorXd& theta) {
-    return fe::assemble(*loaded.model, fe::find_prestress(*loaded.model, theta));
-  };
+  if (!loaded.structure) return {};
+  return [structure = loaded.structure](const Eigen::VectorXd& theta) { return structure->system(structure->prestress(theta)); };
 }
 
 Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before, const updating::UpdatingResult& result,

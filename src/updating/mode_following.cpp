@@ -1,6 +1,7 @@
 #include "updating/mode_following.hpp"
 
 #include "core/error.hpp"
+#include "linalg/symmetric_product.hpp"
 #include "modal/mac.hpp"
 #include "modal/pairing.hpp"
 
@@ -11,13 +12,17 @@ ModeFollower::ModeFollower(const linalg::SparseMatrix& mass_lower, const dynamic
 
 FollowedModes ModeFollower::follow(const Eigen::Ref<const Eigen::MatrixXd>& shapes) const {
   TWINDECK_ASSERT(shapes.rows() == mass_.rows());
-  const Eigen::MatrixXd mass_shapes = mass_.selfadjointView<Eigen::Lower>() * shapes;
+  const Eigen::MatrixXd mass_shapes = linalg::SymmetricProduct(mass_).times(shapes);
   Eigen::MatrixXd scaled = shapes;
   for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
     const double generalised_mass = shapes.col(j).dot(mass_shapes.col(j));
     if (generalised_mass > 0.0) scaled.col(j) /= std::sqrt(generalised_mass);
   }
-  const Eigen::MatrixXd mac = modal::mass_weighted_mac(mass_reference_, scaled);
+  return follow_normalised(mass_reference_, scaled);
+}
+
+FollowedModes follow_normalised(const Eigen::MatrixXd& mass_reference, const Eigen::MatrixXd& shapes) {
+  const Eigen::MatrixXd mac = modal::mass_weighted_mac(mass_reference, shapes);
   FollowedModes followed;
   followed.position = modal::follow_modes(mac);
   followed.mac = Eigen::VectorXd::Zero(mac.rows());

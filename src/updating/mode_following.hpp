@@ -14,6 +14,10 @@ struct FollowedModes {
   Eigen::VectorXd mac;        ///< (n_reference) mass-weighted MAC of each pair [-], 0 where none is left
 };
 
+/// The same for shapes that are normalised already, in whatever coordinates both are given.
+/// @param mass_reference (r × n_reference)  @param shapes (r × n_new)
+[[nodiscard]] FollowedModes follow_normalised(const Eigen::MatrixXd& mass_reference, const Eigen::MatrixXd& shapes);
+
 /// Follows the modes of a start model through changed parameters by shape, not by order: frequencies that cross during the
 /// updating would otherwise exchange their measured partners.
 ///
@@ -29,6 +33,10 @@ class ModeFollower {
 
   /// @param shapes (n × n_new)
   [[nodiscard]] FollowedModes follow(const Eigen::Ref<const Eigen::MatrixXd>& shapes) const;
+  /// M phi (n × n_reference).
+  [[nodiscard]] const Eigen::MatrixXd& mass_reference() const { return mass_reference_; }
+  /// The start model's mass (lower triangle).
+  [[nodiscard]] const linalg::SparseMatrix& mass() const { return mass_; }
 
  private:
   linalg::SparseMatrix mass_;

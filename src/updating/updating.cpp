@@ -9,29 +9,11 @@
 
 #include "updating/multi_start.hpp"
 #include "updating/optimality.hpp"
-#include "updating/problem.hpp"
 #include "updating/residuals.hpp"
+#include "updating/search.hpp"
 
 namespace twindeck::updating {
 namespace {
-
-using SharedSystem = std::shared_ptr<const fe::ParametricSystem>;
-
-// The search in normalised parameters, common to all starts.
-struct Search {
-  const Refresh& refresh;
-  const UpdatingOptions& options;
-  ResidualDefinition definition;
-  Box box;
-  SharedSystem initial_system;  // prestress of the initial values
-};
-
-struct SearchEnd {
-  StartResult result;
-  EndPoint end;
-  Evaluation evaluation;
-  std::vector<IterationRecord> history;
-};
 
 void check_input(const fe::ParametricSystem& system, const std::vector<int>& active, const std::vector<FrequencyTarget>& targets) {
   if (active.empty()) throw InputError({}, "no parameter to update", "name at least one parameter of the model");
@@ -92,63 +74,6 @@ Eigen::VectorXd normalised(const fe::ParametricSystem& system, const ResidualDef
     x(j) = system.parameters[static_cast<std::size_t>(p)].*member / definition.scale(j);
   }
   return x;
-}
-
-ResidualFunction as_function(FrequencyResiduals& residuals) {
-  return [&residuals](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
-    const Evaluation& evaluation = residuals.at(x, jacobian != nullptr);
-    if (!evaluation.valid) return false;
-    residual = evaluation.residual;
-    if (jacobian != nullptr) *jacobian = evaluation.jacobian;
-    return true;
-  };
-}
-
-// One start: bounded solves at frozen prestress, the prestress found anew in between, until the parameters stay.
-SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start) {
-  const auto n_targets = static_cast<int>(search.definition.targets.size());
-  SearchEnd out;
-  StartResult& result = out.result;
-  result.initial = first.cwiseProduct(search.definition.scale);
-  Eigen::VectorXd x = first.cwiseMax(search.box.lower).cwiseMin(search.box.upper);
-  SharedSystem system = search.initial_system;
-  double reference = 0.0;
-  for (int outer = 0;; ++outer) {
-    result.outer = outer + 1;
-    FrequencyResiduals residuals(system, search.definition);
-    if (outer == 0) {
-      const Evaluation& begin = residuals.at(x, true);
-      if (begin.valid) reference = gradient_reference(begin.gradient(), begin.jacobian);
-    }
-    const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
-                                 search.options.optimality_tolerance * reference, search.options.bound_tolerance};
-    const BoundedResult inner =
-        minimise_on_box(as_function(residuals), n_targets, x, search.box, options, [&](const AcceptedStep& step) {
-          out.history.push_back({start, outer, step.iteration, step.cost, step.projected_gradient, step.step, step.radius, step.x});
-        });
-    const double change = (inner.x - x).cwiseAbs().maxCoeff();
-    x = inner.x;
-    result.iterations += inner.iterations;
-    result.solves += residuals.solves();
-    result.cost = inner.cost;
-    result.projected_gradient = inner.projected_gradient;
-    result.relative_projected_gradient = reference > 0.0 ? inner.projected_gradient / reference : 0.0;
-    result.message = inner.message;
-    const bool settled = !search.refresh || (outer > 0 && change < search.options.outer_tolerance);
-    if (settled || !inner.converged || result.outer >= search.options.outer_iterations) {
-      result.converged = inner.converged && settled;
-      if (inner.converged && !result.converged) {
-        result.message = fmt::format("parameters still change by {:.1e} after {} prestress states", change, result.outer);
-      }
-      const bool evaluable = residuals.at(x, true).valid;
-      out.evaluation = residuals.at(x, evaluable);
-      break;
-    }
-    system = std::make_shared<const fe::ParametricSystem>(search.refresh(search.definition.theta(x)));
-  }
-  result.theta = x.cwiseProduct(search.definition.scale);
-  out.end = {x, result.cost, result.converged, out.evaluation.jacobian};
-  return out;
 }
 
 std::vector<SearchEnd> run_starts(const Search& search, const Eigen::MatrixXd& points,
@@ -219,7 +144,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   TWINDECK_ASSERT(options.starts >= 1 && options.outer_iterations >= 1 && options.max_iterations >= 1);
   check_input(start, active, targets);
   Search search{refresh, options, define_residuals(start, active, targets, options), {},
-                std::make_shared<const fe::ParametricSystem>(start)};
+                std::make_shared<const fe::ParametricSystem>(start), {}};
   ResidualDefinition& definition = search.definition;
   search.box = {normalised(start, definition, &fe::Parameter::lower), normalised(start, definition, &fe::Parameter::upper)};
   const Eigen::VectorXd x0 = normalised(start, definition, &fe::Parameter::initial);
@@ -245,7 +170,9 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
     result.frequency_before_Hz(static_cast<Eigen::Index>(i)) = reference.frequency_Hz(targets[i].reference_mode);
   }
 
-  std::vector<SearchEnd> ends = run_starts(search, starting_points(x0, search.box, options.starts, options.seed), progress);
+  const Eigen::MatrixXd points = starting_points(x0, search.box, options.starts, options.seed);
+  if (start.size() >= options.surrogate_from_size) search.surrogate = make_surrogate(search, points);
+  std::vector<SearchEnd> ends = run_starts(search, points, progress);
   collect(search, ends, result);
   return result;
 }

@@ -28,6 +28,7 @@ struct UpdatingOptions {
   double outer_tolerance = 1e-6;        ///< change of normalised parameters between prestress states below which they agree
   double optimality_tolerance = 1e-6;   ///< relative norm of the projected gradient
   double bound_tolerance = 1e-6;        ///< of the range, within which a parameter counts as on its bound
+  Eigen::Index surrogate_from_size = 1000;  ///< degrees of freedom from which a reduced system makes the steps (see `update`)
   std::uint64_t seed = 1;
 };
 
@@ -71,6 +72,9 @@ using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)
 /// found anew at its own end point and it goes on from there, until the parameters no longer change. So the costs of the starts
 /// are comparable, each being that of a structure in balance. What is found is a point at which the gradient at frozen prestress
 /// vanishes (inside the bounds): the modulus and density do not act through a change of pulls within a solve.
+/// Large systems (options.surrogate_from_size) are searched through a reduced one: at each prestress state the full system is
+/// solved once, and its frequencies and Jacobian correct a projection on snapshots of its modes, on which the next point is
+/// found. What is returned, cost, gradient and frequencies, is always the full system's.
 /// The starts run in parallel; results do not depend on the number of threads.
 ///
 /// @param start    the model as it is before the updating, with the prestress of its initial parameter values

@@ -17,7 +17,7 @@ struct Result {
 Result with_threads(int threads) {
   omp_set_num_threads(threads);
   const auto model =
-      twindeck::ponte::generate_compatible(TWINDECK_SOURCE_DIR "/data/ponte_del_mare/bridge.toml", "preliminary");
+      twindeck::ponte::generate_compatible(TWINDECK_SOURCE_DIR "/data/ponte_del_mare/prototype.toml", "preliminary");
   const Eigen::VectorXd theta = twindeck::fe::initial_parameters(model);
   const auto state = twindeck::fe::find_prestress(model, theta);
   const auto system = twindeck::fe::assemble(model, state);

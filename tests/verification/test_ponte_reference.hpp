@@ -15,7 +15,7 @@
 namespace twindeck::reference {
 
 inline std::filesystem::path bridge_toml() {
-  return std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/bridge.toml";
+  return std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
 }
 
 /// Frequencies by variant [Hz], printed to 0.1 mHz.

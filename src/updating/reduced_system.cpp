@@ -1,0 +1,138 @@
+#include "updating/reduced_system.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "linalg/symmetric_product.hpp"
+
+namespace twindeck::updating {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Shared = std::shared_ptr<const MatrixXd>;
+
+/// Q' K_g Q over the rows that the term touches.
+MatrixXd project(const linalg::SparseMatrix& pattern, const std::vector<int>& column, const fe::Term& term, const MatrixXd& basis) {
+  std::vector<int> local(static_cast<std::size_t>(pattern.rows()), -1);
+  const int* inner = pattern.innerIndexPtr();
+  for (const int p : term.position) {
+    local[static_cast<std::size_t>(inner[p])] = local[static_cast<std::size_t>(column[static_cast<std::size_t>(p)])] = 0;
+  }
+  std::vector<Index> rows;
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (local[i] < 0) continue;
+    local[i] = static_cast<int>(rows.size());
+    rows.push_back(static_cast<Index>(i));
+  }
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(term.position.size());
+  for (std::size_t i = 0; i < term.position.size(); ++i) {
+    const auto p = static_cast<std::size_t>(term.position[i]);
+    entries.emplace_back(local[static_cast<std::size_t>(inner[p])], local[static_cast<std::size_t>(column[p])], term.value[i]);
+  }
+  linalg::SparseMatrix small(std::ssize(rows), std::ssize(rows));
+  small.setFromTriplets(entries.begin(), entries.end());
+  const MatrixXd part = basis(rows, Eigen::all);
+  const MatrixXd projected = part.transpose() * linalg::SymmetricProduct(small).times(part);
+  return 0.5 * (projected + projected.transpose());
+}
+
+bool same_term(const fe::Term& a, const fe::Term& b) {
+  return a.label == b.label && a.position == b.position && a.value == b.value;
+}
+
+std::vector<Shared> project_all(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const MatrixXd& basis,
+                                const std::vector<fe::Term>* known_terms, const std::vector<Shared>* known) {
+  std::vector<int> column(static_cast<std::size_t>(system.pattern.nonZeros()));
+  for (int j = 0; j < system.pattern.outerSize(); ++j)
+    std::fill(column.begin() + system.pattern.outerIndexPtr()[j], column.begin() + system.pattern.outerIndexPtr()[j + 1], j);
+  std::vector<Shared> out(terms.size());
+  const auto count = static_cast<int>(terms.size());
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    try {
+      if (known_terms != nullptr && at < known_terms->size() && same_term(terms[at], (*known_terms)[at])) {
+        out[at] = (*known)[at];
+      } else {
+        out[at] = std::make_shared<const MatrixXd>(project(system.pattern, column, terms[at], basis));
+      }
+    } catch (...) {  // must not leave the parallel region
+#pragma omp critical(twindeck_project)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  return out;
+}
+
+MatrixXd combine(const std::vector<fe::Term>& terms, const std::vector<Shared>& projected, const Eigen::VectorXd& theta, Index r) {
+  MatrixXd sum = MatrixXd::Zero(r, r);
+  for (std::size_t i = 0; i < terms.size(); ++i) sum += terms[i].coefficient.value(theta) * *projected[i];
+  return sum;
+}
+
+}  // namespace
+
+ReducedSystem::ReducedSystem(std::shared_ptr<const fe::ParametricSystem> system, std::shared_ptr<const MatrixXd> basis,
+                             const ReducedSystem* like)
+    : system_(std::move(system)), basis_(std::move(basis)) {
+  const fe::ParametricSystem* known = like == nullptr ? nullptr : like->system_.get();
+  stiffness_ = project_all(*system_, system_->stiffness_terms, *basis_, known ? &known->stiffness_terms : nullptr,
+                           known ? &like->stiffness_ : nullptr);
+  mass_ = project_all(*system_, system_->mass_terms, *basis_, known ? &known->mass_terms : nullptr,
+                      known ? &like->mass_ : nullptr);
+}
+
+MatrixXd ReducedSystem::stiffness(const Eigen::VectorXd& theta) const {
+  return combine(system_->stiffness_terms, stiffness_, theta, basis_->cols());
+}
+
+MatrixXd ReducedSystem::mass(const Eigen::VectorXd& theta) const {
+  return combine(system_->mass_terms, mass_, theta, basis_->cols());
+}
+
+MatrixXd ReducedSystem::eigenvalue_derivatives(const Eigen::VectorXd& theta, const std::vector<int>& parameters,
+                                               const Eigen::VectorXd& lambda, const MatrixXd& z) const {
+  MatrixXd derivatives = MatrixXd::Zero(z.cols(), std::ssize(parameters));
+  const auto add = [&](const std::vector<fe::Term>& terms, const std::vector<Shared>& projected, const Eigen::VectorXd& sign) {
+    for (std::size_t j = 0; j < parameters.size(); ++j) {
+      MatrixXd slope;
+      for (std::size_t i = 0; i < terms.size(); ++i) {
+        const double a = terms[i].coefficient.derivative(theta, parameters[j]);
+        if (a == 0.0) continue;
+        if (slope.size() == 0) slope = MatrixXd::Zero(z.rows(), z.rows());
+        slope += a * *projected[i];
+      }
+      if (slope.size() == 0) continue;
+      const Eigen::VectorXd form = z.cwiseProduct(slope * z).colwise().sum();
+      derivatives.col(static_cast<Index>(j)) += sign.cwiseProduct(form);
+    }
+  };
+  add(system_->stiffness_terms, stiffness_, Eigen::VectorXd::Ones(z.cols()));
+  add(system_->mass_terms, mass_, -lambda);
+  return derivatives;
+}
+
+MatrixXd orthonormal_basis(const MatrixXd& vectors, const linalg::SparseMatrix& mass_lower, double loss) {
+  const linalg::SymmetricProduct mass(mass_lower);
+  MatrixXd basis = vectors;
+  for (int pass = 0; pass < 2; ++pass) {  // the second one takes away what rounding left of the first
+    MatrixXd gram = basis.transpose() * mass.times(basis);
+    gram = 0.5 * (gram + gram.transpose()).eval();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
+    const double floor = pass == 0 ? loss * loss * eig.eigenvalues().maxCoeff() : 0.0;
+    const Index keep = (eig.eigenvalues().array() > floor).count();
+    basis = (basis * (eig.eigenvectors().rightCols(keep) *
+                      eig.eigenvalues().tail(keep).cwiseSqrt().cwiseInverse().asDiagonal()))
+                .eval();
+  }
+  return basis;
+}
+
+}  // namespace twindeck::updating

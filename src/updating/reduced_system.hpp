@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "fe/parametric_system.hpp"
+
+namespace twindeck::updating {
+
+/// Galerkin projection of a parametric system on a fixed basis Q: Q' K(theta) Q = sum a_g(theta) Q' K_g Q, M likewise. Exact in
+/// theta up to what the basis cannot represent, at the cost of dense matrices of the basis' size.
+class ReducedSystem {
+ public:
+  /// @param basis (n × r); shared by projections of the same structure under several prestresses
+  /// @param like  a projection on the same basis, whose terms are taken over where the system's are the same; may be null
+  ReducedSystem(std::shared_ptr<const fe::ParametricSystem> system, std::shared_ptr<const Eigen::MatrixXd> basis,
+                const ReducedSystem* like);
+
+  /// (r × r)
+  [[nodiscard]] Eigen::MatrixXd stiffness(const Eigen::VectorXd& theta) const;
+  [[nodiscard]] Eigen::MatrixXd mass(const Eigen::VectorXd& theta) const;
+  /// d lambda_i / d theta_p = z_i' (dK - lambda_i dM) z_i for mass-normalised z (r × m). (m × n_parameters)
+  [[nodiscard]] Eigen::MatrixXd eigenvalue_derivatives(const Eigen::VectorXd& theta, const std::vector<int>& parameters,
+                                                       const Eigen::VectorXd& lambda, const Eigen::MatrixXd& z) const;
+
+ private:
+  std::shared_ptr<const fe::ParametricSystem> system_;
+  std::shared_ptr<const Eigen::MatrixXd> basis_;
+  std::vector<std::shared_ptr<const Eigen::MatrixXd>> stiffness_, mass_;  // one a term
+};
+
+/// A basis that spans the given vectors up to a relative loss, M-orthonormal (proper orthogonal decomposition).
+/// @param vectors (n × m)  @param mass_lower  lower triangle of M
+/// @param loss  directions whose part of the largest is below it are dropped
+/// Reference: Sirovich (1987), Quarterly of Applied Mathematics 45, 561-571 (method of snapshots).
+[[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& vectors, const linalg::SparseMatrix& mass_lower,
+                                                double loss);
+
+}  // namespace twindeck::updating

@@ -1,0 +1,160 @@
+#include "updating/search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "updating/optimality.hpp"
+#include "updating/problem.hpp"
+#include "updating/surrogate.hpp"
+
+namespace twindeck::updating {
+
+namespace {
+
+using SharedSystem = std::shared_ptr<const fe::ParametricSystem>;
+
+ResidualFunction as_function(FrequencyResiduals& residuals) {
+  return [&residuals](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
+    const Evaluation& evaluation = residuals.at(x, jacobian != nullptr);
+    if (!evaluation.valid) return false;
+    residual = evaluation.residual;
+    if (jacobian != nullptr) *jacobian = evaluation.jacobian;
+    return true;
+  };
+}
+
+SharedSystem refreshed(const Search& search, const Eigen::VectorXd& x) {
+  return std::make_shared<const fe::ParametricSystem>(search.refresh(search.definition.theta(x)));
+}
+
+// Bounded solves on the full system at frozen prestress, the prestress found anew in between, until the parameters stay.
+void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, double reference, int start, SearchEnd& out) {
+  const auto n_targets = static_cast<int>(search.definition.targets.size());
+  StartResult& result = out.result;
+  const int before = result.outer;
+  for (int outer = 0;; ++outer) {
+    result.outer = before + outer + 1;
+    FrequencyResiduals residuals(system, search.definition);
+    if (outer == 0 && reference == 0.0) {
+      const Evaluation& begin = residuals.at(x, true);
+      if (begin.valid) reference = gradient_reference(begin.gradient(), begin.jacobian);
+    }
+    const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
+                                 search.options.optimality_tolerance * reference, search.options.bound_tolerance};
+    const BoundedResult inner =
+        minimise_on_box(as_function(residuals), n_targets, x, search.box, options, [&](const AcceptedStep& step) {
+          out.history.push_back({start, before + outer, step.iteration, step.cost, step.projected_gradient, step.step, step.radius, step.x});
+        });
+    const double change = (inner.x - x).cwiseAbs().maxCoeff();
+    x = inner.x;
+    result.iterations += inner.iterations;
+    result.solves += residuals.solves();
+    result.cost = inner.cost;
+    result.projected_gradient = inner.projected_gradient;
+    result.relative_projected_gradient = reference > 0.0 ? inner.projected_gradient / reference : 0.0;
+    result.message = inner.message;
+    const bool settled = !search.refresh || (outer > 0 && change < search.options.outer_tolerance);
+    if (settled || !inner.converged || outer + 1 >= search.options.outer_iterations) {
+      result.converged = inner.converged && settled;
+      if (inner.converged && !result.converged) {
+        result.message = fmt::format("parameters still change by {:.1e} after {} prestress states", change, outer + 1);
+      }
+      const bool evaluable = residuals.at(x, true).valid;
+      out.evaluation = residuals.at(x, evaluable);
+      break;
+    }
+    system = refreshed(search, x);
+  }
+  result.theta = x.cwiseProduct(search.definition.scale);
+  out.end = {x, result.cost, result.converged, out.evaluation.jacobian};
+}
+
+// Box of half width `reach` about x inside the search's.
+Box box_about(const Eigen::VectorXd& x, const Box& box, double reach) {
+  return {box.lower.cwiseMax((x.array() - reach).matrix()), box.upper.cwiseMin((x.array() + reach).matrix())};
+}
+
+// The search on the corrected reduced system. Leaves x at the best point so far, and says whether it has converged there.
+bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference, int start, SearchEnd& out) {
+  const auto n_targets = static_cast<int>(search.definition.targets.size());
+  StartResult& result = out.result;
+  Eigen::VectorXd next = x;
+  double cost = std::numeric_limits<double>::infinity(), reach = std::numeric_limits<double>::infinity();
+  for (int outer = 0; outer < 3 * search.options.outer_iterations; ++outer) {
+    // 1. The full system at the new point, with the prestress of that point.
+    const SharedSystem system = search.refresh ? refreshed(search, next) : search.initial_system;
+    FrequencyResiduals residuals(system, search.definition);
+    const Evaluation& full = residuals.at(next, true);
+    result.solves += residuals.solves();
+    result.outer = outer + 1;
+    // The prestress follows the parameters, so that near the end the cost may rise by as much as that matters.
+    const bool better = full.valid && full.cost() <= cost * (1.0 + 1e-3) + 1e-12;
+    if (!better) {
+      if (outer == 0) return false;
+      reach = 0.25 * std::min(reach, (next - x).cwiseAbs().maxCoeff());
+      if (reach < 1e-8) return false;
+      next = box_about(x, search.box, reach).lower.cwiseMax(next).cwiseMin(box_about(x, search.box, reach).upper);
+      continue;
+    }
+    const double step = (next - x).norm();
+    x = next;
+    cost = full.cost();
+    out.evaluation = full;
+    if (reference == 0.0) reference = gradient_reference(full.gradient(), full.jacobian);
+    result.cost = cost;
+    result.projected_gradient = projected_gradient(x, full.gradient(), search.box, search.options.bound_tolerance).norm();
+    result.relative_projected_gradient = result.projected_gradient / reference;
+    result.iterations = outer;
+    out.history.push_back({start, outer, 0, cost, result.projected_gradient, step, search.options.trust_radius, x});
+    if (result.relative_projected_gradient <= search.options.optimality_tolerance) {
+      result.converged = true;
+      result.message = "projected gradient below its tolerance";
+      return true;
+    }
+    // 2. The next point from the reduced system, corrected to agree with the full one here.
+    const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());
+    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate.mass_reference, search.surrogate.mass, full);
+    if (!corrected.valid()) return false;
+    const Box box = std::isfinite(reach) ? box_about(x, search.box, reach) : search.box;
+    const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
+                                 0.1 * search.options.optimality_tolerance * reference, search.options.bound_tolerance};
+    next = minimise_on_box(corrected, n_targets, x, box, options, {}).x;
+    if (next == x) return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+Surrogate make_surrogate(const Search& search, const Eigen::MatrixXd& points) {
+  Surrogate out;
+  out.basis = modal_basis(search.initial_system, search.definition, points);
+  if (!out.basis) return out;
+  out.initial = std::make_shared<const ReducedSystem>(search.initial_system, out.basis, nullptr);
+  out.mass_reference = out.basis->transpose() * search.definition.follower->mass_reference();
+  out.mass = out.initial->mass(search.definition.initial);
+  return out;
+}
+
+SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start) {
+  SearchEnd out;
+  out.result.initial = first.cwiseProduct(search.definition.scale);
+  Eigen::VectorXd x = first.cwiseMax(search.box.lower).cwiseMin(search.box.upper);
+  double reference = 0.0;
+  SharedSystem system = search.initial_system;
+  if (search.surrogate.basis) {
+    if (search_reduced(search, x, reference, start, out)) {
+      out.result.theta = x.cwiseProduct(search.definition.scale);
+      out.end = {x, out.result.cost, true, out.evaluation.jacobian};
+      return out;
+    }
+    if (search.refresh && reference > 0.0) system = refreshed(search, x);
+  }
+  search_full(search, x, system, reference, start, out);
+  return out;
+}
+
+}  // namespace twindeck::updating

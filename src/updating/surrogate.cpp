@@ -1,0 +1,134 @@
+#include "updating/surrogate.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <numbers>
+
+#include "linalg/cholesky.hpp"
+
+namespace twindeck::updating {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Directions that make less than this part of the largest snapshot are left out of the basis; what that costs in frequency goes
+/// with its square, and the correction takes it out where it matters.
+constexpr double kLoss = 1e-4;
+
+/// K^-1 (dK - lambda dM) phi per normalised parameter, for the modes up to the highest that is compared.
+MatrixXd static_answers(const fe::ParametricSystem& system, const ResidualDefinition& definition, const VectorXd& theta,
+                        const dynamics::EigenModes& modes) {
+  Index count = 0;
+  for (const FrequencyTarget& target : definition.targets) count = std::max<Index>(count, target.reference_mode + 1);
+  count = std::min(count, modes.shapes.cols());
+  linalg::Cholesky factor;
+  if (!factor.factorize(system.stiffness(theta)).converged) return MatrixXd(system.size(), 0);  // free as a rigid body
+  const MatrixXd phi = modes.shapes.leftCols(count);
+  MatrixXd answers(system.size(), count * std::ssize(definition.active));
+  for (std::size_t j = 0; j < definition.active.size(); ++j) {
+    const int p = definition.active[j];
+    const MatrixXd force = system.stiffness_derivative_times(theta, p, phi) -
+                           system.mass_derivative_times(theta, p, phi) * modes.eigenvalue.head(count).asDiagonal();
+    const auto at = static_cast<Index>(j);
+    answers.middleCols(at * count, count) = definition.scale(at) * factor.solve(force);
+  }
+  return answers;
+}
+
+}  // namespace
+
+std::shared_ptr<const MatrixXd> modal_basis(const std::shared_ptr<const fe::ParametricSystem>& system,
+                                            const ResidualDefinition& definition, const MatrixXd& points) {
+  const auto n_points = static_cast<int>(points.cols());
+  std::vector<dynamics::EigenModes> modes(static_cast<std::size_t>(n_points));
+  MatrixXd answers;
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int k = 0; k < n_points; ++k) {
+    try {
+      dynamics::ModalSolver solver(*system);
+      const VectorXd theta = definition.theta(points.col(k));
+      modes[static_cast<std::size_t>(k)] = solver.solve(theta, definition.n_modes);
+      if (k == 0) answers = static_answers(*system, definition, theta, modes.front());
+    } catch (...) {  // must not leave the parallel region
+#pragma omp critical(twindeck_modal_basis)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  if (!modes.front().status.converged) return nullptr;
+  MatrixXd vectors = answers;
+  for (const dynamics::EigenModes& one : modes) {
+    vectors.conservativeResize(system->size(), vectors.cols() + one.shapes.cols());
+    vectors.rightCols(one.shapes.cols()) = one.shapes;
+  }
+  return std::make_shared<const MatrixXd>(orthonormal_basis(vectors, definition.follower->mass(), kLoss));
+}
+
+CorrectedResiduals::CorrectedResiduals(const ReducedSystem& reduced, const ResidualDefinition& definition,
+                                       const MatrixXd& reduced_mass_reference, const MatrixXd& reduced_mass,
+                                       const Evaluation& full)
+    : reduced_(reduced),
+      definition_(definition),
+      mass_reference_(reduced_mass_reference),
+      mass_(reduced_mass),
+      centre_(full.x),
+      shift_(full.residual),
+      turn_(full.jacobian) {
+  VectorXd residual(full.residual.size());
+  MatrixXd jacobian;
+  valid_ = reduced_at(centre_, residual, &jacobian);
+  if (!valid_) return;
+  shift_ -= residual;
+  turn_ -= jacobian;
+}
+
+bool CorrectedResiduals::operator()(const VectorXd& x, VectorXd& residual, MatrixXd* jacobian) const {
+  if (!reduced_at(x, residual, jacobian)) return false;
+  residual += shift_ + turn_ * (x - centre_);
+  if (jacobian != nullptr) *jacobian += turn_;
+  return true;
+}
+
+bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, MatrixXd* jacobian) const {
+  const VectorXd theta = definition_.theta(x);
+  const MatrixXd k = reduced_.stiffness(theta), m = reduced_.mass(theta);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eig(k, m);
+  if (eig.info() != Eigen::Success) return false;
+  const Index n_modes = std::min<Index>(definition_.n_modes, k.cols());
+  const VectorXd lambda = eig.eigenvalues().head(n_modes);
+  const MatrixXd z = eig.eigenvectors().leftCols(n_modes);
+  MatrixXd scaled = z;
+  const MatrixXd mass_z = mass_ * z;
+  for (Index j = 0; j < n_modes; ++j) scaled.col(j) /= std::sqrt(z.col(j).dot(mass_z.col(j)));
+  const FollowedModes followed = follow_normalised(mass_reference_, scaled);
+
+  const auto n = static_cast<Index>(definition_.targets.size());
+  std::vector<Index> mode(definition_.targets.size());
+  residual.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const FrequencyTarget& target = definition_.targets[static_cast<std::size_t>(i)];
+    const int at = followed.position[static_cast<std::size_t>(target.reference_mode)];
+    if (at < 0 || lambda(at) <= 0.0) return false;
+    mode[static_cast<std::size_t>(i)] = at;
+    residual(i) = std::sqrt(lambda(at)) / (2.0 * std::numbers::pi * target.measured_Hz) - 1.0;
+  }
+  if (jacobian == nullptr) return true;
+  const MatrixXd slope =
+      reduced_.eigenvalue_derivatives(theta, definition_.active, lambda(mode), MatrixXd(z(Eigen::all, mode)));
+  jacobian->resize(n, definition_.scale.size());
+  for (Index i = 0; i < n; ++i) {
+    const double frequency = std::sqrt(lambda(mode[static_cast<std::size_t>(i)])) / (2.0 * std::numbers::pi);
+    const double per_eigenvalue = 1.0 / (8.0 * std::numbers::pi * std::numbers::pi * frequency *
+                                         definition_.targets[static_cast<std::size_t>(i)].measured_Hz);
+    jacobian->row(i) = per_eigenvalue * slope.row(i).cwiseProduct(definition_.scale.transpose());
+  }
+  return true;
+}
+
+}  // namespace twindeck::updating
