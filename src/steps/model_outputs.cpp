@@ -1,17 +1,24 @@
 #include "steps/model_outputs.hpp"
 
-#include <array>
+#include <map>
 #include <optional>
 #include <set>
 
 #include "io/csv.hpp"
 #include "model_io/export.hpp"
 #include "model_io/inp.hpp"
+#include "model_io/names.hpp"
 
 namespace twindeck::steps {
 namespace {
 
 std::string stay_name(const fe::Element& element) { return element.name.empty() ? std::to_string(element.id) : element.name; }
+
+/// Nodes of a part, and how many elements of each type and springs it has.
+struct PartCount {
+  std::set<int> nodes;
+  std::map<std::string, std::size_t> pieces;
+};
 
 const char* arrangement_of(const fe::Spring& spring) {
   if (spring.stiffness == 0.0) return "viscous";
@@ -65,27 +72,44 @@ void write_dampers(const fe::Model* model, const std::filesystem::path& folder) 
   dampers.save(folder / "dampers.csv");
 }
 
-void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const std::filesystem::path& folder) {
+void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const PartOf& part_of,
+                   const std::filesystem::path& folder) {
   io::CsvWriter summary({"quantity", "value", "unit"});
-  summary.row({"degrees_of_freedom", static_cast<long>(system.size()), "-"});
-  summary.row({"parameters", system.parameters.size(), "-"});
-  if (model != nullptr) {
-    std::array<long, 5> count{};
-    for (const auto& e : model->elements) ++count[static_cast<std::size_t>(e.type)];
-    summary.row({"nodes", model->nodes.size(), "-"});
-    summary.row({"elements", model->elements.size(), "-"});
-    summary.row({"beams", count[static_cast<std::size_t>(fe::ElementType::beam)], "-"});
-    summary.row({"bars", count[static_cast<std::size_t>(fe::ElementType::bar)], "-"});
-    summary.row({"stays", count[static_cast<std::size_t>(fe::ElementType::stay)], "-"});
-    summary.row({"shells", count[static_cast<std::size_t>(fe::ElementType::shell)], "-"});
-    summary.row({"solids", count[static_cast<std::size_t>(fe::ElementType::solid)], "-"});
-    summary.row({"springs", model->springs.size(), "-"});
-    summary.row({"rigid_links", model->links.size(), "-"});
-    summary.row({"point_masses", model->masses.size(), "-"});
-  } else {
+  const auto count = [&](const std::string& quantity, std::size_t value) {
+    summary.row({quantity, static_cast<long>(value), "-"});
+  };
+  count("degrees_of_freedom", static_cast<std::size_t>(system.size()));
+  count("parameters", system.parameters.size());
+  if (model == nullptr) {
     std::set<std::string> nodes;
     for (const auto& dof : system.dofs) nodes.insert(dof.node);
-    summary.row({"nodes", nodes.size(), "-"});
+    count("nodes", nodes.size());
+    summary.save(folder / "summary.csv");
+    return;
+  }
+  const std::vector<std::string>& types = model_io::element_type_names();
+  std::vector<std::size_t> of_type(types.size(), 0);
+  std::map<std::string, PartCount> parts;
+  for (const fe::Element& e : model->elements) {
+    const auto type = static_cast<std::size_t>(e.type);
+    ++of_type[type];
+    if (!part_of) continue;
+    PartCount& part = parts[part_of(e.group)];
+    part.nodes.insert(e.nodes.begin(), e.nodes.end());
+    ++part.pieces[types[type] + "s"];
+  }
+  if (part_of) {
+    for (const fe::Spring& spring : model->springs) ++parts[part_of(spring.group)].pieces["springs"];
+  }
+  count("nodes", model->nodes.size());
+  count("elements", model->elements.size());
+  for (std::size_t type = 0; type < types.size(); ++type) count(types[type] + "s", of_type[type]);
+  count("springs", model->springs.size());
+  count("rigid_links", model->links.size());
+  count("point_masses", model->masses.size());
+  for (const auto& [name, part] : parts) {
+    if (!part.nodes.empty()) count("nodes_" + name, part.nodes.size());
+    for (const auto& [kind, number] : part.pieces) count(kind + "_" + name, number);
   }
   summary.save(folder / "summary.csv");
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
@@ -27,8 +29,14 @@ void write_stays(const fe::Model* model, const fe::PrestressState& state, const 
 /// arrangement viscous (no spring), parallel (Kelvin) or series (Maxwell).
 void write_dampers(const fe::Model* model, const std::filesystem::path& folder);
 
-/// summary.csv: `quantity,value,unit`: degrees of freedom, nodes, elements of each type, springs, links, masses, parameters.
-void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const std::filesystem::path& folder);
+/// The part of a structure that a group of elements or springs belongs to.
+using PartOf = std::function<std::string(const std::string& group)>;
+
+/// summary.csv: `quantity,value,unit`: degrees of freedom, nodes, elements of each type, springs, links, masses, parameters; and,
+/// where parts are known, nodes, elements of each type and springs of each part ("shells_decks").
+/// @param part_of  empty: parts are not known
+void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const PartOf& part_of,
+                   const std::filesystem::path& folder);
 
 /// model.inp for CalculiX, model_abaqus.inp for Abaqus, with a word on what such a file cannot carry.
 /// @throws InputError  for a matrix model, which has no elements

@@ -3,9 +3,12 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "model_io/export.hpp"
+#include "ponte/generator.hpp"
+#include "steps/mesh_convergence.hpp"
 #include "steps/model_outputs.hpp"
 #include "steps/model_source.hpp"
 #include "steps/run_step.hpp"
+#include "steps/study.hpp"
 
 namespace {
 
@@ -16,6 +19,7 @@ struct ModelConfig {
   long n_modes = 15;
   std::string displacements = "as_model";
   long load_steps = 1;
+  std::vector<std::string> meshes;
 
   io::FieldTable fields() {
     io::FieldTable table;
@@ -24,7 +28,8 @@ struct ModelConfig {
         .choice("displacements", displacements, {"as_model", "linear", "large"},
                 "equilibrium under dead load and pulls: as model.toml says, in the undeformed or in the deformed geometry")
         .integer("load_steps", load_steps, {1.0, 1000.0},
-                 "large displacements: dead load and pulls grow in so many equal steps");
+                 "large displacements: dead load and pulls grow in so many equal steps")
+        .texts("meshes", meshes, "other meshes of the generator whose modes are compared (mesh_convergence.csv); empty: none");
     return table;
   }
 };
@@ -50,10 +55,17 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
   steps::write_stays(model, loaded.state, context.out);
   steps::write_dampers(model, context.out);
-  steps::write_summary(model, loaded.system, context.out);
+  const bool is_bridge = !context.model && steps::read_study(context.study).model_generator == "ponte";
+  steps::write_summary(model, loaded.system, is_bridge ? steps::PartOf(ponte::part_of) : steps::PartOf(), context.out);
   steps::save_model(loaded, loaded.theta, context.out / "model");
   if (context.has_flag("export-matrices")) model_io::write_matrices(loaded.system, loaded.theta, context.out);
   if (context.has_flag("export-inp")) steps::export_inp(loaded, static_cast<int>(config.n_modes), context);
+
+  // 4. The same modes on other meshes: how far this one is from converged.
+  if (!config.meshes.empty() && is_bridge) {
+    steps::write_mesh_convergence(steps::read_study(context.study), config.variant, config.meshes, static_cast<int>(config.n_modes),
+                                  context.out / "mesh_convergence.csv");
+  }
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }
 
