@@ -23,7 +23,7 @@ else
 include workflows/steps.mk
 endif
 
-.PHONY: help all deps build test unit steps tables figures report verify smoke why new reference clean FORCE
+.PHONY: help all deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -72,6 +72,14 @@ verify: $(RESULTS)/report/report.html ## hold the tables, as they lie there, aga
 
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
+
+bench: build ## ratios against peers: modes, derivatives, memory (results/bench/bench.csv)
+	@cmake --build $(BUILD) -j $(JOBS) --target bench
+	@workflows/python.sh tests/bench/modes.py $(BIN) $(BIN)/bench results/bench
+
+calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
+	@$(BIN)/calibrate_bridge --mesh coarse --out results/calibration/coarse
+	@$(BIN)/calibrate_bridge --from results/calibration/coarse/values.csv --out results/calibration --write
 
 why: ## make why s6: why that step would run again
 	@workflows/why.sh "$(STEP)" $(STUDY)

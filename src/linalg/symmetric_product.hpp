@@ -7,8 +7,8 @@
 
 namespace twindeck::linalg {
 
-/// A symmetric sparse matrix made ready for products with blocks of vectors: stored zeros are left out (on the common pattern of
-/// stiffness and mass most of the mass is zeros), and four vectors are multiplied in one pass over the entries.
+/// A symmetric sparse matrix made ready for products with blocks of vectors: stored zeros are left out (on the common pattern
+/// of stiffness and mass most of the mass is zeros), and four vectors are multiplied in one pass over the entries.
 class SymmetricProduct {
  public:
   /// @param lower  lower triangle (n × n)

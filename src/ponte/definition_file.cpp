@@ -223,6 +223,22 @@ void DefinitionFile::apply(const std::string& table) {
   }
 }
 
+void DefinitionFile::set_number(const std::string& path, double value) {
+  const auto found = values_.find(path);
+  if (found == values_.end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, unused] : values_) known.push_back(other);
+    fail(path, "is not in this file" + did_you_mean(path, known), "name a key by its dotted path");
+  }
+  found->second.text = io::toml_number(value);
+  found->second.is_text = false;
+}
+
+long DefinitionFile::line_of(const std::string& path) const {
+  const auto found = values_.find(path);
+  return found == values_.end() ? 0 : found->second.line;
+}
+
 void DefinitionFile::mark_known(const std::string& table) {
   for (auto& [path, value] : values_) {
     if (path == table || below(path, table)) {

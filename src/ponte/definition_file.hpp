@@ -45,6 +45,11 @@ class DefinitionFile {
   void check_overrides(const std::string& table);
   /// Applies the overrides of a table.
   void apply(const std::string& table);
+  /// Puts a number [SI] in the place of a value that is there.
+  /// @throws InputError for a path that is not there, naming the nearest
+  void set_number(const std::string& path, double value);
+  /// Line of a value, 0 if it is not there.
+  [[nodiscard]] long line_of(const std::string& path) const;
   /// Marks a whole table as known.
   void mark_known(const std::string& table);
   /// @throws InputError for the first value that nobody asked for, naming the nearest known path

@@ -54,7 +54,9 @@ struct Block {
 Block build_block(ModelBuilder& builder, const EndDefinition& ends, const EndFrame& frame) {
   const auto [across, along, up] = ends.block_elements;
   std::vector<int> nodes;
-  const auto node = [&](int i, int j, int k) { return nodes[static_cast<std::size_t>((k * (along + 1) + j) * (across + 1) + i)]; };
+  const auto node = [&](int i, int j, int k) {
+    return nodes[static_cast<std::size_t>((k * (along + 1) + j) * (across + 1) + i)];
+  };
   const double top = frame.origin_m.z(), bottom = top - ends.block_height_m;
   for (int k = 0; k <= up; ++k) {
     for (int j = 0; j <= along; ++j) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "core/error.hpp"
 #include "ponte/bridge_definition.hpp"
@@ -65,6 +66,15 @@ DefinitionFile open(const std::filesystem::path& bridge_toml) {
 void apply_mesh(DefinitionFile& file, const std::string& mesh) {
   if (mesh.empty()) return;
   file.apply(entry("mesh_option", position(file, "mesh_option", names_in(file, "mesh_option"), mesh)) + ".set");
+}
+
+// "change.NAME.KEY" as a path of the file, where changes are numbered and keep their values in a table `set`.
+std::string resolved(DefinitionFile& file, const std::string& path) {
+  const std::string prefix = "change.";
+  if (!path.starts_with(prefix)) return path;
+  const std::size_t end = path.find('.', prefix.size());
+  const std::string name = path.substr(prefix.size(), end - prefix.size());
+  return entry("change", position(file, "change", names_in(file, "change"), name)) + ".set" + path.substr(end);
 }
 
 // Overrides of a variant after those of the variant that it is based on.
@@ -239,6 +249,34 @@ fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const 
     title += " + " + change;
   }
   return build(read_definition(std::move(file), "preliminary"), title);
+}
+
+fe::Model generate_with_values(const std::filesystem::path& bridge_toml, const std::string& variant, const std::string& mesh,
+                               const Values& values) {
+  DefinitionFile file = open(bridge_toml);
+  for (const auto& [path, value] : values) file.set_number(resolved(file, path), value);
+  apply_mesh(file, mesh);
+  apply_variant(file, variant);
+  return build(read_definition(std::move(file), variant), variant);
+}
+
+void write_values(const std::filesystem::path& bridge_toml, const Values& values, const std::map<std::string, std::string>& unit) {
+  DefinitionFile file = open(bridge_toml);
+  std::ifstream in(bridge_toml);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  for (const auto& [path, value] : values) {
+    const long at = file.line_of(resolved(file, path));
+    if (at == 0) file.fail(path, "is not in this file", "name a key by its dotted path");
+    std::string& line = lines[static_cast<std::size_t>(at - 1)];
+    const std::size_t equals = line.find('='), comment = line.find('#', equals);
+    const std::string& its_unit = unit.at(path);
+    const std::string text = its_unit == "-" ? fmt::format("{:.8g}", value) : fmt::format("\"{:.8g} {}\"", value, its_unit);
+    line = line.substr(0, equals + 1) + " " + text + (comment == std::string::npos ? "" : "  " + line.substr(comment));
+  }
+  std::ofstream out(bridge_toml);
+  for (const std::string& line : lines) out << line << '\n';
+  if (!out) throw InputError({bridge_toml.string(), 0, ""}, "cannot be written", "check its permissions");
 }
 
 fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant) {

@@ -16,7 +16,8 @@ using Eigen::MatrixXd;
 using Shared = std::shared_ptr<const MatrixXd>;
 
 /// Q' K_g Q over the rows that the term touches.
-MatrixXd project(const linalg::SparseMatrix& pattern, const std::vector<int>& column, const fe::Term& term, const MatrixXd& basis) {
+MatrixXd project(const linalg::SparseMatrix& pattern, const std::vector<int>& column, const fe::Term& term,
+                 const MatrixXd& basis) {
   std::vector<int> local(static_cast<std::size_t>(pattern.rows()), -1);
   const int* inner = pattern.innerIndexPtr();
   for (const int p : term.position) {
@@ -71,7 +72,8 @@ std::vector<Shared> project_all(const fe::ParametricSystem& system, const std::v
   return out;
 }
 
-MatrixXd combine(const std::vector<fe::Term>& terms, const std::vector<Shared>& projected, const Eigen::VectorXd& theta, Index r) {
+MatrixXd combine(const std::vector<fe::Term>& terms, const std::vector<Shared>& projected, const Eigen::VectorXd& theta,
+                 Index r) {
   MatrixXd sum = MatrixXd::Zero(r, r);
   for (std::size_t i = 0; i < terms.size(); ++i) sum += terms[i].coefficient.value(theta) * *projected[i];
   return sum;
@@ -85,8 +87,8 @@ ReducedSystem::ReducedSystem(std::shared_ptr<const fe::ParametricSystem> system,
   const fe::ParametricSystem* known = like == nullptr ? nullptr : like->system_.get();
   stiffness_ = project_all(*system_, system_->stiffness_terms, *basis_, known ? &known->stiffness_terms : nullptr,
                            known ? &like->stiffness_ : nullptr);
-  mass_ = project_all(*system_, system_->mass_terms, *basis_, known ? &known->mass_terms : nullptr,
-                      known ? &like->mass_ : nullptr);
+  mass_ =
+      project_all(*system_, system_->mass_terms, *basis_, known ? &known->mass_terms : nullptr, known ? &like->mass_ : nullptr);
 }
 
 MatrixXd ReducedSystem::stiffness(const Eigen::VectorXd& theta) const {
@@ -128,9 +130,9 @@ MatrixXd orthonormal_basis(const MatrixXd& vectors, const linalg::SparseMatrix& 
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
     const double floor = pass == 0 ? loss * loss * eig.eigenvalues().maxCoeff() : 0.0;
     const Index keep = (eig.eigenvalues().array() > floor).count();
-    basis = (basis * (eig.eigenvectors().rightCols(keep) *
-                      eig.eigenvalues().tail(keep).cwiseSqrt().cwiseInverse().asDiagonal()))
-                .eval();
+    basis =
+        (basis * (eig.eigenvectors().rightCols(keep) * eig.eigenvalues().tail(keep).cwiseSqrt().cwiseInverse().asDiagonal()))
+            .eval();
   }
   return basis;
 }

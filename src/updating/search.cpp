@@ -46,7 +46,8 @@ void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, d
                                  search.options.optimality_tolerance * reference, search.options.bound_tolerance};
     const BoundedResult inner =
         minimise_on_box(as_function(residuals), n_targets, x, search.box, options, [&](const AcceptedStep& step) {
-          out.history.push_back({start, before + outer, step.iteration, step.cost, step.projected_gradient, step.step, step.radius, step.x});
+          out.history.push_back(
+              {start, before + outer, step.iteration, step.cost, step.projected_gradient, step.step, step.radius, step.x});
         });
     const double change = (inner.x - x).cwiseAbs().maxCoeff();
     x = inner.x;
@@ -116,7 +117,8 @@ bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference,
     }
     // 2. The next point from the reduced system, corrected to agree with the full one here.
     const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());
-    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate.mass_reference, search.surrogate.mass, full);
+    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate.mass_reference, search.surrogate.mass,
+                                       full);
     if (!corrected.valid()) return false;
     const Box box = std::isfinite(reach) ? box_about(x, search.box, reach) : search.box;
     const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,

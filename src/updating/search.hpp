@@ -40,9 +40,9 @@ struct SearchEnd {
 [[nodiscard]] Surrogate make_surrogate(const Search& search, const Eigen::MatrixXd& points);
 
 /// The whole search from `first`: with a surrogate, each prestress state costs one solve of the full system, whose value and
-/// Jacobian correct the reduced one; the search between two states runs on that. It ends when the full projected gradient at the
-/// prestress of its own point is below the tolerance. Without a surrogate, or where it does not come to rest: bounded solves on the
-/// full system at frozen prestress, the prestress found anew in between, until the parameters stay.
+/// Jacobian correct the reduced one; the search between two states runs on that. It ends when the full projected gradient at
+/// the prestress of its own point is below the tolerance. Without a surrogate, or where it does not come to rest: bounded
+/// solves on the full system at frozen prestress, the prestress found anew in between, until the parameters stay.
 [[nodiscard]] SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start);
 
 }  // namespace twindeck::updating

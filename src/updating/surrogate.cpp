@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Directions that make less than this part of the largest snapshot are left out of the basis; what that costs in frequency goes
-/// with its square, and the correction takes it out where it matters.
+/// Directions that make less than this part of the largest snapshot are left out of the basis; what that costs in frequency
+/// goes with its square, and the correction takes it out where it matters.
 constexpr double kLoss = 1e-4;
 
 /// K^-1 (dK - lambda dM) phi per normalised parameter, for the modes up to the highest that is compared.

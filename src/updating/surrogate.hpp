@@ -25,7 +25,8 @@ class CorrectedResiduals {
  public:
   /// @param full  evaluation of the full system at x_k, valid and with its Jacobian
   CorrectedResiduals(const ReducedSystem& reduced, const ResidualDefinition& definition,
-                     const Eigen::MatrixXd& reduced_mass_reference, const Eigen::MatrixXd& reduced_mass, const Evaluation& full);
+                     const Eigen::MatrixXd& reduced_mass_reference, const Eigen::MatrixXd& reduced_mass,
+                     const Evaluation& full);
   /// Whether the reduced system has the modes at x_k.
   [[nodiscard]] bool valid() const { return valid_; }
   /// A ResidualFunction.

@@ -17,7 +17,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STEP = pathlib.Path(os.environ["TWINDECK_BIN"]).resolve() / "s1_model"
-STUDY = "workflows/ponte_del_mare"
+STUDY = "workflows/smoke"  # the bridge on its coarse mesh
 NEVER = pathlib.Path(tempfile.gettempdir()) / f"twindeck-never-written-{os.getpid()}"
 
 

@@ -6,6 +6,7 @@ import csv
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import tomllib
@@ -29,9 +30,15 @@ class OnTheStudy(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        results = pathlib.Path(cls.folder.name)
+        results = pathlib.Path(cls.folder.name) / "results"
+        # The study as it is, on the coarse mesh.
+        study = pathlib.Path(cls.folder.name) / "study"
+        shutil.copytree(STUDY, study)
+        with open(study / "study.toml", "a") as file:
+            file.write('mesh = "coarse"\n')
+        (study / "s1_model.toml").unlink()
         for token in ("s1_model", "s4_refinement"):
-            done = run(BIN / token, "--study", STUDY, "--results", results, "--out", results / token, "--quiet")
+            done = run(BIN / token, "--study", study, "--results", results, "--out", results / token, "--quiet")
             assert done.returncode == 0, done.stderr
         cls.out = results / "s4_refinement"
 

@@ -1,4 +1,4 @@
-// Oracles: the numbers of nodes, stay lengths (Table 5) and coordinates, dead masses and sections of the reconstruction from
+// On the earlier reconstruction (prototype.toml). Oracles: the numbers of nodes, stay lengths (Table 5) and coordinates, dead masses and sections of the reconstruction from
 // which bridge.toml was derived (typed in here, so that a slip in the file or the rules shows), and properties of the variants.
 #include "ponte/generator.hpp"
 
@@ -17,7 +17,7 @@
 namespace twindeck::ponte {
 namespace {
 
-const std::filesystem::path kBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/bridge.toml";
+const std::filesystem::path kBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
 
 const fe::Model& model(const std::string& variant) {
   static std::map<std::string, fe::Model> models;
