@@ -78,8 +78,7 @@ bench: build ## ratios against peers: modes, derivatives, memory (results/bench/
 	@workflows/python.sh tests/bench/modes.py $(BIN) $(BIN)/bench results/bench
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
-	@$(BIN)/calibrate_bridge --mesh coarse --out results/calibration/coarse
-	@$(BIN)/calibrate_bridge --from results/calibration/coarse/values.csv --out results/calibration --write
+	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
 
 why: ## make why s6: why that step would run again
 	@workflows/why.sh "$(STEP)" $(STUDY)

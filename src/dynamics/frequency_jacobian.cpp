@@ -23,20 +23,46 @@ std::vector<int> columns_of_entries(const linalg::SparseMatrix& pattern) {
   return column;
 }
 
-/// Adds sign_i · (d coefficient / d theta_p) · phi_i' K_g phi_i of every term to (n_modes × n_parameters).
+/// phi_i' K_g phi_i of one term for all modes. @param shapes_by_dof (n_modes × n)
+VectorXd quadratic_forms(const linalg::SparseMatrix& pattern, const fe::Term& term, const std::vector<int>& column,
+                         const MatrixXd& shapes_by_dof) {
+  const int* row = pattern.innerIndexPtr();
+  // Entries of one column together: sum over rows first, then times the column's own shape values.
+  VectorXd form = VectorXd::Zero(shapes_by_dof.rows()), sum = form;
+  int open = -1;
+  const auto close = [&] {
+    if (open >= 0) form += sum.cwiseProduct(shapes_by_dof.col(open));
+    sum.setZero();
+  };
+  for (std::size_t i = 0; i < term.position.size(); ++i) {
+    const int r = row[term.position[i]], c = column[static_cast<std::size_t>(term.position[i])];
+    if (c != open) {
+      close();
+      open = c;
+    }
+    sum += ((r == c ? 1.0 : 2.0) * term.value[i]) * shapes_by_dof.col(r);
+  }
+  close();
+  return form;
+}
+
+/// Adds sign_i · (d coefficient / d theta_p) · phi_i' K_g phi_i of every term to (n_modes × n_parameters). Terms side by side, each
+/// summed by one thread.
 void add_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const std::vector<int>& column,
                const VectorXd& theta, const MatrixXd& shapes_by_dof, const VectorXd& sign, MatrixXd& sum) {
-  const int* row = system.pattern.innerIndexPtr();
-  for (const fe::Term& term : terms) {
-    if (term.coefficient.factors.empty()) continue;
-    VectorXd form = VectorXd::Zero(shapes_by_dof.rows());
-    for (std::size_t i = 0; i < term.position.size(); ++i) {
-      const int r = row[term.position[i]], c = column[static_cast<std::size_t>(term.position[i])];
-      form += ((r == c ? 1.0 : 2.0) * term.value[i]) * shapes_by_dof.col(r).cwiseProduct(shapes_by_dof.col(c));
-    }
+  std::vector<VectorXd> forms(terms.size());
+  const auto count = static_cast<int>(terms.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int t = 0; t < count; ++t) {
+    const auto at = static_cast<std::size_t>(t);
+    if (!terms[at].coefficient.factors.empty())
+      forms[at] = quadratic_forms(system.pattern, terms[at], column, shapes_by_dof);
+  }
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (forms[t].size() == 0) continue;
     for (Index p = 0; p < sum.cols(); ++p) {
-      const double slope = term.coefficient.derivative(theta, static_cast<int>(p));
-      if (slope != 0.0) sum.col(p) += slope * sign.cwiseProduct(form);
+      const double slope = terms[t].coefficient.derivative(theta, static_cast<int>(p));
+      if (slope != 0.0) sum.col(p) += slope * sign.cwiseProduct(forms[t]);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "linalg/dense_product.hpp"
 
 namespace twindeck::linalg {
 
@@ -27,7 +28,7 @@ OrthonormalBlock orthonormalise(MatrixXd w, MatrixXd mass_w, double scale) {
   OrthonormalBlock out{std::move(w), std::move(mass_w), {}};
   out.r = MatrixXd::Identity(out.q.cols(), out.q.cols());
   for (int pass = 0; pass < 2 && out.q.cols() > 0; ++pass) {
-    MatrixXd gram = out.q.transpose() * out.mass_q;
+    MatrixXd gram = transposed_times(out.q, out.mass_q);
     gram = 0.5 * (gram + gram.transpose()).eval();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
     const double floor = pass == 0 ? std::max(1e-22 * scale * scale, 1e-14 * eig.eigenvalues().maxCoeff()) : 0.25;
@@ -36,8 +37,8 @@ OrthonormalBlock orthonormalise(MatrixXd w, MatrixXd mass_w, double scale) {
     const VectorXd root = eig.eigenvalues().tail(keep).cwiseSqrt();
     const MatrixXd basis = eig.eigenvectors().rightCols(keep);
     const MatrixXd turn = basis * root.cwiseInverse().asDiagonal();
-    out.q = (out.q * turn).eval();
-    out.mass_q = (out.mass_q * turn).eval();
+    out.q = times(out.q, turn);
+    out.mass_q = times(out.mass_q, turn);
     out.r = root.asDiagonal() * basis.transpose() * out.r;
   }
   return out;
@@ -58,8 +59,8 @@ struct Basis {
   MatrixXd remove_from(MatrixXd& w) const {
     MatrixXd total = MatrixXd::Zero(size, w.cols());
     for (int pass = 0; pass < 2; ++pass) {
-      const MatrixXd c = mass_v.leftCols(size).transpose() * w;
-      w.noalias() -= v.leftCols(size) * c;
+      const MatrixXd c = transposed_times(mass_v.leftCols(size), w);
+      subtract_product(v.leftCols(size), c, w);
       total += c;
     }
     return total;
@@ -131,7 +132,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     if (converged == wanted || exhausted || out_of_patience) {
       result.converged = static_cast<int>(exhausted ? count : converged);
       result.values = values.head(count);
-      result.vectors = basis.v.leftCols(basis.size) * s.leftCols(count);
+      result.vectors = times(basis.v.leftCols(basis.size), s.leftCols(count));
       return result;
     }
     if (!full) continue;
@@ -139,8 +140,8 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     // Thick restart: the best Ritz vectors stay; the coupling to the next block comes back with its own step.
     ++restarts;
     const Index keep = std::min(basis.size - width, wanted + std::max<Index>(width, wanted / 2));
-    basis.v.leftCols(keep) = (basis.v.leftCols(basis.size) * s.leftCols(keep)).eval();
-    basis.mass_v.leftCols(keep) = (basis.mass_v.leftCols(basis.size) * s.leftCols(keep)).eval();
+    basis.v.leftCols(keep) = times(basis.v.leftCols(basis.size), s.leftCols(keep));
+    basis.mass_v.leftCols(keep) = times(basis.mass_v.leftCols(basis.size), s.leftCols(keep));
     basis.projected.setZero();
     basis.projected.diagonal().head(keep) = values.head(keep);
     basis.size = keep;

@@ -4,11 +4,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "linalg/block_lanczos.hpp"
+#include "linalg/dense_product.hpp"
 #include "linalg/symmetric_product.hpp"
 
 namespace twindeck::linalg {
@@ -19,7 +21,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kBlock = 4;
+/// Widths of the block: a wide one asks for more solves, but the factor is read once for all of its columns. A warm start takes
+/// the known modes as its block.
+constexpr int kNarrow = 4, kWide = 8, kWidest = 32;
 
 /// Numbers in [-1, 1[ from a fixed sequence (splitmix64), the same on every machine; another sequence for each `draw`.
 MatrixXd fixed_block(Index rows, Index columns, int draw) {
@@ -73,21 +77,24 @@ Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky&
   op.size = factor.size();
   op.times_mass = [&](const MatrixXd& x) { return mass.times(x); };
   op.from_mass = [&](const MatrixXd& y) { return factor.solve(y); };
+  const bool warm = start.rows() == op.size && start.cols() > 0;
+  const int width = n_pairs >= 2 * kWide ? 2 * kWide : n_pairs >= kWide ? kWide : kNarrow;
   const auto start_block = [&](int draw) {
+    const bool known = warm && draw == 0;
+    const Index columns = known ? std::clamp<Index>(start.cols(), width, kWidest) : width;
     // One application puts the block into the range of the operator, away from the null space of M.
-    MatrixXd block = op.from_mass(mass.times(fixed_block(op.size, kBlock, draw)));
-    if (draw > 0 || start.rows() != op.size || start.cols() == 0) return block;
-    // Warm: the known modes fill the block, each column a sum of several; a little of the fixed block stays in so that a mode
-    // that was not among them is found.
+    MatrixXd block = op.from_mass(mass.times(fixed_block(op.size, columns, draw)));
+    if (!known) return block;
+    // A little of the fixed block stays in so that a mode that was not among the known ones is found.
     const VectorXd norm = block.cwiseProduct(mass.times(block)).colwise().sum().cwiseSqrt();
-    block = (block * (1e-3 * norm.cwiseInverse()).asDiagonal()).eval();
-    for (Index i = 0; i < start.cols(); ++i) block.col(i % kBlock) += start.col(i);
+    block = (block * (1e-4 * norm.cwiseInverse()).asDiagonal()).eval();
+    for (Index i = 0; i < start.cols(); ++i) block.col(i % columns) += start.col(i);
     return block;
   };
   BlockLanczosOptions options;
   options.n_pairs = n_pairs;
   const BlockLanczosResult found = block_lanczos(op, start_block, options);
-  return {found.vectors, found.converged, found.operations + kBlock};
+  return {found.vectors, found.converged, found.operations + width};
 }
 
 void largest_entry_positive(MatrixXd& vectors) {
@@ -128,7 +135,7 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
   const MatrixXd mass_x = product.times(found.vectors);
   const MatrixXd y = factor.solve(mass_x);
   const MatrixXd mass_y = product.times(y);
-  const MatrixXd a = y.transpose() * mass_x, b = y.transpose() * mass_y;
+  const MatrixXd a = transposed_times(y, mass_x), b = transposed_times(y, mass_y);
   out.operations = found.operations + static_cast<int>(found.vectors.cols());
   if (found.vectors.cols() > 0) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (a + a.transpose()), 0.5 * (b + b.transpose()));

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "ponte/model_builder.hpp"

@@ -239,8 +239,10 @@ fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& 
   return build(read_definition(std::move(file), variant), variant);
 }
 
-fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes) {
+fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes,
+                                const std::string& mesh) {
   DefinitionFile file = open(bridge_toml);
+  apply_mesh(file, mesh);
   const std::vector<std::string> names = names_in(file, "change");
   std::string title = "preliminary";
   apply_variant(file, "preliminary");

@@ -37,6 +37,7 @@ class Fit {
   Fit(const Calibration& calibration, const std::filesystem::path& bridge_toml, const std::string& mesh)
       : calibration_(calibration), file_(bridge_toml), mesh_(mesh) {
     for (const CalibrationTarget& target : calibration.targets) n_frequencies_ += std::ssize(target.modes);
+    ratio = VectorXd::Ones(n_frequencies_);
     start_.resize(std::ssize(calibration.values));
     for (Index v = 0; v < start_.size(); ++v) {
       const CalibrationValue& value = calibration.values[static_cast<std::size_t>(v)];
@@ -55,7 +56,7 @@ class Fit {
     for (std::size_t t = 0; t < solved_.size(); ++t) {
       if (solved_[t].frequency_Hz.size() == 0) return false;
       for (Index i = 0; i < solved_[t].frequency_Hz.size(); ++i, ++row) {
-        frequencies[row] = solved_[t].frequency_Hz[i];
+        frequencies[row] = ratio[row] * solved_[t].frequency_Hz[i];
         r[row] = frequencies[row] / calibration_.targets[t].frequency_Hz[static_cast<std::size_t>(i)] - 1.0;
       }
     }
@@ -94,7 +95,8 @@ class Fit {
     return j;
   }
 
-  VectorXd frequencies;
+  VectorXd frequencies;  ///< of the last residual, times `ratio`
+  VectorXd ratio;        ///< (n_frequencies) what another mesh makes of this one's frequencies
   [[nodiscard]] Index n_frequencies() const { return n_frequencies_; }
   [[nodiscard]] const VectorXd& start() const { return start_; }
 
@@ -165,64 +167,86 @@ class Fit {
 
 }  // namespace
 
+namespace {
+
+/// Levenberg and Marquardt from `part` on one mesh, until the cost settles.
+struct Search {
+  VectorXd part;
+  double projected_gradient = 0.0;
+  int iterations = 0;
+  bool settled = false;
+};
+Search search(Fit& fit, VectorXd part, int max_iterations, const std::function<void(const std::string&)>& report) {
+  const updating::Box box{VectorXd::Zero(part.size()), VectorXd::Ones(part.size())};
+  Search out{std::move(part)};
+  VectorXd r;
+  if (!fit.residual(out.part, r)) return out;
+  double damping = 1e-4;
+  for (; out.iterations < max_iterations; ++out.iterations) {
+    const double cost = 0.5 * r.squaredNorm();
+    const MatrixXd j = fit.jacobian(out.part);
+    out.projected_gradient = updating::projected_gradient(out.part, j.transpose() * r, box, 1e-9).norm();
+    const VectorXd errors = r.head(fit.n_frequencies());
+    report(fmt::format("iteration {:2}: rms {:.3f} %, worst {:.2f} %, projected gradient {:.1e}", out.iterations,
+                       100 * std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())),
+                       100 * errors.cwiseAbs().maxCoeff(), out.projected_gradient));
+    VectorXd r_next;
+    bool lower = false;
+    for (int tries = 0; tries < 6 && !lower; ++tries) {
+      const VectorXd step = updating::bounded_gauss_newton_step(r, j, out.part, box, damping);
+      const VectorXd next = (out.part + step).cwiseMax(0.0).cwiseMin(1.0);
+      lower = fit.residual(next, r_next) && 0.5 * r_next.squaredNorm() < cost;
+      if (lower) out.part = next;
+      damping = lower ? std::max(1e-9, damping / 5.0) : damping * 8.0;
+    }
+    // No lower cost: rounding is reached, or modes change places here.
+    out.settled = !lower || cost - 0.5 * r_next.squaredNorm() < 1e-4 * cost;
+    if (lower) r = r_next;
+    if (out.settled) break;
+  }
+  return out;
+}
+
+}  // namespace
+
 CalibrationResult calibrate(const Calibration& calibration, const std::filesystem::path& bridge_toml, const std::string& mesh,
-                            const VectorXd& first, const std::function<void(const std::string&)>& report) {
-  Fit fit(calibration, bridge_toml, mesh);
-  const updating::Box box{VectorXd::Zero(first.size()), VectorXd::Ones(first.size())};
+                            const std::string& search_mesh, const VectorXd& first,
+                            const std::function<void(const std::string&)>& report) {
+  Fit full(calibration, bridge_toml, mesh), quick(calibration, bridge_toml, search_mesh);
   CalibrationResult result;
   VectorXd r;
-  if (!fit.residual(fit.start(), r)) {
+  if (!full.residual(full.start(), r)) {
     result.status = {false, "the untuned bridge has no modes"};
     return result;
   }
-  result.untuned = fit.frequencies;
+  result.untuned = full.frequencies;
   result.part = first;
-  if (first != fit.start() && !fit.residual(first, r)) {
-    result.status = {false, "the bridge to begin with has no modes"};
-    return result;
-  }
-  result.fitted = fit.frequencies;
-  result.status = {false, "iteration limit"};
-  double damping = 1e-4;
-  const auto frequency_rms = [&] {
-    return std::sqrt(r.head(fit.n_frequencies()).squaredNorm() / static_cast<double>(fit.n_frequencies()));
-  };
-  for (; result.iterations < calibration.max_iterations; ++result.iterations) {
+  result.status = {false, "the frequencies of the two meshes do not settle"};
+  for (int round = 0; round < 6; ++round) {
+    if (!full.residual(result.part, r)) {
+      result.status = {false, "the bridge has no modes at the values found"};
+      return result;
+    }
+    result.fitted = full.frequencies;
     result.cost = 0.5 * r.squaredNorm();
-    const MatrixXd j = fit.jacobian(result.part);
-    result.projected_gradient = updating::projected_gradient(result.part, j.transpose() * r, box, 1e-9).norm();
-    report(fmt::format("iteration {:2}: rms {:.3f} %, worst {:.2f} %, projected gradient {:.1e}, damping {:.0e}",
-                       result.iterations, 100 * frequency_rms(), 100 * r.head(fit.n_frequencies()).cwiseAbs().maxCoeff(),
-                       result.projected_gradient, damping));
-    if (result.projected_gradient < 1e-7) {
+    const VectorXd errors = r.head(full.n_frequencies());
+    report(fmt::format("mesh {}: rms {:.3f} %, worst {:.2f} %", mesh.empty() ? "of the study" : mesh,
+                       100 * std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())),
+                       100 * errors.cwiseAbs().maxCoeff()));
+    if (round > 0 && (full.frequencies - quick.frequencies).cwiseQuotient(full.frequencies).cwiseAbs().maxCoeff() < 2e-4) {
       result.status = {};
-      break;
+      return result;
     }
-    bool accepted = false;
-    for (int tries = 0; tries < 6 && !accepted; ++tries) {
-      const VectorXd step = updating::bounded_gauss_newton_step(r, j, result.part, box, damping);
-      const VectorXd next = (result.part + step).cwiseMax(0.0).cwiseMin(1.0);
-      VectorXd r_next;
-      accepted = fit.residual(next, r_next) && 0.5 * r_next.squaredNorm() < result.cost;
-      if (!accepted) {
-        damping *= 8.0;
-        continue;
-      }
-      const double gain = result.cost - 0.5 * r_next.squaredNorm();
-      result.part = next;
-      r = r_next;
-      result.fitted = fit.frequencies;
-      damping = std::max(1e-9, damping / 5.0);
-      if (gain < 1e-5 * result.cost) {
-        result.status = {};
-        result.cost = 0.5 * r.squaredNorm();
-        return result;
-      }
-    }
-    if (!accepted) {
-      result.status = {};  // no step lowers the cost: modes change places here, or rounding is reached
-      break;
-    }
+    quick.ratio.setOnes();
+    VectorXd unused;
+    if (!quick.residual(result.part, unused)) continue;
+    quick.ratio = full.frequencies.cwiseQuotient(quick.frequencies);
+    const Search found = search(quick, result.part, calibration.max_iterations, report);
+    // The last residual may be that of a refused step.
+    static_cast<void>(quick.residual(found.part, unused));
+    result.part = found.part;
+    result.projected_gradient = found.projected_gradient;
+    result.iterations += found.iterations;
   }
   return result;
 }

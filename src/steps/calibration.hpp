@@ -56,10 +56,14 @@ struct CalibrationResult {
 /// frequencies cannot tell: Levenberg and Marquardt's steps as the bounds allow (updating/bounded_quadratic.hpp).
 /// Derivatives are those of the eigenvalues, phi' (dK - lambda dM) phi with pulls frozen, for whatever the generator makes of a
 /// value, geometry too: dK and dM are differences of assembled matrices (forward, 1e-5 of the range), not of eigenvalues.
+/// The search runs on a quick mesh whose frequencies are multiplied by what the full mesh makes of them at the last point, until
+/// both agree within 0.02 %.
+/// @param mesh, search_mesh  names of the generator's meshes; "": its own
 /// @param first  (n_values) parts of the ranges to begin with; the pull is to `start` in any case
 /// @param report  called with a line after each iteration
 [[nodiscard]] CalibrationResult calibrate(const Calibration& calibration, const std::filesystem::path& bridge_toml,
-                                          const std::string& mesh, const Eigen::VectorXd& first,
+                                          const std::string& mesh, const std::string& search_mesh,
+                                          const Eigen::VectorXd& first,
                                           const std::function<void(const std::string&)>& report);
 
 }  // namespace twindeck::steps

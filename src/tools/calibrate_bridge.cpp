@@ -63,7 +63,7 @@ Eigen::VectorXd parts_in(const std::filesystem::path& file, const steps::Calibra
 }
 
 int run(const std::filesystem::path& definition, const std::filesystem::path& bridge, const std::filesystem::path& out,
-        const std::string& mesh, const std::string& from, bool write) {
+        const std::string& mesh, const std::string& search_mesh, const std::string& from, bool write) {
   const steps::Calibration calibration = steps::read_calibration(definition);
   Eigen::VectorXd first(std::ssize(calibration.values));
   for (Eigen::Index v = 0; v < first.size(); ++v) {
@@ -71,9 +71,9 @@ int run(const std::filesystem::path& definition, const std::filesystem::path& br
     first[v] = value.part_of(value.start);
   }
   if (!from.empty()) first = parts_in(from, calibration);
-  const steps::CalibrationResult result = steps::calibrate(calibration, bridge, mesh, first, [](const std::string& line) {
-    std::fprintf(stderr, "calibrate_bridge: %s\n", line.c_str());
-  });
+  const steps::CalibrationResult result =
+      steps::calibrate(calibration, bridge, mesh, search_mesh, first,
+                       [](const std::string& line) { std::fprintf(stderr, "calibrate_bridge: %s\n", line.c_str()); });
   if (result.part.size() == 0) throw InputError({bridge.string(), 0, ""}, result.status.message, "check the starting values");
   std::filesystem::create_directories(out);
   write_values(calibration, result, out / "values.csv");
@@ -96,23 +96,24 @@ int main(int argc, char** argv) {
   CLI::App app("Fits the bridge's unknown sizes to printed frequencies within ranges of engineering sense.",
                "calibrate_bridge");
   app.footer(
-      "Examples:\n  calibrate_bridge --mesh coarse --out results/calibration_coarse\n"
-      "  calibrate_bridge --from results/calibration_coarse/values.csv --out results/calibration --write");
+      "Examples:\n  calibrate_bridge --out results/calibration\n"
+      "  calibrate_bridge --from results/calibration/values.csv --out results/calibration --write");
   std::string definition = "data/ponte_del_mare/calibration.toml", bridge = "data/ponte_del_mare/bridge.toml";
-  std::string out = "results/calibration", mesh, from;
+  std::string out = "results/calibration", mesh, search_mesh = "coarse", from;
   int threads = 0;
   bool write = false;
   app.add_option("--definition", definition, "ranges and targets")->capture_default_str();
   app.add_option("--bridge", bridge, "definition of the bridge")->capture_default_str();
   app.add_option("--out", out, "folder for values.csv and frequencies.csv")->capture_default_str();
   app.add_option("--mesh", mesh, "mesh of the bridge by name; default: its own");
+  app.add_option("--search-mesh", search_mesh, "quick mesh that the search runs on")->capture_default_str();
   app.add_option("--from", from, "values.csv of an earlier fit to go on from; default: the untuned starts");
   app.add_option("--threads", threads, "default: one a core");
   app.add_flag("--write", write, "write the fitted values into the definition of the bridge");
   CLI11_PARSE(app, argc, argv);
   try {
     twindeck::steps::set_threads(threads);
-    return run(definition, bridge, out, mesh, from, write);
+    return run(definition, bridge, out, mesh, search_mesh, from, write);
   } catch (const twindeck::InputError& error) {
     std::fprintf(stderr, "calibrate_bridge: %s\n", error.what());
     return 2;
