@@ -74,8 +74,8 @@ smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
 
 bench: build ## ratios against peers: modes, derivatives, memory (results/bench/bench.csv)
-	@cmake --build $(BUILD) -j $(JOBS) --target bench
-	@workflows/python.sh tests/bench/modes.py $(BIN) $(BIN)/bench results/bench
+	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes
+	@workflows/python.sh tests/bench/modes.py $(BIN) $(BIN)/bench_modes results/bench
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
