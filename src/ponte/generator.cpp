@@ -173,12 +173,13 @@ void add_prestress(fe::Model& model, const BridgeDefinition& definition, const s
   }
 }
 
-// Nodes on the decks' axes where wind acts, evenly from one end stay to the other: aero_foot_01 … north to south.
+// Nodes on the decks' axes where wind acts: the middles of equal lengths between the end stays, aero_foot_01 … from south to north,
+// each on the nearest row of slab nodes.
 void add_aerodynamic_nodes(fe::Model& model, const BridgeDefinition& definition, const std::map<std::string, DeckNodes>& decks) {
   for (const DeckDefinition& deck : definition.decks) {
     const double last = stay_positions(deck.stay).back();
     for (int i = 0; i < definition.aerodynamic_nodes; ++i) {
-      const double s = last * (1.0 - 2.0 * i / (definition.aerodynamic_nodes - 1));
+      const double s = last * ((2.0 * i + 1.0) / definition.aerodynamic_nodes - 1.0);
       const DeckNodes::Line& line = decks.at(deck.name).line_near(s);
       model.monitoring_points[fmt::format("aero_{}_{:02d}", deck.name, i + 1)] = line.across[line.across.size() / 2];
     }
