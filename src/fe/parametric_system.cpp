@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "fe/term_sum.hpp"
 
 namespace twindeck::fe {
 

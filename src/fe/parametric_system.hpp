@@ -50,10 +50,6 @@ struct Term {
   std::vector<double> value;
 };
 
-/// sum a_g(theta) K_g, lower triangle on the pattern.
-[[nodiscard]] linalg::SparseMatrix combine(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms,
-                                           const Eigen::VectorXd& theta);
-
 /// A structure whose matrices depend on parameters,  K = sum a_g(theta) K_g,  M = sum b_g(theta) M_g, on one sparsity pattern
 /// over the free degrees of freedom. FE models and matrix models both become one of these; nothing above cares which.
 class ParametricSystem {

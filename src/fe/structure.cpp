@@ -7,6 +7,7 @@
 #include "fe/assembly_terms.hpp"
 #include "fe/large_displacement.hpp"
 #include "fe/structure_parts.hpp"
+#include "fe/term_sum.hpp"
 
 namespace twindeck::fe {
 

@@ -181,8 +181,6 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
 
 Eigen::Index Cholesky::failed_column() const { return impl_->failed; }
 
-Eigen::Index Cholesky::size() const { return impl_->factor == nullptr ? 0 : static_cast<Eigen::Index>(impl_->factor->n); }
-
 Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
   TWINDECK_ASSERT(impl_->factor != nullptr && impl_->failed < 0);
   TWINDECK_ASSERT(static_cast<std::size_t>(b.rows()) == impl_->factor->n);

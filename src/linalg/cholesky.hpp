@@ -9,8 +9,7 @@
 namespace twindeck::linalg {
 
 /// Sparse LDL'/Cholesky of a symmetric matrix (CHOLMOD, supernodal where it pays; one thread so that results do not depend on
-/// the number of threads). One symbolic factorisation per pattern: `factorize` may be called again with new values, and other
-/// objects that meet the same pattern share it.
+/// the number of threads). One symbolic factorisation per pattern: `factorize` may be called again with new values.
 class Cholesky {
  public:
   Cholesky();
@@ -24,8 +23,6 @@ class Cholesky {
   /// `failed_column()` gives the row of the matrix at which it broke down (a mechanism lies there).
   Status factorize(const SparseMatrix& lower);
   [[nodiscard]] Eigen::Index failed_column() const;
-  /// Rows of the analysed matrix.
-  [[nodiscard]] Eigen::Index size() const;
   /// Solves A X = B. @param b (n × m) @return (n × m)
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
 

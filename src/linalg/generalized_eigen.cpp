@@ -51,7 +51,7 @@ struct Candidates {
 /// Exact condensation to the few dofs with mass: G = E' A^-1 E = C C', then C' M C z = mu z, x = A^-1 E M C z.
 Candidates condensed(const SymmetricProduct& mass, const std::vector<Index>& dofs, int n_pairs, const Cholesky& factor) {
   const auto m = static_cast<Index>(dofs.size());
-  MatrixXd unit = MatrixXd::Zero(factor.size(), m);
+  MatrixXd unit = MatrixXd::Zero(mass.size(), m);
   for (Index j = 0; j < m; ++j) unit(dofs[static_cast<std::size_t>(j)], j) = 1.0;
   const MatrixXd mass_unit = mass.times(unit);
   const MatrixXd flexibility = factor.solve(unit);
@@ -74,7 +74,7 @@ Candidates condensed(const SymmetricProduct& mass, const std::vector<Index>& dof
 
 Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor, const Eigen::Ref<const MatrixXd>& start) {
   SelfAdjointOperator op;
-  op.size = factor.size();
+  op.size = mass.size();
   op.times_mass = [&](const MatrixXd& x) { return mass.times(x); };
   op.from_mass = [&](const MatrixXd& y) { return factor.solve(y); };
   const bool warm = start.rows() == op.size && start.cols() > 0;

@@ -15,6 +15,7 @@ class SymmetricProduct {
   explicit SymmetricProduct(const SparseMatrix& lower);
   /// A X.  @param x (n × m) @return (n × m)
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(outer_.size()) - 1; }
   /// Rows with an entry other than zero.
   [[nodiscard]] std::vector<Eigen::Index> rows_in_use() const;
 
