@@ -6,6 +6,7 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -128,7 +129,12 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::s
   std::atomic<int> done = 0;
   in_parallel(count, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    models[at] = solve_modes(from_model(ponte::generate_with_changes(bridge_toml, switched[at], mesh)), n_modes + extra_modes);
+    SolvedModel& solved = models[at];
+    solved = solve_modes(from_model(ponte::generate_with_changes(bridge_toml, switched[at], mesh)), n_modes + extra_modes);
+    // What following needs is kept; the assembled terms of sixteen models at once would fill the memory.
+    solved.loaded.model = std::make_shared<const fe::Model>(*solved.loaded.model);
+    solved.loaded.structure.reset();
+    solved.loaded.system.stiffness_terms = solved.loaded.system.mass_terms = {};
     const int now = ++done;
 #pragma omp critical(twindeck_progress)
     progress(now, count);

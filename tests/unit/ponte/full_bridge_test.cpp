@@ -72,7 +72,9 @@ TEST(FullBridge, PutsThirtyAerodynamicNodesOnEachDeckBetweenTheEndStays) {
       const double yaw = std::atan2(from_centre.x(), from_centre.y()) * 180.0 / M_PI;
       EXPECT_GT(yaw, last) << name;  // from south to north
       // The outermost stand half a length inside the end stays.
-      if (i == 1 || i == 30) EXPECT_NEAR(std::abs(yaw), deck.yaw_limit_deg * 29.0 / 30.0, 1.0) << name;
+      if (i == 1 || i == 30) {
+        EXPECT_NEAR(std::abs(yaw), deck.yaw_limit_deg * 29.0 / 30.0, 1.0) << name;
+      }
       last = yaw;
       nodes.insert(node);
     }
