@@ -1,4 +1,4 @@
-// Oracle: texts that a user must see. Each case spoils one place of the real bridge.toml.
+// Oracle: texts that a user must see. Each case spoils one place of a real definition, prototype.toml.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace twindeck::ponte {
 namespace {
 
-const std::filesystem::path kBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/bridge.toml";
+const std::filesystem::path kBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
 
 // Message of generating `variant` from bridge.toml with `from` (its first occurrence) replaced by `to`; the error must name the
 // line of that place, or one so many lines below.
@@ -91,7 +91,7 @@ TEST(DefinitionFile, UnknownVariantAndChangeAreNamed) {
     (void)generate(kBridge, "refinde");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    expect_contains(error.what(), {"refinde", "did you mean 'refined'", "bridge.toml"});
+    expect_contains(error.what(), {"refinde", "did you mean 'refined'", "prototype.toml"});
   }
   try {
     (void)generate_with_changes(kBridge, {"light_concret"});

@@ -19,8 +19,9 @@ fe::ParametricSystem chain(double frozen) {
             m = small.parameter("m", 1.0, 0.7, 1.3);
   Eigen::MatrixXd parts[3] = {Eigen::MatrixXd::Zero(kMasses, kMasses), Eigen::MatrixXd::Zero(kMasses, kMasses),
                               Eigen::MatrixXd::Zero(kMasses, kMasses)};
-  for (int i = 0; i <= kMasses; ++i) parts[3 * i / (kMasses + 1)] += 4e3 * spring(kMasses, i < kMasses ? i : -1, i - 1);
-  Eigen::VectorXd own = Eigen::VectorXd::Ones(kMasses), variable = Eigen::VectorXd::Zero(kMasses);
+  for (int i = 0; i <= kMasses; ++i) parts[3 * i / (kMasses + 1)] += 4e3 * (1.0 + 0.03 * i) * spring(kMasses, i < kMasses ? i : -1, i - 1);
+  // Nothing in it is symmetric: a mirror image would be a second optimum.
+  Eigen::VectorXd own = Eigen::VectorXd::LinSpaced(kMasses, 1.0, 2.0), variable = Eigen::VectorXd::Zero(kMasses);
   for (int i = 0; i < kMasses; i += 3) variable[i] = 0.5 + 0.01 * i;
   Eigen::MatrixXd string = Eigen::MatrixXd::Zero(kMasses, kMasses);
   for (int i = 0; i < kMasses; ++i) string += frozen * spring(kMasses, i, -1);
@@ -28,16 +29,16 @@ fe::ParametricSystem chain(double frozen) {
       .mass(own.asDiagonal().toDenseMatrix()).mass(variable.asDiagonal().toDenseMatrix(), m).system();
 }
 
-fe::ParametricSystem in_balance(const Eigen::VectorXd& theta) { return chain(0.4 * theta[3]); }
+fe::ParametricSystem in_balance(const Eigen::VectorXd& theta) { return chain(0.05 * theta[3]); }
 
 UpdatingResult run(Eigen::Index surrogate_from_size, const Eigen::VectorXd& truth) {
   const fe::ParametricSystem start = in_balance(chain(0.0).initial());
   const Eigen::VectorXd measured = dense_frequencies(in_balance(truth), truth);
   std::vector<FrequencyTarget> targets;
-  for (int i = 0; i < 7; ++i) targets.push_back({std::to_string(i + 1), i, measured(i), 0.0});
+  for (int i = 0; i < 10; ++i) targets.push_back({std::to_string(i + 1), i, measured(i), 0.0});
   UpdatingOptions options;
   options.starts = 4;
-  options.n_modes = 10;
+  options.n_modes = 13;
   options.surrogate_from_size = surrogate_from_size;
   return update(start, in_balance, {0, 1, 2, 3}, targets, options, {});
 }
@@ -66,7 +67,7 @@ TEST(Surrogate, EndsWhereTheFullSearchEnds) {
 TEST(Surrogate, FrequenciesAreThoseOfTheFullSystem) {
   const UpdatingResult result = run(0, Eigen::Vector4d(1.11, 0.93, 1.21, 0.88));
   const Eigen::VectorXd dense = dense_frequencies(in_balance(result.theta), result.theta);
-  for (Eigen::Index i = 0; i < 7; ++i) EXPECT_NEAR(result.frequency_after_Hz(i) / dense(i), 1.0, 1e-9);
+  for (Eigen::Index i = 0; i < 10; ++i) EXPECT_NEAR(result.frequency_after_Hz(i) / dense(i), 1.0, 1e-9);
 }
 
 TEST(ReducedSystem, IsTheProjectionOfTheWhole) {
