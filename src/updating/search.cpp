@@ -102,6 +102,7 @@ bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference,
     }
     const double step = (next - x).norm();
     x = next;
+    reach *= 2.0;
     cost = full.cost();
     out.evaluation = full;
     if (reference == 0.0) reference = gradient_reference(full.gradient(), full.jacobian);
