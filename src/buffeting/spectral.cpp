@@ -1,9 +1,12 @@
 #include "buffeting/spectral.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <exception>
 #include <numbers>
+#include <utility>
 
 namespace twindeck::buffeting {
 
@@ -37,21 +40,30 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
                           const SpectralOptions& options) {
   const Index strips = along.size();
   MatrixXd spectra = MatrixXd::Zero(f_Hz.size(), sensors.rows());
+  std::exception_ptr failure;  // a table that does not reach so far
 #pragma omp parallel for schedule(dynamic)
-  for (Index k = 0; k < f_Hz.size(); ++k) {
-    const double omega = 2.0 * std::numbers::pi * f_Hz[k];
-    const double at = options.frozen_omega > 0.0 ? options.frozen_omega : omega;
-    // Few sensors and many loads: solved for the sensors, with the transpose.
-    const MatrixXcd z = impedance(system, speed_m_s, omega, at).transpose();
-    const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
-    const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
-    const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
-    for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
-      const MatrixXcd part = transfer.middleCols(first, strips);
-      const MatrixXcd cross = part * wind::cross_spectrum(*field, f_Hz[k]);
-      spectra.row(k) += chi * cross.cwiseProduct(part.conjugate()).rowwise().sum().real().transpose();
+  for (Index k = 0; k < f_Hz.size(); ++k) try {
+      const double omega = 2.0 * std::numbers::pi * f_Hz[k];
+      const double at = options.frozen_omega > 0.0 ? options.frozen_omega : std::max(omega, options.lowest_omega);
+      // Few sensors and many loads: solved for the sensors, with the transpose.
+      const MatrixXcd z = impedance(system, speed_m_s, omega, at).transpose();
+      const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
+      const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
+      const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
+      for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
+        // The drift is a phase of each point and the coherence real: real and imaginary parts go through it by themselves.
+        const Eigen::VectorXcd point = wind::spectra(*field, f_Hz[k]).cwiseSqrt().cwiseProduct(wind::drift(*field, f_Hz[k]));
+        const MatrixXcd part = transfer.middleCols(first, strips) * point.asDiagonal();
+        MatrixXd split(2 * sensors.rows(), strips);
+        split << part.real(), part.imag();
+        const VectorXd square = (split * wind::coherence(*field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
+        spectra.row(k) += chi * (square.head(sensors.rows()) + square.tail(sensors.rows())).transpose();
+      }
+    } catch (...) {
+#pragma omp critical
+      failure = std::current_exception();
     }
-  }
+  if (failure) std::rethrow_exception(failure);
   return spectra;
 }
 

@@ -17,6 +17,7 @@ namespace twindeck::buffeting {
 struct SpectralOptions {
   int derivative = 2;         ///< p
   double frozen_omega = 0.0;  ///< [rad/s] at which derivatives are taken; 0: at each frequency
+  double lowest_omega = 0.0;  ///< [rad/s] below it derivatives are held, as tables end somewhere towards quasi-steady motion
   /// Aerodynamic admittance on the force spectra, |chi(f)|²; empty: 1 (quasi-steady).
   std::function<double(double f_Hz)> admittance;
 };

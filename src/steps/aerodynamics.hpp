@@ -90,9 +90,21 @@ struct WindModel {
 struct DampedModel {
   aero::ReducedStructure structure;
   std::vector<aero::StripMotion> motions;
+  Eigen::MatrixXd vectors;  ///< (n × m) of the coordinates over the free degrees of freedom
   int dampers = 0;
 };
+/// What the modes are completed with.
+struct Reduction {
+  bool dampers = true;           ///< the dampers take part, and a static shape each
+  Eigen::MatrixXd patterns;      ///< (n × k) loads, scaled by their size; may be empty
+  Eigen::Index static_shapes = 0;  ///< that hold most of what the modes leave of the answer to the patterns
+};
+[[nodiscard]] DampedModel reduce(const WindModel& model, const LoadedModel& loaded, double damping_ratio, const Reduction& reduction);
 [[nodiscard]] DampedModel with_dampers(const WindModel& model, const LoadedModel& loaded, double damping_ratio);
+
+/// The springs that are dampers, and their force patterns on the free degrees of freedom (n × n_dampers).
+[[nodiscard]] std::vector<const fe::Spring*> dampers_of(const fe::Model& model);
+[[nodiscard]] Eigen::MatrixXd damper_patterns(const LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers);
 
 /// Level of a set at which mode 1 is critical at the speed to fit, by the rule to fit. 1 where nothing is to be fitted.
 /// @return empty if no level between 0.05 and 20 does it

@@ -16,7 +16,16 @@ constexpr double radians = std::numbers::pi / 180.0;
 
 aero::OutOfRange choice(const std::string& word) { return word == "hold" ? aero::OutOfRange::hold : aero::OutOfRange::refuse; }
 
-// Force patterns of the dampers on the free degrees of freedom (n × n_dampers).
+}  // namespace
+
+std::vector<const fe::Spring*> dampers_of(const fe::Model& model) {
+  std::vector<const fe::Spring*> dampers;
+  for (const fe::Spring& spring : model.springs) {
+    if (spring.group.starts_with("damper")) dampers.push_back(&spring);
+  }
+  return dampers;
+}
+
 Eigen::MatrixXd damper_patterns(const LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers) {
   Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(loaded.system.expansion.rows(), static_cast<Eigen::Index>(dampers.size()));
   for (std::size_t j = 0; j < dampers.size(); ++j) {
@@ -28,8 +37,6 @@ Eigen::MatrixXd damper_patterns(const LoadedModel& loaded, const std::vector<con
   }
   return loaded.system.expansion.transpose() * nodal;
 }
-
-}  // namespace
 
 std::vector<DeckAerodynamics> read_deck_aerodynamics(const AerodynamicsConfig& config, StepContext& context) {
   if (config.decks.empty())
@@ -94,19 +101,20 @@ aero::ReducedStructure bare_structure(const WindModel& model, double damping_rat
   return s;
 }
 
-DampedModel with_dampers(const WindModel& model, const LoadedModel& loaded, double damping_ratio) {
-  std::vector<const fe::Spring*> dampers;
-  for (const fe::Spring& spring : loaded.model->springs) {
-    if (spring.group.starts_with("damper")) dampers.push_back(&spring);
-  }
+DampedModel reduce(const WindModel& model, const LoadedModel& loaded, double damping_ratio, const Reduction& reduction) {
+  const std::vector<const fe::Spring*> dampers = reduction.dampers ? dampers_of(*loaded.model) : std::vector<const fe::Spring*>();
   const Eigen::MatrixXd patterns = damper_patterns(loaded, dampers);
   const linalg::SparseMatrix stiffness = loaded.system.stiffness(loaded.theta), mass = loaded.system.mass(loaded.theta);
   linalg::Cholesky factor;
   const Status factored = factor.factorize(stiffness);
   TWINDECK_ASSERT(factored.converged);  // the modes were found with the same matrix
   // Dampers are strong against modes: between their ends the structure must be able to yield as it really does.
-  const Eigen::MatrixXd corrections = dynamics::static_corrections(factor, mass, model.modes.shapes, patterns, patterns.cols());
-  const dynamics::ReducedBasis basis = dynamics::reduced_basis(stiffness, mass, model.modes.shapes, corrections);
+  const Eigen::MatrixXd& modes = model.modes.shapes;
+  const Eigen::MatrixXd of_dampers = dynamics::static_corrections(factor, mass, modes, patterns, patterns.cols());
+  const Eigen::MatrixXd of_loads = dynamics::static_corrections(factor, mass, modes, reduction.patterns, reduction.static_shapes);
+  Eigen::MatrixXd shapes(modes.rows(), of_dampers.cols() + of_loads.cols());
+  shapes << of_dampers, of_loads;
+  const dynamics::ReducedBasis basis = dynamics::reduced_basis(stiffness, mass, modes, shapes);
 
   DampedModel out;
   out.dampers = static_cast<int>(dampers.size());
@@ -122,7 +130,12 @@ DampedModel with_dampers(const WindModel& model, const LoadedModel& loaded, doub
     }
   }
   out.motions = motions_of(model.nodes, loaded.system.expand(basis.vectors));
+  out.vectors = basis.vectors;
   return out;
+}
+
+DampedModel with_dampers(const WindModel& model, const LoadedModel& loaded, double damping_ratio) {
+  return reduce(model, loaded, damping_ratio, {});
 }
 
 std::optional<double> fit_level(const AerodynamicsConfig& config, const std::vector<DeckAerodynamics>& data,

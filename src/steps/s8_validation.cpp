@@ -1,0 +1,18 @@
+/// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21): turbulent wind, accelerations with dampers, hybrid deployment.
+#include "steps/run_step.hpp"
+#include "steps/validation.hpp"
+
+int main(int argc, char** argv) {
+  using namespace twindeck;
+  steps::ValidationConfig config;
+  steps::Step step;
+  step.token = "s8_validation";
+  step.summary =
+      "Simulates turbulent wind on the updated bridge and its accelerations in wind events, with intervals over seeds.";
+  step.examples = {"s8_validation --study workflows/ponte_del_mare --out results/ponte_del_mare/s8_validation",
+                   "s8_validation --study workflows/ponte_del_mare --out calm --results results/ponte_del_mare --set seeds=4 "
+                   "--set turbulence_set='\"EN 0\"'"};
+  step.fields = config.fields();
+  step.run = [&config](steps::StepContext& context) { return steps::run_validation(context, config); };
+  return steps::run_step(argc, argv, std::move(step));
+}
