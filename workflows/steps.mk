@@ -14,6 +14,7 @@ READS_s4_refinement := s1_model
 READS_s5_sensitivity := s4_refinement
 READS_s6_updating := s4_refinement s5_sensitivity
 READS_s7_aerodynamics := s6_updating
+READS_s8_validation := s0_campaign s6_updating s7_aerodynamics
 
 # What a step reads of the study's data beside STUDY_INPUTS.
 INPUTS_s0_campaign := $(wildcard data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)

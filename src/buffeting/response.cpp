@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace twindeck::buffeting {
 
@@ -29,14 +31,16 @@ Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const Matrix
                  const ResponseOptions& options) {
   const Index n = wind_m_s.rows();
   const Index lead = std::min<Index>(n, static_cast<Index>(std::llround(options.lead_in_s / step_s)));
-  MatrixXd force(load.rows(), lead + n);
-  force.rightCols(n).noalias() = load * wind_m_s.transpose();
-  force.leftCols(lead) = MatrixXd(force.rightCols(lead));
+  const MatrixXd prepared = newmark.within_a_step(load);
+  MatrixXd alone(prepared.rows(), lead + n);
+  alone.rightCols(n).noalias() = prepared * wind_m_s.transpose();
+  alone.leftCols(lead) = MatrixXd(alone.rightCols(lead));
   // From rest: the load comes up over the first half of the lead-in, so that no jump rings on.
   const Index ramp = lead / 2;
-  for (Index i = 0; i < ramp; ++i)
-    force.col(i) *= 0.5 - 0.5 * std::cos(std::acos(-1.0) * static_cast<double>(i) / static_cast<double>(ramp));
-  const dynamics::History history = newmark.run(force);
+  for (Index i = 0; i < ramp; ++i) {
+    alone.col(i) *= 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(ramp));
+  }
+  const dynamics::History history = newmark.run_prepared(std::move(alone));
   return {(sensors * history.acceleration.topRightCorner(sensors.cols(), n)).transpose(), history.status};
 }
 

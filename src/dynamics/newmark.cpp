@@ -48,19 +48,33 @@ Newmark::Newmark(LinearSystem system, double step_s, std::vector<FrictionUnit> f
   flexibility_ = 0.25 * step_s * step_s * direction_.transpose() * inverse_ * direction_;
 }
 
-History Newmark::run(const Eigen::Ref<const MatrixXd>& force, const State& initial) const {
-  const Index r = system_.size(), n = force.cols(), units = direction_.cols();
-  const double dt = step_s_;
-  History out;
-  out.displacement.resize(r, n);
-  out.acceleration.noalias() = inverse_.leftCols(force.rows()) * force;  // what the forces alone would do, completed below
-  out.friction_N = MatrixXd::Zero(units, n);
+MatrixXd Newmark::within_a_step(const Eigen::Ref<const MatrixXd>& load) const { return inverse_.leftCols(load.rows()) * load; }
 
-  VectorXd q = initial.displacement.size() > 0 ? initial.displacement : VectorXd::Zero(r);
-  VectorXd v = initial.velocity.size() > 0 ? initial.velocity : VectorXd::Zero(r);
+History Newmark::run(const Eigen::Ref<const MatrixXd>& force, const State& initial) const {
+  const Index r = system_.size();
+  History out;
+  out.acceleration = within_a_step(force);  // what the forces alone would do; the rest is added step by step
+  const VectorXd q = initial.displacement.size() > 0 ? initial.displacement : VectorXd::Zero(r);
+  const VectorXd v = initial.velocity.size() > 0 ? initial.velocity : VectorXd::Zero(r);
   VectorXd first = -system_.damping * v - system_.stiffness * q;
   first.head(force.rows()) += force.col(0);
-  VectorXd a = system_.mass.completeOrthogonalDecomposition().solve(first);  // coordinates without mass: none
+  integrate(out, q, v, system_.mass.completeOrthogonalDecomposition().solve(first));  // coordinates without mass: none
+  return out;
+}
+
+History Newmark::run_prepared(MatrixXd alone) const {
+  const VectorXd rest = VectorXd::Zero(system_.size());
+  History out;
+  out.acceleration = std::move(alone);
+  integrate(out, rest, rest, rest);
+  return out;
+}
+
+void Newmark::integrate(History& out, VectorXd q, VectorXd v, VectorXd a) const {
+  const Index r = system_.size(), n = out.acceleration.cols(), units = direction_.cols();
+  const double dt = step_s_;
+  out.displacement.resize(r, n);
+  out.friction_N = MatrixXd::Zero(units, n);
   out.displacement.col(0) = q;
   out.acceleration.col(0) = a;
 
@@ -94,7 +108,6 @@ History Newmark::run(const Eigen::Ref<const MatrixXd>& force, const State& initi
     out.displacement.col(i) = q;
     out.acceleration.col(i) = a;
   }
-  return out;
 }
 
 }  // namespace twindeck::dynamics

@@ -47,7 +47,16 @@ class Newmark {
   /// @param force  (r × n_steps) at t = 0, dt, …; rows that are missing at its end (Maxwell's points) are zero
   [[nodiscard]] History run(const Eigen::Ref<const Eigen::MatrixXd>& force, const State& initial = {}) const;
 
+  /// For forces that are R w(t) with few inputs w: what they alone would make of the acceleration within a step, (M + dt/2 C +
+  /// dt²/4 K)⁻¹ R.
+  /// @param load  R (r × n_inputs), rows at its end missing as above @return (r × n_inputs)
+  [[nodiscard]] Eigen::MatrixXd within_a_step(const Eigen::Ref<const Eigen::MatrixXd>& load) const;
+  /// `run` from rest with those accelerations, within_a_step(R) w(t). The first is that at rest: forces should start from zero.
+  [[nodiscard]] History run_prepared(Eigen::MatrixXd alone) const;
+
  private:
+  void integrate(History& out, Eigen::VectorXd q, Eigen::VectorXd v, Eigen::VectorXd a) const;
+
   LinearSystem system_;
   double step_s_;
   std::vector<FrictionUnit> friction_;

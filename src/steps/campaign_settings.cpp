@@ -35,11 +35,13 @@ void bind_condition(io::FieldTable& t, ConditionSettings& c) {
 
 void bind_record(io::FieldTable& t, RecordSettings& r) {
   t.text("setup", r.setup, "setup of the layout file", true)
-      .choice("kind", r.kind, {"ambient", "free_decay"}, "ambient, or the decay after a hung mass is let go")
+      .choice("kind", r.kind, {"ambient", "free_decay", "wind"}, "ambient, the decay after a hung mass is let go, or a wind event")
       .text("condition", r.condition, "condition", true)
       .number("duration", r.duration_s, "s", io::positive(), "length", true)
       .number("mass", r.mass_kg, "kg", io::non_negative(), "free_decay: mass that is let go")
-      .text("point", r.point, "free_decay: point that it hangs from");
+      .text("point", r.point, "free_decay: point that it hangs from")
+      .number("speed", r.speed_m_s, "m/s", io::non_negative(), "wind: mean speed at the decks")
+      .number("direction_deg", r.direction_deg, "", {-360.0, 360.0}, "wind: where it blows to, degrees anticlockwise from +X");
 }
 
 void bind_stay(io::FieldTable& t, StayTest& s) {
@@ -103,6 +105,12 @@ io::FieldTable CampaignSettings::fields() {
       .number("logger.step", converter_step, "m/s^2", io::non_negative(), "step of the converter")
       .number("logger.range", range, "m/s^2", io::non_negative(), "readings are clipped here; 0: nowhere")
       .number("logger.drift", drift, "m/s^2", io::non_negative(), "drift of the zero over a record")
+      .text("wind.aerodynamics", wind_aerodynamics, "wind events: configuration of step 7 whose decks and data hold")
+      .text("wind.turbulence_file", wind_turbulence_file, "wind events: file of turbulence sets")
+      .text("wind.turbulence_set", wind_turbulence_set, "wind events: which of them")
+      .text("wind.model", wind_model, "wind events: model of Table 11 that holds on the virtual bridge")
+      .number("wind.height", wind_height_m, "m", io::positive(), "wind events: height of the decks above ground")
+      .number("wind.lift_slope_factor", wind_lift_slope_factor, "", io::positive(), "wind events: factor on the lift slope of the data")
       .number("calibration.spread", correction_spread, "", io::positive(), "standard deviation of the logarithm of a correction: how dear it is")
       .number("calibration.frequency", frequency_weight, "", io::positive(), "relative standard deviation of the named frequencies in the fit");
   return table;

@@ -41,6 +41,8 @@ struct RecordSettings {
   double duration_s = 0.0;
   double mass_kg = 0.0;        ///< free_decay: the mass that is let go
   std::string point;           ///< free_decay: where it hung
+  double speed_m_s = 0.0;      ///< wind: mean speed at the decks
+  double direction_deg = 0.0;  ///< wind: where it blows to, anticlockwise from +X
 };
 
 struct StayTest {
@@ -65,6 +67,8 @@ struct CampaignSettings {
   double noise = 0.0, converter_step = 0.0, range = 0.0, drift = 0.0;
   std::vector<StayTest> stays;
   double stay_duration_s = 600.0, stay_force = 1.0, stay_sensor = 0.13;
+  std::string wind_aerodynamics, wind_turbulence_file = "data/wind/turbulence_sets.csv", wind_turbulence_set = "EN 0", wind_model = "C";
+  double wind_height_m = 14.5, wind_lift_slope_factor = 1.0;
   double correction_spread = 0.15, frequency_weight = 2e-4;
 
   io::FieldTable fields();

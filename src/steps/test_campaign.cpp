@@ -15,6 +15,7 @@
 #include "steps/campaign_files.hpp"
 #include "steps/virtual_records.hpp"
 #include "steps/virtual_stays.hpp"
+#include "steps/virtual_wind.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -87,12 +88,18 @@ Status run_test_campaign(StepContext& context, const CampaignSettings& settings)
   // 2. Records of the decks, each with random streams of its own, so that threads change nothing.
   std::vector<RecordFile> files = record_files(settings, layout);
   std::vector<Simulated> simulated(settings.records.size());
+  std::optional<VirtualWind> wind;
+  for (const RecordSettings& record : settings.records) {
+    if (record.kind == "wind" && !wind) wind = read_virtual_wind(context, settings);
+  }
   std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < settings.records.size(); ++i) {
     try {
       const RecordSettings& record = settings.records[i];
-      Motion motion = simulate(model_of(record.condition), settings, record, channels_of(layout, record.setup), points, context.seed, i);
+      const std::vector<LayoutChannel> channels = channels_of(layout, record.setup);
+      Motion motion = record.kind == "wind" ? simulate_wind(model_of(record.condition), settings, record, *wind, channels, context.seed, i)
+                                            : simulate(model_of(record.condition), settings, record, channels, points, context.seed, i);
       io::write_npy_single(logged_record(motion, settings, context.seed, i), context.out / files[i].file);
       simulated[i] = {std::move(motion.damper_force_N), std::move(motion.rms_displacement_m)};
     } catch (...) {
@@ -112,14 +119,14 @@ Status run_test_campaign(StepContext& context, const CampaignSettings& settings)
     io::write_npy_single(logged_record(motion, settings, context.seed, stream), context.out / files[settings.records.size() + i].file);
   }
 
-  // 4. What is true, and how large the motion was: of each condition's longest ambient record.
+  // 4. What is true, and how large the motion was: of each condition's longest ambient or wind record.
   TruthTables truth;
   std::map<std::string, Amplitude> amplitudes;
   for (const ConditionSettings& condition : settings.conditions) {
     std::optional<std::size_t> longest;
     for (std::size_t i = 0; i < settings.records.size(); ++i) {
       const RecordSettings& r = settings.records[i];
-      if (r.condition == condition.name && r.kind == "ambient" && (!longest || r.duration_s > settings.records[*longest].duration_s)) longest = i;
+      if (r.condition == condition.name && (r.kind == "ambient" || r.kind == "wind") && (!longest || r.duration_s > settings.records[*longest].duration_s)) longest = i;
     }
     if (!longest) continue;
     const ConditionModel& model = model_of(condition.name);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "buffeting/interval.hpp"
@@ -105,6 +107,12 @@ struct TimeCheck {
 /// without self-excited forces (which are forces of the strips alone, the same in both); left out where full_model_check is 0.
 [[nodiscard]] std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const wind::TurbulenceSet& set,
                                                             const ValidationConfig& config, const StepContext& context);
+
+/// RMS of the vertical acceleration in the campaign's wind records, by event and channel [m/s²]; a channel counts for the
+/// monitoring point whose name it has. Empty for events whose condition is not named. `--campaign`, or the study's s0_campaign.
+/// @throws InputError  if the campaign is there but has no wind record of a condition that is named
+using MeasuredRms = std::map<std::pair<std::string, std::string>, double>;
+[[nodiscard]] MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config);
 
 [[nodiscard]] Status run_validation(StepContext& context, const ValidationConfig& config);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "io/csv.hpp"
 
@@ -21,19 +22,28 @@ std::string word(aero::StaticRule rule) {
 
 }  // namespace
 
-void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const ValidationConfig& config,
-               const std::filesystem::path& folder) {
+void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
+               const ValidationConfig& config, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "run", "model", "channel", "direction", "rms_m_s2", "rms_low_m_s2", "rms_high_m_s2",
-                     "seed_deviation_m_s2", "peak_m_s2", "spectral_rms_m_s2", "spectral_rms_each_frequency_m_s2"});
+                     "seed_deviation_m_s2", "peak_m_s2", "spectral_rms_m_s2", "spectral_rms_each_frequency_m_s2",
+                     "measured_rms_m_s2", "error_pct", "error_low_pct", "error_high_pct"});
   const std::array<std::string, 3> axes = {"x", "y", "z"};
   for (const RunResult& result : results) {
     for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
       for (Index d = 0; d < 3; ++d) {
         const Index row = 3 * static_cast<Index>(p) + d;
         const buffeting::Interval rms = buffeting::confidence_interval(result.rms.row(row).transpose(), config.level);
+        const auto found = measured.find({result.event, bridge.sensors.points[p]});
+        std::optional<double> there, error, low, high;
+        if (d == 2 && found != measured.end()) {
+          there = found->second;
+          error = 100.0 * (rms.mean / *there - 1.0);
+          low = 100.0 * (rms.low / *there - 1.0);
+          high = 100.0 * (rms.high / *there - 1.0);
+        }
         csv.row({result.event, result.run, result.model, bridge.sensors.points[p], axes[static_cast<std::size_t>(d)], rms.mean,
                  rms.low, rms.high, rms.deviation, result.peak.row(row).mean(), result.spectral_rms[row],
-                 result.spectral_rms_each_frequency[row]});
+                 result.spectral_rms_each_frequency[row], there, error, low, high});
       }
     }
   }

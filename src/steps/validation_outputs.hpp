@@ -13,9 +13,11 @@ namespace twindeck::steps {
 /// rms.csv:
 /// `event,run,model,channel,direction,rms_m_s2,rms_low_m_s2,rms_high_m_s2,seed_deviation_m_s2,peak_m_s2,spectral_rms_m_s2,
 /// spectral_rms_each_frequency_m_s2`: accelerations at the monitoring points, mean over seeds with its interval, what one seed
-/// scatters, and the frequency domain's value, with derivatives frozen as in time and at each frequency's own.
-void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const ValidationConfig& config,
-               const std::filesystem::path& folder);
+/// scatters, and the frequency domain's value, with derivatives frozen as in time and at each frequency's own; then
+/// `measured_rms_m_s2,error_pct, error_low_pct,error_high_pct` of the vertical direction, Eq. (18), 100 (RMS_num / RMS_exp -
+/// 1), empty without a measured side. The bounds are those of the mean over seeds.
+void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
+               const ValidationConfig& config, const std::filesystem::path& folder);
 
 /// comfort.csv: `event,run,direction,deck,station_m,peak_m_s2,peak_low_m_s2,peak_high_m_s2,limit_m_s2,verdict`: the aerodynamic
 /// node with the largest mean peak, against the comfort limits.

@@ -72,6 +72,8 @@ Status run_validation(StepContext& context, const ValidationConfig& config) {
                           bridge.reduced.structure.size(), bridge.loaded.system.size(), bridge.model.strips.size(),
                           bridge.reduced.dampers));
 
+  const MeasuredRms measured = measured_rms(context, config);
+
   // 2. Events one after the other, seeds in parallel: every seed draws its own wind and runs all simulations in it.
   wind::SimulationOptions options;
   options.duration_s = config.duration_s;
@@ -121,7 +123,7 @@ Status run_validation(StepContext& context, const ValidationConfig& config) {
   }
 
   // 3. Tables.
-  write_rms(results, bridge, config, context.out);
+  write_rms(results, bridge, measured, config, context.out);
   write_comfort(results, bridge, config, context.out);
   write_wind_check(checks, context.out);
   write_hybrid(bridge, context.out);
