@@ -18,10 +18,9 @@ using Eigen::VectorXd;
 namespace {
 
 /// -omega² + i omega C + K, Maxwell units as their complex stiffness i omega k c / (k + i omega c).
-MatrixXcd impedance(const aero::AeroelasticSystem& system, double speed_m_s, double omega, double derivatives_at) {
+MatrixXcd impedance(const aero::AeroelasticSystem& system, const aero::AeroelasticSystem::Block& wind, double omega) {
   const std::complex<double> i(0.0, 1.0);
   const aero::ReducedStructure& structure = system.structure();
-  const aero::AeroelasticSystem::Block wind = system.self_excited(speed_m_s, derivatives_at);
   MatrixXcd z = i * omega * (structure.damping() - wind.damping) - wind.stiffness.cast<std::complex<double>>();
   z.diagonal().array() += structure.omega_rad_s.array().square() - omega * omega;
   for (const aero::MaxwellUnit& unit : structure.maxwell) {
@@ -40,13 +39,17 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
                           const SpectralOptions& options) {
   const Index strips = along.size();
   MatrixXd spectra = MatrixXd::Zero(f_Hz.size(), sensors.rows());
+  const bool is_frozen = options.frozen_omega > 0.0;
+  const aero::AeroelasticSystem::Block frozen =
+      is_frozen ? system.self_excited(speed_m_s, options.frozen_omega) : aero::AeroelasticSystem::Block();
   std::exception_ptr failure;  // a table that does not reach so far
 #pragma omp parallel for schedule(dynamic)
   for (Index k = 0; k < f_Hz.size(); ++k) try {
       const double omega = 2.0 * std::numbers::pi * f_Hz[k];
-      const double at = options.frozen_omega > 0.0 ? options.frozen_omega : std::max(omega, options.lowest_omega);
       // Few sensors and many loads: solved for the sensors, with the transpose.
-      const MatrixXcd z = impedance(system, speed_m_s, omega, at).transpose();
+      const MatrixXcd z =
+          impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
+              .transpose();
       const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
       const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
       const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;

@@ -87,8 +87,7 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
   // Reduced and full model under the same forces.
   const Index steps = std::min<Index>(static_cast<Index>(std::llround(config.full_model_check_s / config.step_s)),
                                       static_cast<Index>(std::llround(config.duration_s / config.step_s)));
-  MatrixXd amplitude =
-      gusts_of_first_seed(bridge, set, config, event, config.step_s, context.seed).topRows(steps).transpose();
+  MatrixXd amplitude = gusts_of_first_seed(bridge, set, config, event, config.step_s, context.seed).topRows(steps).transpose();
   // From nothing over the first quarter: a jump would ring in modes that no gust reaches.
   for (Index i = 0; i < steps / 4; ++i) {
     amplitude.col(i) *= 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(steps / 4));

@@ -19,6 +19,11 @@ namespace twindeck::steps {
 void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
                const ValidationConfig& config, const std::filesystem::path& folder);
 
+/// statements.csv: `statement,found,verdict`: what section 6 says about Table 13, hit or miss on ours; no rows where the
+/// simulations NS1 to NS3, the events August and April or the channels M1 to M8 are not all there with a measured side.
+void write_statements(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
+                      const std::filesystem::path& folder);
+
 /// comfort.csv: `event,run,direction,deck,station_m,peak_m_s2,peak_low_m_s2,peak_high_m_s2,limit_m_s2,verdict`: the aerodynamic
 /// node with the largest mean peak, against the comfort limits.
 void write_comfort(const std::vector<RunResult>& results, const BridgeInWind& bridge, const ValidationConfig& config,

@@ -124,6 +124,7 @@ Status run_validation(StepContext& context, const ValidationConfig& config) {
 
   // 3. Tables.
   write_rms(results, bridge, measured, config, context.out);
+  write_statements(results, bridge, measured, context.out);
   write_comfort(results, bridge, config, context.out);
   write_wind_check(checks, context.out);
   write_hybrid(bridge, context.out);

@@ -12,7 +12,7 @@ import made_up_campaign
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 RULES = REPOSITORY / "data" / "ponte_del_mare"
-STEPS = ["s1_model", "s2_sensors", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics"]
+STEPS = ["s1_model", "s2_sensors", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics", "s8_validation"]
 
 MEASURED = [0.8, 1.1, 1.2, 1.3, 1.5, 1.6, 1.8, 1.9, 2.4, 2.5]
 SOFT = [0.92, 0.95, 0.96, 0.92, 0.98, 1.01, 0.90, 0.93, 0.75, 0.84]  # preliminary / measured
@@ -99,6 +99,9 @@ def write_paper(folder):
     shutil.copy(RULES / "paper" / "table_11.csv", folder)  # words without numbers
     write_rows(folder / "table_12.csv", ["ns", "group", "description", "V_cr_m_per_s", "f_cr_Hz"],
                [[ns, "made up", "", speed, "0.7900"] for ns, speed in CRITICAL])
+    runs = [f"{run}_{event}_err_pct" for run in ("NS1_normal_wind", "NS2_cosine_and_skew", "NS3_windY_NS2") for event in ("August", "April")]
+    write_rows(folder / "table_13.csv", ["accelerometer", *runs], [[f"M{m}", *(f"{m - 4.5 + 0.1 * i:.2f}" for i in range(6))] for m in range(1, 9)])
+    shutil.copy(RULES / "paper" / "table_14.csv", folder)  # words, and angles that are the deck's
     write_rows(folder / "claims.csv", ["claim", "value", "unit", "source", "kind"],
                [["preliminary_f10", f"{soft[9]:.3f}", "Hz", "made up", "calibrated"],
                 ["degrees_of_freedom", "500", "-", "made up", "virtual"], ["friction_velocity", "1.76", "m/s", "made up", "input"]])
@@ -150,6 +153,7 @@ def write_steps(paper, results):
     made_up_campaign.write_sensors(write_rows, results / "s2_sensors")
     made_up_campaign.write_identification(write_rows, read_rows, paper, results / "s3_identification")
     write_aerodynamics(paper, results / "s7_aerodynamics")
+    write_validation(paper, results / "s8_validation")
 
 
 def write_model(folder):
@@ -237,6 +241,20 @@ def write_aerodynamics(paper, folder):
     write_rows(folder / "polars.csv", ["set", "deck", "angle_of_attack_deg", "C_D", "C_L", "C_M"],
                [[name, "foot", angle, 0.2, -0.1 * angle, 0.0] for name in ("standin", "quasi_steady") for angle in (-5.0, 0.0, 5.0)])
     write_rows(folder / "summary.csv", ["quantity", "value", "unit"], [["still_air_frequency_1", 0.8, "Hz"]])
+
+
+def write_validation(paper, folder):
+    """Errors that are not the paper's, zones that are."""
+    write_rows(folder / "rms.csv", ["event", "run", "channel", "direction", "error_pct", "error_low_pct", "error_high_pct"],
+               [[event, run, f"M{m}", axis, 2.0 * m, 2.0 * m - 1.0, 2.0 * m + 1.0] for event in ("August", "April") for run in ("NS1", "NS2", "NS3")
+                for m in range(1, 9) for axis in "xyz"])
+    zones = [[r["deck"], r["theta_from_deg"], r["theta_to_deg"], "end" if "cos" in r["static_polar"] else "middle",
+              *(("D", "cosine", 1, 2) if "cos" in r["static_polar"] else ("A", "normal", 0, 0))] for r in read_rows(paper / "table_14.csv")]
+    write_rows(folder / "hybrid.csv", ["deck", "theta_from_deg", "theta_to_deg", "zone", "model", "statics", "lookup_cos_power",
+                                       "block_inverse_cos_power"], zones)
+    write_rows(folder / "hybrid_nodes.csv", ["deck", "node", "station_m", "x_m", "y_m", "yaw_deg", "model", "static_factor", "block_factor"],
+               [[deck, i + 1, 20.0 * i - 50.0, 20.0 * i - 50.0, y, 20.0 * i - 50.0, "A" if 0 < i < 5 else "D", 1.0, 1.0]
+                for deck, y in (("foot", 20.0), ("cycle", 0.0)) for i in range(6)])
 
 
 def write_manifest(folder):
