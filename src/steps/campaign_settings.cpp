@@ -110,7 +110,7 @@ io::FieldTable CampaignSettings::fields() {
       .text("wind.turbulence_set", wind_turbulence_set, "wind events: which of them")
       .text("wind.model", wind_model, "wind events: model of Table 11 that holds on the virtual bridge")
       .number("wind.height", wind_height_m, "m", io::positive(), "wind events: height of the decks above ground")
-      .number("wind.lift_slope_factor", wind_lift_slope_factor, "", io::positive(), "wind events: factor on the lift slope of the data")
+      .number("wind.level", wind_level, "", io::positive(), "wind events: level of the synthetic aerodynamic set")
       .number("calibration.spread", correction_spread, "", io::positive(), "standard deviation of the logarithm of a correction: how dear it is")
       .number("calibration.frequency", frequency_weight, "", io::positive(), "relative standard deviation of the named frequencies in the fit");
   return table;

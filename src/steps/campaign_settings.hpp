@@ -68,7 +68,7 @@ struct CampaignSettings {
   std::vector<StayTest> stays;
   double stay_duration_s = 600.0, stay_force = 1.0, stay_sensor = 0.13;
   std::string wind_aerodynamics, wind_turbulence_file = "data/wind/turbulence_sets.csv", wind_turbulence_set = "EN 0", wind_model = "C";
-  double wind_height_m = 14.5, wind_lift_slope_factor = 1.0;
+  double wind_height_m = 14.5, wind_level = 1.0;
   double correction_spread = 0.15, frequency_weight = 2e-4;
 
   io::FieldTable fields();

@@ -66,7 +66,7 @@ struct BridgeInWind {
   LoadedModel loaded;
   AerodynamicsConfig aerodynamics;
   std::vector<aero::SectionAero> sections;
-  double lift_slope_factor = 1.0;
+  double level = 1.0;
   WindModel model;
   DampedModel reduced;  ///< with dampers or without, modes and static shapes
   Sensors sensors;

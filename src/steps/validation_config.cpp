@@ -8,7 +8,7 @@ io::FieldTable ValidationConfig::fields() {
   io::FieldTable t;
   t.text("aerodynamics", aerodynamics,
          "configuration of step 7, whose decks, data, wind direction and damping hold here; empty: the study's")
-      .text("set", set, "aerodynamic set: standin or quasi_steady, at the lift slope that step 7 fitted")
+      .text("set", set, "aerodynamic set: standin or quasi_steady, at the level that step 7 fitted")
       .text("turbulence_file", turbulence_file, "file of turbulence sets")
       .text("turbulence_set", turbulence_set, "which of them")
       .number("height", height_m, "m", io::positive(), "height of the decks above ground, for intensity and length scale")

@@ -29,13 +29,13 @@ AerodynamicsConfig read_aerodynamics(const ValidationConfig& config, StepContext
   return out;
 }
 
-/// The lift slope that step 7 fitted for a set.
+/// The level that step 7 fitted for a set.
 double fitted_level(StepContext& context, const std::string& set) {
   const std::filesystem::path file = context.input(context.results / "s7_aerodynamics" / "sets.csv");
-  const io::CsvTable table = io::CsvTable::read(file, {"set", "lift_slope_factor"}, {}, true);
+  const io::CsvTable table = io::CsvTable::read(file, {"set", "level"}, {}, true);
   std::vector<std::string> known;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "set") == set) return table.number(row, "lift_slope_factor");
+    if (table.text(row, "set") == set) return table.number(row, "level");
     known.push_back(table.text(row, "set"));
   }
   throw InputError({file.string(), 0, "set"}, "has no set '" + set + "'" + did_you_mean(set, known),
@@ -90,8 +90,8 @@ BridgeInWind prepare_bridge_in_wind(const ValidationConfig& config, StepContext&
   out.loaded = load_model(context, context.results / "s6_updating" / "model");
   const std::vector<DeckAerodynamics> data = read_deck_aerodynamics(out.aerodynamics, context);
   out.model = prepare_wind_model(out.aerodynamics, out.loaded);
-  out.lift_slope_factor = fitted_level(context, config.set);
-  out.sections = sections_of(out.aerodynamics, data, config.set, out.lift_slope_factor);
+  out.level = fitted_level(context, config.set);
+  out.sections = sections_of(out.aerodynamics, data, config.set, out.level);
   Reduction reduction;
   reduction.dampers = config.dampers;
   reduction.static_shapes = config.static_shapes;

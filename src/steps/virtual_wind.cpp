@@ -75,7 +75,7 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
   structure.omega_rad_s = model.basis.omega_rad_s;
   structure.damping_ratio = model.damping;
   const aero::AeroelasticSystem system(structure,
-                                       sections_of(aerodynamics, virtual_wind.data, "standin", settings.wind_lift_slope_factor),
+                                       sections_of(aerodynamics, virtual_wind.data, "standin", settings.wind_level),
                                        strips, motions, wind, aero::everywhere(aero::published_yaw_rule(settings.wind_model)));
   const aero::AeroelasticSystem::Block self =
       system.self_excited(record.speed_m_s, model.basis.omega_rad_s[model.state->named.front()]);
