@@ -1,0 +1,234 @@
+#include "diagnosis/candidate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+
+/// A condition's value of a key as a number, if it is known.
+std::optional<double> number_of(const Condition& condition, const std::string& key) {
+  if (key == "amplitude_m") return condition.amplitude_m;
+  if (key == "temperature_C") return condition.temperature_C;
+  if (key == "wind_m_s") return condition.wind_m_s;
+  if (key == "direction_deg") return condition.direction_deg;
+  if (key == "people") return condition.people;
+  if (key == "dampers" && condition.dampers_on) return *condition.dampers_on ? 1.0 : 0.0;
+  return std::nullopt;
+}
+
+/// Why these data can't see a family; empty if they can.
+std::string unmet(const Needs& needs, const FeatureSet& features) {
+  std::set<int> used;
+  std::set<std::string> types;
+  for (const Row& row : features.rows) {
+    used.insert(row.condition);
+    types.insert(name_of(row.type));
+  }
+  for (const auto& [key, wanted] : needs.conditions) {
+    bool met = false;
+    for (const int c : used) {
+      const auto value = number_of(features.conditions[static_cast<std::size_t>(c)], key);
+      if (!value) continue;
+      met = met || wanted == "known" || (wanted == "on" && *value != 0.0) || (wanted == "off" && *value == 0.0) ||
+            (wanted == "above_zero" && *value > 0.0);
+    }
+    if (!met) return fmt::format("no condition with {} = {}", key, wanted);
+  }
+  for (const auto& [key, count] : needs.distinct) {
+    std::set<double> values;
+    for (const int c : used)
+      if (const auto value = number_of(features.conditions[static_cast<std::size_t>(c)], key)) values.insert(*value);
+    if (static_cast<int>(values.size()) < count)
+      return fmt::format("needs {} different values of {}, the rows have {}", count, key, values.size());
+  }
+  if (!needs.rows.empty() && std::none_of(needs.rows.begin(), needs.rows.end(), [&](const auto& t) { return types.contains(t); }))
+    return fmt::format("no row of type {}", fmt::join(needs.rows, " or "));
+  return "";
+}
+
+bool resolvable(const Candidate& candidate);
+
+/// Locations of a set before bounds and priors.
+std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model, const FeatureSet& features) {
+  std::vector<Candidate> found;
+  const auto add = [&](const std::string& location) -> Candidate& {
+    found.emplace_back();
+    found.back().hypothesis = &h;
+    found.back().location = location;
+    return found.back();
+  };
+  std::set<int> measured;
+  std::vector<std::string> modes;
+  for (const Row& row : features.rows) {
+    if (row.channel >= 0) measured.insert(row.channel);
+    if (row.type == RowType::frequency && std::find(modes.begin(), modes.end(), row.mode) == modes.end()) modes.push_back(row.mode);
+  }
+  if (h.set == "channels") {
+    for (const int c : measured) add("channel:" + features.channels[static_cast<std::size_t>(c)]).channels = {c};
+  } else if (h.set == "pairs(channels)") {
+    for (const int c : measured)
+      for (const int d : measured) {
+        if (d <= c) continue;
+        const auto& a = features.direction[static_cast<std::size_t>(c)];
+        const auto& b = features.direction[static_cast<std::size_t>(d)];
+        const bool known = a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0;
+        if (h.filter == "same_direction" && known && std::abs(a.dot(b)) < 0.7) continue;
+        add("channels:" + features.channels[static_cast<std::size_t>(c)] + "," + features.channels[static_cast<std::size_t>(d)])
+            .channels = {c, d};
+      }
+  } else if (h.set == "modes") {
+    for (const std::string& mode : modes) add("mode:" + mode).mode = mode;
+  } else if (h.set == "pairs(nodes)") {
+    const auto at = model.sets.find("nodes");
+    if (at == model.sets.end()) return found;
+    const auto& nodes = at->second;
+    // Each node with its nearest few that are not its neighbours by name would be a choice of structure; without one, each with
+    // every other up to twelve nodes, else with its six nearest.
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      std::vector<std::pair<double, std::size_t>> others;
+      for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+        const double distance = (nodes[i].x_m - nodes[j].x_m).norm();
+        others.emplace_back(std::isfinite(distance) ? distance : static_cast<double>(j - i), j);
+      }
+      std::sort(others.begin(), others.end());
+      for (std::size_t k = 0; k < others.size() && (nodes.size() <= 12 || k < 6); ++k) {
+        const ReducedPlace& other = nodes[others[k].second];
+        add("nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5)).places = {&nodes[i], &other};
+      }
+    }
+  } else if (const auto at = model.sets.find(h.set); at != model.sets.end()) {
+    for (const ReducedPlace& place : at->second) add(place.id).places = {&place};
+  }
+  // A factor needs something to scale.
+  const auto nothing_there = [&](const Candidate& candidate) {
+    for (const ActionSpec& action : h.actions) {
+      if (candidate.places.empty()) continue;
+      if ((action.kind == "scale.stiffness" || action.kind == "field.stiffness" || action.kind == "step.stiffness") &&
+          candidate.places[0]->stiffness.size() == 0)
+        return true;
+      if (action.kind == "scale.mass" && candidate.places[0]->mass.size() == 0) return true;
+    }
+    return false;
+  };
+  std::erase_if(found, nothing_there);
+  std::erase_if(found, [](const Candidate& candidate) { return !resolvable(candidate); });
+  return found;
+}
+
+/// A number of the place; nothing where it has none of this name.
+std::optional<double> attribute_if(const Candidate& candidate, const Expression& e) {
+  static const std::set<std::string> known = {"damping", "stiffness", "series",     "k_drive",    "cable_mass", "length",
+                                              "pull",    "f_cable",   "deck_mass", "total_mass", "always_on",  "friction",
+                                              "f_low",   "f_soft",    "f_stiff", "f_high"};
+  for (const ReducedPlace* place : candidate.places) {
+    const auto at = place->attributes.find(e.name);
+    if (at != place->attributes.end()) return at->second;
+  }
+  if (known.contains(e.name)) return std::nullopt;
+  throw InputError({candidate.hypothesis->file, e.line, candidate.hypothesis->id},
+                   fmt::format("'{}' is no number known at {}", e.name, candidate.location),
+                   fmt::format("use a number, or one of {}", fmt::join(known, ", ")));
+}
+
+double attribute(const Candidate& candidate, const Expression& e) { return attribute_if(candidate, e).value_or(0.0); }
+
+/// Whether every bound that refers to the place finds its number there (a stay without pull has no frequency).
+bool resolvable(const Candidate& candidate) {
+  const auto there = [&](const Expression& e) { return e.name.empty() || attribute_if(candidate, e).has_value(); };
+  return std::all_of(candidate.hypothesis->unknowns.begin(), candidate.hypothesis->unknowns.end(), [&](const UnknownSpec& u) {
+    return there(u.low) && there(u.high) && std::all_of(u.start.begin(), u.start.end(), there);
+  });
+}
+
+void bound(Candidate& candidate) {
+  const Hypothesis& h = *candidate.hypothesis;
+  const auto k = static_cast<Index>(h.unknowns.size());
+  candidate.low.resize(k);
+  candidate.high.resize(k);
+  std::vector<std::vector<double>> start;
+  for (Index i = 0; i < k; ++i) {
+    const UnknownSpec& u = h.unknowns[static_cast<std::size_t>(i)];
+    const auto resolve = [&](const Expression& e) { return e.name.empty() ? e.factor : e.factor * attribute(candidate, e); };
+    double low = resolve(u.low), high = resolve(u.high);
+    if (!(low < high) || (u.log && !(low > 0.0))) {
+      throw InputError({h.file, u.low.line, h.id + "." + u.name},
+                       fmt::format("bounds {} and {} at {}, expected low < high{}", low, high, candidate.location,
+                                   u.log ? ", both above 0" : ""),
+                       "mend low and high in the catalogue");
+    }
+    candidate.log.push_back(u.log);
+    candidate.low[i] = u.log ? std::log(low) : low;
+    candidate.high[i] = u.log ? std::log(high) : high;
+    std::vector<double> values;
+    for (const Expression& e : u.start) {
+      const double v = resolve(e);
+      if (v > low && v < high) values.push_back(u.log ? std::log(v) : v);
+    }
+    if (values.empty()) values = {0.5 * (candidate.low[i] + candidate.high[i])};
+    start.push_back(values);
+  }
+  candidate.starts = {Eigen::VectorXd(k)};
+  for (Index i = 0; i < k; ++i) {
+    std::vector<Eigen::VectorXd> grown;
+    for (const Eigen::VectorXd& a : candidate.starts)
+      for (const double v : start[static_cast<std::size_t>(i)]) {
+        grown.push_back(a);
+        grown.back()[i] = v;
+      }
+    candidate.starts = grown;
+  }
+}
+
+}  // namespace
+
+double Candidate::physical(const Eigen::VectorXd& a, Index i) const {
+  return log[static_cast<std::size_t>(i)] ? std::exp(a[i]) : a[i];
+}
+
+double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
+  if (e.name.empty()) return e.factor;
+  if (e.name.front() == '$') {
+    for (std::size_t i = 0; i < hypothesis->unknowns.size(); ++i)
+      if (hypothesis->unknowns[i].name == e.name.substr(1)) return e.factor * physical(a, static_cast<Index>(i));
+    throw InputError({hypothesis->file, e.line, hypothesis->id}, "names no unknown: " + e.name, "declare it as a [[parameter]]");
+  }
+  return e.factor * attribute(*this, e);
+}
+
+Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model, const FeatureSet& features) {
+  Instantiated out;
+  double weights = 0.0;
+  std::vector<std::vector<Candidate>> families;
+  for (const Hypothesis& h : catalogue) {
+    families.emplace_back();
+    if (const std::string reason = unmet(h.needs, features); !reason.empty()) {
+      out.invisible.push_back({h.id, reason});
+      continue;
+    }
+    families.back() = locations(h, model, features);
+    if (families.back().empty()) {
+      out.invisible.push_back({h.id, fmt::format("this model and these rows have no {} for it", h.set)});
+      continue;
+    }
+    weights += h.prior_weight;
+  }
+  for (std::vector<Candidate>& family : families) {
+    for (Candidate& candidate : family) {
+      candidate.log_prior = std::log(candidate.hypothesis->prior_weight / weights / static_cast<double>(family.size()));
+      bound(candidate);
+      out.candidates.push_back(std::make_unique<Candidate>(std::move(candidate)));
+    }
+  }
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/catalogue.hpp"
+#include "diagnosis/features.hpp"
+#include "diagnosis/reduced_model.hpp"
+
+namespace twindeck::diagnosis {
+
+/// A hypothesis at a location: an entry of the catalogue for this model and these data.
+struct Candidate {
+  const Hypothesis* hypothesis = nullptr;
+  std::string location;                   ///< "stay:NE5", "channels:a,b", "global"
+  std::vector<const ReducedPlace*> places;  ///< one, or two for a pair of nodes; empty for channels and modes
+  std::vector<int> channels;              ///< one, or two for a pair
+  std::string mode;                       ///< label of a measured mode
+  Eigen::VectorXd low, high;              ///< (k) bounds of the unknowns, in ln where they are logarithmic
+  std::vector<bool> log;
+  std::vector<Eigen::VectorXd> starts;    ///< magnitudes that the screen tries, in the same coordinates
+  double log_prior = 0.0;                 ///< ln (weight of the family / sum of weights / number of locations)
+
+  [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
+  /// Unknown `i` in its own unit at coordinates `a`.
+  [[nodiscard]] double physical(const Eigen::VectorXd& a, Eigen::Index i) const;
+  /// Value of an expression at coordinates `a`.
+  [[nodiscard]] double value(const Expression& expression, const Eigen::VectorXd& a) const;
+};
+
+/// A candidate with magnitudes.
+struct Cause {
+  const Candidate* candidate = nullptr;
+  Eigen::VectorXd a;  ///< (k) coordinates of the unknowns
+};
+
+/// What a family lacks to be seen at all: empty if nothing.
+struct Invisible {
+  std::string hypothesis, reason;
+};
+
+struct Instantiated {
+  std::vector<std::unique_ptr<Candidate>> candidates;
+  std::vector<Invisible> invisible;
+};
+
+/// Every hypothesis at every location of its set. Families whose needs the data don't meet, or whose set is empty here, go to
+/// `invisible` with the reason.
+/// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
+[[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
+                                       const FeatureSet& features);
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The catalogue of causes as data: what a TOML file of workflows/common/hypotheses says, before it meets a model.
+namespace twindeck::diagnosis {
+
+/// `factor · name`: a number, a parameter ("$Fc"), an attribute of the place ("k_drive"), or a number times one ("0.05*k_drive").
+struct Expression {
+  double factor = 1.0;
+  std::string name;  ///< "" for a plain number; "$Fc" for a parameter
+  long line = 0;
+};
+
+/// An unknown of a cause.
+struct UnknownSpec {
+  std::string name, unit;
+  Expression low, high;
+  bool log = true;                 ///< prior uniform in ln, otherwise uniform
+  std::vector<Expression> start;   ///< magnitudes that the screen tries
+};
+
+/// A primitive: what the cause does to the model or to the measurement. `kind` is one of `action_kinds()`.
+struct ActionSpec {
+  std::string kind;
+  std::map<std::string, std::string> text;
+  std::map<std::string, Expression> number;
+  long line = 0;
+};
+
+struct Needs {
+  std::map<std::string, std::string> conditions;  ///< dampers = "on"; temperature_C = "known" …
+  std::map<std::string, int> distinct;            ///< number of different values of a condition's key
+  std::vector<std::string> rows;                  ///< types of which at least one row must be there
+};
+
+struct Hypothesis {
+  std::string id, title;
+  bool measurement = false;   ///< side
+  double prior_weight = 1.0;
+  std::string set;            ///< location set
+  std::string filter;         ///< of pairs of channels: same_direction
+  std::vector<UnknownSpec> unknowns;
+  std::vector<ActionSpec> actions;
+  Needs needs;
+  std::string sentence, remedy;
+  std::string file;
+};
+
+/// Primitives with the numbers that each takes.
+[[nodiscard]] const std::map<std::string, std::vector<std::string>>& action_kinds();
+/// elements, nodes, stays, dampers, supports, foundations, groups, all_stays, channels, modes, global, pairs(channels), pairs(nodes).
+[[nodiscard]] const std::vector<std::string>& location_sets();
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,247 @@
+#include "diagnosis/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// What misfit is left even with the best cause widens every likelihood (Birge 1932), so that a badly stated noise names nothing.
+double birge(const Scored& best, int dof) { return std::max(1.0, best.remaining / std::max(1, dof)); }
+
+double tempered(const Scored& scored, double ratio) {
+  const double prior = scored.candidate->log_prior;
+  return scored.log_odds < -1e299 ? -1e300 : (scored.log_odds - prior) / ratio + prior;
+}
+
+/// Entries that these data can't tell from the best.
+std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double ratio, const DiagnoseOptions& options) {
+  std::vector<const Scored*> members;
+  const Scored& best = ranking.front();
+  for (const Scored& other : ranking) {
+    if (other.log_odds < -1e299) continue;
+    const double gap = tempered(best, ratio) - tempered(other, ratio);
+    bool in = gap < options.either_within;
+    if (!in && gap < options.same_within && other.signature.size() == best.signature.size() && best.signature.norm() > 0.0) {
+      const double cosine = other.signature.dot(best.signature) / (other.signature.norm() * best.signature.norm());
+      in = std::abs(cosine) > options.same_direction;
+    }
+    if (in) members.push_back(&other);
+  }
+  return members;
+}
+
+/// The measurement that would tell two causes apart: the node where their mode shapes differ most, or another condition.
+std::string splitting_measurement(const Inference& inference, const Fit& base, const std::vector<const Scored*>& members) {
+  if (members.size() < 2) return "";
+  const FeatureMap& map = inference.map();
+  const Candidate& a = *members[0]->candidate;
+  const Candidate& b = *members[1]->candidate;
+  const auto& needs_a = a.hypothesis->needs.distinct;
+  const auto& needs_b = b.hypothesis->needs.distinct;
+  for (const auto* needs : {&needs_a, &needs_b})
+    for (const auto& [key, count] : *needs)
+      if (a.hypothesis != b.hypothesis && (!needs_a.contains(key) || !needs_b.contains(key)))
+        return fmt::format("the same modes at further values of {}", key);
+  if (a.hypothesis->set == "dampers" && b.hypothesis->set == "dampers" && a.hypothesis != b.hypothesis)
+    return "the modes with dampers at two or more amplitudes, one of them beyond slip";
+  if (a.hypothesis->measurement || b.hypothesis->measurement) {
+    std::string names;
+    for (const Candidate* c : {&a, &b})
+      for (const int channel : c->channels) names += (names.empty() ? "" : ", ") + map.features().channels[static_cast<std::size_t>(channel)];
+    return "a repeated record with a second, calibrated sensor beside " + names;
+  }
+  const auto nodes = map.model().sets.find("nodes");
+  if (nodes == map.model().sets.end() || map.measured_modes().empty()) return "";
+  // Shapes at every candidate node under both causes, of the modes as measured now.
+  double largest = 0.0;
+  std::string where;
+  const auto shapes_of = [&](const Scored& scored) {
+    std::vector<Cause> causes = base.causes;
+    causes.push_back({scored.candidate, scored.a});
+    return map.node_motion(base.base, causes);
+  };
+  const auto motion_a = shapes_of(*members[0]), motion_b = shapes_of(*members[1]);
+  for (const auto& [name, values] : motion_a) {
+    const auto other = motion_b.find(name);
+    if (other == motion_b.end() || other->second.size() != values.size()) continue;
+    Index mode = 0;
+    const double difference = (values - other->second).cwiseAbs().maxCoeff(&mode);
+    if (difference > largest) {
+      largest = difference;
+      where = fmt::format("the shape of mode {} at {}", map.measured_modes()[static_cast<std::size_t>(mode)].label, name);
+    }
+  }
+  return where.empty() ? "" : fmt::format("{} (differs by {:.1f} % of the largest)", where, 100.0 * largest);
+}
+
+std::vector<LocationScore> location_map(const Inference& inference, const Fit& fit, const std::vector<Scored>& ranking) {
+  std::map<std::string, double> best;
+  const auto& nuisances = inference.map().nuisances();
+  for (std::size_t j = 0; j < nuisances.size(); ++j) {
+    const Nuisance& v = nuisances[j];
+    if (v.kind == Nuisance::Kind::mode_damping || v.kind == Nuisance::Kind::level) continue;
+    const VectorXd l = fit.total_factor.triangularView<Eigen::Lower>().solve(fit.map.jacobian.col(static_cast<Index>(j)));
+    if (!(l.norm() > 1e-9)) continue;
+    const std::string location = v.kind == Nuisance::Kind::parameter ? "group:" + v.name : v.name.substr(0, v.name.find(' '));
+    double& score = best[location];
+    score = std::max(score, std::abs(l.dot(fit.whitened)) / l.norm());
+  }
+  for (const Scored& scored : ranking) {
+    if (scored.candidate->location == "global" || scored.candidate->hypothesis->measurement || scored.screen <= 0.0) continue;
+    double& score = best[scored.candidate->location];
+    score = std::max(score, std::sqrt(scored.screen));
+  }
+  std::vector<LocationScore> map;
+  for (const auto& [location, score] : best) map.push_back({location, score});
+  std::stable_sort(map.begin(), map.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  if (map.size() > 40) map.resize(40);
+  return map;
+}
+
+std::string sentence_of(const Effect& effect) {
+  std::string text = effect.cause.candidate->hypothesis->sentence;
+  const auto replace = [&](const std::string& key, const std::string& value) {
+    for (auto at = text.find(key); at != std::string::npos; at = text.find(key)) text.replace(at, key.size(), value);
+  };
+  replace("{location}", effect.cause.candidate->location);
+  for (const EffectParameter& p : effect.parameters) {
+    replace("{" + p.name + "}", fmt::format("{:.4g}", p.value));
+    replace("{" + p.name + ".low}", fmt::format("{:.4g}", p.low));
+    replace("{" + p.name + ".high}", fmt::format("{:.4g}", p.high));
+  }
+  return text;
+}
+
+/// Drops earlier causes whose removal costs less than the threshold.
+void check_backwards(const Inference& inference, Fit& current, std::vector<Effect>& effects, const DiagnoseOptions& options) {
+  for (std::size_t i = 0; i + 1 < effects.size();) {
+    std::vector<Cause> rest = current.causes;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+    const Fit without = inference.fit(rest, current.map.x.head(static_cast<Index>(inference.map().nuisances().size())));
+    const double cost = 0.5 * (without.chi_squared - current.chi_squared) + effects[i].cause.candidate->log_prior;
+    if (cost < std::max(options.threshold, options.least_log_odds) - 1.0) {
+      effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(i));
+      current = without;
+    } else {
+      ++i;
+    }
+  }
+}
+
+}  // namespace
+
+double analytic_threshold(const Inference& inference, double alpha) {
+  const auto tail = [&](double d) {
+    double sum = 0.0;
+    for (const auto& candidate : inference.candidates())
+      sum += chi_squared_tail(2.0 * (d - candidate->log_prior), std::max<double>(1.0, static_cast<double>(candidate->low.size())));
+    return sum;
+  };
+  double low = -10.0, high = 30.0;
+  for (int i = 0; i < 60; ++i) (tail(0.5 * (low + high)) > alpha ? low : high) = 0.5 * (low + high);
+  return high;
+}
+
+Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed) {
+  Diagnosis out;
+  out.threshold = std::max(options.threshold, options.least_log_odds);
+  out.alpha = options.alpha;
+  const auto n = static_cast<Index>(inference.map().nuisances().size());
+  Fit current = inference.fit({}, {});
+  if (current.chi_squared > 1e299) {
+    out.verdict = "unknown";
+    out.message = "the model predicts none of these rows: " + current.map.status.message;
+    return out;
+  }
+  out.before = current;
+  std::vector<Scored> ranking;
+  for (int step = 0; step <= options.most_causes; ++step) {
+    ranking = inference.search(current, options.search);
+    if (ranking.empty()) break;
+    double ratio = birge(ranking.front(), inference.dof());
+    if (tempered(ranking.front(), ratio) > -2.0 && step == 0) {
+      // A better optimiser must not look like a better model: the base again, from where the best cause left it.
+      std::vector<Cause> causes = current.causes;
+      causes.push_back({ranking.front().candidate, ranking.front().a});
+      const Fit with = inference.fit(causes, current.map.x.head(n));
+      const Fit again = inference.fit(current.causes, with.map.x.head(n));
+      if (again.chi_squared + 1.0 < current.chi_squared) {
+        current = again;
+        out.before = again;
+        ranking = inference.search(current, options.search);
+        ratio = birge(ranking.front(), inference.dof());
+      }
+    }
+    if (step == 0) {
+      out.ranking = ranking;
+      out.log_odds = tempered(ranking.front(), ratio);
+      out.localisation = location_map(inference, current, ranking);
+    }
+    if (step == options.most_causes || tempered(ranking.front(), ratio) <= out.threshold) break;
+    const auto members = cluster_of(ranking, ratio, options);
+    Effect effect;
+    effect.cause = {ranking.front().candidate, ranking.front().a};
+    effect.log_odds = tempered(ranking.front(), ratio);
+    double sum = 1.0;  // nothing missing has odds 1
+    const double top = effect.log_odds;
+    double scaled = std::exp(-top);
+    for (const Scored& scored : ranking)
+      if (const double d = tempered(scored, ratio); d > top - 40.0) scaled += std::exp(d - top);
+    sum = scaled;
+    effect.probability = 1.0 / sum;
+    for (const Scored* member : members) effect.cluster.push_back(member->candidate->id());
+    effect.split_by = splitting_measurement(inference, current, members);
+    std::vector<Cause> causes = current.causes;
+    causes.push_back(effect.cause);
+    Fit extended = inference.fit(causes, current.map.x.head(n));
+    if (extended.chi_squared > 1e299) break;
+    current = std::move(extended);
+    out.effects.push_back(effect);
+    check_backwards(inference, current, out.effects, options);
+  }
+  out.after = current;
+  for (std::size_t i = 0; i < out.effects.size(); ++i) {
+    out.effects[i].cause = current.causes[i];
+    out.effects[i].parameters = effect_parameters(inference, current, i);
+    out.effects[i].sentence = sentence_of(out.effects[i]);
+    out.effects[i].remedy = out.effects[i].cause.candidate->hypothesis->remedy;
+  }
+  out.after_extension = !out.effects.empty();
+  if (out.after_extension) out.localisation = location_map(inference, current, ranking);
+  out.residual_statistic = current.chi_squared;
+  out.residual_dof = inference.dof();
+  out.residual_p = chi_squared_tail(current.chi_squared, out.residual_dof);
+  out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
+  for (Index j = 0; j < n; ++j) {
+    const Nuisance& v = inference.map().nuisances()[static_cast<std::size_t>(j)];
+    const double range = v.upper - v.lower;
+    if (v.kind != Nuisance::Kind::parameter || !std::isfinite(range)) continue;
+    const double u = out.before.map.x[j];
+    if (u < v.lower + 0.02 * range || u > v.upper - 0.02 * range) out.on_bounds.push_back(v.name);
+  }
+  const bool rejects = out.residual_p < options.residual_alpha;
+  const bool fits_but_does_not_predict = !out.effects.empty() && out.gain.rows > 0 && out.gain.high_pct < 0.0;
+  const bool ambiguous = std::any_of(out.effects.begin(), out.effects.end(), [](const Effect& e) { return e.cluster.size() > 1; });
+  if (rejects || fits_but_does_not_predict) out.verdict = "unknown";
+  else if (out.effects.empty()) out.verdict = "none";
+  else out.verdict = ambiguous ? "ambiguous" : "named";
+  if (out.verdict == "none") out.message = fmt::format("nothing found (largest log odds {:.1f}, threshold {:.1f})", out.log_odds, out.threshold);
+  if (out.verdict == "unknown") {
+    out.message = rejects ? "something is missing that no entry of the catalogue explains" : "the best cause fits but does not predict the held-out rows";
+    if (!out.effects.empty()) out.message += "; it acts like " + out.effects.front().cluster.front();
+  }
+  if (out.verdict == "named" || out.verdict == "ambiguous") out.message = out.effects.front().sentence;
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

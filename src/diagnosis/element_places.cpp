@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "core/error.hpp"
+#include "diagnosis/place_parts.hpp"
+#include "fe/assembly_elements.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+
+fe::ElementMatrix element_stiffness(const fe::Model& model, const fe::Element& element) {
+  switch (element.type) {
+    case fe::ElementType::beam:
+      return {fe::six_per_node(element), fe::beam_stiffness(fe::beam_geometry(model, element), fe::beam_properties(model, element))};
+    case fe::ElementType::shell: {
+      const auto geometry = fe::shell_geometry(model, element);
+      const auto properties = fe::shell_properties(model, element);
+      const auto rule = model.formulation.drilling == fe::Formulation::Drilling::penalty ? fe::DrillingRule::penalty
+                                                                                         : fe::DrillingRule::diagonal;
+      Eigen::MatrixXd k = fe::shell_membrane_stiffness(geometry, properties, rule, model.formulation.drilling_factor);
+      k += fe::shell_bending_stiffness(geometry, properties);
+      return {fe::six_per_node(element), k};
+    }
+    default:
+      return {fe::three_per_node(element), fe::bar_stiffness(fe::end_nodes(model, element),
+                                                             fe::material_of(model, element).youngs_modulus_Pa,
+                                                             fe::section_of(model, element).area_m2)};
+  }
+}
+
+}  // namespace
+
+struct ElementPlaces::Sum {
+  Eigen::Index size = 0;
+  std::vector<Eigen::Triplet<double>> entries;
+  void add(const fe::ElementMatrix& part, double factor = 1.0) {
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      for (std::size_t j = 0; j < part.dofs.size(); ++j) {
+        const double value = part.matrix(static_cast<Index>(i), static_cast<Index>(j));
+        if (value != 0.0) entries.emplace_back(part.dofs[i], part.dofs[j], factor * value);
+      }
+  }
+};
+
+Symmetric ElementPlaces::free(const Sum& sum) const {
+  Eigen::SparseMatrix<double> full(sum.size, sum.size);
+  full.setFromTriplets(sum.entries.begin(), sum.entries.end());
+  const Eigen::SparseMatrix<double> right = full * expansion_;
+  Symmetric reduced = expansion_.transpose() * right;
+  reduced.prune(0.0);
+  return reduced;
+}
+
+ElementPlaces::ElementPlaces(const Structure& structure)
+    : structure_(structure), model_(*structure.model), expansion_(structure.system->expansion) {
+  for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const fe::Element& element = model_.elements[e];
+    if (element.type == fe::ElementType::stay) continue;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int node : element.nodes) middle += model_.nodes[static_cast<std::size_t>(node)].x_m;
+    candidates_.push_back(static_cast<int>(e));
+    centroids_.push_back(middle / static_cast<double>(element.nodes.size()));
+  }
+  std::set<int> reached;
+  for (const fe::Element& element : model_.elements) reached.insert(element.nodes.begin(), element.nodes.end());
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = expansion_;
+  for (const int node : reached) {
+    bool moves = false;
+    for (int d = 0; d < 3; ++d) moves = moves || rows.row(6 * node + d).nonZeros() > 0;
+    if (moves) nodes_.push_back(node);
+  }
+}
+
+std::vector<Eigen::Vector3d> ElementPlaces::node_positions() const {
+  std::vector<Eigen::Vector3d> positions;
+  for (const int node : nodes_) positions.push_back(model_.nodes[static_cast<std::size_t>(node)].x_m);
+  return positions;
+}
+
+std::vector<int> ElementPlaces::measured_nodes() const {
+  const std::set<std::string> names(structure_.sensor_nodes.begin(), structure_.sensor_nodes.end());
+  std::vector<int> measured;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (names.contains(std::to_string(model_.nodes[static_cast<std::size_t>(nodes_[i])].id))) measured.push_back(static_cast<int>(i));
+  return measured;
+}
+
+void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places) const {
+  std::vector<Eigen::Vector3d> points;
+  for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
+  std::vector<Sum> stiffness(centres.size()), mass(centres.size());
+  std::vector<std::vector<int>> members(centres.size());
+  for (auto* sums : {&stiffness, &mass})
+    for (Sum& sum : *sums) sum.size = expansion_.rows();
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    // With a zone an element, an element is its own zone even where two have one middle.
+    const std::size_t zone = centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
+    const fe::Element& element = model_.elements[static_cast<std::size_t>(candidates_[i])];
+    members[zone].push_back(candidates_[i]);
+    stiffness[zone].add(element_stiffness(model_, element));
+    mass[zone].add(fe::element_mass(model_, element));
+  }
+  for (std::size_t z = 0; z < centres.size(); ++z) {
+    const fe::Element& centre = model_.elements[static_cast<std::size_t>(candidates_[static_cast<std::size_t>(centres[z])])];
+    places.sets["elements"].push_back(
+        {"element:" + std::to_string(centre.id), points[z], free(stiffness[z]), free(mass[z]), {}, {}, members[z]});
+  }
+}
+
+void ElementPlaces::add_stays(Places& places) const {
+  for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const fe::Element& element = model_.elements[e];
+    if (element.type != fe::ElementType::stay) continue;
+    const auto ends = fe::end_nodes(model_, element);
+    const double length = (ends[1] - ends[0]).norm();
+    const double area = fe::section_of(model_, element).area_m2;
+    const double density = fe::material_of(model_, element).density_kg_m3;
+    const double pull = structure_.state != nullptr && structure_.state->stay_pull_N.size() > 0
+                            ? structure_.state->stay_pull_N[static_cast<Index>(e)] : element.pull_N;
+    double modulus = fe::material_of(model_, element).youngs_modulus_Pa;
+    if (pull > 0.0) {
+      const Eigen::Vector3d chord = ends[1] - ends[0];
+      modulus = fe::Dischinger{density * model_.gravity_m_s2, chord.head<2>().norm(), pull / area}.modulus(modulus);
+    }
+    Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
+    stiffness.add({fe::three_per_node(element), fe::bar_stiffness(ends, modulus, area)});
+    mass.add(fe::element_mass(model_, element));
+    Place place{"stay:" + (element.name.empty() ? std::to_string(element.id) : element.name), 0.5 * (ends[0] + ends[1]),
+                free(stiffness), free(mass), {}, {}, {static_cast<int>(e)}};
+    // A cable's own mode shakes its anchorages across the chord: directions are the two transverse ones of the lower end.
+    const int low = ends[0].z() <= ends[1].z() ? element.nodes[0] : element.nodes[1];
+    const Eigen::Vector3d along = (ends[1] - ends[0]).normalized();
+    const Eigen::Vector3d side = along.cross(std::abs(along.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX()).normalized();
+    const Eigen::Vector3d up = side.cross(along);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int d = 0; d < 3; ++d) {
+      entries.emplace_back(6 * low + d, 0, up[d]);
+      entries.emplace_back(6 * low + d, 1, side[d]);
+    }
+    Eigen::SparseMatrix<double> directions(expansion_.rows(), 2);
+    directions.setFromTriplets(entries.begin(), entries.end());
+    place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);
+    place.attributes["cable_mass"] = density * area * length;
+    place.attributes["length"] = length;
+    place.attributes["pull"] = pull;
+    if (pull > 0.0) place.attributes["f_cable"] = std::sqrt(pull / (density * area)) / (2.0 * length);
+    places.sets["stays"].push_back(std::move(place));
+  }
+}
+
+void ElementPlaces::add_springs(Places& places) const {
+  std::vector<std::string> order;
+  std::map<std::string, std::array<Sum, 2>> grounded;  // translations, rotations
+  std::map<std::string, Eigen::Vector3d> where;
+  for (const fe::Spring& spring : model_.springs) {
+    const bool damper = spring.damping > 0.0 || spring.friction_N > 0.0;
+    const Eigen::Vector3d x = model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
+    if (damper) {
+      fe::Spring unit = spring;
+      unit.stiffness = 1.0;
+      const fe::ElementMatrix k = fe::spring_stiffness(unit);
+      std::vector<Eigen::Triplet<double>> entries;
+      const double sign = 1.0;
+      // k = b b': b is its column of the largest diagonal entry over the root of that entry.
+      Index largest = 0;
+      k.matrix.diagonal().maxCoeff(&largest);
+      for (std::size_t i = 0; i < k.dofs.size(); ++i)
+        entries.emplace_back(k.dofs[i], 0, sign * k.matrix(static_cast<Index>(i), largest) / std::sqrt(k.matrix(largest, largest)));
+      Eigen::SparseMatrix<double> direction(expansion_.rows(), 1);
+      direction.setFromTriplets(entries.begin(), entries.end());
+      Place place{"damper:" + spring.name, x, {}, {}, Eigen::SparseMatrix<double>(expansion_.transpose() * direction), {}, {}};
+      place.attributes["damping"] = spring.damping;
+      place.attributes["stiffness"] = spring.stiffness;
+      place.attributes["series"] = spring.series ? 1.0 : 0.0;
+      place.attributes["always_on"] = spring.active ? 1.0 : 0.0;
+      if (spring.friction_N > 0.0) place.attributes["friction"] = spring.friction_N;
+      places.sets["dampers"].push_back(std::move(place));
+      continue;
+    }
+    if (!fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
+    const std::string name = spring.group.empty() ? spring.name : spring.group;
+    if (!grounded.contains(name)) {
+      order.push_back(name);
+      grounded[name][0].size = grounded[name][1].size = expansion_.rows();
+      where[name] = x;
+    }
+    grounded.at(name)[spring.rotation ? 1 : 0].add(fe::spring_stiffness(spring));
+  }
+  for (const std::string& name : order) {
+    for (const bool rotation : {false, true}) {
+      const Sum& sum = grounded.at(name)[rotation ? 1 : 0];
+      if (sum.entries.empty()) continue;
+      Place place{"support:" + name, where.at(name), free(sum), {}, {}, {}, {}};
+      // A spring that stands for a rigid support must fall by orders before anything moves; a bearing may err both ways.
+      const auto& rigid = structure_.rigid_supports;
+      const bool stiff = std::find(rigid.begin(), rigid.end(), name) != rigid.end();
+      place.attributes["f_low"] = stiff ? 1e-6 : 0.02;
+      place.attributes["f_soft"] = stiff ? 2e-5 : 0.25;
+      place.attributes["f_stiff"] = stiff ? 5e-4 : 4.0;
+      place.attributes["f_high"] = stiff ? 1e-2 : 30.0;
+      places.sets[rotation ? "foundations" : "supports"].push_back(std::move(place));
+    }
+  }
+}
+
+void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) const {
+  for (const int c : chosen) {
+    const int node = nodes_[static_cast<std::size_t>(c)];
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int d = 0; d < 3; ++d) entries.emplace_back(6 * node + d, d, 1.0);
+    Eigen::SparseMatrix<double> directions(expansion_.rows(), 3);
+    directions.setFromTriplets(entries.begin(), entries.end());
+    const fe::Node& at = model_.nodes[static_cast<std::size_t>(node)];
+    places.sets["nodes"].push_back({"node:" + std::to_string(at.id), at.x_m, {}, {},
+                                    Eigen::SparseMatrix<double>(expansion_.transpose() * directions), {}, {}});
+  }
+}
+
+void ElementPlaces::fill_global(Place& global) const {
+  Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
+  const bool shells = std::any_of(model_.elements.begin(), model_.elements.end(),
+                                  [](const fe::Element& e) { return e.type == fe::ElementType::shell; });
+  double deck = 0.0;
+  for (const int e : candidates_) {
+    const fe::Element& element = model_.elements[static_cast<std::size_t>(e)];
+    stiffness.add(element_stiffness(model_, element));
+    if (shells && element.type != fe::ElementType::shell) continue;
+    const fe::ElementMatrix m = fe::element_mass(model_, element);
+    mass.add(m);
+    const int per_node = static_cast<int>(m.dofs.size() / element.nodes.size());
+    for (std::size_t i = 0; i < m.dofs.size(); i += static_cast<std::size_t>(per_node))
+      for (std::size_t j = 0; j < m.dofs.size(); j += static_cast<std::size_t>(per_node))
+        deck += m.matrix(static_cast<Index>(i), static_cast<Index>(j));
+  }
+  global.stiffness = free(stiffness);
+  global.mass = free(mass);
+  if (deck > 0.0) global.attributes["deck_mass"] = deck;
+}
+
+}  // namespace twindeck::diagnosis

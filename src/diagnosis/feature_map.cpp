@@ -1,0 +1,198 @@
+#include "diagnosis/feature_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+constexpr double kFree = std::numeric_limits<double>::infinity();
+
+bool is_logarithmic(RowType type) { return type != RowType::shape && type != RowType::shape_imag; }
+
+}  // namespace
+
+FeatureMap::FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter)
+    : model_(model), features_(features) {
+  collect_modes();
+  transform(scatter);
+  list_nuisances(scatter);
+}
+
+void FeatureMap::collect_modes() {
+  std::map<std::pair<int, std::string>, std::size_t> at;
+  for (std::size_t r = 0; r < features_.rows.size(); ++r) {
+    const Row& row = features_.rows[r];
+    const bool modal = row.type == RowType::frequency || row.type == RowType::damping || row.type == RowType::shape ||
+                       row.type == RowType::shape_imag;
+    if (!modal) continue;
+    const auto [where, is_new] = at.try_emplace({row.condition, row.mode}, modes_.size());
+    if (is_new) {
+      modes_.emplace_back();
+      modes_.back().label = row.mode;
+      modes_.back().condition = row.condition;
+    }
+    MeasuredMode& mode = modes_[where->second];
+    const auto position = static_cast<int>(r);
+    if (row.type == RowType::frequency) {
+      mode.frequency = position;
+      mode.frequency_Hz = row.value;
+      highest_Hz_ = std::max(highest_Hz_, 1.6 * row.value);
+    } else if (row.type == RowType::damping) {
+      mode.damping = position;
+    } else if (row.type == RowType::shape) {
+      mode.real_rows.push_back(position);
+      mode.real_channels.push_back(row.channel);
+    } else {
+      mode.imag_rows.push_back(position);
+      mode.imag_channels.push_back(row.channel);
+    }
+  }
+  if (highest_Hz_ == 0.0) highest_Hz_ = 1.01 * model_.frequency_Hz[std::min<Index>(9, model_.frequency_Hz.size() - 1)];
+  for (const MeasuredMode& mode : modes_)
+    if (!mode.real_rows.empty()) n_scales_ += mode.imag_rows.empty() ? 1 : 2;
+}
+
+void FeatureMap::transform(const ScatterOptions& scatter) {
+  const auto n = static_cast<Index>(features_.rows.size());
+  values_.resize(n);
+  Eigen::VectorXd slope = Eigen::VectorXd::Ones(n);  // d transformed / d value
+  for (Index r = 0; r < n; ++r) {
+    const Row& row = features_.rows[static_cast<std::size_t>(r)];
+    values_[r] = is_logarithmic(row.type) ? std::log(row.value) : row.value;
+    if (is_logarithmic(row.type)) slope[r] = 1.0 / row.value;
+  }
+  if (features_.covariance.size() > 0) {
+    covariance_ = slope.asDiagonal() * features_.covariance * slope.asDiagonal();
+  } else {
+    covariance_ = Eigen::MatrixXd::Zero(n, n);
+    for (Index r = 0; r < n; ++r) covariance_(r, r) = std::pow(features_.rows[static_cast<std::size_t>(r)].std * slope[r], 2);
+  }
+  covariance_ *= scatter.noise * scatter.noise;
+  for (Index r = 0; r < n; ++r) {  // floors: identification is never better than this
+    const RowType type = features_.rows[static_cast<std::size_t>(r)].type;
+    double floor = 0.0;
+    if (type == RowType::frequency) floor = scatter.frequency_floor;
+    if (type == RowType::damping) floor = scatter.damping_floor;
+    covariance_(r, r) = std::max(covariance_(r, r), floor * floor);
+    if (type == RowType::rms) covariance_(r, r) += scatter.load_model * scatter.load_model;
+  }
+  for (const MeasuredMode& mode : modes_) {
+    double largest = 0.0;
+    for (const int r : mode.real_rows) largest = std::max(largest, std::abs(values_[r]));
+    const double floor = std::pow(scatter.shape_floor * largest, 2);
+    for (const auto* rows : {&mode.real_rows, &mode.imag_rows})
+      for (const int r : *rows) covariance_(r, r) = std::max(covariance_(r, r), floor);
+  }
+  // Close modes: small changes turn their shapes into each other, so that only their plane is known well.
+  for (const MeasuredMode& a : modes_) {
+    for (const MeasuredMode& b : modes_) {
+      if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz) || a.real_rows.size() != b.real_rows.size()) continue;
+      const double gap = b.frequency_Hz / a.frequency_Hz - 1.0;
+      if (gap > 0.06 || a.real_rows.empty()) continue;
+      Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
+      double norm_a = 0.0, norm_b = 0.0;
+      for (const int r : a.real_rows) norm_a += values_[r] * values_[r];
+      for (const int r : b.real_rows) norm_b += values_[r] * values_[r];
+      const double ratio = std::sqrt(norm_a / norm_b);
+      for (std::size_t k = 0; k < a.real_rows.size(); ++k) {
+        u[a.real_rows[k]] = values_[b.real_rows[k]] * ratio;
+        u[b.real_rows[k]] = -values_[a.real_rows[k]] / ratio;
+      }
+      covariance_ += std::pow(0.015 / std::max(gap, 0.005), 2) * u * u.transpose();
+    }
+  }
+}
+
+void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
+  const auto add = [&](Nuisance::Kind kind, int index, const std::string& name, double mean, double deviation, double lower = -kFree,
+                       double upper = kFree) { nuisances_.push_back({kind, index, name, mean, deviation, lower, upper}); };
+  for (std::size_t p = 0; p < model_.parameters.size(); ++p) {
+    const fe::Parameter& parameter = model_.parameters[p];
+    const double deviation = 0.25 * (parameter.upper - parameter.lower), mean = model_.theta[static_cast<Index>(p)];
+    if (!(deviation > 0.0)) continue;
+    add(Nuisance::Kind::parameter, static_cast<int>(p), parameter.name, mean, deviation, (parameter.lower - mean) / deviation,
+        (parameter.upper - mean) / deviation);
+  }
+  const auto each = [&](const std::string& set, auto use) {
+    const auto found = model_.sets.find(set);
+    if (found == model_.sets.end()) return;
+    for (std::size_t i = 0; i < found->second.size(); ++i) use(static_cast<int>(i), found->second[i]);
+  };
+  each("elements", [&](int i, const ReducedPlace& p) {
+    add(Nuisance::Kind::element_stiffness, i, p.id + " stiffness", 0.0, scatter.fine * scatter.element_stiffness);
+    add(Nuisance::Kind::element_mass, i, p.id + " mass", 0.0, scatter.fine * scatter.element_mass);
+  });
+  each("nodes", [&](int i, const ReducedPlace& p) {
+    if (p.mass.size() > 0) add(Nuisance::Kind::node_mass, i, p.id + " mass", 0.0, scatter.fine * scatter.node_mass);
+  });
+  std::map<std::string, bool> stay_rows;
+  for (const Row& row : features_.rows)
+    if (row.type == RowType::stay_frequency) stay_rows[row.stay] = true;
+  each("stays", [&](int i, const ReducedPlace& p) {
+    add(Nuisance::Kind::stay, i, p.id + " stiffness", 0.0, scatter.fine * scatter.stay_stiffness);
+    if (stay_rows.contains(p.id.substr(5))) add(Nuisance::Kind::stay_pull, i, p.id + " pull", 0.0, scatter.stay_pull);
+  });
+  std::map<int, bool> channels;
+  std::map<int, bool> levels;
+  for (const Row& row : features_.rows) {
+    if (row.channel >= 0 && row.type != RowType::psd_floor) channels[row.channel] = true;
+    if (row.type == RowType::rms || row.type == RowType::psd_floor)
+      levels[2 * row.condition + (row.type == RowType::psd_floor ? 1 : 0)] = true;
+    if (row.type == RowType::damping &&
+        std::find(damping_modes_.begin(), damping_modes_.end(), row.mode) == damping_modes_.end())
+      damping_modes_.push_back(row.mode);
+  }
+  for (const auto& [channel, used] : channels)
+    add(Nuisance::Kind::gain, channel, "channel:" + features_.channels[static_cast<std::size_t>(channel)] + " gain", 0.0,
+        scatter.fine * scatter.gain);
+  // Structural damping is not computed by any model: ln zeta about 0.5 %, a factor e wide.
+  for (std::size_t i = 0; i < damping_modes_.size(); ++i)
+    add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5), 1.0);
+  for (const auto& [level, used] : levels) {
+    const Condition& condition = features_.conditions[static_cast<std::size_t>(level / 2)];
+    add(Nuisance::Kind::level, level, condition.name + (level % 2 ? " noise level" : " load level"), 0.0, 10.0);
+  }
+}
+
+void FeatureMap::set_values(const Eigen::VectorXd& values) {
+  TWINDECK_ASSERT(values.size() == values_.size());
+  values_ = values;
+  for (MeasuredMode& mode : modes_)
+    if (mode.frequency >= 0) mode.frequency_Hz = std::exp(values_[mode.frequency]);
+}
+
+FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
+  Base base;
+  base.x = x;
+  base.theta = model_.theta;
+  for (std::size_t j = 0; j < nuisances_.size(); ++j) {
+    const Nuisance& v = nuisances_[j];
+    if (v.kind == Nuisance::Kind::parameter) base.theta[v.index] = v.mean + v.deviation * x[static_cast<Index>(j)];
+  }
+  const Index r = model_.size();
+  base.stiffness = base.mass = Eigen::MatrixXd::Zero(r, r);
+  for (const auto& term : model_.stiffness) base.stiffness += term.coefficient.value(base.theta) * term.matrix;
+  for (const auto& term : model_.mass) base.mass += term.coefficient.value(base.theta) * term.matrix;
+  for (std::size_t j = 0; j < nuisances_.size(); ++j) {
+    const Nuisance& v = nuisances_[j];
+    const double amount = v.deviation * x[static_cast<Index>(j)];
+    if (amount == 0.0) continue;
+    const auto place = [&](const char* set) -> const ReducedPlace& {
+      return model_.sets.at(set)[static_cast<std::size_t>(v.index)];
+    };
+    if (v.kind == Nuisance::Kind::element_stiffness) base.stiffness += amount * place("elements").stiffness;
+    if (v.kind == Nuisance::Kind::element_mass) base.mass += amount * place("elements").mass;
+    if (v.kind == Nuisance::Kind::node_mass) base.mass += amount * place("nodes").mass;
+    if (v.kind == Nuisance::Kind::stay) base.stiffness += amount * place("stays").stiffness;
+  }
+  return base;
+}
+
+}  // namespace twindeck::diagnosis

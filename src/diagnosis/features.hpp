@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Measured features as the diagnosis takes them: every row of rows.csv with its condition (DESIGN section 3), nothing computed.
+namespace twindeck::diagnosis {
+
+enum class RowType { frequency, damping, shape, shape_imag, stay_frequency, rms, psd_floor, static_displacement };
+
+/// Under which circumstances a row was measured; what is not known is empty.
+struct Condition {
+  std::string name;
+  std::optional<bool> dampers_on;
+  std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
+  std::string amplitude_channel;
+  std::optional<double> temperature_C, wind_m_s, direction_deg, people;
+};
+
+/// A number of the measurement. Frequencies in Hz, damping ratios in per cent, the rest in SI units.
+struct Row {
+  RowType type = RowType::frequency;
+  std::string mode;     ///< as in rows.csv; for a stay frequency its harmonic
+  int channel = -1;     ///< position in FeatureSet::channels
+  std::string stay;     ///< of a stay frequency
+  int condition = -1;   ///< position in FeatureSet::conditions
+  double value = 0.0, std = 0.0;
+  bool held_out = false;
+};
+
+struct FeatureSet {
+  std::vector<Row> rows;
+  std::vector<Condition> conditions;
+  std::vector<std::string> channels;            ///< names, in the order of channels.csv
+  std::vector<Eigen::Vector3d> direction;       ///< (n_channels) direction cosines, zero where unknown
+  Eigen::MatrixXd covariance;                   ///< (n_rows × n_rows) instead of std, or empty
+  std::map<std::string, double> clipped, drift; ///< of quality.csv by channel: fraction of samples, slope in rms; may be empty
+};
+
+/// Training and held-out rows. Where no row is marked, the rule of the method applies: the largest of three or more amplitudes,
+/// the highest of three or more temperatures, the fastest of three or more winds, and the highest mode of each condition with
+/// four or more modes.
+void hold_out_by_rule(FeatureSet& features);
+
+/// "frequency_Hz" and so on, as in rows.csv.
+[[nodiscard]] const std::vector<std::string>& row_type_names();
+[[nodiscard]] std::string name_of(RowType type);
+/// One line for tables: "frequency_Hz mode 3, dampers_low".
+[[nodiscard]] std::string describe(const FeatureSet& features, const Row& row);
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/feature_map.hpp"
+#include "updating/joint_map.hpp"
+
+namespace twindeck::diagnosis {
+
+/// Best account of the training rows with given causes in the model, linearised there.
+struct Fit {
+  std::vector<Cause> causes;       ///< at their best magnitudes
+  updating::JointMap map;          ///< of [x; coordinates of the causes], on the training rows
+  FeatureMap::Base base;
+  Prediction all;                  ///< at the fit, every row
+  Eigen::MatrixXd total_factor;    ///< L, L L' = Sigma_id + J P J' + free scales, causes not included
+  Eigen::VectorXd whitened;        ///< w = L^-1 (y - g + J x): N(0, I) where nothing is missing
+  double chi_squared = 0.0;        ///< w'w
+  double log_determinant = 0.0;    ///< of Sigma_tot
+  Eigen::MatrixXd cause_jacobian;  ///< L^-1 dg/da (n_train × n_coordinates of causes)
+};
+
+/// A candidate held against the rows.
+struct Scored {
+  const Candidate* candidate = nullptr;
+  Eigen::VectorXd a;
+  double screen = 0.0;              ///< 2 ln likelihood ratio of the screen
+  double log_odds = 0.0;            ///< ln posterior odds against nothing missing; only where fitted
+  double chi_squared = 0.0;
+  double remaining = 0.0;           ///< chi² that the best account with this cause leaves
+  int stage = 1;                    ///< 1 screened, 2 fitted on the linearised base, 3 with the base fitted again
+  Eigen::VectorXd signature;        ///< L^-1 (g(x, a) - g(x)) (n_train)
+  Eigen::MatrixXd a_covariance;     ///< of the coordinates (stage 2 on)
+};
+
+struct SearchOptions {
+  int short_list = 6;
+  int longest_list = 16;
+  double family_screen = 4.0;       ///< families whose best entry screens above this are fitted too
+  double refine_within = 6.0;       ///< nats of the best: these are fitted with the base
+  int most_refined = 3;
+};
+
+/// Fits, screens and weighs causes on the training rows of a feature map (DIAGNOSIS 2.2 to 2.6).
+class Inference {
+ public:
+  Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Candidate>>& candidates);
+
+  /// Joint MAP of x and the causes' magnitudes. `start`: x of a neighbouring fit; empty for zero.
+  [[nodiscard]] Fit fit(const std::vector<Cause>& causes, const Eigen::VectorXd& start) const;
+  /// Candidates in descending order of odds against `base`; those already in it are left out.
+  [[nodiscard]] std::vector<Scored> search(const Fit& base, const SearchOptions& options) const;
+  /// Signature of a candidate at coordinates a, whitened; empty where it cannot be computed.
+  [[nodiscard]] Eigen::VectorXd signature(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
+
+  [[nodiscard]] const std::vector<int>& training() const { return training_; }
+  [[nodiscard]] const std::vector<int>& held_out() const { return held_out_; }
+  [[nodiscard]] int dof() const { return static_cast<int>(training_.size()) - training_scales_; }
+  [[nodiscard]] const FeatureMap& map() const { return map_; }
+  [[nodiscard]] const std::vector<std::unique_ptr<Candidate>>& candidates() const { return candidates_; }
+
+ private:
+  [[nodiscard]] Scored screen(const Fit& base, const Candidate& candidate) const;
+  void fit_linearised(const Fit& base, Scored& scored) const;
+  void refine(const Fit& base, Scored& scored) const;
+  [[nodiscard]] Eigen::MatrixXd slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
+                                       const Eigen::VectorXd& g) const;
+
+  const FeatureMap& map_;
+  const std::vector<std::unique_ptr<Candidate>>& candidates_;
+  std::vector<int> training_, held_out_;
+  Eigen::VectorXd y_;
+  Eigen::MatrixXd sigma_, sigma_factor_;
+  int training_scales_ = 0;
+};
+
+/// P(chi²_dof > x).
+[[nodiscard]] double chi_squared_tail(double x, double dof);
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/structure.hpp"
+
+/// Private to src/diagnosis: the places of a finite element model.
+namespace twindeck::diagnosis {
+
+class ElementPlaces {
+ public:
+  explicit ElementPlaces(const Structure& structure);
+
+  /// Middle of each element that is no stay, in the order of `candidates`.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& centroids() const { return centroids_; }
+  [[nodiscard]] std::vector<Eigen::Vector3d> node_positions() const;  ///< of nodes that an element reaches and that can move
+  [[nodiscard]] std::vector<int> measured_nodes() const;              ///< positions in `node_positions`
+
+  void add_zones(const std::vector<int>& centres, Places& places) const;       ///< set elements
+  void add_stays(Places& places) const;                                        ///< set stays
+  void add_springs(Places& places) const;                                      ///< sets supports, foundations, dampers
+  void add_nodes(const std::vector<int>& chosen, Places& places) const;        ///< set nodes
+  void fill_global(Place& global) const;  ///< stiffness of all but stays; mass of the deck (shells, else all elements)
+
+ private:
+  struct Sum;  // element matrices being added up over full dofs
+  [[nodiscard]] Symmetric free(const Sum& sum) const;
+
+  const Structure& structure_;
+  const fe::Model& model_;
+  Eigen::SparseMatrix<double> expansion_;
+  std::vector<int> candidates_;  ///< elements that are no stays
+  std::vector<Eigen::Vector3d> centroids_;
+  std::vector<int> nodes_;
+};
+
+}  // namespace twindeck::diagnosis

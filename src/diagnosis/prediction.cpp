@@ -1,0 +1,465 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "diagnosis/predictor.hpp"
+#include "modal/assignment.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+double mac(const VectorXcd& a, const VectorXcd& b) {
+  const double norms = a.squaredNorm() * b.squaredNorm();
+  return norms > 0.0 ? std::norm(a.dot(b)) / norms : 0.0;
+}
+
+}  // namespace
+
+double Predictor::structural_damping(const std::string& label) const {
+  const auto& labels = map_.damping_modes_;
+  const auto at = std::find(labels.begin(), labels.end(), label);
+  if (at == labels.end()) return 0.5;
+  for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
+    const Nuisance& v = map_.nuisances()[j];
+    if (v.kind == Nuisance::Kind::mode_damping && v.index == static_cast<int>(at - labels.begin()))
+      return std::exp(v.mean + v.deviation * base_.x[static_cast<Index>(j)]);
+  }
+  return 0.5;
+}
+
+Eigen::RowVectorXd Predictor::channel_row(int channel, double frequency_Hz, Index size, Complex& factor) const {
+  int source = channel;
+  each_action("channel.swap", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+    if (source == c.channels[0]) source = c.channels[1];
+    else if (source == c.channels[1]) source = c.channels[0];
+  });
+  Eigen::RowVectorXd full = map_.model().sensors.row(4 * source);
+  each_action("channel.rotate", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    if (c.channels[0] != channel) return;
+    const double angle = c.value(action.number.at("angle"), a) * std::numbers::pi / 180.0;
+    const Eigen::Vector3d d = map_.features().direction[static_cast<std::size_t>(channel)];
+    Eigen::Vector3d beside = std::abs(d.z()) < 0.9 ? Eigen::Vector3d::UnitZ().cross(d) : Eigen::Vector3d(1.0, 0.0, 0.0);
+    beside -= beside.dot(d) * d;
+    if (beside.norm() < 1e-6) return;
+    beside.normalize();
+    Eigen::RowVectorXd other = Eigen::RowVectorXd::Zero(full.size());
+    for (int k = 0; k < 3; ++k) other += beside[k] * map_.model().sensors.row(4 * channel + 1 + k);
+    full = std::cos(angle) * full + std::sin(angle) * other;
+  });
+  each_action("channel.gain", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    if (c.channels[0] == channel) factor *= c.value(action.number.at("factor"), a);
+  });
+  each_action("channel.sign", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+    if (c.channels[0] == channel) factor *= -1.0;
+  });
+  each_action("channel.delay", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    if (c.channels[0] != channel) return;
+    factor *= std::exp(Complex(0.0, -2.0 * std::numbers::pi * frequency_Hz * c.value(action.number.at("delay"), a)));
+  });
+  for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
+    const Nuisance& v = map_.nuisances()[j];
+    if (v.kind == Nuisance::Kind::gain && v.index == channel) factor *= 1.0 + v.deviation * base_.x[static_cast<Index>(j)];
+  }
+  return sliced(VectorXd(full.transpose()), size).transpose();
+}
+
+VectorXcd Predictor::shape_at(const std::vector<int>& channels, const VectorXcd& phi, double frequency_Hz) const {
+  VectorXcd h(static_cast<Index>(channels.size()));
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    Complex factor = 1.0;
+    const Eigen::RowVectorXd row = channel_row(channels[k], frequency_Hz, phi.size(), factor);
+    h[static_cast<Index>(k)] = factor * Complex((row * phi.real())(0), (row * phi.imag())(0));
+  }
+  return h;
+}
+
+void Predictor::pair(int condition) {
+  SolvedState& state = solved(condition);
+  std::vector<std::size_t> here;
+  for (std::size_t m = 0; m < map_.modes_.size(); ++m)
+    if (map_.modes_[m].condition == condition) here.push_back(m);
+  const Index n = state.modes.s.size();
+  if (n == 0) return;
+  Eigen::MatrixXd gain(static_cast<Index>(here.size()), n);
+  // Shapes are known from this condition, or from another in which the label was measured with one.
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    const MeasuredMode& measured = map_.modes_[here[i]];
+    const MeasuredMode* shaped = &measured;
+    double weight = 3.0;
+    const auto has_shape = [](const MeasuredMode& m) { return m.real_rows.size() >= 2; };
+    if (!has_shape(measured)) {
+      weight = 2.0;
+      for (const MeasuredMode& other : map_.modes_)
+        if (other.label == measured.label && has_shape(other)) {
+          shaped = &other;
+          break;
+        }
+    }
+    each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+      // The shape under this label belongs to the next mode, and the next one's to it.
+      std::vector<const MeasuredMode*> same;
+      for (const MeasuredMode& other : map_.modes_)
+        if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
+      std::sort(same.begin(), same.end(), [](auto* a, auto* b) { return a->frequency_Hz < b->frequency_Hz; });
+      for (std::size_t k = 0; k + 1 < same.size(); ++k) {
+        if (same[k]->label != c.mode) continue;
+        if (shaped == same[k]) shaped = same[k + 1];
+        else if (shaped == same[k + 1]) shaped = same[k];
+        break;
+      }
+    });
+    const bool usable = has_shape(*shaped);
+    VectorXcd y;
+    if (usable) {
+      y.resize(static_cast<Index>(shaped->real_rows.size()));
+      for (std::size_t k = 0; k < shaped->real_rows.size(); ++k) {
+        Complex value = map_.values_[shaped->real_rows[k]];
+        for (std::size_t q = 0; q < shaped->imag_rows.size(); ++q)
+          if (shaped->imag_channels[q] == shaped->real_channels[k]) value += Complex(0.0, map_.values_[shaped->imag_rows[q]]);
+        y[static_cast<Index>(k)] = value;
+      }
+    }
+    const auto bound = map_.bound_modes_.find(measured.label);
+    for (Index j = 0; j < n; ++j) {
+      const double f = state.modes.frequency_Hz(j);
+      double cost = 0.0;
+      if (measured.frequency >= 0 && f > 0.0) {
+        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / 0.08;
+        cost = std::min(distance, 4.0) + 0.05 * distance;
+      }
+      const VectorXcd phi = state.modes.shapes.col(j);
+      if (usable) {
+        cost += weight * (1.0 - mac(shape_at(shaped->real_channels, phi, f), y));
+      } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
+        // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
+        const VectorXd reference = map_.model().mode_coordinates.col(bound->second);
+        const Eigen::VectorXd mass_reference = sliced(VectorXd(base_.mass * reference), phi.size());
+        const Complex overlap = mass_reference.cast<Complex>().dot(phi);
+        const double norms = reference.dot(base_.mass * reference) *
+                             (phi.real().dot(state.state.mass * phi.real()) + phi.imag().dot(state.state.mass * phi.imag()));
+        cost += 6.0 * (1.0 - std::min(1.0, std::norm(overlap) / norms));
+      }
+      gain(static_cast<Index>(i), j) = -cost;
+    }
+  }
+  const std::vector<int> chosen = modal::best_assignment(gain);
+  for (std::size_t i = 0; i < here.size(); ++i) out_.paired[here[i]] = chosen[i];
+}
+
+void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, Index mode, const VectorXcd& phi) {
+  const double f = state.modes.frequency_Hz(mode);
+  const bool complex_rows = !measured.imag_rows.empty();
+  VectorXcd h = shape_at(measured.real_channels, phi, f);
+  const auto count = static_cast<Index>(measured.real_rows.size());
+  Complex turn = 1.0;
+  if (!complex_rows) {  // measured as real: the model's shape turned to be as real as it can
+    const Complex square = (h.transpose() * h)(0);
+    turn = std::exp(Complex(0.0, -0.5 * std::arg(square)));
+    h *= turn;
+  }
+  VectorXcd hi = complex_rows ? shape_at(measured.imag_channels, phi, f) : VectorXcd();
+  // Scale by weighted least squares on all rows of the shape.
+  Complex numerator = 0.0;
+  double denominator = 0.0;
+  for (Index k = 0; k < count; ++k) {
+    const int row = measured.real_rows[static_cast<std::size_t>(k)];
+    const double weight = 1.0 / map_.covariance_(row, row);
+    numerator += weight * map_.values_[row] * (complex_rows ? std::conj(h[k]) : Complex(h[k].real()));
+    denominator += weight * (complex_rows ? std::norm(h[k]) : h[k].real() * h[k].real());
+  }
+  for (Index k = 0; k < hi.size(); ++k) {
+    const int row = measured.imag_rows[static_cast<std::size_t>(k)];
+    const double weight = 1.0 / map_.covariance_(row, row);
+    numerator += weight * Complex(0.0, map_.values_[row]) * std::conj(hi[k]);
+  }
+  Complex scale = denominator > 0.0 ? numerator / denominator : Complex(1.0);
+  if (!complex_rows) scale = scale.real();
+  double norm = 0.0;
+  for (Index k = 0; k < count; ++k) {
+    const int row = measured.real_rows[static_cast<std::size_t>(k)];
+    out_.g[row] = (scale * h[k]).real();
+    norm += out_.g[row] * out_.g[row];
+  }
+  for (Index k = 0; k < hi.size(); ++k) out_.g[measured.imag_rows[static_cast<std::size_t>(k)]] = (scale * hi[k]).imag();
+  out_.mac[static_cast<std::size_t>(&measured - map_.modes_.data())] = 0.0;
+  VectorXcd y(count);
+  for (Index k = 0; k < count; ++k) y[k] = map_.values_[measured.real_rows[static_cast<std::size_t>(k)]];
+  out_.mac[static_cast<std::size_t>(&measured - map_.modes_.data())] = mac(complex_rows ? VectorXcd((scale * h).real().cast<Complex>()) : VectorXcd(h.real().cast<Complex>()), y);
+  if (!with_jacobian_) return;
+  for (Index k = 0; k < count; ++k) {
+    const int row = measured.real_rows[static_cast<std::size_t>(k)];
+    out_.scales(row, scale_) = out_.g[row];
+    if (complex_rows) out_.scales(row, scale_ + 1) = (Complex(0, 1) * scale * h[k]).real();
+  }
+  for (Index k = 0; k < hi.size(); ++k) {
+    const int row = measured.imag_rows[static_cast<std::size_t>(k)];
+    out_.scales(row, scale_) = out_.g[row];
+    out_.scales(row, scale_ + 1) = (Complex(0, 1) * scale * hi[k]).imag();
+  }
+  scale_ += complex_rows ? 2 : 1;
+  const ModeDerivative& d = derivative(state, mode);
+  for (const bool imaginary : {false, true}) {
+    const auto& rows = imaginary ? measured.imag_rows : measured.real_rows;
+    const auto& channels = imaginary ? measured.imag_channels : measured.real_channels;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      Complex factor = 1.0;
+      const Eigen::RowVectorXd row = channel_row(channels[k], f, phi.size(), factor);
+      const Eigen::RowVectorXcd change = (scale * turn * factor) * (row.cast<Complex>() * d.shapes);
+      for (std::size_t j = 0; j < structural_.size(); ++j) {
+        const Complex value = change[static_cast<Index>(j)];
+        out_.jacobian(rows[k], structural_[j]) = imaginary ? value.imag() : value.real();
+      }
+      for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
+        const Nuisance& v = map_.nuisances_[j];
+        if (v.kind == Nuisance::Kind::gain && v.index == channels[k])
+          out_.jacobian(rows[k], static_cast<Index>(j)) = v.deviation * out_.g[rows[k]] / (1.0 + v.deviation * base_.x[static_cast<Index>(j)]);
+      }
+    }
+  }
+}
+
+void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position) {
+  const int chosen = out_.paired[position];
+  if (chosen < 0) {
+    out_.valid = false;  // fewer computed modes than measured ones
+    return;
+  }
+  SolvedState& state = solved(measured.condition);
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(measured.condition)];
+  const Complex s = state.modes.s[chosen];
+  VectorXcd phi = state.modes.shapes.col(chosen);
+  double shift = 0.0, added_pct = 0.0;
+  each_action("frequency.amplitude", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    if (!c.mode.empty() && c.mode != measured.label) return;
+    const double amplitude = condition.amplitude_m.value_or(0.0);
+    shift += std::log(std::max(1.0 + c.value(action.number.at("curvature"), a) * amplitude * amplitude, 0.05));
+  });
+  each_action("damping.add", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    if (c.mode.empty() || c.mode == measured.label) added_pct += 100.0 * c.value(action.number.at("ratio"), a);
+  });
+  each_action("wind.damping", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    added_pct += 100.0 * c.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
+  });
+  each_action("person.oscillator", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    const double people = condition.people.value_or(0.0);
+    if (!(people > 0.0)) return;
+    const ReducedPlace& place = *c.places[0];
+    const double deck = place.attributes.contains("deck_mass") ? place.attributes.at("deck_mass") : map_.model().total_mass_kg;
+    const Eigen::MatrixXd m = sliced(place.mass, phi.size());
+    const double ratio = people * c.value(action.number.at("mass"), a) / deck *
+                         (phi.real().dot(m * phi.real()) + phi.imag().dot(m * phi.imag()));
+    const double wp = 2.0 * std::numbers::pi * c.value(action.number.at("frequency"), a), zp = c.value(action.number.at("damping"), a);
+    const Complex transfer = (2.0 * zp * wp * s + wp * wp) / (s * s + 2.0 * zp * wp * s + wp * wp);
+    const Complex change = -0.5 * ratio * (transfer - 1.0);  // ds/s for a mass that follows by `transfer` instead of rigidly
+    shift += change.real();
+    added_pct += -100.0 * change.imag();
+  });
+  out_.frequency_Hz[position] = state.modes.frequency_Hz(chosen) * std::exp(shift);
+  if (measured.frequency >= 0) out_.g[measured.frequency] = std::log(out_.frequency_Hz[position]);
+  const double own = structural_damping(measured.label);
+  const double total = std::max(own + 100.0 * state.modes.damping(chosen) + added_pct, 1e-3 * own);
+  if (measured.damping >= 0) out_.g[measured.damping] = std::log(total);
+  if (with_jacobian_ && (measured.frequency >= 0 || measured.damping >= 0)) {
+    const ModeDerivative& d = derivative(state, chosen);
+    for (std::size_t j = 0; j < structural_.size(); ++j) {
+      const Complex ds = d.s[static_cast<Index>(j)];
+      const double relative = (ds / s).real();
+      if (measured.frequency >= 0) out_.jacobian(measured.frequency, structural_[j]) = relative;
+      if (measured.damping >= 0)
+        out_.jacobian(measured.damping, structural_[j]) = 100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total;
+    }
+    if (measured.damping >= 0) {
+      for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
+        const Nuisance& v = map_.nuisances_[j];
+        if (v.kind == Nuisance::Kind::mode_damping && map_.damping_modes_[static_cast<std::size_t>(v.index)] == measured.label)
+          out_.jacobian(measured.damping, static_cast<Index>(j)) = v.deviation * own / total;
+      }
+    }
+  }
+  if (measured.real_rows.empty()) return;
+  int shape_of = chosen;
+  each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+    std::vector<std::size_t> same;
+    for (std::size_t m = 0; m < map_.modes_.size(); ++m)
+      if (map_.modes_[m].condition == measured.condition && map_.modes_[m].real_rows.size() >= 2) same.push_back(m);
+    std::sort(same.begin(), same.end(),
+              [&](std::size_t a, std::size_t b) { return map_.modes_[a].frequency_Hz < map_.modes_[b].frequency_Hz; });
+    for (std::size_t k = 0; k + 1 < same.size(); ++k) {
+      if (map_.modes_[same[k]].label != c.mode) continue;
+      if (position == same[k]) shape_of = out_.paired[same[k + 1]];
+      else if (position == same[k + 1]) shape_of = out_.paired[same[k]];
+      break;
+    }
+  });
+  if (shape_of >= 0) predict_shape(measured, state, shape_of, state.modes.shapes.col(shape_of));
+}
+
+void Predictor::predict_load(int c) {
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
+  bool records = false;
+  for (const Row& row : map_.features().rows) records = records || (row.condition == c && row.type == RowType::rms);
+  const auto level_of = [&](bool floor) -> Index {
+    for (std::size_t j = 0; j < map_.nuisances_.size(); ++j)
+      if (map_.nuisances_[j].kind == Nuisance::Kind::level && map_.nuisances_[j].index == 2 * c + (floor ? 1 : 0)) return static_cast<Index>(j);
+    return -1;
+  };
+  const auto level = [&](Index j) { return map_.nuisances_[static_cast<std::size_t>(j)].deviation * base_.x[j]; };
+  SolvedState* state = records ? &solved(c) : nullptr;
+  std::vector<double> weight;
+  if (state != nullptr) {  // white excitation: variance of acceleration of a mode ~ omega / zeta
+    for (Index i = 0; i < state->modes.s.size(); ++i) {
+      std::string label;
+      for (std::size_t m = 0; m < map_.modes_.size(); ++m)
+        if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) && of_condition_.at(map_.modes_[m].condition) == state)
+          label = map_.modes_[m].label;
+      double zeta_pct = (label.empty() ? 0.5 : structural_damping(label)) + 100.0 * state->modes.damping(i);
+      each_action("wind.damping", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+        zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
+      });
+      weight.push_back(std::abs(state->modes.s[i]) / std::max(zeta_pct, 0.02) * wind_weight(condition, *state, i, label));
+    }
+  }
+  for (std::size_t r = 0; r < map_.features().rows.size(); ++r) {
+    const Row& row = map_.features().rows[r];
+    const auto at = static_cast<Index>(r);
+    if (row.condition != c) continue;
+    if (row.type == RowType::psd_floor) {
+      const Index j = level_of(true);
+      double g = level(j);
+      each_action("channel.floor", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+        if (candidate.channels[0] == row.channel) g += std::log(candidate.value(action.number.at("factor"), a));
+      });
+      each_action("channel.gain", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+        if (candidate.channels[0] == row.channel) g += 2.0 * std::log(candidate.value(action.number.at("factor"), a));
+      });
+      out_.g[at] = g;
+      if (with_jacobian_) out_.jacobian(at, j) = map_.nuisances_[static_cast<std::size_t>(j)].deviation;
+    }
+    if (row.type != RowType::rms) continue;
+    double variance = 0.0;
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(with_jacobian_ ? static_cast<Index>(map_.nuisances_.size()) : 0);
+    double gain = 1.0;
+    for (Index i = 0; i < state->modes.s.size(); ++i) {
+      Complex factor = 1.0;
+      const Eigen::RowVectorXd sensor = channel_row(row.channel, state->modes.frequency_Hz(i), state->state.stiffness.rows(), factor);
+      const VectorXcd phi = state->modes.shapes.col(i);
+      const Complex h = factor * Complex((sensor * phi.real())(0), (sensor * phi.imag())(0));
+      variance += weight[static_cast<std::size_t>(i)] * std::norm(h);
+      if (!with_jacobian_) continue;
+      const ModeDerivative& d = derivative(*state, i);
+      const Eigen::RowVectorXcd dh = factor * (sensor.cast<Complex>() * d.shapes);
+      for (std::size_t j = 0; j < structural_.size(); ++j) {
+        const auto k = static_cast<Index>(j);
+        slope[structural_[j]] += weight[static_cast<std::size_t>(i)] *
+                                 (2.0 * (std::conj(h) * dh[k]).real() + std::norm(h) * (d.s[k] / state->modes.s[i]).real());
+      }
+    }
+    each_action("channel.limit", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+      if (candidate.channels[0] == row.channel) gain *= candidate.value(action.number.at("factor"), a);
+    });
+    const Index j = level_of(false);
+    out_.g[at] = 0.5 * std::log(std::max(variance, 1e-300)) + std::log(gain) + level(j);
+    if (with_jacobian_) {
+      out_.jacobian.row(at) = slope.transpose() / (2.0 * std::max(variance, 1e-300));
+      out_.jacobian(at, j) = map_.nuisances_[static_cast<std::size_t>(j)].deviation;
+      for (std::size_t k = 0; k < map_.nuisances_.size(); ++k)
+        if (map_.nuisances_[k].kind == Nuisance::Kind::gain && map_.nuisances_[k].index == row.channel)
+          out_.jacobian(at, static_cast<Index>(k)) = map_.nuisances_[k].deviation;
+    }
+  }
+}
+
+void Predictor::predict_stays() {
+  const auto stays = map_.model().sets.find("stays");
+  for (std::size_t r = 0; r < map_.features().rows.size(); ++r) {
+    const Row& row = map_.features().rows[r];
+    if (row.type != RowType::stay_frequency) continue;
+    const auto at = static_cast<Index>(r);
+    double g = std::log(std::max(1.0, std::atof(row.mode.c_str())));
+    if (stays != map_.model().sets.end()) {
+      for (std::size_t i = 0; i < stays->second.size(); ++i) {
+        const ReducedPlace& stay = stays->second[i];
+        if (stay.id.substr(5) != row.stay) continue;
+        g += std::log(stay.attributes.at("f_cable"));
+        for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
+          const Nuisance& v = map_.nuisances_[j];
+          if (v.kind != Nuisance::Kind::stay_pull || v.index != static_cast<int>(i)) continue;
+          g += 0.5 * v.deviation * base_.x[static_cast<Index>(j)];  // f ~ sqrt(pull)
+          if (with_jacobian_) out_.jacobian(at, static_cast<Index>(j)) = 0.5 * v.deviation;
+        }
+        each_action("stay.frequency", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+          if (c.places[0] == &stay) g += std::log(c.value(action.number.at("factor"), a));
+        });
+      }
+    }
+    out_.g[at] = g;
+  }
+}
+
+Prediction Predictor::run() {
+  const auto n = static_cast<Index>(map_.features().rows.size());
+  const std::size_t modes = map_.modes_.size();
+  out_.valid = true;
+  out_.g = map_.values_;
+  out_.paired.assign(modes, -1);
+  out_.frequency_Hz.assign(modes, 0.0);
+  out_.mac.assign(modes, std::numeric_limits<double>::quiet_NaN());
+  if (with_jacobian_) {
+    out_.jacobian = Eigen::MatrixXd::Zero(n, static_cast<Index>(map_.nuisances_.size()));
+    out_.scales = Eigen::MatrixXd::Zero(n, map_.n_scales_);
+  }
+  std::vector<bool> modal(map_.features().conditions.size(), false), loaded(modal);
+  for (const MeasuredMode& mode : map_.modes_) modal[static_cast<std::size_t>(mode.condition)] = true;
+  for (const Row& row : map_.features().rows)
+    if (row.type == RowType::rms || row.type == RowType::psd_floor) loaded[static_cast<std::size_t>(row.condition)] = true;
+  for (std::size_t c = 0; c < modal.size(); ++c)
+    if (modal[c]) pair(static_cast<int>(c));
+  for (std::size_t m = 0; m < modes && out_.valid; ++m) predict_mode(map_.modes_[m], m);
+  if (!out_.valid) return out_;
+  for (std::size_t c = 0; c < loaded.size(); ++c)
+    if (loaded[c]) predict_load(static_cast<int>(c));
+  predict_stays();
+  out_.valid = out_.g.allFinite() && (!with_jacobian_ || out_.jacobian.allFinite());
+  return out_;
+}
+
+std::map<std::string, VectorXd> Predictor::node_motion() {
+  std::map<std::string, VectorXd> motion;
+  const auto nodes = map_.model().sets.find("nodes");
+  const Prediction prediction = run();
+  if (nodes == map_.model().sets.end() || !prediction.valid) return motion;
+  const auto modes = static_cast<Index>(map_.modes_.size());
+  VectorXd largest = VectorXd::Zero(modes);
+  for (const ReducedPlace& node : nodes->second) {
+    for (Index d = 0; d < node.directions.cols(); ++d) {
+      const std::string name = node.id + (node.directions.cols() == 3 ? std::string(" ") + "xyz"[d] : "");
+      VectorXd values(modes);
+      for (Index m = 0; m < modes; ++m) {
+        SolvedState& state = solved(map_.modes_[static_cast<std::size_t>(m)].condition);
+        const VectorXcd phi = state.modes.shapes.col(prediction.paired[static_cast<std::size_t>(m)]);
+        values[m] = std::abs(sliced(VectorXd(node.directions.col(d)), phi.size()).cast<Complex>().dot(phi));
+      }
+      largest = largest.cwiseMax(values);
+      motion[name] = values;
+    }
+  }
+  for (auto& [name, values] : motion) values = values.cwiseQuotient(largest.cwiseMax(1e-300));
+  return motion;
+}
+
+std::map<std::string, VectorXd> FeatureMap::node_motion(const Base& base, const std::vector<Cause>& causes) const {
+  return Predictor(*this, base, causes, false).node_motion();
+}
+
+Prediction FeatureMap::predict(const Base& base, const std::vector<Cause>& causes, bool with_jacobian) const {
+  return Predictor(*this, base, causes, with_jacobian).run();
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/structure.hpp"
+
+namespace twindeck::diagnosis {
+
+/// A place in reduced coordinates (r = number of basis vectors).
+struct ReducedPlace {
+  std::string id;
+  Eigen::Vector3d x_m;
+  std::vector<int> columns;         ///< basis vectors that stand for causes at this place, beside the common ones
+  Eigen::MatrixXd stiffness, mass;  ///< (r × r), size 0 where the place has none
+  Eigen::MatrixXd directions;       ///< (r × k) unit forces
+  std::map<std::string, double> attributes;
+};
+
+struct ReductionOptions {
+  int modes = 30;               ///< of the structure as it stands
+  int parameter_vectors = 10;   ///< corrections for changed parameters, the strongest directions of them all
+  int corrected_modes = 8;      ///< lowest modes whose static response to a change at a place is kept …
+  int vectors_per_place = 3;    ///< … in its strongest directions
+  int full_below = 60;          ///< a structure with no more dofs is not reduced
+};
+
+/// The structure projected once to a small basis, so that thousands of changed structures can be solved:
+///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by place].
+/// A change at a place uses the common vectors and the place's own: K^-1 (dK Phi) for a factor, K^-1 b for a force direction b
+/// (statically exact; Craig and Bampton 1968, MacNeal 1971). V is orthonormal in K up to a common factor.
+class ReducedModel {
+ public:
+  struct Term {
+    fe::Coefficient coefficient;
+    Eigen::MatrixXd matrix;  ///< (r × r)
+  };
+
+  /// @throws InputError if K is singular beyond rigid-body motion
+  ReducedModel(const Structure& structure, const Places& places, const ReductionOptions& options);
+
+  std::vector<fe::Parameter> parameters;
+  Eigen::VectorXd theta;               ///< (n_parameters) where the basis was made
+  std::vector<Term> stiffness, mass;
+  std::map<std::string, std::vector<ReducedPlace>> sets;
+  Eigen::MatrixXd sensors;             ///< (4 n_channels × r), see SensorValues
+  int common = 0;                      ///< basis vectors that every solve uses: 0 … common-1
+  double total_mass_kg = 0.0;
+  Eigen::VectorXd frequency_Hz;        ///< of the full model's modes as it stands (those that were solved for)
+  Eigen::MatrixXd mode_coordinates;    ///< (r × n_modes) the same modes in the basis
+
+  [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
+  /// The place called `id` in whatever set, null if there is none.
+  [[nodiscard]] const ReducedPlace* place(const std::string& set, const std::string& id) const;
+};
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Sparse>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fe/assembly.hpp"
+#include "fe/model.hpp"
+#include "fe/parametric_system.hpp"
+
+/// The structure that is diagnosed, in full coordinates, and the places where a cause can sit.
+namespace twindeck::diagnosis {
+
+/// Displacements at the channels: (n × m) vectors over the free dofs in, (4 n_channels × m) out; the four rows of a channel are
+/// its own direction, then global x, y, z at its node (zero where a model lacks the direction).
+using SensorValues = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& vectors)>;
+
+/// A model as the diagnosis needs it, whether of finite elements or of matrices. Pointers are borrowed.
+struct Structure {
+  const fe::ParametricSystem* system = nullptr;
+  const fe::Model* model = nullptr;           ///< null for a matrix model
+  const fe::PrestressState* state = nullptr;  ///< null for a matrix model
+  Eigen::VectorXd theta;                      ///< (n_parameters) values as the model stands
+  SensorValues sensors;
+  std::vector<std::string> sensor_nodes;      ///< (n_channels) name of each channel's node, "" where unknown
+  std::vector<std::string> rigid_supports;    ///< groups of springs that stand for a rigid support, far stiffer than what they hold
+  std::string source;
+};
+
+/// A symmetric matrix on the free dofs, both triangles; no entries where there is nothing.
+using Symmetric = Eigen::SparseMatrix<double>;
+
+/// A place where a cause can sit, with what is there, over the free dofs.
+struct Place {
+  std::string id;                            ///< "element:17", "node:4", "stay:NE5", "damper:C1", "group:E_s" …
+  Eigen::Vector3d x_m;                       ///< NaN where unknown
+  Symmetric stiffness, mass;                 ///< what a factor scales; size 0 where it has none
+  Eigen::SparseMatrix<double> directions;    ///< (n × k) unit forces: x y z of a node, a damper's line; size 0 where none
+  std::map<std::string, double> attributes;  ///< numbers for a catalogue's expressions: "damping", "stiffness", "k_drive" …
+  std::vector<int> elements;                 ///< positions of the elements that belong to it
+};
+
+/// The places of a structure by set: elements, nodes, stays, dampers, supports, foundations, groups, global. An element stands for
+/// its neighbourhood where there are more than `max_zones` of them: the structure is cut into that many zones round elements that lie
+/// far from each other, so that every element belongs to the nearest one.
+struct Places {
+  std::map<std::string, std::vector<Place>> sets;
+  double total_mass_kg = 0.0;
+};
+
+struct PlaceOptions {
+  int max_zones = 24;  ///< of elements
+  int max_nodes = 24;  ///< those of channels first, then nodes far from each other
+};
+
+[[nodiscard]] Places find_places(const Structure& structure, const PlaceOptions& options);
+
+/// Zone of a point among centres: position of the nearest.
+[[nodiscard]] int nearest(const std::vector<Eigen::Vector3d>& centres, const Eigen::Vector3d& x);
+
+}  // namespace twindeck::diagnosis

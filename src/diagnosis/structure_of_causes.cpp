@@ -1,0 +1,285 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "diagnosis/predictor.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+constexpr double kPersonMass = 75.0;  // the base model's crowd [kg]
+
+/// Value of the condition's key that an action refers to, NaN where it is not known.
+double variable(const ActionSpec& action, const Condition& condition) {
+  const auto named = action.text.find("variable");
+  const std::string key = named == action.text.end() ? "temperature_C" : named->second;
+  const auto value = [&](const std::optional<double>& v) { return v.value_or(std::numeric_limits<double>::quiet_NaN()); };
+  if (key == "amplitude_m") return value(condition.amplitude_m);
+  if (key == "wind_m_s") return value(condition.wind_m_s);
+  if (key == "people") return value(condition.people);
+  return value(condition.temperature_C);
+}
+
+/// Adds an own degree of freedom to a state.
+void grow(StructureState& state) {
+  const Index n = state.stiffness.rows() + 1;
+  state.stiffness.conservativeResizeLike(MatrixXd::Zero(n, n));
+  state.mass.conservativeResizeLike(MatrixXd::Zero(n, n));
+  for (Attachment& a : state.attachments) a.direction.conservativeResizeLike(VectorXd::Zero(n));
+  if (state.amplitude_row.size() > 0) state.amplitude_row.conservativeResizeLike(Eigen::RowVectorXd::Zero(n));
+}
+
+}  // namespace
+
+Predictor::Predictor(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, bool with_jacobian)
+    : map_(map), base_(base), causes_(causes), with_jacobian_(with_jacobian) {
+  choose_columns();
+}
+
+void Predictor::choose_columns() {
+  for (int c = 0; c < map_.model().common; ++c) columns_.push_back(c);
+  for (const Cause& cause : causes_)
+    for (const ReducedPlace* place : cause.candidate->places)
+      for (const int c : place->columns)
+        if (std::find(columns_.begin(), columns_.end(), c) == columns_.end()) columns_.push_back(c);
+}
+
+MatrixXd Predictor::sliced(const MatrixXd& full, Index size) const {
+  MatrixXd part = full(columns_, columns_);
+  if (size > part.rows()) part.conservativeResizeLike(MatrixXd::Zero(size, size));
+  return part;
+}
+
+VectorXd Predictor::sliced(const VectorXd& full, Index size) const {
+  VectorXd part = full(columns_);
+  if (size > part.size()) part.conservativeResizeLike(VectorXd::Zero(size));
+  return part;
+}
+
+void Predictor::apply_dampers(const Condition& condition, StructureState& state) const {
+  const auto dampers = map_.model().sets.find("dampers");
+  if (dampers == map_.model().sets.end()) return;
+  const Index n = state.stiffness.rows();
+  for (const ReducedPlace& damper : dampers->second) {
+    const auto number = [&](const char* name) {
+      const auto at = damper.attributes.find(name);
+      return at == damper.attributes.end() ? 0.0 : at->second;
+    };
+    if (!condition.dampers_on.value_or(number("always_on") != 0.0)) continue;
+    double c = number("damping"), k = number("stiffness"), threshold = number("friction");
+    bool series = number("series") != 0.0, absent = false, sliding = threshold > 0.0;
+    for (const Cause& cause : causes_) {
+      if (cause.candidate->places.empty() || cause.candidate->places[0] != &damper) continue;
+      for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
+        const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
+        if (action.kind == "damper.absent") absent = true;
+        if (action.kind == "damper.damping") c *= value("factor");
+        if (action.kind == "damper.series") {
+          k = value("stiffness");
+          series = true;
+        }
+        if (action.kind == "damper.friction") {
+          k = value("stiffness");
+          threshold = value("threshold");
+          sliding = true;
+        }
+      }
+    }
+    if (absent) continue;
+    const VectorXd b = sliced(VectorXd(damper.directions.col(0)), n);
+    if (sliding) {
+      state.attachments.push_back({Attachment::Kind::jenkins, b, k, c, threshold});
+    } else if (series && k > 0.0) {
+      state.attachments.push_back({Attachment::Kind::maxwell, b, k, c, 0.0});
+    } else {
+      if (k > 0.0) state.stiffness += k * b * b.transpose();
+      state.attachments.push_back({Attachment::Kind::dashpot, b, 0.0, c, 0.0});
+    }
+  }
+}
+
+void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const {
+  const Candidate& candidate = *cause.candidate;
+  if (candidate.places.empty()) return;
+  const ReducedPlace& place = *candidate.places[0];
+  const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
+  const Index n = state.stiffness.rows();
+  const std::string& kind = action.kind;
+  if (kind == "scale.stiffness") {
+    state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, n);
+  } else if (kind == "scale.mass") {
+    state.mass += (value("factor") - 1.0) * sliced(place.mass, n);
+  } else if (kind == "field.stiffness") {
+    const double v = variable(action, condition);
+    if (std::isfinite(v)) state.stiffness += value("rate") * (v - value("reference")) * sliced(place.stiffness, n);
+  } else if (kind == "step.stiffness") {
+    if (variable(action, condition) < value("below")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, n);
+  } else if (kind == "slip.stiffness") {
+    if (variable(action, condition) > value("above")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, n);
+  } else if (kind == "mass.add") {
+    for (Index d = 0; d < place.directions.cols(); ++d) {
+      const VectorXd b = sliced(VectorXd(place.directions.col(d)), n);
+      state.mass += value("mass") * b * b.transpose();
+    }
+  } else if (kind == "mass.per_count") {
+    const auto deck = place.attributes.find("deck_mass") != place.attributes.end() ? place.attributes.at("deck_mass")
+                                                                                   : place.attributes.at("total_mass");
+    const double people = condition.people.value_or(0.0);
+    if (people > 0.0) state.mass += people * (value("mass") - value("assumed")) / deck * sliced(place.mass, n);
+  } else if (kind == "element.spring") {
+    if (candidate.places.size() == 2) {
+      const ReducedPlace& other = *candidate.places[1];
+      const Eigen::Vector3d along = other.x_m - place.x_m;
+      const Index shared = std::min(place.directions.cols(), other.directions.cols());
+      if (along.allFinite() && along.norm() > 0.0 && shared == 3) {  // a tie pulls along its line
+        const VectorXd b = sliced(VectorXd((place.directions - other.directions) * along.normalized()), n);
+        state.stiffness += value("stiffness") * b * b.transpose();
+      } else {
+        for (Index d = 0; d < shared; ++d) {
+          const VectorXd b = sliced(VectorXd(place.directions.col(d) - other.directions.col(d)), n);
+          state.stiffness += value("stiffness") * b * b.transpose();
+        }
+      }
+    } else {
+      for (Index d = 0; d < place.directions.cols(); ++d) {
+        const VectorXd b = sliced(VectorXd(place.directions.col(d)), n);
+        state.stiffness += value("stiffness") * b * b.transpose();
+      }
+    }
+  } else if (kind == "element.oscillator" || kind == "element.string") {
+    const bool string = kind == "element.string";
+    const double m = value("mass"), omega = 2.0 * std::numbers::pi * value("frequency");
+    // An attached body moves in every direction that the node has; a cable in the two across its chord.
+    for (Index d = 0; d < place.directions.cols(); ++d) {
+      grow(state);
+      const Index k = state.stiffness.rows() - 1;
+      const VectorXd b = sliced(VectorXd(place.directions.col(d)), k + 1);
+      if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
+        state.mass += m / 3.0 * b * b.transpose();
+        state.mass(k, k) += 0.5 * m;
+        state.mass.col(k) += m / std::numbers::pi * b;
+        state.mass.row(k) += m / std::numbers::pi * b.transpose();
+        state.stiffness(k, k) += 0.5 * m * omega * omega;
+      } else {
+        VectorXd relative = -b;
+        relative[k] = 1.0;
+        state.mass(k, k) += m;
+        state.stiffness += m * omega * omega * relative * relative.transpose();
+      }
+    }
+  }
+}
+
+StructureState Predictor::build_state(const Condition& condition) const {
+  StructureState state;
+  const auto n = static_cast<Index>(columns_.size());
+  state.stiffness = sliced(base_.stiffness, n);
+  state.mass = sliced(base_.mass, n);
+  const double people = condition.people.value_or(0.0);
+  if (const auto global = map_.model().sets.find("global"); people > 0.0 && global != map_.model().sets.end()) {
+    const ReducedPlace& deck = global->second.front();
+    const auto mass = deck.attributes.contains("deck_mass") ? deck.attributes.at("deck_mass") : map_.model().total_mass_kg;
+    state.mass += people * kPersonMass / mass * sliced(deck.mass, n);
+  }
+  if (condition.amplitude_m && !condition.amplitude_channel.empty()) {
+    const auto& channels = map_.features().channels;
+    const auto at = std::find(channels.begin(), channels.end(), condition.amplitude_channel);
+    if (at != channels.end()) {
+      state.amplitude_row = sliced(VectorXd(map_.model().sensors.row(4 * (at - channels.begin())).transpose()), n).transpose();
+      state.amplitude_m = *condition.amplitude_m;
+    }
+  }
+  apply_dampers(condition, state);
+  for (const Cause& cause : causes_)
+    for (const ActionSpec& action : cause.candidate->hypothesis->actions) apply(cause, action, condition, state);
+  return state;
+}
+
+SolvedState& Predictor::solved(int c) {
+  if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
+  // What the state depends on: conditions that agree in it share one solution.
+  bool temperature = false, amplitude = false, wind = false;
+  for (const Cause& cause : causes_) {
+    for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
+      const bool field = action.kind == "field.stiffness" || action.kind == "step.stiffness" || action.kind == "slip.stiffness";
+      const auto named = action.text.find("variable");
+      const std::string key = named == action.text.end() ? "temperature_C" : named->second;
+      temperature = temperature || (field && key == "temperature_C");
+      amplitude = amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
+      wind = wind || (field && key == "wind_m_s");
+    }
+  }
+  if (const auto dampers = map_.model().sets.find("dampers"); dampers != map_.model().sets.end())
+    for (const ReducedPlace& damper : dampers->second) amplitude = amplitude || damper.attributes.contains("friction");
+  const double unknown = -1e300;
+  const double dampers_on = condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : unknown;
+  std::vector<double> key = {dampers_on, condition.people.value_or(0.0)};
+  key.push_back(temperature ? condition.temperature_C.value_or(unknown) : 0.0);
+  key.push_back(amplitude ? condition.amplitude_m.value_or(unknown) : 0.0);
+  if (amplitude) {
+    const auto& channels = map_.features().channels;
+    key.push_back(static_cast<double>(std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin()));
+  }
+  key.push_back(wind ? condition.wind_m_s.value_or(unknown) : 0.0);
+  auto& entry = states_[key];
+  if (!entry) {
+    entry = std::make_unique<SolvedState>();
+    entry->state = build_state(condition);
+    entry->modes = solve_state(entry->state, map_.highest_Hz_);
+  }
+  of_condition_[c] = entry.get();
+  return *entry;
+}
+
+const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
+  const auto known = solved.derivatives.find(mode);
+  if (known != solved.derivatives.end()) return known->second;
+  if (structural_.empty()) {  // the changes are the same for every state: slice them once
+    const ReducedModel& model = map_.model();
+    for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
+      const Nuisance& v = map_.nuisances()[j];
+      const auto place = [&](const char* set) -> const ReducedPlace& { return model.sets.at(set)[static_cast<std::size_t>(v.index)]; };
+      MatrixXd dk, dm;
+      const auto add = [&](MatrixXd& to, double a, const MatrixXd& from) {
+        const MatrixXd part = a * from(columns_, columns_);
+        if (to.size() == 0) to = part;
+        else to += part;
+      };
+      if (v.kind == Nuisance::Kind::parameter) {
+        for (const auto& term : model.stiffness)
+          if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dk, v.deviation * a, term.matrix);
+        for (const auto& term : model.mass)
+          if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dm, v.deviation * a, term.matrix);
+      } else if (v.kind == Nuisance::Kind::element_stiffness) {
+        add(dk, v.deviation, place("elements").stiffness);
+      } else if (v.kind == Nuisance::Kind::element_mass) {
+        add(dm, v.deviation, place("elements").mass);
+      } else if (v.kind == Nuisance::Kind::node_mass) {
+        add(dm, v.deviation, place("nodes").mass);
+      } else if (v.kind == Nuisance::Kind::stay) {
+        add(dk, v.deviation, place("stays").stiffness);
+      } else {
+        continue;
+      }
+      structural_.push_back(static_cast<int>(j));
+      d_stiffness_.push_back(dk);
+      d_mass_.push_back(dm);
+    }
+  }
+  // Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
+  const Index n = solved.state.stiffness.rows();
+  std::vector<MatrixXd> dk = d_stiffness_, dm = d_mass_;
+  for (auto* changes : {&dk, &dm})
+    for (MatrixXd& change : *changes)
+      if (change.size() > 0 && change.rows() < n) change.conservativeResizeLike(MatrixXd::Zero(n, n));
+  return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, dk, dm)).first->second;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,103 @@
+#include "updating/joint_map.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <cmath>
+
+namespace twindeck::updating {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Whitened Jacobian without what the free scales explain.
+MatrixXd whitened(const MatrixXd& jacobian, const MatrixXd& scales, const MatrixXd& factor) {
+  MatrixXd a = factor.triangularView<Eigen::Lower>().solve(jacobian);
+  if (scales.cols() == 0) return a;
+  const MatrixXd s = factor.triangularView<Eigen::Lower>().solve(scales);
+  // Each row belongs to one shape at most, so the columns are nearly orthogonal; a QR takes the rest.
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(s);
+  const MatrixXd q = qr.householderQ() * MatrixXd::Identity(s.rows(), qr.rank());
+  a -= q * (q.transpose() * a);
+  return a;
+}
+
+}  // namespace
+
+JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const MatrixXd& sigma_factor, const VectorXd& start,
+                   const Box& box, const JointMapOptions& options) {
+  JointMap map;
+  map.x = start.cwiseMax(box.lower).cwiseMin(box.upper);
+  if (!predict(map.x, map.g, &map.jacobian, &map.scales)) {
+    map.status = {false, "the model predicts nothing at the start"};
+    return map;
+  }
+  const auto residual_of = [&](const VectorXd& g) { return VectorXd(sigma_factor.triangularView<Eigen::Lower>().solve(y - g)); };
+  VectorXd r = residual_of(map.g);
+  map.chi_squared = r.squaredNorm() + map.x.squaredNorm();
+  double damping = 1e-3;
+  map.status = {false, "iteration limit"};
+  for (; map.iterations < options.max_iterations; ++map.iterations) {
+    const MatrixXd a = whitened(map.jacobian, map.scales, sigma_factor);
+    const VectorXd gradient = map.x - a.transpose() * r;
+    const std::vector<bool> rests = held(map.x, gradient, box, 1e-9);
+    std::vector<int> free;
+    for (Index j = 0; j < map.x.size(); ++j)
+      if (!rests[static_cast<std::size_t>(j)]) free.push_back(static_cast<int>(j));
+    map.gradient = VectorXd(gradient(free)).norm();
+    const MatrixXd reduced = a(Eigen::all, free);
+    MatrixXd normal = reduced.transpose() * reduced;
+    normal.diagonal().array() += 1.0;
+    const VectorXd g_free = gradient(free);
+    const VectorXd newton = normal.llt().solve(g_free);
+    if (g_free.dot(newton) < options.tolerance) {
+      map.status = {true, ""};
+      return map;
+    }
+    bool accepted = false;
+    for (int attempt = 0; attempt < 12 && !accepted; ++attempt) {
+      MatrixXd damped = normal;
+      damped.diagonal() *= 1.0 + damping;
+      const VectorXd step = damped.llt().solve(g_free);
+      VectorXd x = map.x;
+      for (std::size_t k = 0; k < free.size(); ++k) x[free[k]] -= step[static_cast<Index>(k)];
+      x = x.cwiseMax(box.lower).cwiseMin(box.upper);
+      VectorXd g;
+      if (predict(x, g, nullptr, nullptr)) {
+        const VectorXd next = residual_of(g);
+        const double chi_squared = next.squaredNorm() + x.squaredNorm();
+        if (chi_squared < map.chi_squared) {
+          accepted = true;
+          const double fall = map.chi_squared - chi_squared;
+          map.x = x;
+          r = next;
+          map.chi_squared = chi_squared;
+          damping = std::max(damping * 0.2, 1e-9);
+          if (!predict(map.x, map.g, &map.jacobian, &map.scales)) return map;
+          if (fall < 0.1 * options.tolerance) {
+            map.status = {true, ""};
+            return map;
+          }
+          break;
+        }
+      }
+      damping = std::max(damping * 6.0, 1e-6);
+    }
+    if (!accepted) {  // no descent left to rounding or to modes changing partners
+      map.status = {g_free.dot(newton) < 1.0, "no step lowers the cost"};
+      return map;
+    }
+  }
+  return map;
+}
+
+MatrixXd posterior_covariance(const JointMap& map, const MatrixXd& sigma_factor) {
+  const MatrixXd a = whitened(map.jacobian, map.scales, sigma_factor);
+  MatrixXd precision = a.transpose() * a;
+  precision.diagonal().array() += 1.0;
+  return precision.llt().solve(MatrixXd::Identity(precision.rows(), precision.cols()));
+}
+
+}  // namespace twindeck::updating
