@@ -143,13 +143,13 @@ double attribute(const Candidate& candidate, const Expression& e) { return attri
 
 /// Whether every bound that refers to the place finds its number there (a stay without pull has no frequency).
 bool resolvable(const Candidate& candidate) {
-  const auto there = [&](const Expression& e) { return e.name.empty() || attribute_if(candidate, e).has_value(); };
+  const auto there = [&](const Expression& e) { return e.name.empty() || e.name == "f_measured" || attribute_if(candidate, e).has_value(); };
   return std::all_of(candidate.hypothesis->unknowns.begin(), candidate.hypothesis->unknowns.end(), [&](const UnknownSpec& u) {
     return there(u.low) && there(u.high) && std::all_of(u.start.begin(), u.start.end(), there);
   });
 }
 
-void bound(Candidate& candidate) {
+void bound(Candidate& candidate, const std::vector<double>& measured_Hz) {
   const Hypothesis& h = *candidate.hypothesis;
   const auto k = static_cast<Index>(h.unknowns.size());
   candidate.low.resize(k);
@@ -169,8 +169,12 @@ void bound(Candidate& candidate) {
     candidate.low[i] = u.log ? std::log(low) : low;
     candidate.high[i] = u.log ? std::log(high) : high;
     std::vector<double> values;
+    std::vector<double> tried;
     for (const Expression& e : u.start) {
-      const double v = resolve(e);
+      if (e.name == "f_measured") for (const double f : measured_Hz) tried.push_back(e.factor * f);
+      else tried.push_back(resolve(e));
+    }
+    for (const double v : tried) {
       if (v > low && v < high) values.push_back(u.log ? std::log(v) : v);
     }
     if (values.empty()) values = {0.5 * (candidate.low[i] + candidate.high[i])};
@@ -207,6 +211,13 @@ double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
 Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model, const FeatureSet& features) {
   Instantiated out;
   double weights = 0.0;
+  std::vector<double> measured;  // frequencies of the condition with most of them: where something may resonate
+  for (std::size_t c = 0; c < features.conditions.size(); ++c) {
+    std::vector<double> here;
+    for (const Row& row : features.rows)
+      if (row.condition == static_cast<int>(c) && row.type == RowType::frequency) here.push_back(row.value);
+    if (here.size() > measured.size()) measured = here;
+  }
   std::vector<std::vector<Candidate>> families;
   for (const Hypothesis& h : catalogue) {
     families.emplace_back();
@@ -224,7 +235,7 @@ Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const Reduced
   for (std::vector<Candidate>& family : families) {
     for (Candidate& candidate : family) {
       candidate.log_prior = std::log(candidate.hypothesis->prior_weight / weights / static_cast<double>(family.size()));
-      bound(candidate);
+      bound(candidate, measured);
       out.candidates.push_back(std::make_unique<Candidate>(std::move(candidate)));
     }
   }

@@ -15,8 +15,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// What misfit is left even with the best cause widens every likelihood (Birge 1932), so that a badly stated noise names nothing.
-double birge(const Scored& best, int dof) { return std::max(1.0, best.remaining / std::max(1, dof)); }
+/// What misfit is left even with the best cause widens every likelihood (Birge 1932), so that a badly stated noise names nothing. Up
+/// to a factor: misfit beyond any honest mistake about the noise is a further cause, and must not hide the first.
+double birge(const Scored& best, int dof) { return std::clamp(best.remaining / std::max(1, dof), 1.0, 3.0); }
 
 double tempered(const Scored& scored, double ratio) {
   const double prior = scored.candidate->log_prior;

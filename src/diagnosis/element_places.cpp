@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -90,9 +91,9 @@ std::vector<int> ElementPlaces::measured_nodes() const {
   return measured;
 }
 
-void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places) const {
-  std::vector<Eigen::Vector3d> points;
-  for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
+void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points) const {
+  if (points.empty())
+    for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
   std::vector<Sum> stiffness(centres.size()), mass(centres.size());
   std::vector<std::vector<int>> members(centres.size());
   for (auto* sums : {&stiffness, &mass})

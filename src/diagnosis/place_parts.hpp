@@ -16,7 +16,8 @@ class ElementPlaces {
   [[nodiscard]] std::vector<Eigen::Vector3d> node_positions() const;  ///< of nodes that an element reaches and that can move
   [[nodiscard]] std::vector<int> measured_nodes() const;              ///< positions in `node_positions`
 
-  void add_zones(const std::vector<int>& centres, Places& places) const;       ///< set elements
+  /// Set elements. @param points  what elements are near to; the middles of `centres` where empty
+  void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
   void add_stays(Places& places) const;                                        ///< set stays
   void add_springs(Places& places) const;                                      ///< sets supports, foundations, dampers
   void add_nodes(const std::vector<int>& chosen, Places& places) const;        ///< set nodes

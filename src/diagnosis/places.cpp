@@ -116,6 +116,13 @@ std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& 
   return places;
 }
 
+/// For each wanted position that of the nearest point.
+std::vector<int> nearest_of(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& wanted) {
+  std::vector<int> found;
+  for (const Eigen::Vector3d& x : wanted) found.push_back(nearest(points, x));
+  return found;
+}
+
 }  // namespace
 
 int nearest(const std::vector<Eigen::Vector3d>& centres, const Eigen::Vector3d& x) {
@@ -147,10 +154,13 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
     global.mass = Symmetric(structure.system->mass(theta).selfadjointView<Eigen::Lower>());
   } else {
     ElementPlaces elements(structure);
-    elements.add_zones(spread(elements.centroids(), {}, options.max_zones), places);
+    if (options.zone_centres.empty()) elements.add_zones(spread(elements.centroids(), {}, options.max_zones), places);
+    else elements.add_zones(nearest_of(elements.centroids(), options.zone_centres), places, options.zone_centres);
     elements.add_stays(places);
     elements.add_springs(places);
-    elements.add_nodes(spread(elements.node_positions(), elements.measured_nodes(), options.max_nodes), places);
+    elements.add_nodes(options.node_positions.empty() ? spread(elements.node_positions(), elements.measured_nodes(), options.max_nodes)
+                                                      : nearest_of(elements.node_positions(), options.node_positions),
+                       places);
     elements.fill_global(global);
     Place stays{"global", kNowhere, {}, {}, {}, {}, {}};
     for (const Place& stay : places.sets["stays"]) {

@@ -53,6 +53,7 @@ struct Places {
 struct PlaceOptions {
   int max_zones = 24;  ///< of elements
   int max_nodes = 24;  ///< those of channels first, then nodes far from each other
+  std::vector<Eigen::Vector3d> zone_centres, node_positions;  ///< where they are laid down: zones and nodes of another mesh
 };
 
 [[nodiscard]] Places find_places(const Structure& structure, const PlaceOptions& options);

@@ -1,0 +1,212 @@
+#include "blind/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace twindeck::blind {
+
+namespace {
+
+using diagnosis::Candidate;
+using diagnosis::Cause;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+class Stream {
+ public:
+  explicit Stream(std::uint64_t seed) : random_(seed * 7919 + 104729) { random_.discard(20); }
+  double uniform() { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1.0p-53; }
+  double normal() { return std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * std::numbers::pi * uniform()); }
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(uniform() * static_cast<double>(n)) % n; }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// What a magnitude of nothing is, in coordinates of the first unknown; NaN where there is none.
+double neutral(const Candidate& c) {
+  if (c.low.size() == 0) return std::nan("");
+  if (c.low[0] < 0.0 && c.high[0] > 0.0) return 0.0;  // a rate, an angle, ln of a factor
+  const std::string& name = c.hypothesis->unknowns[0].name;
+  if (name == "factor") return 0.0;
+  return name == "mass_kg" || name == "ratio" || name == "stiffness_N_m" || name == "exponent" ? c.low[0] - 2.0 : std::nan("");
+}
+
+std::string family_of(const std::string& id) { return id.substr(0, id.find('@')); }
+
+/// The truth's entry and the diagnosing one for the same place: the sets are laid down in one order on both meshes.
+struct Twin { const Candidate* truth; const Candidate* diagnosing; };
+
+/// Everything about a bench that all cases share.
+struct Shared {
+  diagnosis::Instantiated truth, diagnosing;
+  std::unique_ptr<diagnosis::FeatureMap> nominal;
+  std::unique_ptr<diagnosis::Inference> inference;
+  diagnosis::Fit base;
+  std::map<std::string, std::vector<Twin>> families;
+  Eigen::MatrixXd noise_factor;
+};
+
+const Shared& shared_of(const Bench& bench) {
+  static const Bench* last = nullptr;
+  static std::unique_ptr<Shared> shared;
+  if (last == &bench) return *shared;
+  shared = std::make_unique<Shared>();
+  last = &bench;
+  shared->truth = diagnosis::instantiate(bench.catalogue, *bench.truth.reduced, bench.rows);
+  shared->diagnosing = diagnosis::instantiate(bench.catalogue, *bench.diagnosing.reduced, bench.rows);
+  shared->nominal = std::make_unique<diagnosis::FeatureMap>(*bench.diagnosing.reduced, bench.rows, bench.scatter);
+  shared->inference = std::make_unique<diagnosis::Inference>(*shared->nominal, shared->diagnosing.candidates);
+  shared->base = shared->inference->fit({}, {});
+  shared->noise_factor = shared->nominal->covariance().llt().matrixL();
+  for (std::size_t i = 0; i < shared->truth.candidates.size(); ++i) {
+    const Candidate& c = *shared->truth.candidates[i];
+    shared->families[c.hypothesis->id].push_back({&c, shared->diagnosing.candidates[i].get()});
+  }
+  return *shared;
+}
+
+/// A place and magnitude of a family that these data show with `target` standard deviations or nearly; empty where they don't.
+bool draw_effect(const Shared& shared, const std::string& family, double target, Stream& random, Twin& twin, VectorXd& a, double& sigma) {
+  const auto& twins = shared.families.at(family);
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    twin = twins[random.below(twins.size())];
+    const Candidate& c = *twin.diagnosing;
+    a = c.low;
+    for (Index i = 0; i < a.size(); ++i) a[i] = c.low[i] + (0.1 + 0.8 * random.uniform()) * (c.high[i] - c.low[i]);
+    const auto visible = [&](const VectorXd& at) {
+      const VectorXd s = shared.inference->signature(shared.base, c, at);
+      return s.size() > 0 ? s.norm() : 0.0;
+    };
+    sigma = visible(a);
+    if (sigma < 3.0) continue;
+    const double none = neutral(c);
+    if (sigma > target && std::isfinite(none)) {
+      double near = std::clamp(none, c.low[0], c.high[0]), far = a[0];
+      for (int i = 0; i < 10; ++i) {
+        a[0] = 0.5 * (near + far);
+        sigma = visible(a);
+        (sigma > target ? far : near) = a[0];
+      }
+    }
+    if (sigma >= 2.5) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string Sealed::text() const {
+  std::string out = fmt::format("{} seed {}", kind, seed);
+  for (std::size_t i = 0; i < families.size(); ++i)
+    out += fmt::format("; {}@{} ({:.4g})", families[i], locations[i], fmt::join(magnitudes[i], ", "));
+  return out;
+}
+
+Case make_case(const Bench& bench, std::uint64_t seed) {
+  const Shared& shared = shared_of(bench);
+  Stream random(seed);
+  Case hidden;
+  hidden.seal.seed = seed;
+  // 1. What kind of case: every fourth a null, then 15 % outside the catalogue, 5 % two causes.
+  const double kind = random.uniform();
+  hidden.seal.kind = seed % 4 == 0 ? "null" : kind < 0.20 ? "outside" : kind < 0.27 ? "two" : "effect";
+  std::vector<std::string> names;
+  for (const auto& [family, twins] : shared.families) names.push_back(family);
+  std::vector<Cause> truth;
+  const int wanted = hidden.seal.kind == "null" ? 0 : hidden.seal.kind == "two" ? 2 : 1;
+  while (static_cast<int>(truth.size()) < wanted) {
+    // Families in turn, so that each has its share; outside the catalogue only what no other family says in other words.
+    static const std::vector<std::string> outside = {"tie", "osc", "joint", "brg", "freeze", "tempE", "cable", "fric"};
+    const std::string family = hidden.seal.kind == "outside" ? outside[random.below(outside.size())] : names[random.below(names.size())];
+    if (!shared.families.contains(family)) continue;
+    const double least = hidden.seal.kind == "outside" ? 10.0 : hidden.seal.kind == "two" ? 7.0 : 3.0;
+    const double target = least * std::pow(hidden.seal.kind == "effect" ? 5.0 : 3.0, random.uniform());
+    Twin twin{};
+    VectorXd a;
+    double sigma = 0.0;
+    if (!draw_effect(shared, family, target, random, twin, a, sigma) || sigma < 0.8 * least) continue;
+    if (!truth.empty() && truth[0].candidate->hypothesis == twin.truth->hypothesis) continue;
+    truth.push_back({twin.truth, a});
+    if (truth.size() == 1) hidden.seal.sigma = sigma;
+    else hidden.seal.sigma = std::min(hidden.seal.sigma, sigma);
+    hidden.seal.families.push_back(family);
+    hidden.seal.locations.push_back(twin.diagnosing->location);
+    std::vector<double> magnitude;
+    for (Index i = 0; i < a.size(); ++i) magnitude.push_back(twin.truth->physical(a, i));
+    hidden.seal.magnitudes.push_back(magnitude);
+  }
+  if (hidden.seal.kind == "outside") hidden.removed = hidden.seal.families[0];
+  // 2. Parameters and workmanship of this bridge, then what is measured on it.
+  const diagnosis::FeatureMap map(*bench.truth.reduced, bench.rows, bench.scatter);
+  for (;;) {
+    VectorXd x(static_cast<Index>(map.nuisances().size()));
+    for (Index j = 0; j < x.size(); ++j) {
+      const diagnosis::Nuisance& v = map.nuisances()[static_cast<std::size_t>(j)];
+      do x[j] = v.kind == diagnosis::Nuisance::Kind::mode_damping || v.kind == diagnosis::Nuisance::Kind::level ? 0.3 * random.normal() : random.normal();
+      while (x[j] < v.lower || x[j] > v.upper);
+    }
+    const diagnosis::Prediction p = map.predict(map.base(x), truth, false);
+    if (!p.valid) continue;
+    VectorXd noise(p.g.size());
+    for (Index r = 0; r < noise.size(); ++r) noise[r] = random.normal();
+    hidden.values = p.g + shared.noise_factor * noise;
+    return hidden;
+  }
+}
+
+Score run_case(const Bench& bench, const Case& hidden) {
+  const Shared& shared = shared_of(bench);
+  Score score;
+  score.kind = hidden.seal.kind;
+  score.family = hidden.seal.families.empty() ? "" : hidden.seal.families[0];
+  score.sigma = hidden.seal.sigma;
+  score.seal = hidden.seal.text();
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<diagnosis::Hypothesis> catalogue;
+  for (const diagnosis::Hypothesis& h : bench.catalogue)
+    if (h.id != hidden.removed) catalogue.push_back(h);
+  const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue, *bench.diagnosing.reduced, bench.rows);
+  diagnosis::FeatureMap map = *shared.nominal;
+  map.set_values(hidden.values);
+  const diagnosis::Inference inference(map, entries.candidates);
+  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
+  score.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  score.verdict = result.verdict;
+  score.log_odds = result.log_odds;
+  score.detected = !result.effects.empty() || result.verdict == "unknown";
+  score.p_value = result.residual_p;
+  score.chi_squared_ratio = result.before.chi_squared / result.residual_dof;
+  score.gain_claimed = !result.effects.empty() && result.gain.low_pct > 0.0;
+  score.held_out_ratio = result.gain.before > 0.0 ? result.gain.after / result.gain.before : 1.0;
+  score.unknown = result.verdict == "unknown" || result.verdict == "none";
+  std::vector<bool> named(hidden.seal.families.size(), false);
+  for (const auto& effect : result.effects) {
+    score.found += (score.found.empty() ? "" : " + ") + effect.cluster.front();
+    for (std::size_t i = 0; i < named.size(); ++i) named[i] = named[i] || effect.cause.candidate->hypothesis->id == hidden.seal.families[i];
+  }
+  score.both = std::all_of(named.begin(), named.end(), [](bool n) { return n; });
+  if (!result.effects.empty() && !hidden.seal.families.empty()) {
+    const auto& first = result.effects.front();
+    const std::string truth = hidden.seal.families[0] + "@" + hidden.seal.locations[0];
+    score.family_named = family_of(first.cluster.front()) == hidden.seal.families[0] || (hidden.seal.kind == "two" && named[0]);
+    score.exact = first.cause.candidate->id() == truth;
+    score.in_set = std::find(first.cluster.begin(), first.cluster.end(), truth) != first.cluster.end();
+    score.set_size = static_cast<int>(first.cluster.size());
+    if (score.exact && !first.parameters.empty()) {
+      score.sized = true;
+      const double value = hidden.seal.magnitudes[0][0];
+      const auto [low, high] = std::minmax(first.parameters[0].low, first.parameters[0].high);
+      score.covered = value >= low && value <= high;
+    }
+  }
+  return score;
+}
+
+}  // namespace twindeck::blind
