@@ -23,13 +23,13 @@ else
 include workflows/steps.mk
 endif
 
-.PHONY: help all deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
+.PHONY: blind-trials help all deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
 	@echo
-	@sed -n 's/^\([a-z_]*\):.*## \(.*\)/  make \1 |\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|' 2>/dev/null \
-	  || sed -n 's/^\([a-z_]*\):.*## \(.*\)/  make \1: \2/p' $(firstword $(MAKEFILE_LIST))
+	@sed -n 's/^\([a-z_-]*\):.*## \(.*\)/  make \1 |\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|' 2>/dev/null \
+	  || sed -n 's/^\([a-z_-]*\):.*## \(.*\)/  make \1: \2/p' $(firstword $(MAKEFILE_LIST))
 	@echo
 	@echo "  make sN          step N of the study (s1_model … ): $(STEPS)"
 	@echo "  STUDY=$(STUDY)   the study; MODES=dir  measured modes of your own for s4 and s6; THREADS=$(THREADS)"
@@ -72,6 +72,14 @@ verify: $(RESULTS)/report/report.html ## hold the tables, as they lie there, aga
 
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
+
+N ?= 400
+TIER ?= features
+SEED ?= 1
+blind-trials: build ## make blind-trials N=400 TIER=features: hidden effects looked for on another mesh, scored with intervals
+	@[ "$(TIER)" = features ] || { echo "blind-trials: TIER=$(TIER): only the tier of features is there" >&2; exit 2; }
+	@cmake --build $(BUILD) -j $(JOBS) --target blind_trials
+	@$(BUILD)/bin/blind_trials $(N) $(SEED)
 
 bench: build ## ratios against peers: modes, derivatives, memory (results/bench/bench.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes

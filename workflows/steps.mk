@@ -15,11 +15,19 @@ READS_s5_sensitivity := s4_refinement
 READS_s6_updating := s4_refinement s5_sensitivity
 READS_s7_aerodynamics := s6_updating
 READS_s8_validation := s0_campaign s6_updating s7_aerodynamics
+READS_s9_diagnosis := s6_updating
 
 # What a step reads of the study's data beside STUDY_INPUTS.
 INPUTS_s0_campaign := $(wildcard data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)
 INPUTS_s2_sensors := $(wildcard data/$(STUDY)/layout/*)
 INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
+
+# A study of outside records makes its inputs from them once: make s9 STUDY=gt_pedestrian_bridge DATA=dir
+ifneq ($(wildcard $(WORKFLOW)/make_inputs.py),)
+STUDY_INPUTS += $(RESULTS)/inputs/model/model.toml
+$(RESULTS)/inputs/model/model.toml: $(WORKFLOW)/make_inputs.py
+	@workflows/python.sh $(WORKFLOW)/make_inputs.py "$(DATA)" $(RESULTS)/inputs
+endif
 
 # Somebody's own measured modes: make s6 MODES=dir
 MEASURED := $(if $(MODES),--modes $(MODES)) $(if $(FEATURES),--features $(FEATURES))
@@ -36,6 +44,7 @@ endif
 
 # What a study has of its own, such as a campaign made of records that lie elsewhere.
 -include $(WORKFLOW)/study.mk
+OPTIONS_s9_diagnosis := $(if $(FEATURES),--features $(FEATURES))
 
 # An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
 # NO_BUILD=1 takes the executables as they are.

@@ -100,7 +100,7 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
         others.emplace_back(std::isfinite(distance) ? distance : static_cast<double>(j - i), j);
       }
       std::sort(others.begin(), others.end());
-      for (std::size_t k = 0; k < others.size() && (nodes.size() <= 12 || k < 6); ++k) {
+      for (std::size_t k = 0; k < others.size() && (nodes.size() <= 9 || k < 4); ++k) {
         const ReducedPlace& other = nodes[others[k].second];
         add("nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5)).places = {&nodes[i], &other};
       }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "diagnosis/predictor.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -172,6 +173,7 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
   Base base;
   base.x = x;
   base.theta = model_.theta;
+  base.store = std::make_shared<StateStore>();
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
     const Nuisance& v = nuisances_[j];
     if (v.kind == Nuisance::Kind::parameter) base.theta[v.index] = v.mean + v.deviation * x[static_cast<Index>(j)];

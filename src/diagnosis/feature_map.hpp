@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -61,10 +62,12 @@ class FeatureMap {
   /// Modes that measured labels are bound to where no shape tells: label -> position in the model as it stands (0-based).
   void bind_modes(const std::map<std::string, int>& positions) { bound_modes_ = positions; }
 
-  /// Structure at x, projected: what all predictions at one x share.
+  /// Structure at x, projected: what all predictions at one x share, the states solved so far among it (so one base is for one
+  /// thread).
   struct Base {
     Eigen::VectorXd x, theta;
     Eigen::MatrixXd stiffness, mass;  ///< (r × r)
+    std::shared_ptr<struct StateStore> store;
   };
   [[nodiscard]] Base base(const Eigen::VectorXd& x) const;
   [[nodiscard]] Prediction predict(const Base& base, const std::vector<Cause>& causes, bool with_jacobian) const;

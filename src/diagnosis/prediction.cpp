@@ -35,50 +35,59 @@ double Predictor::structural_damping(const std::string& label) const {
   return 0.5;
 }
 
-Eigen::RowVectorXd Predictor::channel_row(int channel, double frequency_Hz, Index size, Complex& factor) const {
-  int source = channel;
+void Predictor::read_channels() {
+  const auto n = static_cast<Index>(map_.features().channels.size());
+  channel_rows_.resize(n, map_.model().sensors.cols());
+  channel_factor_ = VectorXd::Ones(n);
+  channel_delay_s_ = VectorXd::Zero(n);
+  for (Index c = 0; c < n; ++c) channel_rows_.row(c) = map_.model().sensors.row(4 * c);
   each_action("channel.swap", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-    if (source == c.channels[0]) source = c.channels[1];
-    else if (source == c.channels[1]) source = c.channels[0];
+    channel_rows_.row(c.channels[0]).swap(channel_rows_.row(c.channels[1]));
   });
-  Eigen::RowVectorXd full = map_.model().sensors.row(4 * source);
   each_action("channel.rotate", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-    if (c.channels[0] != channel) return;
+    const int channel = c.channels[0];
     const double angle = c.value(action.number.at("angle"), a) * std::numbers::pi / 180.0;
     const Eigen::Vector3d d = map_.features().direction[static_cast<std::size_t>(channel)];
-    Eigen::Vector3d beside = std::abs(d.z()) < 0.9 ? Eigen::Vector3d::UnitZ().cross(d) : Eigen::Vector3d(1.0, 0.0, 0.0);
+    Eigen::Vector3d beside = std::abs(d.z()) < 0.9 ? Eigen::Vector3d(-d.y(), d.x(), 0.0) : Eigen::Vector3d(1.0, 0.0, 0.0);
     beside -= beside.dot(d) * d;
     if (beside.norm() < 1e-6) return;
     beside.normalize();
-    Eigen::RowVectorXd other = Eigen::RowVectorXd::Zero(full.size());
+    Eigen::RowVectorXd other = Eigen::RowVectorXd::Zero(channel_rows_.cols());
     for (int k = 0; k < 3; ++k) other += beside[k] * map_.model().sensors.row(4 * channel + 1 + k);
-    full = std::cos(angle) * full + std::sin(angle) * other;
+    channel_rows_.row(channel) = std::cos(angle) * channel_rows_.row(channel) + std::sin(angle) * other;
   });
   each_action("channel.gain", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-    if (c.channels[0] == channel) factor *= c.value(action.number.at("factor"), a);
+    channel_factor_[c.channels[0]] *= c.value(action.number.at("factor"), a);
   });
-  each_action("channel.sign", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-    if (c.channels[0] == channel) factor *= -1.0;
-  });
+  each_action("channel.sign", [&](const Candidate& c, const VectorXd&, const ActionSpec&) { channel_factor_[c.channels[0]] *= -1.0; });
   each_action("channel.delay", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-    if (c.channels[0] != channel) return;
-    factor *= std::exp(Complex(0.0, -2.0 * std::numbers::pi * frequency_Hz * c.value(action.number.at("delay"), a)));
+    channel_delay_s_[c.channels[0]] += c.value(action.number.at("delay"), a);
   });
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
     const Nuisance& v = map_.nuisances()[j];
-    if (v.kind == Nuisance::Kind::gain && v.index == channel) factor *= 1.0 + v.deviation * base_.x[static_cast<Index>(j)];
+    if (v.kind == Nuisance::Kind::gain) channel_factor_[v.index] *= 1.0 + v.deviation * base_.x[static_cast<Index>(j)];
   }
-  return sliced(VectorXd(full.transpose()), size).transpose();
 }
 
-VectorXcd Predictor::shape_at(const std::vector<int>& channels, const VectorXcd& phi, double frequency_Hz) const {
-  VectorXcd h(static_cast<Index>(channels.size()));
-  for (std::size_t k = 0; k < channels.size(); ++k) {
-    Complex factor = 1.0;
-    const Eigen::RowVectorXd row = channel_row(channels[k], frequency_Hz, phi.size(), factor);
-    h[static_cast<Index>(k)] = factor * Complex((row * phi.real())(0), (row * phi.imag())(0));
+const Eigen::MatrixXcd& Predictor::motion(const SolvedState& state) {
+  const auto [at, is_new] = motion_.try_emplace(&state);
+  if (!is_new) return at->second;
+  const auto n = static_cast<Index>(state.columns.size());
+  const Eigen::MatrixXd rows = channel_factor_.asDiagonal() * channel_rows_(Eigen::all, state.columns);
+  Eigen::MatrixXcd& h = at->second;
+  h.resize(rows.rows(), state.modes.s.size());
+  h.real() = rows * state.modes.shapes.topRows(n).real();
+  h.imag() = rows * state.modes.shapes.topRows(n).imag();
+  for (Index c = 0; c < h.rows(); ++c) {
+    if (channel_delay_s_[c] == 0.0) continue;
+    for (Index m = 0; m < h.cols(); ++m)
+      h(c, m) *= std::exp(Complex(0.0, -2.0 * std::numbers::pi * state.modes.frequency_Hz(m) * channel_delay_s_[c]));
   }
   return h;
+}
+
+VectorXcd Predictor::shape_at(const std::vector<int>& channels, const SolvedState& state, Index mode) {
+  return motion(state).col(mode)(channels);
 }
 
 void Predictor::pair(int condition) {
@@ -137,11 +146,11 @@ void Predictor::pair(int condition) {
       }
       const VectorXcd phi = state.modes.shapes.col(j);
       if (usable) {
-        cost += weight * (1.0 - mac(shape_at(shaped->real_channels, phi, f), y));
+        cost += weight * (1.0 - mac(shape_at(shaped->real_channels, state, j), y));
       } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
         // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
         const VectorXd reference = map_.model().mode_coordinates.col(bound->second);
-        const Eigen::VectorXd mass_reference = sliced(VectorXd(base_.mass * reference), phi.size());
+        const Eigen::VectorXd mass_reference = sliced(VectorXd(base_.mass * reference), state.columns, phi.size());
         const Complex overlap = mass_reference.cast<Complex>().dot(phi);
         const double norms = reference.dot(base_.mass * reference) *
                              (phi.real().dot(state.state.mass * phi.real()) + phi.imag().dot(state.state.mass * phi.imag()));
@@ -154,10 +163,10 @@ void Predictor::pair(int condition) {
   for (std::size_t i = 0; i < here.size(); ++i) out_.paired[here[i]] = chosen[i];
 }
 
-void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, Index mode, const VectorXcd& phi) {
+void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, Index mode, const VectorXcd&) {
   const double f = state.modes.frequency_Hz(mode);
   const bool complex_rows = !measured.imag_rows.empty();
-  VectorXcd h = shape_at(measured.real_channels, phi, f);
+  VectorXcd h = shape_at(measured.real_channels, state, mode);
   const auto count = static_cast<Index>(measured.real_rows.size());
   Complex turn = 1.0;
   if (!complex_rows) {  // measured as real: the model's shape turned to be as real as it can
@@ -165,7 +174,7 @@ void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, 
     turn = std::exp(Complex(0.0, -0.5 * std::arg(square)));
     h *= turn;
   }
-  VectorXcd hi = complex_rows ? shape_at(measured.imag_channels, phi, f) : VectorXcd();
+  VectorXcd hi = complex_rows ? shape_at(measured.imag_channels, state, mode) : VectorXcd();
   // Scale by weighted least squares on all rows of the shape.
   Complex numerator = 0.0;
   double denominator = 0.0;
@@ -206,22 +215,30 @@ void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, 
   }
   scale_ += complex_rows ? 2 : 1;
   const ModeDerivative& d = derivative(state, mode);
+  const auto& position = changes(state.columns).position;
+  const auto n = static_cast<Index>(state.columns.size());
+  const Eigen::MatrixXd rows_here = channel_factor_.asDiagonal() * channel_rows_(Eigen::all, state.columns);
   for (const bool imaginary : {false, true}) {
     const auto& rows = imaginary ? measured.imag_rows : measured.real_rows;
     const auto& channels = imaginary ? measured.imag_channels : measured.real_channels;
+    if (rows.empty()) continue;
+    const Eigen::MatrixXd picked = rows_here(channels, Eigen::all);
+    Eigen::MatrixXcd change(picked.rows(), d.shapes.cols());
+    change.real() = picked * d.shapes.topRows(n).real();
+    change.imag() = picked * d.shapes.topRows(n).imag();
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      Complex factor = 1.0;
-      const Eigen::RowVectorXd row = channel_row(channels[k], f, phi.size(), factor);
-      const Eigen::RowVectorXcd change = (scale * turn * factor) * (row.cast<Complex>() * d.shapes);
-      for (std::size_t j = 0; j < structural_.size(); ++j) {
-        const Complex value = change[static_cast<Index>(j)];
-        out_.jacobian(rows[k], structural_[j]) = imaginary ? value.imag() : value.real();
+      const Complex late = std::exp(Complex(0.0, -2.0 * std::numbers::pi * f * channel_delay_s_[channels[k]]));
+      for (std::size_t j = 0; j < position.size(); ++j) {
+        const Complex value = scale * turn * late * change(static_cast<Index>(k), static_cast<Index>(j));
+        out_.jacobian(rows[k], position[j]) = imaginary ? value.imag() : value.real();
       }
-      for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
-        const Nuisance& v = map_.nuisances_[j];
-        if (v.kind == Nuisance::Kind::gain && v.index == channels[k])
+    }
+    for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
+      const Nuisance& v = map_.nuisances_[j];
+      if (v.kind != Nuisance::Kind::gain) continue;
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        if (v.index == channels[k])
           out_.jacobian(rows[k], static_cast<Index>(j)) = v.deviation * out_.g[rows[k]] / (1.0 + v.deviation * base_.x[static_cast<Index>(j)]);
-      }
     }
   }
 }
@@ -253,7 +270,7 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
     if (!(people > 0.0)) return;
     const ReducedPlace& place = *c.places[0];
     const double deck = place.attributes.contains("deck_mass") ? place.attributes.at("deck_mass") : map_.model().total_mass_kg;
-    const Eigen::MatrixXd m = sliced(place.mass, phi.size());
+    const Eigen::MatrixXd m = sliced(place.mass, state.columns, phi.size());
     const double ratio = people * c.value(action.number.at("mass"), a) / deck *
                          (phi.real().dot(m * phi.real()) + phi.imag().dot(m * phi.imag()));
     const double wp = 2.0 * std::numbers::pi * c.value(action.number.at("frequency"), a), zp = c.value(action.number.at("damping"), a);
@@ -269,12 +286,13 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
   if (measured.damping >= 0) out_.g[measured.damping] = std::log(total);
   if (with_jacobian_ && (measured.frequency >= 0 || measured.damping >= 0)) {
     const ModeDerivative& d = derivative(state, chosen);
-    for (std::size_t j = 0; j < structural_.size(); ++j) {
+    const auto& position_of = changes(state.columns).position;
+    for (std::size_t j = 0; j < position_of.size(); ++j) {
       const Complex ds = d.s[static_cast<Index>(j)];
       const double relative = (ds / s).real();
-      if (measured.frequency >= 0) out_.jacobian(measured.frequency, structural_[j]) = relative;
+      if (measured.frequency >= 0) out_.jacobian(measured.frequency, position_of[j]) = relative;
       if (measured.damping >= 0)
-        out_.jacobian(measured.damping, structural_[j]) = 100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total;
+        out_.jacobian(measured.damping, position_of[j]) = 100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total;
     }
     if (measured.damping >= 0) {
       for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
@@ -348,17 +366,16 @@ void Predictor::predict_load(int c) {
     Eigen::VectorXd slope = Eigen::VectorXd::Zero(with_jacobian_ ? static_cast<Index>(map_.nuisances_.size()) : 0);
     double gain = 1.0;
     for (Index i = 0; i < state->modes.s.size(); ++i) {
-      Complex factor = 1.0;
-      const Eigen::RowVectorXd sensor = channel_row(row.channel, state->modes.frequency_Hz(i), state->state.stiffness.rows(), factor);
-      const VectorXcd phi = state->modes.shapes.col(i);
-      const Complex h = factor * Complex((sensor * phi.real())(0), (sensor * phi.imag())(0));
+      const Complex h = motion(*state)(row.channel, i);
       variance += weight[static_cast<std::size_t>(i)] * std::norm(h);
       if (!with_jacobian_) continue;
       const ModeDerivative& d = derivative(*state, i);
-      const Eigen::RowVectorXcd dh = factor * (sensor.cast<Complex>() * d.shapes);
-      for (std::size_t j = 0; j < structural_.size(); ++j) {
+      const auto& position_of = changes(state->columns).position;
+      const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows_.row(row.channel)(state->columns);
+      const Eigen::RowVectorXcd dh = sensor.cast<Complex>() * d.shapes.topRows(sensor.size());
+      for (std::size_t j = 0; j < position_of.size(); ++j) {
         const auto k = static_cast<Index>(j);
-        slope[structural_[j]] += weight[static_cast<std::size_t>(i)] *
+        slope[position_of[j]] += weight[static_cast<std::size_t>(i)] *
                                  (2.0 * (std::conj(h) * dh[k]).real() + std::norm(h) * (d.s[k] / state->modes.s[i]).real());
       }
     }
@@ -445,7 +462,7 @@ std::map<std::string, VectorXd> Predictor::node_motion() {
       for (Index m = 0; m < modes; ++m) {
         SolvedState& state = solved(map_.modes_[static_cast<std::size_t>(m)].condition);
         const VectorXcd phi = state.modes.shapes.col(prediction.paired[static_cast<std::size_t>(m)]);
-        values[m] = std::abs(sliced(VectorXd(node.directions.col(d)), phi.size()).cast<Complex>().dot(phi));
+        values[m] = std::abs(sliced(VectorXd(node.directions.col(d)), state.columns, phi.size()).cast<Complex>().dot(phi));
       }
       largest = largest.cwiseMax(values);
       motion[name] = values;

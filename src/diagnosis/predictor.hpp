@@ -13,9 +13,20 @@ namespace twindeck::diagnosis {
 
 /// A state of the structure that several conditions may share, with its modes.
 struct SolvedState {
+  std::vector<int> columns;  ///< of the reduced model; own degrees of freedom of causes lie behind them
   StructureState state;
   StateModes modes;
   std::map<Eigen::Index, ModeDerivative> derivatives;
+};
+
+/// States of one base by the causes that act in them and the circumstances that they depend on; changes of the nuisances by columns.
+struct StateStore {
+  struct Changes {
+    std::vector<int> position;  ///< among the nuisances
+    std::vector<Eigen::MatrixXd> stiffness, mass;
+  };
+  std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> states;
+  std::map<std::vector<int>, Changes> changes;
 };
 
 class Predictor {
@@ -28,13 +39,15 @@ class Predictor {
   using Complex = std::complex<double>;
 
   // structure (structure_of_causes.cpp)
-  void choose_columns();
+  void read_channels();
+  [[nodiscard]] bool acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   [[nodiscard]] StructureState build_state(const Condition& condition) const;
   void apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const;
   void apply_dampers(const Condition& condition, StructureState& state) const;
   [[nodiscard]] SolvedState& solved(int condition);
-  [[nodiscard]] Eigen::MatrixXd sliced(const Eigen::MatrixXd& full, Eigen::Index size) const;
-  [[nodiscard]] Eigen::VectorXd sliced(const Eigen::VectorXd& full, Eigen::Index size) const;
+  [[nodiscard]] static Eigen::MatrixXd sliced(const Eigen::MatrixXd& full, const std::vector<int>& columns, Eigen::Index size);
+  [[nodiscard]] static Eigen::VectorXd sliced(const Eigen::VectorXd& full, const std::vector<int>& columns, Eigen::Index size);
+  [[nodiscard]] const StateStore::Changes& changes(const std::vector<int>& columns) const;
   [[nodiscard]] const ModeDerivative& derivative(SolvedState& solved, Eigen::Index mode);
 
   // measurement (prediction.cpp)
@@ -43,9 +56,9 @@ class Predictor {
   void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const Eigen::VectorXcd& phi);
   void predict_load(int condition);
   void predict_stays();
-  /// Row of the basis that channel c measures, as causes turn it and exchange it; `factor` is its gain with sign and delay.
-  [[nodiscard]] Eigen::RowVectorXd channel_row(int channel, double frequency_Hz, Eigen::Index size, Complex& factor) const;
-  [[nodiscard]] Eigen::VectorXcd shape_at(const std::vector<int>& channels, const Eigen::VectorXcd& phi, double frequency_Hz) const;
+  /// What the channels show of each mode of a state, (n_channels × n_modes), gains, signs and delays of causes included.
+  [[nodiscard]] const Eigen::MatrixXcd& motion(const SolvedState& state);
+  [[nodiscard]] Eigen::VectorXcd shape_at(const std::vector<int>& channels, const SolvedState& state, Eigen::Index mode);
   /// Numbers of causes whose action has this kind: fn(candidate, coordinates, action).
   template <typename Use>
   void each_action(const std::string& kind, Use use) const {
@@ -61,10 +74,11 @@ class Predictor {
   const FeatureMap::Base& base_;
   const std::vector<Cause>& causes_;
   bool with_jacobian_;
-  std::vector<int> columns_;
-  std::vector<Eigen::MatrixXd> d_stiffness_, d_mass_;  // structural nuisances, sliced
-  std::vector<int> structural_;                        // their positions among the nuisances
-  std::map<std::vector<double>, std::unique_ptr<SolvedState>> states_;
+  mutable std::vector<int> columns_;       // of the state that is being built
+  Eigen::MatrixXd channel_rows_;           // (n_channels × r) as causes turn and exchange them
+  Eigen::VectorXd channel_factor_, channel_delay_s_;
+  std::map<const SolvedState*, Eigen::MatrixXcd> motion_;
+  std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> own_;
   std::map<int, SolvedState*> of_condition_;
   Prediction out_;
   Eigen::Index scale_ = 0;

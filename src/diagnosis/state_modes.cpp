@@ -143,13 +143,36 @@ void refine(const StructureState& state, Complex& s, VectorXcd& phi) {
   for (int iteration = 0; iteration < 8; ++iteration) {
     dynamic_matrices(state, s, phi, t, t_prime_phi);
     const Complex step = (phi.transpose() * (t * phi))(0) / (phi.transpose() * t_prime_phi)(0);
-    const Complex next = s - step;
+    s -= step;
+    if (iteration > 1 && std::abs(step) < 1e-9 * std::abs(s)) break;
     const VectorXcd y = t.partialPivLu().solve(t_prime_phi);
-    const bool done = iteration > 0 && std::abs(step) < 1e-10 * std::abs(s);
     if (y.allFinite()) phi = y / y.norm();
-    s = next;
-    if (done) break;
   }
+}
+
+bool oscillates(Complex s) {
+  return std::isfinite(s.real()) && std::isfinite(s.imag()) && s.imag() > 0.0 && -s.real() <= 0.6 * std::abs(s);
+}
+
+bool same_mode(const std::pair<Complex, VectorXcd>& other, Complex s, const VectorXcd& phi) {
+  return std::abs(other.first - s) < 1e-6 * std::abs(s) && std::abs(other.second.dot(phi)) > 0.999 * other.second.norm() * phi.norm();
+}
+
+/// In ascending frequency, scaled to phi' T'(s) phi = 2 s.
+StateModes normalised(const StructureState& state, std::vector<std::pair<Complex, VectorXcd>> found) {
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return std::abs(a.first) < std::abs(b.first); });
+  StateModes modes;
+  modes.s.resize(static_cast<Index>(found.size()));
+  modes.shapes.resize(state.stiffness.rows(), modes.s.size());
+  MatrixXcd t;
+  VectorXcd t_prime_phi;
+  for (Index i = 0; i < modes.s.size(); ++i) {
+    const auto& [s, phi] = found[static_cast<std::size_t>(i)];
+    dynamic_matrices(state, s, phi, t, t_prime_phi);
+    modes.s[i] = s;
+    modes.shapes.col(i) = phi / std::sqrt((phi.transpose() * t_prime_phi)(0) / (2.0 * s));
+  }
+  return modes;
 }
 
 }  // namespace
@@ -190,7 +213,7 @@ StateModes solve_state(const StructureState& state, double highest_Hz) {
   // Friction elements stick in the undamped start, as far as the lowest mode lets them.
   const bool sliders = std::any_of(state.attachments.begin(), state.attachments.end(),
                                    [](const Attachment& a) { return a.kind == Attachment::Kind::jenkins; });
-  const RealModes real = real_modes(state.stiffness, state.mass, 9.0 * highest);
+  const RealModes real = real_modes(state.stiffness, state.mass, 6.0 * highest);
   std::vector<Complex> friction;
   double omega = 2.0 * std::numbers::pi * highest_Hz / 3.0;
   for (const Attachment& a : state.attachments)
@@ -207,31 +230,33 @@ StateModes solve_state(const StructureState& state, double highest_Hz) {
       if (modes.s.size() == 0) return modes;
     }
   }
-  StateModes refined;
   std::vector<std::pair<Complex, VectorXcd>> found;
   for (Index i = 0; i < modes.s.size() && modes.frequency_Hz(i) <= 1.1 * highest_Hz; ++i) {
     Complex s = modes.s[i];
     VectorXcd phi = modes.shapes.col(i).normalized();
     refine(state, s, phi);
-    if (!std::isfinite(s.real()) || !std::isfinite(s.imag()) || s.imag() <= 0.0 || -s.real() > 0.6 * std::abs(s)) continue;
-    const bool twice = std::any_of(found.begin(), found.end(), [&](const auto& other) {
-      return std::abs(other.first - s) < 1e-6 * std::abs(s) && std::abs(other.second.dot(phi)) > 0.999 * other.second.norm();
-    });
-    if (!twice) found.emplace_back(s, phi);
+    if (!oscillates(s)) continue;
+    if (std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); })) found.emplace_back(s, phi);
   }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return std::abs(a.first) < std::abs(b.first); });
-  refined.s.resize(static_cast<Index>(found.size()));
-  refined.shapes.resize(state.stiffness.rows(), refined.s.size());
-  MatrixXcd t;
-  VectorXcd t_prime_phi;
-  for (Index i = 0; i < refined.s.size(); ++i) {
-    auto& [s, phi] = found[static_cast<std::size_t>(i)];
-    dynamic_matrices(state, s, phi, t, t_prime_phi);
-    const Complex scale = (phi.transpose() * t_prime_phi)(0) / (2.0 * s);
-    refined.s[i] = s;
-    refined.shapes.col(i) = phi / std::sqrt(scale);
+  return normalised(state, found);
+}
+
+bool follow_state(const StructureState& state, const StateModes& neighbour, StateModes& modes) {
+  const Index n = state.stiffness.rows();
+  if (neighbour.shapes.rows() > n) return false;
+  std::vector<std::pair<Complex, VectorXcd>> found;
+  for (Index i = 0; i < neighbour.s.size(); ++i) {
+    Complex s = neighbour.s[i];
+    VectorXcd phi = VectorXcd::Zero(n);
+    phi.head(neighbour.shapes.rows()) = neighbour.shapes.col(i);
+    phi.normalize();
+    refine(state, s, phi);
+    if (!oscillates(s)) return false;
+    if (std::any_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); })) return false;
+    found.emplace_back(s, phi);
   }
-  return refined;
+  modes = normalised(state, found);
+  return true;
 }
 
 ModeDerivative differentiate(const StructureState& state, const StateModes& modes, Index mode,

@@ -47,6 +47,10 @@ struct StateModes {
 /// where X_k is the mode's own amplitude at the element.
 [[nodiscard]] StateModes solve_state(const StructureState& state, double highest_Hz);
 
+/// Modes of a changed state found from those of a neighbour, which may lack the last degrees of freedom. False where two of them end
+/// in one, or one is lost: then the state must be solved anew.
+[[nodiscard]] bool follow_state(const StructureState& state, const StateModes& neighbour, StateModes& modes);
+
 /// Derivatives of one mode with respect to changes dK_j, dM_j, from the bordered system (Nelson 1976; Lee, Kim and Jung 1999 for
 /// damped systems). Amplitudes at friction elements are held.
 struct ModeDerivative {

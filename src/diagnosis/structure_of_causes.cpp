@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -39,27 +40,31 @@ void grow(StructureState& state) {
 
 Predictor::Predictor(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, bool with_jacobian)
     : map_(map), base_(base), causes_(causes), with_jacobian_(with_jacobian) {
-  choose_columns();
+  read_channels();
 }
 
-void Predictor::choose_columns() {
-  for (int c = 0; c < map_.model().common; ++c) columns_.push_back(c);
-  for (const Cause& cause : causes_)
-    for (const ReducedPlace* place : cause.candidate->places)
-      for (const int c : place->columns)
-        if (std::find(columns_.begin(), columns_.end(), c) == columns_.end()) columns_.push_back(c);
-}
-
-MatrixXd Predictor::sliced(const MatrixXd& full, Index size) const {
-  MatrixXd part = full(columns_, columns_);
+MatrixXd Predictor::sliced(const MatrixXd& full, const std::vector<int>& columns, Index size) {
+  MatrixXd part = full(columns, columns);
   if (size > part.rows()) part.conservativeResizeLike(MatrixXd::Zero(size, size));
   return part;
 }
 
-VectorXd Predictor::sliced(const VectorXd& full, Index size) const {
-  VectorXd part = full(columns_);
+VectorXd Predictor::sliced(const VectorXd& full, const std::vector<int>& columns, Index size) {
+  VectorXd part = full(columns);
   if (size > part.size()) part.conservativeResizeLike(VectorXd::Zero(size));
   return part;
+}
+
+bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const {
+  const std::string& kind = action.kind;
+  if (kind.starts_with("damper."))
+    return condition.dampers_on.value_or(cause.candidate->places[0]->attributes.at("always_on") != 0.0);
+  const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
+  if (kind == "field.stiffness") return std::isfinite(variable(action, condition));
+  if (kind == "step.stiffness") return variable(action, condition) < value("below");
+  if (kind == "slip.stiffness") return variable(action, condition) > value("above");
+  if (kind == "mass.per_count") return condition.people.value_or(0.0) > 0.0;
+  return kind.starts_with("scale.") || kind == "mass.add" || kind.starts_with("element.");
 }
 
 void Predictor::apply_dampers(const Condition& condition, StructureState& state) const {
@@ -92,7 +97,7 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
       }
     }
     if (absent) continue;
-    const VectorXd b = sliced(VectorXd(damper.directions.col(0)), n);
+    const VectorXd b = sliced(VectorXd(damper.directions.col(0)), columns_, n);
     if (sliding) {
       state.attachments.push_back({Attachment::Kind::jenkins, b, k, c, threshold});
     } else if (series && k > 0.0) {
@@ -112,43 +117,43 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   const Index n = state.stiffness.rows();
   const std::string& kind = action.kind;
   if (kind == "scale.stiffness") {
-    state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, n);
+    state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
   } else if (kind == "scale.mass") {
-    state.mass += (value("factor") - 1.0) * sliced(place.mass, n);
+    state.mass += (value("factor") - 1.0) * sliced(place.mass, columns_, n);
   } else if (kind == "field.stiffness") {
     const double v = variable(action, condition);
-    if (std::isfinite(v)) state.stiffness += value("rate") * (v - value("reference")) * sliced(place.stiffness, n);
+    if (std::isfinite(v)) state.stiffness += value("rate") * (v - value("reference")) * sliced(place.stiffness, columns_, n);
   } else if (kind == "step.stiffness") {
-    if (variable(action, condition) < value("below")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, n);
+    if (variable(action, condition) < value("below")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
   } else if (kind == "slip.stiffness") {
-    if (variable(action, condition) > value("above")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, n);
+    if (variable(action, condition) > value("above")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
   } else if (kind == "mass.add") {
     for (Index d = 0; d < place.directions.cols(); ++d) {
-      const VectorXd b = sliced(VectorXd(place.directions.col(d)), n);
+      const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, n);
       state.mass += value("mass") * b * b.transpose();
     }
   } else if (kind == "mass.per_count") {
     const auto deck = place.attributes.find("deck_mass") != place.attributes.end() ? place.attributes.at("deck_mass")
                                                                                    : place.attributes.at("total_mass");
     const double people = condition.people.value_or(0.0);
-    if (people > 0.0) state.mass += people * (value("mass") - value("assumed")) / deck * sliced(place.mass, n);
+    if (people > 0.0) state.mass += people * (value("mass") - value("assumed")) / deck * sliced(place.mass, columns_, n);
   } else if (kind == "element.spring") {
     if (candidate.places.size() == 2) {
       const ReducedPlace& other = *candidate.places[1];
       const Eigen::Vector3d along = other.x_m - place.x_m;
       const Index shared = std::min(place.directions.cols(), other.directions.cols());
       if (along.allFinite() && along.norm() > 0.0 && shared == 3) {  // a tie pulls along its line
-        const VectorXd b = sliced(VectorXd((place.directions - other.directions) * along.normalized()), n);
+        const VectorXd b = sliced(VectorXd((place.directions - other.directions) * along.normalized()), columns_, n);
         state.stiffness += value("stiffness") * b * b.transpose();
       } else {
         for (Index d = 0; d < shared; ++d) {
-          const VectorXd b = sliced(VectorXd(place.directions.col(d) - other.directions.col(d)), n);
+          const VectorXd b = sliced(VectorXd(place.directions.col(d) - other.directions.col(d)), columns_, n);
           state.stiffness += value("stiffness") * b * b.transpose();
         }
       }
     } else {
       for (Index d = 0; d < place.directions.cols(); ++d) {
-        const VectorXd b = sliced(VectorXd(place.directions.col(d)), n);
+        const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, n);
         state.stiffness += value("stiffness") * b * b.transpose();
       }
     }
@@ -159,7 +164,7 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
     for (Index d = 0; d < place.directions.cols(); ++d) {
       grow(state);
       const Index k = state.stiffness.rows() - 1;
-      const VectorXd b = sliced(VectorXd(place.directions.col(d)), k + 1);
+      const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, k + 1);
       if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
         state.mass += m / 3.0 * b * b.transpose();
         state.mass(k, k) += 0.5 * m;
@@ -179,19 +184,19 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
 StructureState Predictor::build_state(const Condition& condition) const {
   StructureState state;
   const auto n = static_cast<Index>(columns_.size());
-  state.stiffness = sliced(base_.stiffness, n);
-  state.mass = sliced(base_.mass, n);
+  state.stiffness = sliced(base_.stiffness, columns_, n);
+  state.mass = sliced(base_.mass, columns_, n);
   const double people = condition.people.value_or(0.0);
   if (const auto global = map_.model().sets.find("global"); people > 0.0 && global != map_.model().sets.end()) {
     const ReducedPlace& deck = global->second.front();
     const auto mass = deck.attributes.contains("deck_mass") ? deck.attributes.at("deck_mass") : map_.model().total_mass_kg;
-    state.mass += people * kPersonMass / mass * sliced(deck.mass, n);
+    state.mass += people * kPersonMass / mass * sliced(deck.mass, columns_, n);
   }
   if (condition.amplitude_m && !condition.amplitude_channel.empty()) {
     const auto& channels = map_.features().channels;
     const auto at = std::find(channels.begin(), channels.end(), condition.amplitude_channel);
     if (at != channels.end()) {
-      state.amplitude_row = sliced(VectorXd(map_.model().sensors.row(4 * (at - channels.begin())).transpose()), n).transpose();
+      state.amplitude_row = sliced(VectorXd(map_.model().sensors.row(4 * (at - channels.begin())).transpose()), columns_, n).transpose();
       state.amplitude_m = *condition.amplitude_m;
     }
   }
@@ -204,81 +209,116 @@ StructureState Predictor::build_state(const Condition& condition) const {
 SolvedState& Predictor::solved(int c) {
   if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
   const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
-  // What the state depends on: conditions that agree in it share one solution.
-  bool temperature = false, amplitude = false, wind = false;
+  // What the state depends on: conditions and causes that agree in it share one solution.
+  bool temperature = false, amplitude = false, wind = false, sticks = false;
+  std::vector<double> acting;
+  std::vector<int> columns;
+  for (int k = 0; k < map_.model().common; ++k) columns.push_back(k);
   for (const Cause& cause : causes_) {
+    bool any = false;
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
-      const bool field = action.kind == "field.stiffness" || action.kind == "step.stiffness" || action.kind == "slip.stiffness";
+      if (!acts(cause, action, condition)) continue;
+      any = true;
+      const bool field = action.kind == "field.stiffness";
       const auto named = action.text.find("variable");
       const std::string key = named == action.text.end() ? "temperature_C" : named->second;
       temperature = temperature || (field && key == "temperature_C");
       amplitude = amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
+      sticks = sticks || action.kind == "damper.friction";
       wind = wind || (field && key == "wind_m_s");
     }
+    if (!any) continue;
+    // The catalogue entry itself and its magnitudes name the cause.
+    acting.push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(cause.candidate)));
+    for (Index i = 0; i < cause.a.size(); ++i) acting.push_back(cause.a[i]);
+    for (const ReducedPlace* place : cause.candidate->places)
+      for (const int k : place->columns)
+        if (std::find(columns.begin(), columns.end(), k) == columns.end()) columns.push_back(k);
   }
-  if (const auto dampers = map_.model().sets.find("dampers"); dampers != map_.model().sets.end())
-    for (const ReducedPlace& damper : dampers->second) amplitude = amplitude || damper.attributes.contains("friction");
+  const auto dampers = map_.model().sets.find("dampers");
+  if (dampers != map_.model().sets.end() && condition.dampers_on.value_or(false))
+    for (const ReducedPlace& damper : dampers->second) {
+      amplitude = amplitude || damper.attributes.contains("friction");
+      sticks = sticks || damper.attributes.contains("friction");
+    }
   const double unknown = -1e300;
-  const double dampers_on = condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : unknown;
-  std::vector<double> key = {dampers_on, condition.people.value_or(0.0)};
+  std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : unknown, condition.people.value_or(0.0)};
   key.push_back(temperature ? condition.temperature_C.value_or(unknown) : 0.0);
   key.push_back(amplitude ? condition.amplitude_m.value_or(unknown) : 0.0);
-  if (amplitude) {
-    const auto& channels = map_.features().channels;
-    key.push_back(static_cast<double>(std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin()));
-  }
+  const auto& channels = map_.features().channels;
+  key.push_back(amplitude ? static_cast<double>(std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin()) : 0.0);
   key.push_back(wind ? condition.wind_m_s.value_or(unknown) : 0.0);
-  auto& entry = states_[key];
+  auto& states = base_.store->states;
+  const auto known = states.find({acting, key});
+  std::shared_ptr<SolvedState> entry = known == states.end() ? nullptr : known->second;
+  if (const auto mine = own_.find({acting, key}); !entry && mine != own_.end()) entry = mine->second;
   if (!entry) {
-    entry = std::make_unique<SolvedState>();
+    entry = std::make_shared<SolvedState>();
+    columns_ = entry->columns = columns;
     entry->state = build_state(condition);
-    entry->modes = solve_state(entry->state, map_.highest_Hz_);
+    // Damped modes follow from those without the causes where nothing sticks or vibrates on its own.
+    const auto plain = states.find({{}, key});
+    const bool follows = !acting.empty() && !sticks && plain != states.end() && entry->state.damped() &&
+                         entry->state.stiffness.rows() == static_cast<Index>(columns.size());
+    if (!follows || !follow_state(entry->state, plain->second->modes, entry->modes))
+      entry->modes = solve_state(entry->state, map_.highest_Hz_);
+    // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
+    if (acting.empty() || with_jacobian_ || causes_.size() > 1) states[{acting, key}] = entry;
+    else own_[{acting, key}] = entry;
   }
   of_condition_[c] = entry.get();
   return *entry;
 }
 
+const StateStore::Changes& Predictor::changes(const std::vector<int>& columns) const {
+  const auto [at, is_new] = base_.store->changes.try_emplace(columns);
+  StateStore::Changes& out = at->second;
+  if (!is_new) return out;
+  const ReducedModel& model = map_.model();
+  for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
+    const Nuisance& v = map_.nuisances()[j];
+    const auto place = [&](const char* set) -> const ReducedPlace& { return model.sets.at(set)[static_cast<std::size_t>(v.index)]; };
+    MatrixXd dk, dm;
+    const auto add = [&](MatrixXd& to, double a, const MatrixXd& from) {
+      const MatrixXd part = a * from(columns, columns);
+      if (to.size() == 0) to = part;
+      else to += part;
+    };
+    if (v.kind == Nuisance::Kind::parameter) {
+      for (const auto& term : model.stiffness)
+        if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dk, v.deviation * a, term.matrix);
+      for (const auto& term : model.mass)
+        if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dm, v.deviation * a, term.matrix);
+    } else if (v.kind == Nuisance::Kind::element_stiffness) {
+      add(dk, v.deviation, place("elements").stiffness);
+    } else if (v.kind == Nuisance::Kind::element_mass) {
+      add(dm, v.deviation, place("elements").mass);
+    } else if (v.kind == Nuisance::Kind::node_mass) {
+      add(dm, v.deviation, place("nodes").mass);
+    } else if (v.kind == Nuisance::Kind::stay) {
+      add(dk, v.deviation, place("stays").stiffness);
+    } else {
+      continue;
+    }
+    out.position.push_back(static_cast<int>(j));
+    out.stiffness.push_back(dk);
+    out.mass.push_back(dm);
+  }
+  return out;
+}
+
 const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
   const auto known = solved.derivatives.find(mode);
   if (known != solved.derivatives.end()) return known->second;
-  if (structural_.empty()) {  // the changes are the same for every state: slice them once
-    const ReducedModel& model = map_.model();
-    for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
-      const Nuisance& v = map_.nuisances()[j];
-      const auto place = [&](const char* set) -> const ReducedPlace& { return model.sets.at(set)[static_cast<std::size_t>(v.index)]; };
-      MatrixXd dk, dm;
-      const auto add = [&](MatrixXd& to, double a, const MatrixXd& from) {
-        const MatrixXd part = a * from(columns_, columns_);
-        if (to.size() == 0) to = part;
-        else to += part;
-      };
-      if (v.kind == Nuisance::Kind::parameter) {
-        for (const auto& term : model.stiffness)
-          if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dk, v.deviation * a, term.matrix);
-        for (const auto& term : model.mass)
-          if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dm, v.deviation * a, term.matrix);
-      } else if (v.kind == Nuisance::Kind::element_stiffness) {
-        add(dk, v.deviation, place("elements").stiffness);
-      } else if (v.kind == Nuisance::Kind::element_mass) {
-        add(dm, v.deviation, place("elements").mass);
-      } else if (v.kind == Nuisance::Kind::node_mass) {
-        add(dm, v.deviation, place("nodes").mass);
-      } else if (v.kind == Nuisance::Kind::stay) {
-        add(dk, v.deviation, place("stays").stiffness);
-      } else {
-        continue;
-      }
-      structural_.push_back(static_cast<int>(j));
-      d_stiffness_.push_back(dk);
-      d_mass_.push_back(dm);
-    }
-  }
-  // Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
+  const StateStore::Changes& change = changes(solved.columns);
   const Index n = solved.state.stiffness.rows();
-  std::vector<MatrixXd> dk = d_stiffness_, dm = d_mass_;
-  for (auto* changes : {&dk, &dm})
-    for (MatrixXd& change : *changes)
-      if (change.size() > 0 && change.rows() < n) change.conservativeResizeLike(MatrixXd::Zero(n, n));
+  if (n == static_cast<Index>(solved.columns.size()))
+    return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, change.stiffness, change.mass)).first->second;
+  // Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
+  std::vector<MatrixXd> dk = change.stiffness, dm = change.mass;
+  for (auto* list : {&dk, &dm})
+    for (MatrixXd& matrix : *list)
+      if (matrix.size() > 0) matrix.conservativeResizeLike(MatrixXd::Zero(n, n));
   return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, dk, dm)).first->second;
 }
 

@@ -132,11 +132,15 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
   std::vector<Channel> channels;
   if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
-  const LoadedModel loaded = load_model(context, context.results / "s6_updating" / "model");
+  const auto updated = context.results / "s6_updating" / "model";
+  // A study that updates nothing is diagnosed on its own model.
+  const bool own = !context.model && !context.study.empty() && !std::filesystem::is_directory(updated) &&
+                   !read_study(context.study).model_folder.empty();
+  const LoadedModel loaded = own ? load_study_model(context, "") : load_model(context, updated);
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
   inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
   const diagnosis::Structure structure = inputs.model->structure();
-  inputs.places = diagnosis::find_places(structure, {static_cast<int>(config.zones), static_cast<int>(config.nodes)});
+  inputs.places = diagnosis::find_places(structure, {static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}});
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
