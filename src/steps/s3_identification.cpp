@@ -10,14 +10,15 @@ namespace {
 using namespace twindeck;
 
 Status run(const steps::IdentificationConfig& config, steps::StepContext& context) {
-  // 1. The campaign: a user's own, or what s0_campaign wrote.
-  const auto folder = context.input(context.campaign ? *context.campaign : context.results / "s0_campaign");
+  // 1. The campaign: a user's own, or what s0_campaign wrote. Read are its lists and records, and nothing else that lies there.
+  const auto folder = context.campaign ? *context.campaign : context.results / "s0_campaign";
+  if (!std::filesystem::exists(folder)) context.input(folder);
   const steps::Campaign campaign = steps::read_campaign(folder);
-
+  for (const char* name : {"campaign.toml", "channels.csv", "conditions.toml"}) {
+    if (std::filesystem::exists(folder / name)) context.input(folder / name);
+  }
   for (const steps::CampaignRecord& record : campaign.records) {
-    // Records that lie outside the campaign's folder are inputs too.
-    const auto place = record.file.lexically_relative(campaign.folder);
-    if ((place.empty() || *place.begin() == "..") && std::filesystem::exists(record.file)) context.input(record.file);
+    if (std::filesystem::exists(record.file)) context.input(record.file);
   }
 
   // 2. Each condition: records chosen, judged, repaired as asked, detrended and decimated; spectra; subspace identification, stabilisation,
