@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/error.hpp"
@@ -208,19 +209,20 @@ void write_extended_model(const DiagnosedModel& model, const diagnosis::Places& 
   Eigen::VectorXd theta = result.after.base.theta.size() > 0 ? result.after.base.theta : model.loaded.theta;
   std::string list = "# Causes that the diagnosis put into this model, in the order in which they were found.\n";
   bool measurement = false;
-  if (extended.model) extended.model = fe::with_parameters(*extended.model, theta);
+  std::optional<fe::Model> elements;
+  if (extended.model) elements = fe::with_parameters(*extended.model, theta);
   for (const diagnosis::Effect& effect : result.effects) {
     bool held = true;
     for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions)
-      held = (extended.model ? apply(*extended.model, theta, places, effect.cause, action)
-                             : apply(extended.system, theta, effect.cause, action)) && held;
+      held = (elements ? apply(*elements, theta, places, effect.cause, action)
+                       : apply(extended.system, theta, effect.cause, action)) && held;
     measurement = measurement || effect.cause.candidate->hypothesis->measurement;
     list += fmt::format("\n[[cause]]\nid = {}\nlocation = {}\nin_model = {}\n", io::toml_text(effect.cause.candidate->hypothesis->id),
                         io::toml_text(effect.cause.candidate->location), held);
     for (const diagnosis::EffectParameter& p : effect.parameters) list += fmt::format("{} = {}\n", p.name, io::toml_number(p.value));
   }
-  if (extended.model) {
-    model_io::write_model(fe::with_parameters(*extended.model, theta), folder);
+  if (elements) {
+    model_io::write_model(fe::with_parameters(*elements, theta), folder);
   } else {
     for (std::size_t p = 0; p < extended.system.parameters.size(); ++p) {
       fe::Parameter& parameter = extended.system.parameters[p];

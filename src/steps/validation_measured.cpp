@@ -31,14 +31,16 @@ MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config) {
     choice.kind = "wind";
     double samples = 0.0;
     std::map<std::string, double> sum;
-    for (const CampaignRecord& record : choose_records(campaign, choice)) {
-      context.input(record.file);
-      const Eigen::MatrixXd data = signal::detrended(read_record(campaign, record));
-      if (!data.allFinite())
-        throw InputError({record.file.string(), 0, ""}, "has gaps, which an RMS cannot have", "take a record without gaps");
-      samples += static_cast<double>(data.rows());
-      for (std::size_t c = 0; c < record.channels.size(); ++c)
-        sum[record.channels[c]] += data.col(static_cast<Eigen::Index>(c)).squaredNorm();
+    for (const RecordGroup& group : record_groups(campaign, choice)) {
+      for (const CampaignRecord& record : group.records) {
+        context.input(record.file);
+        const Eigen::MatrixXd data = signal::detrended(read_record(campaign, record));
+        if (!data.allFinite())
+          throw InputError({record.file.string(), 0, ""}, "has gaps, which an RMS cannot have", "take a record without gaps");
+        samples += static_cast<double>(data.rows());
+        for (std::size_t c = 0; c < record.channels.size(); ++c)
+          sum[record.channels[c]] += data.col(static_cast<Eigen::Index>(c)).squaredNorm();
+      }
     }
     for (const auto& [channel, square] : sum) out[{event.name, channel}] = std::sqrt(square / samples);
   }

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include "steps/virtual_wind.hpp"
 
 #include <cmath>
