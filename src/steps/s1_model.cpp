@@ -5,6 +5,7 @@
 #include "model_io/export.hpp"
 #include "ponte/generator.hpp"
 #include "steps/mesh_convergence.hpp"
+#include "steps/model_config.hpp"
 #include "steps/model_outputs.hpp"
 #include "steps/model_source.hpp"
 #include "steps/run_step.hpp"
@@ -14,25 +15,7 @@ namespace {
 
 using namespace twindeck;
 
-struct ModelConfig {
-  std::string variant = "preliminary";
-  long n_modes = 15;
-  std::string displacements = "as_model";
-  long load_steps = 1;
-  std::vector<std::string> meshes;
-
-  io::FieldTable fields() {
-    io::FieldTable table;
-    table.text("variant", variant, "variant of the generator: preliminary, refined, … (a model folder has none)")
-        .integer("n_modes", n_modes, {1.0, 200.0}, "number of modes, from the lowest")
-        .choice("displacements", displacements, {"as_model", "linear", "large"},
-                "equilibrium under dead load and pulls: as model.toml says, in the undeformed or in the deformed geometry")
-        .integer("load_steps", load_steps, {1.0, 1000.0},
-                 "large displacements: dead load and pulls grow in so many equal steps")
-        .texts("meshes", meshes, "other meshes of the generator whose modes are compared (mesh_convergence.csv); empty: none");
-    return table;
-  }
-};
+using steps::ModelConfig;
 
 Status run(const ModelConfig& config, steps::StepContext& context) {
   // 1. The model: generated or read, checked, prestressed, assembled; a mechanism is refused here.

@@ -42,7 +42,7 @@ class Chain(unittest.TestCase):
         return {step for step in after if after[step] != before[step]}
 
     def test_every_step_has_a_manifest(self):
-        self.assertEqual(set(self.stamps()), {"s0_campaign", "s1_model", "s2_sensors", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics"})
+        self.assertEqual(set(self.stamps()), {"s0_campaign", "s1_model", "s2_sensors", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics", "s8_validation"})
 
     def test_a_second_run_runs_no_step(self):
         before = self.stamps()
@@ -50,8 +50,8 @@ class Chain(unittest.TestCase):
         self.assertEqual(self.stamps(), before)
 
     def test_touching_one_configuration_reruns_that_step_and_what_depends_on_it(self):
-        self.assertEqual(self.reruns_after_touching(self.workflow / "s6_updating.toml"), {"s6_updating", "s7_aerodynamics"})
-        self.assertEqual(self.reruns_after_touching(self.workflow / "s5_sensitivity.toml"), {"s5_sensitivity", "s6_updating", "s7_aerodynamics"})
+        self.assertEqual(self.reruns_after_touching(self.workflow / "s6_updating.toml"), {"s6_updating", "s7_aerodynamics", "s8_validation"})
+        self.assertEqual(self.reruns_after_touching(self.workflow / "s5_sensitivity.toml"), {"s5_sensitivity", "s6_updating", "s7_aerodynamics", "s8_validation"})
 
     def test_same_bytes_whatever_the_jobs_and_threads(self):
         other = self.folder / "other"
