@@ -23,9 +23,9 @@ def modes_of(study: Study, condition: str) -> pd.DataFrame:
 def shapes_of(study: Study, condition: str) -> pd.DataFrame:
     """Complex components: rows channels, columns modes; NaN where a mode is not known."""
     table = study.step_csv(f"{folder_of(condition)}/shapes.csv", ["mode", "point", "direction", "value"])
-    imaginary = table["value_imag"].fillna(0.0) if "value_imag" in table.columns else 0.0
-    table["component"] = table["value"] + 1j * imaginary
-    return table.pivot(index="direction", columns="mode", values="component")
+    table["imaginary"] = table["value_imag"].fillna(0.0) if "value_imag" in table.columns else 0.0
+    parts = [table.pivot(index="direction", columns="mode", values=part) for part in ("value", "imaginary")]
+    return parts[0] + 1j * parts[1]
 
 
 def mac(a: pd.Series, b: pd.Series) -> float:

@@ -53,6 +53,6 @@ struct StayFit {
 /// @param frequencies_Hz ascending @param lowest_Hz, highest_Hz  range of c
 /// @return (position in frequencies, harmonic), at most one a harmonic
 [[nodiscard]] std::vector<std::pair<std::size_t, int>> number_harmonics(const std::vector<double>& frequencies_Hz, double lowest_Hz, double highest_Hz,
-                                                                        double tolerance = 0.06);
+                                                                        double tolerance = 0.08);
 
 }  // namespace twindeck::sysid

@@ -1,4 +1,5 @@
-"""s0_campaign and s2_sensors on small settings: contract of the campaign folder, the truth that is imposed, loggers, refusals.
+"""s0_campaign and s2_sensors on small settings: contract of the campaign folder, the truth that is imposed, loggers, refusals; and that
+nothing but a scorer reads the truth.
 
 Oracles: Table 4 as printed (the ten named frequencies within 0.2 %, damping as imposed), the file contract of DESIGN section 3, whole
 converter steps, Eq. (1) worked out here, the words of each refusal.
@@ -131,6 +132,24 @@ class Campaign(unittest.TestCase):
         files = [p.relative_to(self.out) for p in self.out.rglob("*") if p.is_file() and p.name != "manifest.json"]
         self.assertGreater(len(files), 8)
         self.assertEqual([str(f) for f in files if (self.out / f).read_bytes() != (other / f).read_bytes()], [])
+
+    def test_nothing_but_a_scorer_reads_the_truth(self):
+        """Step 3 reads the campaign as step 0 left it, then without its truth: the same bytes."""
+        sets = [a for s in ("setup=ST1", "condition=without_dampers", "decimation=16", "block_rows=20", "maximum_order=30", "welch_segment=256",
+                            "blocks=5", "stay.block_rows=30", "stay.maximum_order=20", "decay.block_rows=20", "decay.maximum_order=20",
+                            "decay.length=10")
+                for a in ("--set", s)]
+        results = self.folder / "blind"
+        shutil.copytree(self.out, results / "s0_campaign")
+        outs = []
+        for name in ("with", "without"):
+            outs.append(self.folder / name / "s3_identification")
+            done = run("s3_identification", "--results", results, "--out", outs[-1], "--quiet", *sets)
+            self.assertIn(done.returncode, (0,), done.stderr)
+            shutil.rmtree(results / "s0_campaign" / "truth", ignore_errors=True)
+        files = [p.relative_to(outs[0]) for p in outs[0].rglob("*") if p.is_file() and p.name != "manifest.json"]
+        self.assertIn(pathlib.Path("modes.csv"), files)
+        self.assertEqual([str(f) for f in files if (outs[0] / f).read_bytes() != (outs[1] / f).read_bytes()], [])
 
 
 class Refusals(unittest.TestCase):

@@ -42,7 +42,7 @@ class Chain(unittest.TestCase):
         return {step for step in after if after[step] != before[step]}
 
     def test_every_step_has_a_manifest(self):
-        self.assertEqual(set(self.stamps()), {"s0_campaign", "s1_model", "s2_sensors", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics", "s8_validation"})
+        self.assertEqual(set(self.stamps()), {"s0_campaign", "s1_model", "s2_sensors", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics", "s8_validation"})
 
     def test_a_second_run_runs_no_step(self):
         before = self.stamps()
