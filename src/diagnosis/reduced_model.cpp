@@ -184,6 +184,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Place& place = list[i];
       ReducedPlace reduced{place.id, place.x_m, whole ? std::vector<int>{} : own.at(set)[i], {}, {}, {}, place.attributes};
+      reduced.attributes.try_emplace("total_mass", total_mass_kg);
       if (place.stiffness.size() > 0) reduced.stiffness = project(place.stiffness, v);
       if (place.mass.size() > 0) reduced.mass = project(place.mass, v);
       if (place.directions.size() > 0) {

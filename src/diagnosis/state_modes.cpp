@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 namespace twindeck::diagnosis {
 
@@ -80,18 +81,40 @@ double peak(const StructureState& state, const VectorXcd& phi, const VectorXd& b
 
 /// T(s) and T'(s) with attachments at the amplitudes of phi.
 void dynamic_matrices(const StructureState& state, Complex s, const VectorXcd& phi, MatrixXcd& t, VectorXcd& t_prime_phi) {
-  t = (s * s) * state.mass.cast<Complex>() + state.stiffness.cast<Complex>();
-  t_prime_phi = (2.0 * s) * (state.mass * phi.real() + Complex(0, 1) * (state.mass * phi.imag()));
-  for (const Attachment& a : state.attachments) {
-    const auto [d, d_prime] = dynamic_stiffness(a, s, peak(state, phi, a.direction));
-    const VectorXcd b = a.direction.cast<Complex>();
-    t += (d * b) * b.transpose();
-    t_prime_phi += d_prime * b * (b.transpose() * phi);
+  const Complex square = s * s;
+  const Index n = state.mass.rows();
+  t.resize(n, n);
+  MatrixXd re = square.real() * state.mass + state.stiffness, im = square.imag() * state.mass;
+  t_prime_phi.resize(n);
+  t_prime_phi.real() = state.mass * phi.real();
+  t_prime_phi.imag() = state.mass * phi.imag();
+  t_prime_phi *= 2.0 * s;
+  const auto count = static_cast<Index>(state.attachments.size());
+  if (count > 0) {
+    MatrixXd b(n, count);
+    VectorXcd d(count), d_prime(count);
+    for (Index k = 0; k < count; ++k) {
+      const Attachment& a = state.attachments[static_cast<std::size_t>(k)];
+      b.col(k) = a.direction;
+      std::tie(d[k], d_prime[k]) =
+          dynamic_stiffness(a, s, a.kind == Attachment::Kind::jenkins ? peak(state, phi, a.direction) : 0.0);
+    }
+    re.noalias() += (b * d.real().asDiagonal()) * b.transpose();
+    im.noalias() += (b * d.imag().asDiagonal()) * b.transpose();
+    VectorXcd there(count);
+    there.real() = b.transpose() * phi.real();
+    there.imag() = b.transpose() * phi.imag();
+    there = there.cwiseProduct(d_prime).eval();
+    t_prime_phi.real() += b * there.real();
+    t_prime_phi.imag() += b * there.imag();
   }
+  t.real() = re;
+  t.imag() = im;
 }
 
 /// Eigenvalues and shapes of the linear part in modal coordinates (dashpots, Maxwell; friction as given spring and dashpot).
-StateModes state_space(const StructureState& state, const RealModes& modes, const std::vector<Complex>& friction, double omega) {
+StateModes state_space(const StructureState& state, const RealModes& modes, const std::vector<Complex>& friction,
+                       double omega) {
   const Index m = modes.eigenvalue.size();
   Index extra = 0;
   for (const Attachment& a : state.attachments)
@@ -123,9 +146,8 @@ StateModes state_space(const StructureState& state, const RealModes& modes, cons
     const Complex s = eigen.eigenvalues()[i];
     if (s.imag() > 1e-6 && -s.real() < 0.6 * std::abs(s)) kept.push_back(i);
   }
-  std::sort(kept.begin(), kept.end(), [&](Index a, Index b) {
-    return std::abs(eigen.eigenvalues()[a]) < std::abs(eigen.eigenvalues()[b]);
-  });
+  std::sort(kept.begin(), kept.end(),
+            [&](Index a, Index b) { return std::abs(eigen.eigenvalues()[a]) < std::abs(eigen.eigenvalues()[b]); });
   StateModes out;
   out.s.resize(static_cast<Index>(kept.size()));
   out.shapes.resize(modes.shapes.rows(), out.s.size());
@@ -155,7 +177,8 @@ bool oscillates(Complex s) {
 }
 
 bool same_mode(const std::pair<Complex, VectorXcd>& other, Complex s, const VectorXcd& phi) {
-  return std::abs(other.first - s) < 1e-6 * std::abs(s) && std::abs(other.second.dot(phi)) > 0.999 * other.second.norm() * phi.norm();
+  return std::abs(other.first - s) < 1e-6 * std::abs(s) &&
+         std::abs(other.second.dot(phi)) > 0.999 * other.second.norm() * phi.norm();
 }
 
 /// In ascending frequency, scaled to phi' T'(s) phi = 2 s.
@@ -236,7 +259,8 @@ StateModes solve_state(const StructureState& state, double highest_Hz) {
     VectorXcd phi = modes.shapes.col(i).normalized();
     refine(state, s, phi);
     if (!oscillates(s)) continue;
-    if (std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); })) found.emplace_back(s, phi);
+    if (std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); }))
+      found.emplace_back(s, phi);
   }
   return normalised(state, found);
 }
