@@ -61,7 +61,8 @@ Side make_side(int along, const std::vector<steps::Channel>& channels, const dia
 /// Permanent points M1 to M8, each upwards and across (global y).
 std::vector<steps::Channel> sixteen_channels(const fe::Model& model) {
   std::vector<steps::Channel> channels;
-  for (const auto& [name, node] : model.monitoring_points)
+  for (const auto& [name, node] : model.monitoring_points) {
+    if (name.size() != 2 || name[0] != 'M') continue;  // the model names other points too
     for (const bool up : {true, false}) {
       steps::Channel channel;
       channel.name = name + (up ? "z" : "y");
@@ -70,6 +71,7 @@ std::vector<steps::Channel> sixteen_channels(const fe::Model& model) {
       channel.direction = up ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
       channels.push_back(channel);
     }
+  }
   return channels;
 }
 
