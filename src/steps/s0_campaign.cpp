@@ -1,5 +1,5 @@
-#include "steps/run_step.hpp"
-#include "steps/test_campaign.hpp"
+#include "steps/campaign/test_campaign.hpp"
+#include "steps/shared/run_step.hpp"
 
 /// Step 0: the virtual test campaign (paper sections 3.1 and 3.2): records of a bridge whose truth is known.
 int main(int argc, char** argv) {

@@ -4,12 +4,12 @@
 #include "dynamics/eigenmodes.hpp"
 #include "model_io/export.hpp"
 #include "ponte/generator.hpp"
-#include "steps/mesh_convergence.hpp"
-#include "steps/model_config.hpp"
-#include "steps/model_outputs.hpp"
-#include "steps/model_source.hpp"
-#include "steps/run_step.hpp"
-#include "steps/study.hpp"
+#include "steps/model/mesh_convergence.hpp"
+#include "steps/model/model_config.hpp"
+#include "steps/shared/model_outputs.hpp"
+#include "steps/shared/model_source.hpp"
+#include "steps/shared/run_step.hpp"
+#include "steps/shared/study.hpp"
 
 namespace {
 
@@ -46,8 +46,8 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
 
   // 4. The same modes on other meshes: how far this one is from converged.
   if (!config.meshes.empty() && is_bridge) {
-    steps::write_mesh_convergence(steps::read_study(context.study), config.variant, config.meshes, static_cast<int>(config.n_modes),
-                                  context.out / "mesh_convergence.csv");
+    steps::write_mesh_convergence(steps::read_study(context.study), config.variant, config.meshes,
+                                  static_cast<int>(config.n_modes), context.out / "mesh_convergence.csv");
   }
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }

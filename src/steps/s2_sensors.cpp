@@ -1,5 +1,5 @@
-#include "steps/run_step.hpp"
-#include "steps/sensor_layout.hpp"
+#include "steps/sensors/sensor_layout.hpp"
+#include "steps/shared/run_step.hpp"
 
 /// Step 2: sensor setups, how well they tell the modes apart, and the blind test (paper section 3.1, Table 3).
 int main(int argc, char** argv) {

@@ -2,8 +2,8 @@
 #include <filesystem>
 
 #include "records/inspect.hpp"
-#include "steps/identification_outputs.hpp"
-#include "steps/run_step.hpp"
+#include "steps/identification/outputs.hpp"
+#include "steps/shared/run_step.hpp"
 
 namespace {
 
@@ -21,17 +21,19 @@ Status run(const steps::IdentificationConfig& config, steps::StepContext& contex
     if (std::filesystem::exists(record.file)) context.input(record.file);
   }
 
-  // 2. Each condition: records chosen, judged, repaired as asked, detrended and decimated; spectra; subspace identification, stabilisation,
+  // 2. Each condition: records chosen, judged, repaired as asked, detrended and decimated; spectra; subspace identification,
+  // stabilisation,
   //    selection (Eqs. 3-4), standard deviations; setups merged.
   std::vector<steps::ConditionResult> results;
-  for (const auto& groups : steps::by_condition(steps::record_groups(campaign, {config.setup, config.condition, config.kind, config.setups}))) {
+  for (const auto& groups :
+       steps::by_condition(steps::record_groups(campaign, {config.setup, config.condition, config.kind, config.setups}))) {
     results.push_back(steps::identify_condition(campaign, groups, config, context));
     for (const std::string& line : steps::report_lines(results.back())) context.say(line);
   }
 
   // 3. Free decays by ERA, with frequency and damping by amplitude; stays as strings.
-  const auto decays = steps::identify_free_decays(campaign, steps::record_groups(campaign, {"", config.condition, "free_decay", {}}, true), config, results,
-                                                  context.seed);
+  const auto decays = steps::identify_free_decays(
+      campaign, steps::record_groups(campaign, {"", config.condition, "free_decay", {}}, true), config, results, context.seed);
   const auto stays = steps::identify_stays(campaign, steps::record_groups(campaign, {"", "", "stay", {}}, true), config);
 
   // 4. Tables, exports, and the features that updating and diagnosis read. The first condition's stand at the top.
@@ -48,10 +50,13 @@ int main(int argc, char** argv) {
   steps::IdentificationConfig config;
   steps::Step step;
   step.token = "s3_identification";
-  step.summary = "Identifies modes with standard deviations from vibration records: ambient, free decays, stays, measured inputs.";
-  step.examples = {"s3_identification --campaign my_campaign --out results/my_bridge/s3_identification --set setup=ST1 --set decimation=8",
-                   "s3_identification --inspect measurement.csv",
-                   "s3_identification --study workflows/ponte_del_mare --results results/ponte_del_mare --out results/ponte_del_mare/s3_identification"};
+  step.summary =
+      "Identifies modes with standard deviations from vibration records: ambient, free decays, stays, measured inputs.";
+  step.examples = {
+      "s3_identification --campaign my_campaign --out results/my_bridge/s3_identification --set setup=ST1 --set decimation=8",
+      "s3_identification --inspect measurement.csv",
+      "s3_identification --study workflows/ponte_del_mare --results results/ponte_del_mare --out "
+      "results/ponte_del_mare/s3_identification"};
   step.flags = {{"inspect", true, "tell what a record file holds (CSV, NPY, MAT, HDF5, universal file) and end",
                  [](const std::string& file) { return records::describe(records::inspect(file)); }}};
   step.fields = config.fields();

@@ -1,5 +1,5 @@
-#include "steps/refinement.hpp"
-#include "steps/run_step.hpp"
+#include "steps/refinement/refinement.hpp"
+#include "steps/shared/run_step.hpp"
 
 /// Step 4: as-built changes, comparison with the measured modes, pairing (paper section 4.1, Tables 6 and 7).
 int main(int argc, char** argv) {

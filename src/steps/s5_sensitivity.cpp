@@ -1,10 +1,10 @@
 /// Step 5 (paper section 4.2, Eq. 6): sensitivity of the modes to the parameters, and which of these the measurement can tell.
 #include <fmt/format.h>
 
-#include "steps/model_source.hpp"
-#include "steps/run_step.hpp"
-#include "steps/sensitivity.hpp"
-#include "steps/sensitivity_outputs.hpp"
+#include "steps/sensitivity/outputs.hpp"
+#include "steps/sensitivity/sensitivity.hpp"
+#include "steps/shared/model_source.hpp"
+#include "steps/shared/run_step.hpp"
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "model_io/export.hpp"
-#include "steps/model_outputs.hpp"
-#include "steps/updating_outputs.hpp"
-#include "steps/updating_setup.hpp"
+#include "steps/shared/model_outputs.hpp"
+#include "steps/updating/outputs.hpp"
+#include "steps/updating/setup.hpp"
 
 namespace {
 
@@ -14,20 +14,22 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   // 1. The refined model and the measured modes.
   const steps::LoadedModel before = steps::load_model(context, context.results / "s4_refinement" / "model");
   const std::optional<steps::Measured> measured = steps::find_measured(context, config.condition);
-  if (!measured) throw InputError({"", 0, ""}, "no measured modes were given", "give --features DIR or --modes DIR, or a study");
+  if (!measured)
+    throw InputError({"", 0, ""}, "no measured modes were given", "give --features DIR or --modes DIR, or a study");
   if (!before.state.status.converged) return before.state.status;
   const std::vector<fe::Parameter>& parameters = before.system.parameters;
   const std::vector<int> active = steps::active_parameters(config, before, context);
 
   // 2. Which measured mode belongs to which computed one.
-  const dynamics::EigenModes modes_before = steps::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
+  const dynamics::EigenModes modes_before =
+      steps::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
   const steps::Pairing pairing = steps::pair_for_updating(config, before, modes_before, *measured);
 
   // 3. The update.
-  const updating::UpdatingResult result = updating::update(
-      before.system, steps::prestress_refresh(before), active, steps::frequency_targets(*measured, pairing),
-      config.options(context.seed), [&](int done, int of) { context.progress("starts", done, of); });
+  const updating::UpdatingResult result =
+      updating::update(before.system, steps::prestress_refresh(before), active, steps::frequency_targets(*measured, pairing),
+                       config.options(context.seed), [&](int done, int of) { context.progress("starts", done, of); });
   if (result.starts.empty() || result.mode_after.empty()) return result.status;
 
   // 4. The updated model, in balance, with its modes and the same pairs.

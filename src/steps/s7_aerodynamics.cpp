@@ -1,5 +1,5 @@
 /// Step 7 (paper section 5.1, Tables 11 and 12, Figs 16 to 20): the updated model in mean wind, damping and critical speeds.
-#include "steps/aerodynamics.hpp"
+#include "steps/aerodynamics/aerodynamics.hpp"
 
 int main(int argc, char** argv) {
   using namespace twindeck::steps;

@@ -1,6 +1,6 @@
 /// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21): turbulent wind, accelerations with dampers, hybrid deployment.
-#include "steps/run_step.hpp"
-#include "steps/validation.hpp"
+#include "steps/shared/run_step.hpp"
+#include "steps/validation/validation.hpp"
 
 int main(int argc, char** argv) {
   using namespace twindeck;

@@ -1,6 +1,6 @@
-/// Step 9: what the best admissible model still gets wrong, the cause out of the catalogue, the model extended by it, and the gain on
-/// rows that were held out (DIAGNOSIS section 4).
-#include "steps/diagnosis_setup.hpp"
+/// Step 9: what the best admissible model still gets wrong, the cause out of the catalogue, the model extended by it, and the
+/// gain on rows that were held out (DIAGNOSIS section 4).
+#include "steps/diagnosis/setup.hpp"
 
 int main(int argc, char** argv) {
   using namespace twindeck;

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "io/csv.hpp"
-#include "steps/calibration.hpp"
-#include "steps/run_step_threads.hpp"
+#include "steps/calibration/calibration.hpp"
+#include "steps/shared/run_step_threads.hpp"
 
 namespace {
 

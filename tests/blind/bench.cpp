@@ -1,13 +1,14 @@
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <unistd.h>
 #include <sstream>
 
 #include "blind/trial.hpp"
 #include "ponte/generator.hpp"
-#include "steps/diagnosis_catalogue.hpp"
+#include "steps/diagnosis/catalogue.hpp"
 
 namespace twindeck::blind {
 
@@ -34,7 +35,8 @@ fe::Model bridge(int along) {
   set("shells_across", 4);
   set("shells_per_panel_along", along);
   set("members_per_panel", 1);
-  const auto file = std::filesystem::temp_directory_path() / ("twindeck_blind_" + std::to_string(along) + "_" + std::to_string(getpid()) + ".toml");
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("twindeck_blind_" + std::to_string(along) + "_" + std::to_string(getpid()) + ".toml");
   std::ofstream(file) << toml;
   fe::Model model = ponte::generate(file, "refined");
   std::filesystem::remove(file);
@@ -84,7 +86,8 @@ FeatureSet campaign(const Bench& bench) {
   }
   const diagnosis::ReducedModel& model = *bench.diagnosing.reduced;
   const int modes = 8;
-  const auto add = [&](const std::string& name, std::optional<bool> dampers, double amplitude, double temperature, double people) {
+  const auto add = [&](const std::string& name, std::optional<bool> dampers, double amplitude, double temperature,
+                       double people) {
     Condition c;
     c.name = name;
     c.dampers_on = dampers;

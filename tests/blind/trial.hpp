@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
-#include "steps/diagnosis_model.hpp"
+#include "steps/diagnosis/model.hpp"
 
 /// Blind trials in the tier of features (sealed generator, diagnosis, scorer): the truth is computed on another mesh than the
 /// one that diagnoses, with parameters and workmanship drawn anew for every case, the null ones too.
@@ -23,7 +23,7 @@ struct Bench {
   Side truth, diagnosing;
   std::vector<steps::Channel> channels;
   std::vector<diagnosis::Hypothesis> catalogue;
-  diagnosis::FeatureSet rows;          ///< of the diagnosing side: conditions, deviations, held-out marks; nominal values
+  diagnosis::FeatureSet rows;  ///< of the diagnosing side: conditions, deviations, held-out marks; nominal values
   diagnosis::ScatterOptions scatter;
 };
 
@@ -32,27 +32,29 @@ struct Bench {
 
 /// What a generator hid. Only its SHA-256 leaves with the case until it is scored.
 struct Sealed {
-  std::string kind;                   ///< "null" | "effect" | "outside" | "two"
+  std::string kind;  ///< "null" | "effect" | "outside" | "two"
   std::vector<std::string> families, locations;
   std::vector<std::vector<double>> magnitudes;
   std::uint64_t seed = 0;
-  double sigma = 0.0;                 ///< norm of the (first) effect's whitened signature: how visible it is
+  double sigma = 0.0;  ///< norm of the (first) effect's whitened signature: how visible it is
   [[nodiscard]] std::string text() const;
 };
 
 struct Case {
-  Eigen::VectorXd values;             ///< transformed rows
-  std::string removed;                ///< family that the diagnosing catalogue lacks, "" for none
+  Eigen::VectorXd values;  ///< transformed rows
+  std::string removed;     ///< family that the diagnosing catalogue lacks, "" for none
   Sealed seal;
 };
 
-/// Case number `seed`: a quarter nulls, 15 % outside the catalogue, 5 % with two causes; family, place and magnitude from one stream.
+/// Case number `seed`: a quarter nulls, 15 % outside the catalogue, 5 % with two causes; family, place and magnitude from one
+/// stream.
 [[nodiscard]] Case make_case(const Bench& bench, std::uint64_t seed);
 
 struct Score {
   std::string kind, family;
   double sigma = 0.0, seconds = 0.0;
-  bool detected = false, family_named = false, exact = false, in_set = false, both = false, unknown = false, gain_claimed = false;
+  bool detected = false, family_named = false, exact = false, in_set = false, both = false, unknown = false,
+       gain_claimed = false;
   bool covered = false, sized = false;
   int set_size = 0;
   double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, held_out_ratio = 1.0;

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aero/aeroelastic_system.hpp"
+#include "dynamics/eigenmodes.hpp"
+#include "io/config.hpp"
+#include "steps/aerodynamics/aero_nodes.hpp"
+#include "steps/shared/model_source.hpp"
+#include "steps/shared/run_step.hpp"
+
+/// Step 7: a model in mean wind (paper section 5.1, Tables 11, 12, Figs 16 to 20). Set-up that step 8 shares.
+namespace twindeck::steps {
+
+/// Aerodynamic data of one deck.
+struct DeckWind {
+  std::string name;         ///< "foot"
+  std::string cross_group;  ///< group of the elements across the deck
+  double chord_m = 0.0;
+  std::string polar, flutter;                               ///< files
+  double arm_drag = 0.0, arm_lift = 0.0, arm_moment = 0.0;  ///< mu/B of quasi-steady derivatives of the rotational rate
+};
+
+struct HybridZone {
+  std::string deck;
+  double beyond_deg = 90.0;
+};
+
+/// Configuration of s7_aerodynamics; s8_validation reads the same file for what they share.
+struct AerodynamicsConfig {
+  double density_kg_m3 = 1.25;
+  double direction_deg = 90.0;  ///< where the wind blows to, anticlockwise from +X
+  double attack_deg = 0.0;
+  long nodes_per_deck = 30;
+  std::vector<DeckWind> decks;
+  std::string below_range = "refuse", above_range = "refuse";
+  std::vector<std::string> sets = {"standin", "quasi_steady"};  ///< the first is the one whose level is reported as main
+  std::string fit_model = "A";
+  double fit_speed_m_s = 0.0;  ///< 0: level 1, nothing fitted
+  std::vector<std::string> models = {"A", "C", "D", "G", "H", "I"};
+  std::string hybrid_inner = "A", hybrid_outer = "D";
+  std::vector<HybridZone> hybrid;
+  double structural_damping = 0.005, identified_damping = 0.011;
+  long n_modes = 20, followed_modes = 10, damped_modes = 10;
+  double max_speed_m_s = 60.0, speed_step_m_s = 1.0, design_speed_m_s = 40.4;
+  std::string equations = "consistent";
+
+  [[nodiscard]] io::FieldTable fields();
+  [[nodiscard]] aero::Wind wind() const;
+  [[nodiscard]] std::vector<std::string> deck_names() const;
+  [[nodiscard]] aero::Equations equation_choice() const;
+  /// The rules of `models`, then the hybrid deployment of Table 14 where its zones are given.
+  [[nodiscard]] std::vector<aero::Deployment> deployments() const;
+};
+
+/// What the files hold for one deck.
+struct DeckAerodynamics {
+  aero::Polar polar;
+  std::shared_ptr<const aero::DerivativeTable> flutter;
+};
+/// @param context  registers the files as inputs
+[[nodiscard]] std::vector<DeckAerodynamics> read_deck_aerodynamics(const AerodynamicsConfig& config, StepContext& context);
+
+/// Aerodynamic sections of a set at a level. "standin": tables and polars, all self-excited forces multiplied by `level`
+/// (chord, mass and share of the mode are as unknown as the derivatives, and all of them enter as one factor); "quasi_steady":
+/// derivatives from the polars alone, whose lift slope is multiplied by `level`.
+[[nodiscard]] std::vector<aero::SectionAero> sections_of(const AerodynamicsConfig& config,
+                                                         const std::vector<DeckAerodynamics>& data, const std::string& set,
+                                                         double level);
+
+/// A model prepared for wind: aerodynamic nodes with their angle of attack from the shape under dead load, modes.
+struct WindModel {
+  AeroNodes nodes;
+  std::vector<aero::Strip> strips;
+  dynamics::EigenModes modes;
+  std::vector<aero::StripMotion> motions;  ///< of the modes
+};
+/// @throws InputError  for a matrix model: its decks are not known
+[[nodiscard]] WindModel prepare_wind_model(const AerodynamicsConfig& config, const LoadedModel& loaded);
+
+/// The modes as a structure in wind, without dampers.
+[[nodiscard]] aero::ReducedStructure bare_structure(const WindModel& model, double damping_ratio);
+
+/// Modes and static corrections with the model's dampers (springs of a group that begins with "damper", whether they are active
+/// in the model or not) as dashpots and Maxwell units.
+struct DampedModel {
+  aero::ReducedStructure structure;
+  std::vector<aero::StripMotion> motions;
+  Eigen::MatrixXd vectors;  ///< (n × m) of the coordinates over the free degrees of freedom
+  int dampers = 0;
+};
+/// What the modes are completed with.
+struct Reduction {
+  bool dampers = true;             ///< the dampers take part, and a static shape each
+  Eigen::MatrixXd patterns;        ///< (n × k) loads, scaled by their size; may be empty
+  Eigen::Index static_shapes = 0;  ///< that hold most of what the modes leave of the answer to the patterns
+};
+[[nodiscard]] DampedModel reduce(const WindModel& model, const LoadedModel& loaded, double damping_ratio,
+                                 const Reduction& reduction);
+[[nodiscard]] DampedModel with_dampers(const WindModel& model, const LoadedModel& loaded, double damping_ratio);
+
+/// The springs that are dampers, and their force patterns on the free degrees of freedom (n × n_dampers).
+[[nodiscard]] std::vector<const fe::Spring*> dampers_of(const fe::Model& model);
+[[nodiscard]] Eigen::MatrixXd damper_patterns(const LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers);
+
+/// Level of a set at which mode 1 is critical at the speed to fit, by the rule to fit. 1 where nothing is to be fitted.
+/// @return empty if no level between 0.05 and 20 does it
+[[nodiscard]] std::optional<double> fit_level(const AerodynamicsConfig& config, const std::vector<DeckAerodynamics>& data,
+                                              const std::string& set, const WindModel& model);
+
+/// The step.
+[[nodiscard]] Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "steps/aerodynamics/aerodynamics.hpp"
+
+namespace twindeck::steps {
+
+io::FieldTable AerodynamicsConfig::fields() {
+  io::FieldTable t;
+  t.number("density", density_kg_m3, "kg/m3", io::positive(), "density of air")
+      .number("direction_deg", direction_deg, "", {-360.0, 360.0},
+              "where the wind blows to, degrees anticlockwise from +X in plan")
+      .number("attack_deg", attack_deg, "", {-45.0, 45.0},
+              "angle of attack of the wind itself (beta_2 of Fig. 17), degrees, nose-up")
+      .integer("nodes_per_deck", nodes_per_deck, {2.0, 1000.0}, "aerodynamic nodes between the end stays of each deck")
+      .tables(
+          "deck",
+          [this] {
+            decks.emplace_back();
+            DeckWind& deck = decks.back();
+            io::FieldTable d;
+            d.text("name", deck.name, "name of the deck", true)
+                .text("cross_group", deck.cross_group,
+                      "group of the elements across the deck, where the model names no aerodynamic nodes")
+                .number("chord", deck.chord_m, "m", io::positive(), "chord B", true)
+                .text("polar", deck.polar, "file of static coefficients", true)
+                .text("flutter", deck.flutter, "file of flutter derivatives", true)
+                .number("arm_drag", deck.arm_drag, "", {}, "quasi-steady p2*/p1*")
+                .number("arm_lift", deck.arm_lift, "", {}, "quasi-steady h2*/h1*")
+                .number("arm_moment", deck.arm_moment, "", {}, "quasi-steady a2*/a1*");
+            return d;
+          },
+          "a deck's aerodynamic data")
+      .choice("below_range", below_range, {"refuse", "hold"}, "what a derivative table does below its reduced velocities")
+      .choice("above_range", above_range, {"refuse", "hold"}, "what a derivative table does above its reduced velocities")
+      .texts("sets", sets,
+             "aerodynamic sets: standin (the files), quasi_steady (derivatives from the polars); the first is the main one")
+      .text("fit_model", fit_model, "model of Table 11 at which a set's level is fitted")
+      .number("fit_speed", fit_speed_m_s, "m/s", io::non_negative(),
+              "critical speed to fit it to; 0: take the sets as they are")
+      .texts("models", models, "models of Table 11")
+      .text("hybrid_inner", hybrid_inner, "model of Table 14 at the decks' middle")
+      .text("hybrid_outer", hybrid_outer, "model of Table 14 towards the ends")
+      .tables(
+          "hybrid",
+          [this] {
+            hybrid.emplace_back();
+            io::FieldTable d;
+            d.text("deck", hybrid.back().deck, "name of the deck", true)
+                .number("beyond_deg", hybrid.back().beyond_deg, "", {0.0, 90.0},
+                        "yaw beyond which the outer model holds, degrees", true);
+            return d;
+          },
+          "Table 14, a deck")
+      .number("structural_damping", structural_damping, "", {0.0, 0.2}, "damping ratio of each mode without wind")
+      .number("identified_damping", identified_damping, "", {0.0, 0.2}, "damping ratio of mode 1 as identified, for comparison")
+      .integer("n_modes", n_modes, {1.0, 200.0}, "modes of the reduced structure")
+      .integer("followed_modes", followed_modes, {1.0, 200.0}, "modes that are followed over the wind speed")
+      .integer("damped_modes", damped_modes, {1.0, 200.0}, "modes that are followed with dampers")
+      .number("max_speed", max_speed_m_s, "m/s", io::positive(), "highest wind speed")
+      .number("speed_step", speed_step_m_s, "m/s", io::positive(), "step of the wind speed")
+      .number("design_speed", design_speed_m_s, "m/s", io::positive(),
+              "design wind speed: of the static comparison and the check with dampers")
+      .choice("equations", equations, {"consistent", "as_printed"},
+              "Eq. (7) of the moment with its missing chord put in, or as printed");
+  return t;
+}
+
+aero::Wind AerodynamicsConfig::wind() const {
+  const double angle = direction_deg * std::numbers::pi / 180.0;
+  return {density_kg_m3, {std::cos(angle), std::sin(angle), 0.0}};
+}
+
+std::vector<std::string> AerodynamicsConfig::deck_names() const {
+  std::vector<std::string> names;
+  for (const DeckWind& deck : decks) names.push_back(deck.name);
+  return names;
+}
+
+aero::Equations AerodynamicsConfig::equation_choice() const {
+  return equations == "as_printed" ? aero::Equations::as_printed : aero::Equations::consistent;
+}
+
+std::vector<aero::Deployment> AerodynamicsConfig::deployments() const {
+  std::vector<aero::Deployment> list;
+  for (const std::string& name : models) {
+    list.push_back(aero::everywhere(name == "H_literal" ? aero::literal_rule_H() : aero::published_yaw_rule(name)));
+  }
+  if (!hybrid.empty()) {
+    aero::Deployment mixed = aero::everywhere(aero::published_yaw_rule(hybrid_inner));
+    mixed.name = "hybrid";
+    for (const HybridZone& zone : hybrid) {
+      mixed.zones.push_back({zone.deck, zone.beyond_deg * std::numbers::pi / 180.0, aero::published_yaw_rule(hybrid_outer)});
+    }
+    list.push_back(mixed);
+  }
+  return list;
+}
+
+}  // namespace twindeck::steps

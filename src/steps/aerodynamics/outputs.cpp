@@ -1,0 +1,159 @@
+#include "steps/aerodynamics/outputs.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "io/csv.hpp"
+
+namespace twindeck::steps {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+const char* on_off(bool on) { return on ? "on" : "off"; }
+
+std::string word(aero::StaticRule rule) {
+  switch (rule) {
+    case aero::StaticRule::normal:
+      return "normal";
+    case aero::StaticRule::cosine:
+      return "cosine";
+    case aero::StaticRule::oblique_strip:
+      return "oblique_strip";
+  }
+  return "";
+}
+
+std::string status_of(const CriticalRow& row, double max_speed_m_s) {
+  const std::string found = row.point ? "unstable" : "stable up to " + io::format_number(max_speed_m_s) + " m/s";
+  return row.lost.empty() ? found : found + "; " + row.lost;
+}
+
+}  // namespace
+
+void write_critical(const std::vector<CriticalRow>& rows, double max_speed_m_s, const std::filesystem::path& file) {
+  std::map<std::string, double> speed_of_A;
+  for (const CriticalRow& row : rows) {
+    if (row.model == "A" && !row.dampers && row.point) speed_of_A.emplace(row.set, row.point->speed_m_s);
+  }
+  io::CsvWriter csv({"set", "model", "group", "description", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz",
+                     "ratio_to_A", "f_cr_over_f1", "deck", "theta_rms_deg", "deck_share", "exponent", "V_cr_single_mode_m_s",
+                     "V_den_hartog_m_s", "V_divergence_m_s", "status"});
+  for (const CriticalRow& row : rows) {
+    using Number = std::optional<double>;
+    const auto a = speed_of_A.find(row.set);
+    const bool found = row.point.has_value();
+    csv.row({row.set, row.model, row.group, row.description, on_off(row.dampers), 100.0 * row.structural_damping,
+             found ? io::Cell(row.point->mode) : io::Cell(""), found ? Number(row.point->speed_m_s) : Number(),
+             found ? Number(row.point->frequency_Hz) : Number(),
+             found && a != speed_of_A.end() ? Number(row.point->speed_m_s / a->second) : Number(),
+             found ? Number(row.point->frequency_Hz / row.point->still_air_frequency_Hz) : Number(), row.character.deck,
+             found ? Number(row.character.theta_rms_rad * degrees) : Number(),
+             found ? Number(row.character.deck_share) : Number(), found ? Number(row.character.exponent) : Number(),
+             row.single_mode_m_s, row.den_hartog_m_s, row.divergence_m_s, status_of(row, max_speed_m_s)});
+  }
+  csv.save(file);
+}
+
+void write_damping(const std::vector<DampingCurves>& curves, const std::filesystem::path& file) {
+  io::CsvWriter csv(
+      {"set", "model", "dampers", "structural_damping_pct", "mode", "V_m_s", "frequency_Hz", "damping_ratio_pct"});
+  for (const DampingCurves& curve : curves) {
+    for (const aero::Branch& branch : curve.branches) {
+      for (std::size_t i = 0; i < branch.points.size(); ++i) {
+        csv.row({curve.set, curve.model, on_off(curve.dampers), 100.0 * curve.structural_damping, branch.mode,
+                 branch.speed_m_s[i], branch.points[i].frequency_Hz(), 100.0 * branch.points[i].damping_ratio()});
+      }
+    }
+  }
+  csv.save(file);
+}
+
+void write_nodes(const std::vector<aero::Strip>& strips, const std::vector<aero::SectionAero>& sections,
+                 const std::filesystem::path& file) {
+  io::CsvWriter csv({"deck", "node", "station_m", "x_m", "y_m", "z_m", "yaw_deg", "angle_of_attack_deg", "chord_m", "length_m",
+                     "oblique_chord_m", "oblique_length_m"});
+  std::map<std::string, int> number;
+  for (const aero::Strip& strip : strips) {
+    const double c = std::cos(strip.yaw_rad), chord = sections[static_cast<std::size_t>(strip.section)].chord_m;
+    csv.row({strip.deck, ++number[strip.deck], strip.station_m, strip.x_m.x(), strip.x_m.y(), strip.x_m.z(),
+             strip.yaw_rad * degrees, strip.alpha_rad * degrees, chord, strip.length_m, chord / c, strip.length_m * c});
+  }
+  csv.save(file);
+}
+
+void write_static(const std::vector<StaticResponse>& responses, const std::vector<aero::Strip>& strips,
+                  const std::filesystem::path& file) {
+  io::CsvWriter csv({"set", "model", "deck", "node", "station_m", "yaw_deg", "drag_N", "lift_N", "moment_N_m", "x_m", "y_m",
+                     "z_m", "rotation_deg"});
+  for (const StaticResponse& response : responses) {
+    std::map<std::string, int> number;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      const Eigen::Vector3d &f = response.force[i], &u = response.displacement[i];
+      csv.row({response.set, response.model, strips[i].deck, ++number[strips[i].deck], strips[i].station_m,
+               strips[i].yaw_rad * degrees, f(0), f(1), f(2), u.x(), u.y(), u.z(), response.rotation_rad[i] * degrees});
+    }
+  }
+  csv.save(file);
+}
+
+void write_rules(const AerodynamicsConfig& config, const std::filesystem::path& file) {
+  io::CsvWriter csv({"deployment", "deck", "beyond_deg", "model", "group", "description", "statics", "lookup_cos_power",
+                     "block_inverse_cos_power_force", "block_inverse_cos_power_cross", "block_inverse_cos_power_moment",
+                     "axes"});
+  const auto put = [&](const std::string& deployment, const std::string& deck, std::optional<double> beyond,
+                       const aero::YawRule& rule) {
+    csv.row({deployment, deck, beyond, rule.name, rule.group, rule.description, word(rule.statics), rule.lookup_power,
+             rule.inverse_power(0, 0), rule.inverse_power(0, 2), rule.inverse_power(2, 2),
+             rule.axes == aero::ForceAxes::deck ? "deck" : "wind"});
+  };
+  for (const aero::Deployment& deployment : config.deployments()) {
+    put(deployment.name, "", std::nullopt, deployment.everywhere);
+    for (const aero::Deployment::Zone& zone : deployment.zones)
+      put(deployment.name, zone.deck, zone.beyond_rad * degrees, zone.rule);
+  }
+  csv.save(file);
+}
+
+void write_equations(const std::filesystem::path& file) {
+  io::CsvWriter csv({"equation", "printed", "taken", "reason", "as_printed_can_be_chosen"});
+  for (const aero::EquationDifference& d : aero::equation_differences())
+    csv.row({d.equation, d.printed, d.taken, d.reason, d.selectable ? 1 : 0});
+  csv.save(file);
+}
+
+void write_galloping(const std::vector<std::string>& sets, const std::vector<std::vector<aero::SectionAero>>& sections,
+                     const std::filesystem::path& file) {
+  io::CsvWriter csv({"set", "deck", "angle_of_attack_deg", "V_over_fB", "h1", "den_hartog"});
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (const aero::SectionAero& section : sections[s]) {
+      for (const double alpha : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
+        for (double v = 1.0; v <= 20.0; v += 0.5) {
+          const double v_omega = v / (2.0 * std::numbers::pi);
+          const aero::StaticCoefficients c = section.polar.at(alpha / degrees);
+          const auto zasso =
+              aero::from_block(aero::Convention::zasso, section.derivatives->at(alpha / degrees, v_omega), v_omega);
+          csv.row({sets[s], section.name, alpha, v, zasso[0], c.lift_slope + c.drag});
+        }
+      }
+    }
+  }
+  csv.save(file);
+}
+
+void write_polars(const std::vector<std::string>& sets, const std::vector<std::vector<aero::SectionAero>>& sections,
+                  const std::filesystem::path& file) {
+  io::CsvWriter csv({"set", "deck", "angle_of_attack_deg", "C_D", "C_L", "C_M"});
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (const aero::SectionAero& section : sections[s]) {
+      for (const double alpha : section.polar.alpha_rad()) {
+        const aero::StaticCoefficients c = section.polar.at(alpha);
+        csv.row({sets[s], section.name, alpha * degrees, c.drag, c.lift, c.moment});
+      }
+    }
+  }
+  csv.save(file);
+}
+
+}  // namespace twindeck::steps

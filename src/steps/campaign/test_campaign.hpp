@@ -1,0 +1,19 @@
+#pragma once
+
+#include "steps/campaign/campaign_settings.hpp"
+#include "steps/shared/run_step.hpp"
+
+namespace twindeck::steps {
+
+/// s0_campaign: simulates the test campaign on the virtual bridge and writes what its loggers wrote,
+///
+///     records/<setup>/<condition>_<kind><n>.npy   samples × channels, single precision, m/s²
+///     campaign.toml, channels.csv, conditions.toml   as DESIGN section 3 has them
+///
+/// and what is true, for scorers alone: truth/modes.csv (`condition,mode,frequency_Hz,damping_ratio_pct,stay_share` and a
+/// column `participation_<setup>` a setup of the condition; modes below 3 Hz, `mode` empty for those that Table 4 does not
+/// name), truth/shapes.csv (`condition,mode,channel,value,value_imag` of the named modes), truth/stays.csv, truth/dampers.csv.
+/// With --calibrate: corrections.csv alone, the factors that bring the named frequencies about.
+[[nodiscard]] Status run_test_campaign(StepContext& context, const CampaignSettings& settings);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,139 @@
+#include "steps/campaign/virtual_bridge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "fe/uneven_shells.hpp"
+#include "io/csv.hpp"
+#include "modal/pairing.hpp"
+#include "ponte/generator.hpp"
+#include "ponte/zoned_members.hpp"
+
+namespace twindeck::steps {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+VirtualBridge read_virtual_bridge(StepContext& context, const CampaignSettings& settings) {
+  VirtualBridge bridge;
+  const fe::Model members =
+      ponte::with_zoned_members(ponte::generate(context.input(settings.bridge), "as_built"), static_cast<int>(settings.zones));
+  bridge.undivided = fe::with_uneven_shells(members, settings.unevenness, settings.unevenness_wavelength_m);
+  fe::validate(bridge.undivided);
+  bridge.uncorrected = fe::initial_parameters(bridge.undivided);
+  const fe::ParametricSystem system = fe::assemble(bridge.undivided, fe::find_prestress(bridge.undivided, bridge.uncorrected));
+  fe::check_no_mechanism(system, bridge.uncorrected, bridge.undivided.source);
+  bridge.n_deck = system.size();
+  return bridge;
+}
+
+VectorXd corrected_parameters(StepContext& context, const VirtualBridge& bridge, const std::string& file) {
+  VectorXd theta = bridge.uncorrected;
+  if (file.empty()) return theta;
+  const auto table = io::CsvTable::read(context.input(file), {"parameter", "factor"});
+  std::vector<std::string> names;
+  for (const fe::Parameter& p : bridge.undivided.parameters) names.push_back(p.name);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string name = table.text(row, "parameter");
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end())
+      table.fail(row, "parameter", "'" + name + "' is no parameter of the virtual bridge" + did_you_mean(name, names));
+    const double factor = table.number(row, "factor");
+    if (factor <= 0.0) table.fail(row, "factor", fmt::format("is {:g}, expected more than 0", factor));
+    theta[at - names.begin()] *= factor;
+  }
+  return theta;
+}
+
+VectorXd at_temperature(const VirtualBridge& bridge, const CampaignSettings& settings, VectorXd theta, double temperature_C) {
+  for (const TemperatureEffect& effect : settings.temperature) {
+    const auto& parameters = bridge.undivided.parameters;
+    const auto at =
+        std::find_if(parameters.begin(), parameters.end(), [&](const fe::Parameter& p) { return p.name == effect.parameter; });
+    if (at == parameters.end())
+      throw InputError({settings.bridge, 0, "temperature_effect"},
+                       "'" + effect.parameter + "' is no parameter of the virtual bridge");
+    theta[at - parameters.begin()] *= 1.0 + effect.per_K * (temperature_C - settings.reference_temperature_C);
+  }
+  return theta;
+}
+
+std::vector<Index> follow_named(const BridgeState& before, const BridgeState& state) {
+  const std::vector<int> followed =
+      modal::follow_modes((before.modes.shapes(Eigen::all, before.named).transpose() * state.mass_shapes).cwiseAbs2());
+  return {followed.begin(), followed.end()};
+}
+
+namespace {
+
+/// One mode each, pairs of least distance first; modes that are mostly stays are not looked at.
+std::vector<Index> nearest_named(const BridgeState& state, const CampaignSettings& settings) {
+  const Index n = std::ssize(settings.named), m = state.modes.frequency_Hz.size();
+  MatrixXd distance(n, m);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < m; ++j) {
+      const double ratio = state.modes.frequency_Hz[j] / settings.named[static_cast<std::size_t>(i)].frequency_Hz;
+      distance(i, j) = state.stay_share[j] < 0.5 ? std::abs(std::log(ratio)) : 1e3;
+    }
+  }
+  std::map<Index, Index> mode_of;
+  for (Index k = 0; k < n; ++k) {
+    Index i = 0, j = 0;
+    distance.minCoeff(&i, &j);
+    mode_of[i] = j;
+    distance.row(i).setConstant(1e6);
+    distance.col(j).setConstant(1e6);
+  }
+  std::vector<Index> named;
+  for (const auto& [name, mode] : mode_of) named.push_back(mode);
+  return named;
+}
+
+}  // namespace
+
+BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& settings, const VectorXd& theta, long n_modes) {
+  BridgeState state;
+  const fe::PrestressState pulls = fe::find_prestress(bridge.undivided, theta);
+  if (!pulls.status.converged) throw InputError({settings.bridge, 0, "prestress"}, pulls.status.message);
+  state.chains =
+      fe::with_stay_chains(bridge.undivided, pulls, static_cast<int>(settings.stay_pieces), settings.vibrating_stays);
+  state.system = fe::assemble(state.chains.model, state.chains.state);
+  state.theta = theta;
+  dynamics::ModalSolver solver(state.system);
+  state.modes = solver.solve(theta, static_cast<int>(n_modes));
+  if (!state.modes.status.converged) throw InputError({"", 0, "modes"}, state.modes.status.message, "ask for fewer modes");
+
+  // The chains' nodes come last, so that the first dofs are those of the undivided bridge.
+  const Index n_deck = bridge.n_deck;
+  const auto deck_mass = solver.mass().topLeftCorner(n_deck, n_deck).eval();
+  const auto deck_shapes = state.modes.shapes.topRows(n_deck);
+  const MatrixXd mass_shapes = deck_mass.selfadjointView<Eigen::Lower>() * deck_shapes;
+  state.stay_share = 1.0 - deck_shapes.cwiseProduct(mass_shapes).colwise().sum().transpose().array();
+  state.mass_shapes = solver.mass().selfadjointView<Eigen::Lower>() * state.modes.shapes;
+  state.named = nearest_named(state, settings);
+  return state;
+}
+
+VectorXd imposed_damping(const BridgeState& state, const CampaignSettings& settings) {
+  const Eigen::ArrayXd stays = state.stay_share.array().max(0.0).min(1.0);
+  VectorXd damping = stays * settings.stay_damping + (1.0 - stays) * settings.other_damping;
+  for (std::size_t i = 0; i < state.named.size(); ++i) damping[state.named[i]] = settings.named[i].damping_ratio;
+  return damping;
+}
+
+MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vector<LayoutChannel>& channels) {
+  std::vector<Eigen::Vector3d> places;
+  for (const LayoutChannel& channel : channels) places.push_back(channel.x_m);
+  const std::vector<int> nodes = nodes_at(state.chains.model, places, 0.05);
+  const MatrixXd full = state.system.expand(x);
+  MatrixXd out(std::ssize(channels), x.cols());
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    out.row(static_cast<Index>(c)) = channels[c].cosines.transpose() * full.middleRows(6 * nodes[c], 3);
+  return out;
+}
+
+}  // namespace twindeck::steps

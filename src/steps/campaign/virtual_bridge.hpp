@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/eigenmodes.hpp"
+#include "dynamics/reduced_basis.hpp"
+#include "dynamics/sliding_damper.hpp"
+#include "fe/assembly.hpp"
+#include "fe/stay_chains.hpp"
+#include "steps/campaign/campaign_settings.hpp"
+#include "steps/shared/layout.hpp"
+#include "steps/shared/run_step.hpp"
+
+/// The as-built truth on which the test campaign is simulated.
+namespace twindeck::steps {
+
+struct VirtualBridge {
+  fe::Model undivided;          ///< of the definition, slabs uneven, stays single elements
+  Eigen::Index n_deck = 0;      ///< free dofs of `undivided`: those of the chains come after them
+  Eigen::VectorXd uncorrected;  ///< (n_parameters) as the definition has them
+};
+
+/// Reads the definition, makes the slabs uneven, and gives members and masses zones.
+/// @throws InputError  for a definition that is not sound
+[[nodiscard]] VirtualBridge read_virtual_bridge(StepContext& context, const CampaignSettings& settings);
+
+/// Parameters from corrections.csv (`parameter,factor`); all 1 if `file` is empty.
+[[nodiscard]] Eigen::VectorXd corrected_parameters(StepContext& context, const VirtualBridge& bridge, const std::string& file);
+
+/// The bridge in one state: stays hanging under the pulls of these parameters, and its modes.
+struct BridgeState {
+  fe::StayChains chains;
+  fe::ParametricSystem system;
+  Eigen::VectorXd theta;
+  dynamics::EigenModes modes;
+  Eigen::MatrixXd mass_shapes;  ///< M Phi
+  /// Position of each named mode: of those with less than half of their kinetic energy in the stays the nearest in frequency.
+  std::vector<Eigen::Index> named;
+  Eigen::VectorXd stay_share;  ///< (n_modes) of kinetic energy in the stays
+};
+[[nodiscard]] BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& settings,
+                                       const Eigen::VectorXd& theta, long n_modes);
+
+/// The named modes of a state, as those that look most like the named modes of a neighbouring one.
+[[nodiscard]] std::vector<Eigen::Index> follow_named(const BridgeState& before, const BridgeState& state);
+
+/// Parameters at another temperature.
+[[nodiscard]] Eigen::VectorXd at_temperature(const VirtualBridge& bridge, const CampaignSettings& settings,
+                                             Eigen::VectorXd theta, double temperature_C);
+
+/// Damping ratios imposed on the modes: Table 4's for the named, for the others a mean of structure and stays by kinetic
+/// energy.
+[[nodiscard]] Eigen::VectorXd imposed_damping(const BridgeState& state, const CampaignSettings& settings);
+
+/// Displacements of the modes or other vectors at channels. @param x (n × m) over free dofs @return (n_channels × m)
+[[nodiscard]] Eigen::MatrixXd at_channels(const BridgeState& state, const Eigen::MatrixXd& x,
+                                          const std::vector<LayoutChannel>& channels);
+
+/// Fits corrections so that the named frequencies are the wanted ones: regularised Gauss-Newton on ln f with analytic
+/// derivatives, logarithms of the corrections as small as can be. Pulls are found anew at every step.
+/// @return parameters; status not converged if a frequency is off by more than a tenth of the 0.2 % allowed
+struct Calibration {
+  Eigen::VectorXd theta;
+  Eigen::VectorXd error;  ///< relative, of the named frequencies
+  Status status;
+};
+[[nodiscard]] Calibration calibrate(const VirtualBridge& bridge, const CampaignSettings& settings, const StepContext& context);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,202 @@
+#include "steps/campaign/virtual_records.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "modal/pairing.hpp"
+
+namespace twindeck::steps {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kWarmUp_s = 100.0;  // ten times as long as the longest-lived mode takes to forget its start by a factor 1/e
+
+std::vector<int> nodes_of(const BridgeState& state, const std::vector<LayoutPoint>& points) {
+  std::vector<Eigen::Vector3d> places;
+  for (const LayoutPoint& point : points) places.push_back(point.x_m);
+  return nodes_at(state.chains.model, places, 0.05);
+}
+
+/// Adds density² · phi' phi of one node's three translations.
+void add_load(MatrixXd& covariance, const MatrixXd& full, int node, double density) {
+  const MatrixXd phi = full.middleRows(6 * node, 3);
+  covariance.noalias() += density * density * phi.transpose() * phi;
+}
+
+int head_of_mast(const fe::Model& model) {
+  int head = 0;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (model.nodes[i].x_m.z() > model.nodes[static_cast<std::size_t>(head)].x_m.z()) head = static_cast<int>(i);
+  }
+  return head;
+}
+
+void fit_dampers(const CampaignSettings& settings, ConditionModel& out, MatrixXd& loads) {
+  const fe::Model& model = out.state->chains.model;
+  std::vector<VectorXd> columns;
+  for (const fe::Spring& spring : model.springs) {
+    if (!spring.group.starts_with("damper_")) continue;
+    const auto kind = std::find_if(settings.dampers.begin(), settings.dampers.end(),
+                                   [&](const DamperSettings& d) { return "damper_" + d.type == spring.group; });
+    if (kind == settings.dampers.end()) {
+      throw InputError({"", 0, "damper"}, "has no table for type " + spring.group.substr(7),
+                       "add [[damper]] with its mount and friction");
+    }
+    dynamics::SlidingDamper damper;
+    damper.stiffness_N_m = kind->mount_stiffness_N_m > 0.0 ? kind->mount_stiffness_N_m : spring.stiffness;
+    damper.mount_damping_N_s_m = kind->mount_loss_factor * damper.stiffness_N_m / (2.0 * std::numbers::pi);
+    damper.damping_N_s_m = spring.damping;
+    damper.friction_N = kind->friction_N;
+    out.dampers.push_back(damper);
+    out.damper_names.push_back(spring.name);
+    VectorXd load = VectorXd::Zero(out.state->system.expansion.rows());
+    load.segment<3>(6 * spring.node) = spring.direction.normalized();
+    columns.emplace_back(out.state->system.expansion.transpose() * load);
+  }
+  loads.resize(out.state->system.size(), std::ssize(columns));
+  for (std::size_t i = 0; i < columns.size(); ++i) loads.col(static_cast<Index>(i)) = columns[i];
+}
+
+}  // namespace
+
+ConditionModel condition_model(const CampaignSettings& settings, const ConditionSettings& condition, const BridgeState& state,
+                               const std::vector<LayoutPoint>& points) {
+  ConditionModel out;
+  out.settings = &condition;
+  out.state = &state;
+  MatrixXd loads(state.system.size(), 0);
+  if (condition.dampers) fit_dampers(settings, out, loads);
+  const linalg::SparseMatrix stiffness = state.system.stiffness(state.theta), mass = state.system.mass(state.theta);
+  MatrixXd corrections(state.system.size(), 0);
+  if (condition.dampers) {
+    linalg::Cholesky factor;
+    const Status status = factor.factorize(stiffness);
+    if (!status.converged) throw InputError({settings.bridge, 0, ""}, "has a singular stiffness matrix: " + status.message);
+    corrections = dynamics::static_corrections(factor, mass, state.modes.shapes, loads, loads.cols());
+  }
+  // Corrections are orthogonal to the modes in K and M, so that they come after them, above the last one's frequency.
+  out.basis = dynamics::reduced_basis(stiffness, mass, state.modes.shapes, corrections);
+  out.n_modes = state.modes.shapes.cols();
+  const Index r = out.basis.omega_rad_s.size(), n = out.n_modes;
+  out.at_dampers = loads.transpose() * out.basis.vectors;
+  out.damping = VectorXd::Constant(r, settings.correction_damping);
+  out.damping.head(n) = imposed_damping(state, settings);
+
+  const MatrixXd full = state.system.expand(out.basis.vectors.leftCols(n));
+  MatrixXd covariance = MatrixXd::Zero(n, n);
+  for (const int node : nodes_of(state, points)) add_load(covariance, full, node, condition.force_deck);
+  add_load(covariance, full, head_of_mast(state.chains.model), condition.force_mast);
+  for (const auto& [name, nodes] : state.chains.nodes) {
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) add_load(covariance, full, nodes[k], condition.force_stay);
+  }
+  covariance.diagonal() *= 1.0 + 1e-9;  // many modes at fewer points: singular but for rounding
+  const Eigen::LLT<MatrixXd> factor(covariance);
+  if (factor.info() != Eigen::Success)
+    throw InputError({"", 0, "force.deck"}, "leaves modes without load", "give a force on decks, stays and mast");
+  out.load_covariance = MatrixXd::Zero(r, r);
+  out.load_covariance.topLeftCorner(n, n) = covariance;
+  out.load_factor = factor.matrixL();
+  return out;
+}
+
+Motion simulate(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
+                const std::vector<LayoutChannel>& channels, const std::vector<LayoutPoint>& points, std::uint64_t seed,
+                std::uint64_t stream) {
+  const Index r = model.basis.omega_rad_s.size(), n = model.n_modes;
+  const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
+  const auto n_samples = static_cast<Index>(std::lround(record.duration_s * settings.rate_Hz));
+  const Index n_channels = std::ssize(channels), first_late = (n_channels + 1) / 2;
+  dynamics::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
+                                       1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
+  if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
+
+  Index warm_up = static_cast<Index>(std::lround(kWarmUp_s * settings.rate_Hz));
+  if (record.kind == "free_decay") {
+    warm_up = 0;
+    const auto at = std::find_if(points.begin(), points.end(), [&](const LayoutPoint& p) { return p.name == record.point; });
+    if (at == points.end())
+      throw InputError({"", 0, "record.point"}, "'" + record.point + "' is no point of the layout", "name a row of points.csv");
+    const MatrixXd down = at_channels(*model.state, model.basis.vectors, {channel_at(*at, "vertical", "")});
+    const VectorXd load = -record.mass_kg * model.state->chains.model.gravity_m_s2 * down.transpose();
+    stepper.start(load.cwiseQuotient(model.basis.omega_rad_s.cwiseAbs2()), load);
+  }
+
+  // A force of density S [N²/Hz, one-sided] sampled at f has the variance S f / 2.
+  const double intensity = std::sqrt(0.5 * settings.rate_Hz);
+  VectorXd normal(n), before = VectorXd::Zero(r), after = VectorXd::Zero(r);
+  Motion motion;
+  motion.acceleration_m_s2.resize(n_samples, n_channels);
+  motion.damper_force_N.resize(model.dampers.empty() ? 0 : n_samples * settings.substeps, std::ssize(model.dampers));
+  VectorXd square = VectorXd::Zero(n_channels);
+  for (Index sample = -warm_up; sample < n_samples; ++sample) {
+    for (Index i = 0; i < n; ++i)
+      normal[i] = normal_number(seed, stream, static_cast<std::uint64_t>((sample + warm_up) * n + i));
+    before = after;
+    after.head(n).noalias() = model.load_factor * (intensity * normal);
+    for (long k = 0; k < settings.substeps; ++k) {
+      const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
+      stepper.step((1.0 - part) * before + part * after);
+      if (sample < 0) continue;
+      if (k == 0)
+        motion.acceleration_m_s2.row(sample).head(first_late).noalias() =
+            (seen.topRows(first_late) * stepper.acceleration()).transpose();
+      if (k == settings.second_logger_lag) {
+        motion.acceleration_m_s2.row(sample).tail(n_channels - first_late).noalias() =
+            (seen.bottomRows(n_channels - first_late) * stepper.acceleration()).transpose();
+      }
+      if (!model.dampers.empty()) motion.damper_force_N.row(sample * settings.substeps + k) = stepper.damper_force();
+    }
+    if (sample >= 0) square += (seen * stepper.displacement()).cwiseAbs2();
+  }
+  motion.rms_displacement_m = (square / static_cast<double>(n_samples)).cwiseSqrt();
+  return motion;
+}
+
+TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settings, const MatrixXd& damper_force_N,
+                     double highest_Hz) {
+  const std::size_t d = model.dampers.size();
+  TrueModes out;
+  out.slip.resize(static_cast<Index>(d));
+  for (std::size_t j = 0; j < d; ++j)
+    out.slip[static_cast<Index>(j)] = dynamics::equivalent_slip(model.dampers[j], damper_force_N.col(static_cast<Index>(j)));
+  const dynamics::LinearisedModes modes =
+      dynamics::linearised_modes(model.basis.omega_rad_s, model.damping, model.at_dampers, model.dampers, out.slip, highest_Hz);
+  out.frequency_Hz = modes.frequency_Hz;
+  out.damping_ratio = modes.damping_ratio;
+  out.shapes = modes.shapes.colwise().normalized();
+  out.name.resize(static_cast<std::size_t>(out.frequency_Hz.size()));
+  // Shares of the undamped modes in the shape: exact for the stays', as modes are orthogonal in M.
+  const MatrixXd share = out.shapes.cwiseAbs2();
+  out.stay_share = share.topRows(model.n_modes).transpose() * model.state->stay_share;
+  // Only what moves the decks and still is at least a fifth the old mode keeps its name.
+  constexpr double kLeastShare = 0.2;
+  const Eigen::RowVectorXd moves_decks = (out.stay_share.transpose().array() < 0.5).cast<double>();
+  const MatrixXd named = share(model.state->named, Eigen::all).array().rowwise() * moves_decks.array();
+  const std::vector<int> followed = modal::follow_modes(named);
+  for (std::size_t i = 0; i < followed.size(); ++i) {
+    if (followed[i] < 0 || named(static_cast<Index>(i), followed[i]) < kLeastShare) continue;
+    out.name[static_cast<std::size_t>(followed[i])] = settings.named[i].name;
+  }
+  return out;
+}
+
+VectorXd participation(const ConditionModel& model, const TrueModes& modes, const MatrixXd& channel_shapes) {
+  MatrixXd variance = (channel_shapes * modes.shapes).cwiseAbs2();
+  for (Index i = 0; i < variance.cols(); ++i) {
+    const double load = (modes.shapes.col(i).adjoint() * model.load_covariance * modes.shapes.col(i)).value().real();
+    variance.col(i) *= load * std::numbers::pi * modes.frequency_Hz[i] / (4.0 * modes.damping_ratio[i]);
+  }
+  const VectorXd total = variance.rowwise().sum();
+  return (variance.array().colwise() / total.array()).colwise().maxCoeff();
+}
+
+}  // namespace twindeck::steps

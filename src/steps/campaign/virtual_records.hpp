@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dynamics/trapezoidal.hpp"
+#include "steps/campaign/virtual_bridge.hpp"
+
+/// Time histories of the virtual bridge, and what is true about them.
+namespace twindeck::steps {
+
+/// The bridge in a condition, in the basis in which its motion is computed.
+struct ConditionModel {
+  const ConditionSettings* settings = nullptr;
+  const BridgeState* state = nullptr;
+  dynamics::ReducedBasis basis;  ///< modes, and after them static corrections for the dampers
+  Eigen::Index n_modes = 0;
+  Eigen::VectorXd damping;  ///< (r) imposed ratios
+  std::vector<std::string> damper_names;
+  std::vector<dynamics::SlidingDamper> dampers;  ///< empty where none are fitted
+  Eigen::MatrixXd at_dampers;                    ///< (n_dampers × r)
+  Eigen::MatrixXd load_covariance;               ///< (r × r) of the modal loads per Hz, one-sided [N²/Hz over kg]
+  Eigen::MatrixXd load_factor;                   ///< its Cholesky factor
+};
+[[nodiscard]] ConditionModel condition_model(const CampaignSettings& settings, const ConditionSettings& condition,
+                                             const BridgeState& state, const std::vector<LayoutPoint>& points);
+
+/// Motion at the channels as it really was, before any logger.
+struct Motion {
+  Eigen::MatrixXd acceleration_m_s2;   ///< (n_samples × n_channels), the second half of the channels lagging
+  Eigen::MatrixXd damper_force_N;      ///< (n_steps × n_dampers)
+  Eigen::VectorXd rms_displacement_m;  ///< (n_channels)
+};
+
+/// Ambient: the loads of the condition from rest, its first 100 s left out. Free decay: the static displacement under the hung
+/// mass, let go at the first sample, loads as before. Trapezoidal rule, settings.substeps steps a sample; loads are white
+/// normal numbers at the sampling rate, joined by straight lines.
+/// @param stream  of random numbers: one a record
+[[nodiscard]] Motion simulate(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
+                              const std::vector<LayoutChannel>& channels, const std::vector<LayoutPoint>& points,
+                              std::uint64_t seed, std::uint64_t stream);
+
+/// True modes of a condition: of the bridge as it is, or with its dampers linearised at the forces of a record.
+struct TrueModes {
+  std::vector<std::string> name;  ///< of the named mode that it still is for at least a fifth, "" for others
+  Eigen::VectorXd frequency_Hz, damping_ratio, stay_share;
+  Eigen::MatrixXcd shapes;  ///< (r × n) in the basis, unit norm
+  Eigen::VectorXd slip;     ///< (n_dampers) [m/(N s)]
+};
+[[nodiscard]] TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settings,
+                                   const Eigen::MatrixXd& damper_force_N, double highest_Hz);
+
+/// Largest share, over the channels, that each mode has in the variance of the acceleration under the condition's loads:
+/// variance at c of mode i  |phi_ci|² · phi_i^H S phi_i · pi f_i / (4 zeta_i). @return (n_modes)
+[[nodiscard]] Eigen::VectorXd participation(const ConditionModel& model, const TrueModes& modes,
+                                            const Eigen::MatrixXd& channel_shapes);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,245 @@
+#include "steps/diagnosis/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "core/error.hpp"
+#include "io/toml_value.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+using diagnosis::Expression;
+using diagnosis::Hypothesis;
+
+/// Reads one file; each reader refuses what it does not know, with its line.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file) {}
+
+  Hypothesis read() {
+    h_.file = file_.string();
+    for (const io::TomlEntry& entry : io::read_toml(file_)) {
+      if (entry.key == "hypothesis")
+        hypothesis(table(entry));
+      else if (entry.key == "location")
+        location(table(entry));
+      else if (entry.key == "parameter")
+        each(entry, [&](const auto& t) { parameter(t); });
+      else if (entry.key == "action")
+        each(entry, [&](const auto& t) { action(t); });
+      else if (entry.key == "needs")
+        needs(table(entry));
+      else if (entry.key == "report")
+        report(table(entry));
+      else
+        unknown(entry, {"hypothesis", "location", "parameter", "action", "needs", "report"});
+    }
+    if (h_.id.empty()) fail(1, "hypothesis.id", "is missing", "name the cause: [hypothesis] id = \"…\"");
+    if (h_.set.empty()) fail(1, "location.set", "is missing", "say where the cause can sit: [location] set = \"nodes\"");
+    if (h_.actions.empty()) fail(1, "action", "is missing", "say what the cause does: [[action]] kind = \"…\"");
+    for (const auto& a : h_.actions) check_numbers(a);
+    return h_;
+  }
+
+ private:
+  using Table = io::TomlValue::Table;
+
+  [[noreturn]] void fail(long line, const std::string& key, const std::string& problem, const std::string& mend) const {
+    throw InputError({file_.string(), line, key}, problem, mend);
+  }
+  [[noreturn]] void unknown(const io::TomlEntry& entry, const std::vector<std::string>& known) const {
+    fail(entry.line, entry.key, "is not a known key" + did_you_mean(entry.key, known),
+         fmt::format("use {}", fmt::join(known, ", ")));
+  }
+  const Table& table(const io::TomlEntry& entry) const {
+    const auto* found = entry.value.as<Table>();
+    if (found == nullptr) fail(entry.line, entry.key, "is no table", "");
+    return *found;
+  }
+  template <typename Use>
+  void each(const io::TomlEntry& entry, Use use) const {
+    const auto* list = entry.value.as<io::TomlValue::Array>();
+    if (list == nullptr) fail(entry.line, entry.key, "is no array of tables", "write [[" + entry.key + "]]");
+    for (const io::TomlValue& value : *list) use(*value.as<Table>());
+  }
+  std::string text(const io::TomlEntry& entry) const {
+    const auto* found = entry.value.as<std::string>();
+    if (found == nullptr) fail(entry.line, entry.key, "is no text", "");
+    return *found;
+  }
+  Expression expression(const io::TomlEntry& entry) const { return expression(entry.value, entry.line, entry.key); }
+  Expression expression(const io::TomlValue& value, long line, const std::string& key) const {
+    Expression e;
+    e.line = line;
+    if (const auto* number = value.as<double>())
+      e.factor = *number;
+    else if (const auto* whole = value.as<long>())
+      e.factor = static_cast<double>(*whole);
+    else if (const auto* t = value.as<std::string>()) {
+      const auto star = t->find('*');
+      e.name = star == std::string::npos ? *t : t->substr(star + 1);
+      if (star != std::string::npos) {
+        const auto [end, error] = std::from_chars(t->data(), t->data() + star, e.factor);
+        if (error != std::errc() || end != t->data() + star)
+          fail(line, key, fmt::format("is '{}', expected a number, a name or \"number*name\"", *t), "");
+      }
+    } else {
+      fail(line, key, "is neither a number nor a text", "");
+    }
+    return e;
+  }
+
+  void hypothesis(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "id")
+        h_.id = text(e);
+      else if (e.key == "title")
+        h_.title = text(e);
+      else if (e.key == "side") {
+        const std::string side = text(e);
+        if (side != "model" && side != "measurement")
+          fail(e.line, "side", fmt::format("is '{}', expected model or measurement", side), "");
+        h_.measurement = side == "measurement";
+      } else if (e.key == "prior_weight")
+        h_.prior_weight = expression(e).factor;
+      else
+        unknown(e, {"id", "title", "side", "prior_weight"});
+    }
+  }
+  void location(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "set") {
+        h_.set = text(e);
+        const auto& known = diagnosis::location_sets();
+        if (std::find(known.begin(), known.end(), h_.set) == known.end())
+          fail(e.line, "location.set", fmt::format("'{}' is no set of locations{}", h_.set, did_you_mean(h_.set, known)),
+               fmt::format("use one of {}", fmt::join(known, ", ")));
+      } else if (e.key == "filter")
+        h_.filter = text(e);
+      else
+        unknown(e, {"set", "filter"});
+    }
+  }
+  void parameter(const Table& entries) {
+    diagnosis::UnknownSpec u;
+    bool low = false, high = false;
+    for (const auto& e : entries) {
+      if (e.key == "name")
+        u.name = text(e);
+      else if (e.key == "unit")
+        u.unit = text(e);
+      else if (e.key == "low") {
+        u.low = expression(e);
+        low = true;
+      } else if (e.key == "high") {
+        u.high = expression(e);
+        high = true;
+      } else if (e.key == "scale")
+        u.log = text(e) == "log";
+      else if (e.key == "start") {
+        const auto* list = e.value.as<io::TomlValue::Array>();
+        if (list == nullptr) fail(e.line, "start", "is no list", "");
+        for (const auto& value : *list) u.start.push_back(expression(value, e.line, "start"));
+      } else
+        unknown(e, {"name", "unit", "low", "high", "scale", "start"});
+    }
+    if (u.name.empty() || !low || !high)
+      fail(entries.empty() ? 0 : entries.front().line, "parameter", "lacks name, low or high", "");
+    h_.unknowns.push_back(u);
+  }
+  void action(const Table& entries) {
+    diagnosis::ActionSpec a;
+    for (const auto& e : entries) {
+      a.line = a.line == 0 ? e.line : a.line;
+      if (e.key == "kind") {
+        a.kind = text(e);
+        a.line = e.line;
+      } else if (e.key == "variable")
+        a.text[e.key] = text(e);
+      else if (e.key != "at")
+        a.number[e.key] = expression(e);
+    }
+    h_.actions.push_back(a);
+  }
+  void check_numbers(const diagnosis::ActionSpec& a) const {
+    const auto& kinds = diagnosis::action_kinds();
+    const auto found = kinds.find(a.kind);
+    if (found == kinds.end()) {
+      std::vector<std::string> names;
+      for (const auto& [name, numbers] : kinds) names.push_back(name);
+      fail(a.line, "action.kind", fmt::format("'{}' is no known primitive{}", a.kind, did_you_mean(a.kind, names)),
+           fmt::format("use one of {}", fmt::join(names, ", ")));
+    }
+    for (const std::string& name : found->second)
+      if (!a.number.contains(name))
+        fail(a.line, "action." + name, fmt::format("is missing; {} takes {}", a.kind, fmt::join(found->second, ", ")), "");
+    for (const auto& [name, value] : a.number) {
+      if (std::find(found->second.begin(), found->second.end(), name) == found->second.end())
+        fail(value.line, "action." + name, fmt::format("is no number of {}{}", a.kind, did_you_mean(name, found->second)), "");
+      if (value.name.starts_with('$') &&
+          std::none_of(h_.unknowns.begin(), h_.unknowns.end(), [&](const auto& u) { return "$" + u.name == value.name; }))
+        fail(value.line, "action." + name, fmt::format("names '{}', which is no [[parameter]]", value.name), "");
+    }
+  }
+  void needs(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "conditions")
+        for (const auto& c : table(e)) h_.needs.conditions[c.key] = text(c);
+      else if (e.key == "distinct")
+        for (const auto& c : table(e)) h_.needs.distinct[c.key] = static_cast<int>(expression(c).factor);
+      else if (e.key == "rows") {
+        const auto* list = e.value.as<io::TomlValue::Array>();
+        if (list == nullptr) fail(e.line, "rows", "is no list", "");
+        for (const auto& value : *list) {
+          const auto& known = diagnosis::row_type_names();
+          const std::string type = value.as<std::string>() ? *value.as<std::string>() : "";
+          if (std::find(known.begin(), known.end(), type) == known.end())
+            fail(e.line, "needs.rows", fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
+          h_.needs.rows.push_back(type);
+        }
+      } else
+        unknown(e, {"conditions", "distinct", "rows"});
+    }
+  }
+  void report(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "sentence")
+        h_.sentence = text(e);
+      else if (e.key == "remedy")
+        h_.remedy = text(e);
+      else
+        unknown(e, {"sentence", "remedy"});
+    }
+  }
+
+  std::filesystem::path file_;
+  Hypothesis h_;
+};
+
+}  // namespace
+
+std::vector<Hypothesis> read_catalogue(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw InputError({folder.string(), 0, ""}, "is no folder, expected the catalogue of hypotheses", "give --catalogue DIR");
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  if (files.empty()) throw InputError({folder.string(), 0, ""}, "holds no *.toml, expected one for each cause", "");
+  std::sort(files.begin(), files.end());
+  std::vector<Hypothesis> catalogue;
+  std::set<std::string> ids;
+  for (const auto& file : files) {
+    catalogue.push_back(Reader(file).read());
+    if (!ids.insert(catalogue.back().id).second)
+      throw InputError({file.string(), 0, "id"}, fmt::format("'{}' is the id of another file too", catalogue.back().id),
+                       "give each its own");
+  }
+  return catalogue;
+}
+
+}  // namespace twindeck::steps

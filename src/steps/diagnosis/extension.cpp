@@ -1,0 +1,248 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "core/error.hpp"
+#include "io/atomic.hpp"
+#include "io/csv.hpp"
+#include "io/toml_value.hpp"
+#include "model_io/model_folder.hpp"
+#include "steps/diagnosis/model.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+using diagnosis::ActionSpec;
+using diagnosis::Candidate;
+using diagnosis::Cause;
+using diagnosis::Place;
+using Eigen::Index;
+
+const Place* place_of(const diagnosis::Places& places, const std::string& set, const std::string& id) {
+  const auto found = places.sets.find(set);
+  if (found == places.sets.end()) return nullptr;
+  for (const Place& place : found->second)
+    if (place.id == id) return &place;
+  return nullptr;
+}
+
+int node_position(const fe::Model& model, const std::string& id) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (std::to_string(model.nodes[i].id) == id) return static_cast<int>(i);
+  throw InputError({model.source, 0, id}, "is no node of the model", "");
+}
+
+/// Gives elements materials of their own with scaled modulus or density.
+void scale_materials(fe::Model& model, const std::vector<int>& elements, double modulus, double density,
+                     const std::string& tag) {
+  std::map<int, int> copies;
+  for (const int e : elements) {
+    fe::Element& element = model.elements[static_cast<std::size_t>(e)];
+    const auto [at, is_new] = copies.try_emplace(element.material, static_cast<int>(model.materials.size()));
+    if (is_new) {
+      fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
+      material.name += "_" + tag;
+      material.youngs_modulus_Pa *= modulus;
+      material.shear_modulus_Pa *= modulus;
+      material.density_kg_m3 *= density;
+      model.materials.push_back(material);
+    }
+    element.material = at->second;
+  }
+}
+
+void scale_parameter(std::vector<fe::Parameter>& parameters, Eigen::VectorXd& theta, const std::string& name, double factor) {
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (parameters[p].name != name) continue;
+    double& value = theta[static_cast<Index>(p)];
+    value = value != 0.0 && parameters[p].initial != 0.0 ? value * factor : value + factor - 1.0;
+    parameters[p].lower = std::min(parameters[p].lower, value);
+    parameters[p].upper = std::max(parameters[p].upper, value);
+  }
+}
+
+/// A body on springs beside a node: a node of its own that only moves.
+void add_oscillator(fe::Model& model, int node, double mass, double frequency_Hz) {
+  long id = 0;
+  for (const fe::Node& n : model.nodes) id = std::max(id, n.id);
+  model.nodes.push_back({id + 1, model.nodes[static_cast<std::size_t>(node)].x_m});
+  const auto body = static_cast<int>(model.nodes.size()) - 1;
+  model.supports.push_back({"oscillator_" + std::to_string(id + 1), body, {false, false, false, true, true, true}});
+  model.masses.push_back({"oscillator", body, mass, Eigen::Vector3d::Zero()});
+  for (int d = 0; d < 3; ++d) {
+    fe::Spring spring;
+    spring.name = fmt::format("oscillator_{}_{}", id + 1, "xyz"[d]);
+    spring.group = "oscillator";
+    spring.node = body;
+    spring.node2 = node;
+    spring.direction = Eigen::Vector3d::Unit(d);
+    spring.stiffness = mass * std::pow(2.0 * M_PI * frequency_Hz, 2);
+    model.springs.push_back(spring);
+  }
+}
+
+/// Puts one action into a finite element model. @return whether a model folder can say it
+bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& places, const Cause& cause,
+           const ActionSpec& action) {
+  const Candidate& c = *cause.candidate;
+  const auto value = [&](const char* name) { return c.value(action.number.at(name), cause.a); };
+  const std::string name = c.location.substr(c.location.find(':') + 1);
+  if (action.kind == "scale.stiffness" || action.kind == "scale.mass") {
+    const bool mass = action.kind == "scale.mass";
+    const double factor = value("factor");
+    if (c.hypothesis->set == "groups") {
+      scale_parameter(model.parameters, theta, name, factor);
+      return true;
+    }
+    if (c.hypothesis->set == "elements" || c.hypothesis->set == "stays") {
+      const Place* place = place_of(places, c.hypothesis->set, c.location);
+      TWINDECK_ASSERT(place != nullptr);
+      scale_materials(model, place->elements, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
+      return true;
+    }
+    if (c.hypothesis->set == "supports" || c.hypothesis->set == "foundations") {
+      for (fe::Spring& spring : model.springs)
+        if ((spring.group.empty() ? spring.name : spring.group) == name && spring.node2 < 0 &&
+            spring.rotation == (c.hypothesis->set == "foundations"))
+          spring.stiffness *= factor;
+      return true;
+    }
+    return false;
+  }
+  if (action.kind == "mass.add") {
+    model.masses.push_back({"added_mass", node_position(model, name), value("mass"), Eigen::Vector3d::Zero()});
+    return true;
+  }
+  if (action.kind == "element.oscillator") {
+    add_oscillator(model, node_position(model, name), value("mass"), value("frequency"));
+    return true;
+  }
+  if (action.kind == "element.spring" && c.hypothesis->set == "pairs(nodes)") {
+    const auto comma = name.find(',');
+    fe::Spring tie;
+    tie.name = "tie_" + name.substr(0, comma) + "_" + name.substr(comma + 1);
+    tie.group = "tie";
+    tie.node = node_position(model, name.substr(0, comma));
+    tie.node2 = node_position(model, name.substr(comma + 1));
+    const Eigen::Vector3d along =
+        model.nodes[static_cast<std::size_t>(tie.node2)].x_m - model.nodes[static_cast<std::size_t>(tie.node)].x_m;
+    if (!(along.norm() > 0.0)) return false;
+    tie.direction = along.normalized();
+    tie.stiffness = value("stiffness");
+    model.springs.push_back(tie);
+    return true;
+  }
+  if (action.kind.starts_with("damper.")) {
+    if (action.kind == "damper.absent") {
+      std::erase_if(model.springs, [&](const fe::Spring& s) { return s.name == name; });
+      return true;
+    }
+    for (fe::Spring& spring : model.springs) {
+      if (spring.name != name) continue;
+      if (action.kind == "damper.damping") spring.damping *= value("factor");
+      if (action.kind == "damper.series" || action.kind == "damper.friction") {
+        spring.stiffness = value("stiffness");
+        spring.series = true;
+      }
+      if (action.kind == "damper.friction") spring.friction_N = value("threshold");
+    }
+    return true;
+  }
+  return false;
+}
+
+bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& cause, const ActionSpec& action) {
+  const Candidate& c = *cause.candidate;
+  const std::string name = c.location.substr(c.location.find(':') + 1);
+  if ((action.kind == "scale.stiffness" || action.kind == "scale.mass") && c.hypothesis->set == "groups") {
+    scale_parameter(system.parameters, theta, name, c.value(action.number.at("factor"), cause.a));
+    return true;
+  }
+  const bool mass = action.kind == "mass.add";
+  if (!mass && !(action.kind == "element.spring" && c.places.size() == 1)) return false;
+  fe::Term term;  // on the diagonal, which every pattern has
+  term.label = c.id();
+  for (std::size_t i = 0; i < system.dofs.size(); ++i) {
+    if (system.dofs[i].node != name || system.dofs[i].direction > 2) continue;
+    for (int p = system.pattern.outerIndexPtr()[i]; p < system.pattern.outerIndexPtr()[i + 1]; ++p) {
+      if (system.pattern.innerIndexPtr()[p] != static_cast<int>(i)) continue;
+      term.position.push_back(p);
+      term.value.push_back(c.value(action.number.at(mass ? "mass" : "stiffness"), cause.a));
+    }
+  }
+  (mass ? system.mass_terms : system.stiffness_terms).push_back(term);
+  return true;
+}
+
+/// channels.csv with the causes on the measurement's side put right.
+void write_corrected_channels(const DiagnosedModel& model, const diagnosis::Diagnosis& result,
+                              const std::filesystem::path& file) {
+  std::vector<Channel> channels = model.channels;
+  std::vector<double> gain(channels.size(), 1.0);
+  for (const diagnosis::Effect& effect : result.effects) {
+    const Candidate& c = *effect.cause.candidate;
+    for (const ActionSpec& action : c.hypothesis->actions) {
+      if (c.channels.empty()) continue;
+      const auto first = static_cast<std::size_t>(c.channels[0]);
+      if (action.kind == "channel.gain") gain[first] /= c.value(action.number.at("factor"), effect.cause.a);
+      if (action.kind == "channel.sign") channels[first].direction *= -1.0;
+      if (action.kind == "channel.swap") {
+        const auto second = static_cast<std::size_t>(c.channels[1]);
+        std::swap(channels[first].name, channels[second].name);
+      }
+    }
+  }
+  io::CsvWriter csv({"channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "gain"});
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const Channel& c = channels[i];
+    const auto coordinate = [&](Index k) { return c.x_m ? std::optional<double>((*c.x_m)[k]) : std::nullopt; };
+    csv.row({c.name, c.point, coordinate(0), coordinate(1), coordinate(2), c.direction.x(), c.direction.y(), c.direction.z(),
+             gain[i]});
+  }
+  csv.save(file);
+}
+
+}  // namespace
+
+void write_extended_model(const DiagnosedModel& model, const diagnosis::Places& places, const diagnosis::Diagnosis& result,
+                          const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  LoadedModel extended = model.loaded;
+  Eigen::VectorXd theta = result.after.base.theta.size() > 0 ? result.after.base.theta : model.loaded.theta;
+  std::string list = "# Causes that the diagnosis put into this model, in the order in which they were found.\n";
+  bool measurement = false;
+  std::optional<fe::Model> elements;
+  if (extended.model) elements = fe::with_parameters(*extended.model, theta);
+  for (const diagnosis::Effect& effect : result.effects) {
+    bool held = true;
+    for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions)
+      held = (elements ? apply(*elements, theta, places, effect.cause, action)
+                       : apply(extended.system, theta, effect.cause, action)) &&
+             held;
+    measurement = measurement || effect.cause.candidate->hypothesis->measurement;
+    list += fmt::format("\n[[cause]]\nid = {}\nlocation = {}\nin_model = {}\n",
+                        io::toml_text(effect.cause.candidate->hypothesis->id), io::toml_text(effect.cause.candidate->location),
+                        held);
+    for (const diagnosis::EffectParameter& p : effect.parameters)
+      list += fmt::format("{} = {}\n", p.name, io::toml_number(p.value));
+  }
+  if (elements) {
+    model_io::write_model(fe::with_parameters(*elements, theta), folder);
+  } else {
+    for (std::size_t p = 0; p < extended.system.parameters.size(); ++p) {
+      fe::Parameter& parameter = extended.system.parameters[p];
+      parameter.initial = theta[static_cast<Index>(p)];
+      parameter.lower = std::min(parameter.lower, parameter.initial);
+      parameter.upper = std::max(parameter.upper, parameter.initial);
+    }
+    model_io::write_matrix_model(extended.system, folder);
+  }
+  if (measurement) write_corrected_channels(model, result, folder / "channels.csv");
+  io::write_file_atomically(folder / "extension.toml", list);
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,147 @@
+#include "steps/diagnosis/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "core/error.hpp"
+#include "steps/shared/measured_shapes.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+using Eigen::Index;
+constexpr double kRigid = 1e4;  // stiffness of what stands for a rigid support, over that of what it holds
+
+/// Translational and rotational stiffness of the beams and shells at a node.
+std::pair<double, double> stiffness_at(const fe::Model& model, int node) {
+  double translation = 0.0, rotation = 0.0;
+  for (const fe::Element& element : model.elements) {
+    if (std::find(element.nodes.begin(), element.nodes.end(), node) == element.nodes.end()) continue;
+    if (element.type != fe::ElementType::beam && element.type != fe::ElementType::shell) continue;
+    const double e = model.materials[static_cast<std::size_t>(element.material)].youngs_modulus_Pa;
+    const fe::Section& s = model.sections[static_cast<std::size_t>(element.section)];
+    if (element.type == fe::ElementType::shell) {
+      translation += e * s.thickness_m;
+      rotation += e * std::pow(s.thickness_m, 3) / 3.0;
+      continue;
+    }
+    const double length = (model.nodes[static_cast<std::size_t>(element.nodes[1])].x_m -
+                           model.nodes[static_cast<std::size_t>(element.nodes[0])].x_m)
+                              .norm();
+    const double inertia = std::max({s.inertia_y_m4, s.inertia_z_m4, s.torsion_m4});
+    translation += e * s.area_m2 / length;
+    rotation += 4.0 * e * inertia / length;
+  }
+  return {translation, rotation};
+}
+
+void release_supports(fe::Model& model, std::vector<std::string>& rigid) {
+  static const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
+  for (fe::Support& support : model.supports) {
+    const auto [translation, rotation] = stiffness_at(model, support.node);
+    for (std::size_t d = 0; d < 6; ++d) {
+      const double stiffness = kRigid * (d < 3 ? translation : rotation);
+      if (!support.fixed[d] || !(stiffness > 0.0)) continue;
+      const std::string group = support.name.empty()
+                                    ? "node_" + std::to_string(model.nodes[static_cast<std::size_t>(support.node)].id)
+                                    : support.name;
+      fe::Spring spring;
+      spring.name = group + "_rigid_" + names[d];
+      spring.group = group;
+      spring.node = support.node;
+      spring.direction = Eigen::Vector3d::Unit(static_cast<Index>(d % 3));
+      spring.rotation = d >= 3;
+      spring.stiffness = stiffness;
+      model.springs.push_back(spring);
+      support.fixed[d] = false;
+      if (std::find(rigid.begin(), rigid.end(), group) == rigid.end()) rigid.push_back(group);
+    }
+  }
+  std::erase_if(model.supports,
+                [](const fe::Support& s) { return std::none_of(s.fixed.begin(), s.fixed.end(), [](bool f) { return f; }); });
+}
+
+std::vector<std::string> nodes_of_channels(const DiagnosedModel& model) {
+  std::vector<std::string> names, known;
+  std::vector<Eigen::Vector3d> where;
+  if (model.loaded.model) {
+    for (const fe::Node& node : model.loaded.model->nodes) {
+      known.push_back(std::to_string(node.id));
+      where.push_back(node.x_m);
+    }
+  } else {
+    for (const fe::DofLabel& dof : model.loaded.system.dofs) {
+      known.push_back(dof.node);
+      where.push_back(dof.x_m);
+    }
+  }
+  for (const Channel& channel : model.channels) {
+    std::string name;
+    double least = model.sensor_tolerance_m;
+    if (channel.x_m) {
+      for (std::size_t i = 0; i < known.size(); ++i) {
+        const double distance = (where[i] - *channel.x_m).norm();
+        if (distance <= least) {
+          least = distance;
+          name = known[i];
+        }
+      }
+    }
+    if (name.empty() && std::find(known.begin(), known.end(), channel.point) != known.end()) name = channel.point;
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::shared_ptr<DiagnosedModel> prepare_model(const LoadedModel& loaded, const std::vector<Channel>& channels,
+                                              double sensor_tolerance_m) {
+  auto prepared = std::make_shared<DiagnosedModel>();
+  prepared->channels = channels;
+  prepared->sensor_tolerance_m = sensor_tolerance_m;
+  if (!loaded.model) {
+    prepared->loaded = loaded;
+    return prepared;
+  }
+  fe::Model model = *loaded.model;
+  release_supports(model, prepared->rigid_supports);
+  prepared->loaded = from_model(std::move(model));
+  return prepared;
+}
+
+diagnosis::Structure DiagnosedModel::structure() const {
+  diagnosis::Structure out;
+  out.system = &loaded.system;
+  out.model = loaded.fe_model();
+  out.state = loaded.model ? &loaded.state : nullptr;
+  out.theta = loaded.theta;
+  out.source = loaded.source;
+  out.rigid_supports = rigid_supports;
+  out.sensor_nodes = nodes_of_channels(*this);
+  out.sensors = [this](const Eigen::MatrixXd& vectors) {
+    const auto n = static_cast<Index>(channels.size());
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(4 * n, vectors.cols());
+    for (int kind = 0; kind < 4; ++kind) {  // along the channel, then x, y, z at its place
+      Measured asked;
+      asked.source = "channels.csv";
+      asked.channels = channels;
+      for (Channel& channel : asked.channels) {
+        asked.modes.dofs.push_back({channel.point.empty() ? channel.name : channel.point, channel.name});
+        if (kind > 0) channel.direction = Eigen::Vector3d::Unit(kind - 1);
+      }
+      dynamics::EigenModes modes;
+      modes.shapes = vectors;
+      const Eigen::MatrixXd rows = shapes_at_sensors(asked, loaded, modes, sensor_tolerance_m).real();
+      for (Index c = 0; c < n; ++c) values.row(4 * c + kind) = rows.row(c);
+    }
+    return values;
+  };
+  return out;
+}
+
+}  // namespace twindeck::steps

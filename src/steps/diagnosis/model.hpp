@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/features.hpp"
+#include "diagnosis/structure.hpp"
+#include "steps/shared/measured.hpp"
+#include "steps/shared/model_source.hpp"
+
+namespace twindeck::steps {
+
+/// A model made ready for diagnosis. Supports that are fixed become springs four orders stiffer than what they hold, so that a
+/// soft bearing or a rocking foundation is a factor on them; frequencies move by less than 0.01 %.
+struct DiagnosedModel {
+  LoadedModel loaded;
+  std::vector<std::string> rigid_supports;
+  std::vector<Channel> channels;
+  double sensor_tolerance_m = 0.5;
+  [[nodiscard]] diagnosis::Structure structure() const;  ///< borrows from this
+};
+
+[[nodiscard]] std::shared_ptr<DiagnosedModel> prepare_model(const LoadedModel& loaded, const std::vector<Channel>& channels,
+                                                            double sensor_tolerance_m);
+
+/// Writes `folder` as a model that every step accepts, with the parameters of the extended fit and the causes put in as far as
+/// a model folder can say them; extension.toml lists each cause with its numbers and whether the model holds it. Causes on the
+/// measurement's side leave the model as it is and correct channels.csv beside it.
+void write_extended_model(const DiagnosedModel& model, const diagnosis::Places& places, const diagnosis::Diagnosis& result,
+                          const std::filesystem::path& folder);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,256 @@
+#include "steps/diagnosis/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "io/atomic.hpp"
+#include "io/csv.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+using diagnosis::Diagnosis;
+using diagnosis::Inference;
+using diagnosis::Row;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+double own_unit(const Row& row, double transformed) {
+  const bool shape = row.type == diagnosis::RowType::shape || row.type == diagnosis::RowType::shape_imag;
+  return shape ? transformed : std::exp(transformed);
+}
+
+std::string channel_of(const Inference& inference, const Row& row) {
+  return row.channel >= 0 ? inference.map().features().channels[static_cast<std::size_t>(row.channel)] : row.stay;
+}
+
+/// Two-sided limit that n standard normal residuals keep together with 99 % (Sidak 1967).
+double sidak_limit(std::size_t n) {
+  const double each = std::pow(0.99, 1.0 / static_cast<double>(n));
+  double low = 0.0, high = 10.0;
+  for (int i = 0; i < 80; ++i) (std::erf(0.5 * (low + high) / std::sqrt(2.0)) < each ? low : high) = 0.5 * (low + high);
+  return high;
+}
+
+}  // namespace
+
+void write_diagnosis(const Diagnosis& result, double residual_alpha, double seconds, const std::string& threshold_from,
+                     const std::filesystem::path& file) {
+  nlohmann::ordered_json json;
+  json["schema"] = 1;
+  json["verdict"] = result.verdict;
+  json["message"] = result.message;
+  json["detection"] = {{"log_odds", result.log_odds},
+                       {"threshold", result.threshold},
+                       {"alpha", result.alpha},
+                       {"threshold_from", threshold_from}};
+  json["residual_test"] = {{"statistic", result.residual_statistic},
+                           {"dof", result.residual_dof},
+                           {"p_value", result.residual_p},
+                           {"alpha", residual_alpha},
+                           {"stage", result.after_extension ? "after extension" : "before"}};
+  json["effects"] = nlohmann::ordered_json::array();
+  for (const auto& effect : result.effects) {
+    nlohmann::ordered_json one;
+    one["cause"] = effect.cause.candidate->hypothesis->id;
+    one["location"] = effect.cause.candidate->location;
+    one["cluster"] = effect.cluster;
+    one["probability"] = effect.probability;
+    one["log_odds"] = effect.log_odds;
+    one["split_by"] = effect.split_by;
+    one["parameters"] = nlohmann::ordered_json::array();
+    for (const auto& p : effect.parameters)
+      one["parameters"].push_back({{"name", p.name},
+                                   {"unit", p.unit},
+                                   {"value", p.value},
+                                   {"low", p.low},
+                                   {"high", p.high},
+                                   {"level", 0.90},
+                                   {"one_sided", p.at_low_bound && p.at_high_bound ? "open"
+                                                 : p.at_high_bound                 ? "lower limit"
+                                                 : p.at_low_bound                  ? "upper limit"
+                                                                                   : ""}});
+    one["sentence"] = effect.sentence;
+    one["remedy"] = effect.remedy;
+    json["effects"].push_back(one);
+  }
+  json["localisation"] = nlohmann::ordered_json::array();
+  for (const auto& at : result.localisation) json["localisation"].push_back({{"location", at.location}, {"score", at.score}});
+  json["gain"] = {{"held_out", result.gain.held_out},
+                  {"rows", result.gain.rows},
+                  {"before", result.gain.before},
+                  {"after", result.gain.after},
+                  {"reduction_pct", result.gain.reduction_pct},
+                  {"interval_pct", {result.gain.low_pct, result.gain.high_pct}},
+                  {"level", 0.90}};
+  json["parameters_on_bounds"] = result.on_bounds;
+  json["seconds"] = seconds;
+  json["extended_model"] = "extended_model/";
+  io::write_file_atomically(file, json.dump(1) + "\n");
+}
+
+void write_residuals(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"type", "mode", "channel", "condition", "held_out", "value", "std", "before", "after", "residual_before",
+                     "residual_after", "beyond_before", "beyond_after"});
+  const auto& map = inference.map();
+  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
+  const double limit = sidak_limit(map.features().rows.size());
+  for (std::size_t r = 0; r < map.features().rows.size(); ++r) {
+    const Row& row = map.features().rows[r];
+    const auto i = static_cast<Index>(r);
+    csv.row({name_of(row.type), row.mode, channel_of(inference, row),
+             map.features().conditions[static_cast<std::size_t>(row.condition)].name, row.held_out ? 1 : 0, row.value, row.std,
+             own_unit(row, result.before.all.g[i]), own_unit(row, result.after.all.g[i]), e0[i], e1[i],
+             std::abs(e0[i]) > limit ? 1 : 0, std::abs(e1[i]) > limit ? 1 : 0});
+  }
+  csv.save(file);
+}
+
+void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
+                      const std::filesystem::path& file) {
+  io::CsvWriter csv({"cause", "location", "log_odds", "screen", "stage", "signature_sigma", "status"});
+  for (const auto& scored : result.ranking) {
+    const bool fitted = scored.log_odds > -1e299;
+    csv.row({scored.candidate->hypothesis->id, scored.candidate->location,
+             fitted ? std::optional<double>(scored.log_odds) : std::nullopt, scored.screen, scored.stage,
+             scored.signature.norm(), fitted ? "fitted" : "screened"});
+  }
+  for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "", "not visible: " + none.reason});
+  csv.save(file);
+}
+
+void write_gain(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"type", "mode", "condition", "rows", "before", "after"});
+  const auto& features = inference.map().features();
+  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
+  struct Sum {
+    int rows = 0;
+    double before = 0.0, after = 0.0;
+  };
+  std::map<std::tuple<std::string, std::string, std::string>, Sum> sums;
+  for (const int r : inference.held_out()) {
+    const Row& row = features.rows[static_cast<std::size_t>(r)];
+    Sum& sum = sums[{name_of(row.type), row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name}];
+    sum.rows += 1;
+    sum.before += e0[r] * e0[r];
+    sum.after += e1[r] * e1[r];
+  }
+  for (const auto& [key, sum] : sums)
+    csv.row({std::get<0>(key), std::get<1>(key), std::get<2>(key), sum.rows, std::sqrt(sum.before / sum.rows),
+             std::sqrt(sum.after / sum.rows)});
+  csv.save(file);
+}
+
+void write_unknowns(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"unknown", "before", "after", "shrinkage", "bound"});
+  const auto& nuisances = inference.map().nuisances();
+  const Eigen::MatrixXd& j = result.after.map.jacobian;
+  // Posterior covariance of x: I - J' Sigma_tot^-1 J.
+  const Eigen::MatrixXd l = result.after.total_factor.triangularView<Eigen::Lower>().solve(j);
+  for (std::size_t i = 0; i < nuisances.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    const bool bounded =
+        std::find(result.on_bounds.begin(), result.on_bounds.end(), nuisances[i].name) != result.on_bounds.end();
+    csv.row({nuisances[i].name, result.before.map.x[k], result.after.map.x[k], l.col(k).squaredNorm(),
+             bounded ? "on bound before" : ""});
+  }
+  csv.save(file);
+}
+
+void write_misfit(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"by", "name", "rows", "mean_square_before", "mean_square_after"});
+  const auto& features = inference.map().features();
+  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
+  for (const std::string by : {"type", "condition", "mode", "channel"}) {
+    std::map<std::string, std::array<double, 3>> sums;
+    for (std::size_t r = 0; r < features.rows.size(); ++r) {
+      const Row& row = features.rows[r];
+      const std::string name = by == "type"        ? name_of(row.type)
+                               : by == "condition" ? features.conditions[static_cast<std::size_t>(row.condition)].name
+                               : by == "mode"      ? row.mode
+                                                   : channel_of(inference, row);
+      if (name.empty()) continue;
+      const auto i = static_cast<Index>(r);
+      sums[name][0] += 1.0;
+      sums[name][1] += e0[i] * e0[i];
+      sums[name][2] += e1[i] * e1[i];
+    }
+    for (const auto& [name, sum] : sums) csv.row({by, name, static_cast<long>(sum[0]), sum[1] / sum[0], sum[2] / sum[0]});
+  }
+  csv.save(file);
+}
+
+void write_plan(const Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
+                const std::filesystem::path& file) {
+  io::CsvWriter csv(
+      {"cause", "location", "unknown", "smallest", "unit", "sigma", "best_imitation", "separation_sigma", "status"});
+  const diagnosis::Fit base = inference.fit({}, {});
+  struct Seen {
+    const diagnosis::Candidate* candidate;
+    VectorXd a, signature;
+    double smallest;
+  };
+  std::vector<Seen> seen;
+  for (const auto& candidate : inference.candidates()) {
+    Seen best{candidate.get(), {}, {}, 0.0};
+    for (const VectorXd& a : candidate->starts) {
+      const VectorXd s = inference.signature(base, *candidate, a);
+      if (s.size() > 0 && (best.signature.size() == 0 || s.norm() > best.signature.norm())) {
+        best.a = a;
+        best.signature = s;
+      }
+    }
+    if (best.signature.size() > 0) seen.push_back(best);
+  }
+  for (Seen& one : seen) {
+    const auto& spec = one.candidate->hypothesis->unknowns;
+    // A name needs 1/2 s² - ln(1/prior) - 2 > 3: the signature that a cause must have here.
+    const double needed = std::sqrt(2.0 * (5.0 - one.candidate->log_prior));
+    const double sigma = one.signature.norm();
+    std::optional<double> smallest;
+    std::string status = "visible";
+    if (sigma < 1.0)
+      status = "these data cannot see it";
+    else if (!spec.empty()) {
+      // Along the first unknown from nothing (a factor of 1, else its lower bound) to the tried magnitude, by bisection.
+      const double neutral = spec[0].name == "factor" && one.candidate->low[0] < 0.0 && one.candidate->high[0] > 0.0
+                                 ? 0.0
+                                 : (one.candidate->log[0] ? one.candidate->low[0] : 0.0);
+      double near = spec[0].name == "factor" && one.candidate->log[0] ? 0.0 : neutral, far = one.a[0];
+      if (sigma < needed)
+        status = "too small at the tried magnitude";
+      else {
+        for (int i = 0; i < 12; ++i) {
+          VectorXd a = one.a;
+          a[0] = 0.5 * (near + far);
+          const VectorXd s = inference.signature(base, *one.candidate, a);
+          (s.size() > 0 && s.norm() > needed ? far : near) = a[0];
+        }
+        VectorXd a = one.a;
+        a[0] = far;
+        smallest = one.candidate->physical(a, 0);
+      }
+    }
+    double separation = sigma;
+    std::string imitation;
+    for (const Seen& other : seen) {
+      if (other.candidate->hypothesis == one.candidate->hypothesis || other.signature.norm() < 1e-6) continue;
+      const double along = one.signature.dot(other.signature) / other.signature.norm();
+      const double rest = std::sqrt(std::max(sigma * sigma - along * along, 0.0));
+      if (rest < separation) {
+        separation = rest;
+        imitation = other.candidate->id();
+      }
+    }
+    csv.row({one.candidate->hypothesis->id, one.candidate->location, spec.empty() ? "" : spec[0].name, smallest,
+             spec.empty() ? "" : spec[0].unit, sigma, imitation, separation, status});
+  }
+  for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "", "", "", "not visible: " + none.reason});
+  csv.save(file);
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "diagnosis/diagnose.hpp"
+
+namespace twindeck::steps {
+
+/// diagnosis.json (DESIGN section 3).
+void write_diagnosis(const diagnosis::Diagnosis& result, double residual_alpha, double seconds,
+                     const std::string& threshold_from, const std::filesystem::path& file);
+/// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
+/// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
+/// it lies outside the limit that all rows together keep with 99 % (Sidak).
+void write_residuals(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
+                     const std::filesystem::path& file);
+/// hypotheses.csv: `cause,location,log_odds,screen,stage,low_sigma,status`: every entry of the catalogue in the order of its
+/// odds, and the families that these data can't see with the reason.
+void write_hypotheses(const diagnosis::Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
+                      const std::filesystem::path& file);
+/// gain.csv: `type,mode,condition,rows,before,after`: RMS of standardised residuals of held-out rows by kind.
+void write_gain(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);
+/// parameters.csv: `unknown,before,after,shrinkage,bound`: in units of the prior deviation; shrinkage 1 - posterior variance.
+void write_unknowns(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
+                    const std::filesystem::path& file);
+/// misfit.csv: `by,name,rows,mean_square_before,mean_square_after`: of standardised residuals by type, condition, mode,
+/// channel.
+void write_misfit(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);
+/// plan.csv: `cause,location,unknown,smallest,unit,sigma,best_imitation,separation_sigma,status`.
+void write_plan(const diagnosis::Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
+                const std::filesystem::path& file);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,231 @@
+#include "steps/diagnosis/setup.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "io/atomic.hpp"
+#include "io/manifest.hpp"
+#include "io/toml_value.hpp"
+#include "steps/diagnosis/catalogue.hpp"
+#include "steps/diagnosis/outputs.hpp"
+#include "steps/shared/measured_tables.hpp"
+#include "steps/shared/study.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const StepContext& context) {
+  if (const auto given = context.flag("catalogue")) return *given;
+  if (!config.catalogue.empty()) return config.catalogue;
+  std::vector<std::filesystem::path> tried = {"workflows/common/hypotheses"};
+  if (!context.study.empty()) tried.push_back(context.study.parent_path() / "common/hypotheses");
+  std::error_code ignored;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  if (!ignored) {
+    tried.push_back(self.parent_path() / "../../workflows/common/hypotheses");
+    tried.push_back(self.parent_path() / "../share/twindeck/hypotheses");
+  }
+  for (const auto& folder : tried)
+    if (std::filesystem::is_directory(folder)) return folder;
+  return tried.front();
+}
+
+void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
+  if (config.hold_out.empty()) {
+    diagnosis::hold_out_by_rule(features);
+    return;
+  }
+  for (diagnosis::Row& row : features.rows) row.held_out = false;
+  for (const std::string& rule : config.hold_out) {
+    if (rule == "none") continue;
+    const auto slash = rule.find('/');
+    bool any = false;
+    for (diagnosis::Row& row : features.rows) {
+      const bool hit = features.conditions[static_cast<std::size_t>(row.condition)].name == rule.substr(0, slash) &&
+                       (slash == std::string::npos || row.mode == rule.substr(slash + 1));
+      row.held_out = row.held_out || hit;
+      any = any || hit;
+    }
+    if (!any)
+      throw InputError({"", 0, "hold_out"}, fmt::format("'{}' matches no row", rule),
+                       "write \"condition\" or \"condition/mode\"");
+  }
+}
+
+std::map<std::string, int> bound_modes(const std::vector<std::string>& pairs) {
+  std::map<std::string, int> bound;
+  for (const std::string& pair : pairs) {
+    const auto dash = pair.find("X-");
+    if (dash == std::string::npos || !pair.ends_with('N'))
+      throw InputError({"", 0, "pairs"}, fmt::format("'{}' is no pair", pair), "write \"7X-8N\"");
+    bound[pair.substr(0, dash)] = std::atoi(pair.substr(dash + 2).c_str()) - 1;
+  }
+  return bound;
+}
+
+/// What a threshold depends on, in words: hashed into the name of its file.
+std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference) {
+  std::ostringstream key;
+  key.precision(8);
+  key << "1|" << config.alpha << '|' << config.nulls << '|';
+  for (const auto& p : inputs.reduced->parameters) key << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial << '|';
+  key << inputs.reduced->frequency_Hz.head(std::min<Eigen::Index>(5, inputs.reduced->frequency_Hz.size())).transpose() << '|';
+  for (const auto& row : inputs.features.rows)
+    key << name_of(row.type) << row.mode << ',' << row.channel << row.stay << ',' << row.condition << ',' << row.std << ','
+        << row.held_out << '|';
+  for (const auto& candidate : inference.candidates())
+    key << candidate->id() << candidate->low.transpose() << candidate->high.transpose() << '|';
+  return key.str();
+}
+
+std::string hash_of(const std::string& text) {  // FNV-1a, 64 bits: a name, not a seal
+  std::uint64_t h = 1469598103934665603ull;
+  for (const unsigned char c : text) h = (h ^ c) * 1099511628211ull;
+  return fmt::format("{:016x}", h);
+}
+
+}  // namespace
+
+io::FieldTable DiagnosisConfig::fields() {
+  io::FieldTable t;
+  t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
+      .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
+      .texts("hold_out", hold_out,
+             "rows kept from the fit: \"condition\" or \"condition/mode\", \"none\"; empty: marks, else the rule")
+      .number("alpha", alpha, "", {1e-6, 0.5}, "false alarms that the threshold allows")
+      .number("residual_alpha", residual_alpha, "", {1e-9, 0.5}, "level at which the residual test says that something is left")
+      .number("either_within", either_within, "", io::positive(), "nats within which two causes are not told apart")
+      .number("least_log_odds", least_log_odds, "", io::non_negative(), "log odds below which nothing is named")
+      .integer("nulls", nulls, {0, 100000}, "null data sets run for the threshold where none is cached; 0: the analytic tail")
+      .integer("most_causes", most_causes, {0, 8}, "causes put into the model one after another")
+      .integer("modes", modes, {4, 200}, "modes in the reduced basis")
+      .integer("zones", zones, {2, 200}, "zones that the elements are gathered in")
+      .integer("nodes", nodes, {2, 200}, "nodes at which masses, oscillators and ties are looked for")
+      .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
+              "farthest that a sensor may lie from the node that stands for it")
+      .text("threshold_cache", threshold_cache, "folder of thresholds by hash (default: <results>/thresholds, or beside --out)")
+      .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),
+              "relative deviation of an element's stiffness")
+      .number("scatter.element_mass", scatter.element_mass, "", io::non_negative(), "of an element's mass")
+      .number("scatter.node_mass", scatter.node_mass, "", io::non_negative(), "of the mass at a node of a matrix model")
+      .number("scatter.stay_stiffness", scatter.stay_stiffness, "", io::non_negative(), "of a stay's stiffness")
+      .number("scatter.stay_pull", scatter.stay_pull, "", io::non_negative(), "of a stay's pull")
+      .number("scatter.gain", scatter.gain, "", io::non_negative(), "of a channel's gain")
+      .number("scatter.frequency_floor", scatter.frequency_floor, "", io::non_negative(),
+              "least relative deviation of a frequency")
+      .number("scatter.damping_floor", scatter.damping_floor, "", io::non_negative(),
+              "least relative deviation of a damping ratio")
+      .number("scatter.shape_floor", scatter.shape_floor, "", io::non_negative(),
+              "least deviation of a shape, of its largest value")
+      .number("scatter.load_model", scatter.load_model, "", io::non_negative(),
+              "of RMS values, for what a simple load model leaves open");
+  return t;
+}
+
+DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext& context) {
+  DiagnosisInputs inputs;
+  std::filesystem::path folder;
+  if (context.features)
+    folder = *context.features;
+  else if (!context.study.empty())
+    folder = read_study(context.study).features;
+  if (folder.empty()) throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
+  context.input(folder);
+  inputs.features = read_all_features(folder);
+  hold_out(config, inputs.features);
+  const auto catalogue = catalogue_folder(config, context);
+  inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
+  std::vector<Channel> channels;
+  if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
+  const auto updated = context.results / "s6_updating" / "model";
+  // A study that updates nothing is diagnosed on its own model.
+  const bool own = !context.model && !context.study.empty() && !std::filesystem::is_directory(updated) &&
+                   !read_study(context.study).model_folder.empty();
+  const LoadedModel loaded = own ? load_study_model(context, "") : load_model(context, updated);
+  if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
+  inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
+  const diagnosis::Structure structure = inputs.model->structure();
+  inputs.places = diagnosis::find_places(structure, {static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}});
+  diagnosis::ReductionOptions reduction;
+  reduction.modes = static_cast<int>(config.modes);
+  inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
+  return inputs;
+}
+
+Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference,
+                         StepContext& context) {
+  std::filesystem::path folder = config.threshold_cache;
+  if (folder.empty()) folder = (context.results.empty() ? context.out.parent_path() : context.results) / "thresholds";
+  const auto file = folder / (hash_of(threshold_key(config, inputs, inference)) + ".toml");
+  if (std::filesystem::exists(file)) {
+    for (const io::TomlEntry& entry : io::read_toml(file))
+      if (entry.key == "threshold" && entry.value.as<double>())
+        return {*entry.value.as<double>(), "nulls cached in " + file.filename().string()};
+  }
+  if (config.nulls <= 0) return {diagnosis::analytic_threshold(inference, config.alpha), "analytic tail"};
+  const auto nulls = diagnosis::run_nulls(
+      *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, {}, static_cast<int>(config.nulls), context.seed + 17,
+      [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); });
+  std::vector<double> sorted = nulls.log_odds;
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = static_cast<std::size_t>(std::ceil((1.0 - config.alpha) * static_cast<double>(sorted.size()))) - 1;
+  std::filesystem::create_directories(folder);
+  io::write_file_atomically(file, fmt::format("# {} null data sets, quantile {} of the largest log odds\nthreshold = {:.6f}\n",
+                                              sorted.size(), 1.0 - config.alpha, sorted[std::min(at, sorted.size() - 1)]));
+  return {sorted[std::min(at, sorted.size() - 1)], fmt::format("{} nulls", sorted.size())};
+}
+
+Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
+  Eigen::setNbThreads(1);  // small matrices, and sums must not depend on threads
+  const auto begin = std::chrono::steady_clock::now();
+  const DiagnosisInputs inputs = read_diagnosis_inputs(config, context);
+  diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
+  map.bind_modes(bound_modes(config.pairs));
+  const diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
+  const diagnosis::Inference inference(map, entries.candidates);
+  context.say(fmt::format("{} rows ({} held out), {} unknowns, {} entries of {} families, basis of {}",
+                          inputs.features.rows.size(), inference.held_out().size(), map.nuisances().size(),
+                          entries.candidates.size(), inputs.catalogue.size(), inputs.reduced->size()));
+  if (context.has_flag("plan")) {
+    write_plan(inference, entries.invisible, context.out / "plan.csv");
+    context.say("plan.csv says what these rows would see");
+    return {};
+  }
+  diagnosis::DiagnoseOptions options;
+  const Threshold threshold = find_threshold(config, inputs, inference, context);
+  options.alpha = config.alpha;
+  options.threshold = threshold.value;
+  options.least_log_odds = config.least_log_odds;
+  options.either_within = config.either_within;
+  options.residual_alpha = config.residual_alpha;
+  options.most_causes = static_cast<int>(config.most_causes);
+  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
+  if (result.before.all.g.size() == 0) return {false, result.message};
+  write_residuals(inference, result, context.out / "residuals.csv");
+  write_hypotheses(result, entries.invisible, context.out / "hypotheses.csv");
+  write_gain(inference, result, context.out / "gain.csv");
+  write_misfit(inference, result, context.out / "misfit.csv");
+  write_unknowns(inference, result, context.out / "parameters.csv");
+  write_extended_model(*inputs.model, inputs.places, result, context.out / "extended_model");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write_diagnosis(result, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  context.say(fmt::format("{}: {}", result.verdict, result.message));
+  for (const auto& effect : result.effects)
+    context.say(fmt::format("  {} (log odds {:.1f}); either of {}", effect.cause.candidate->id(), effect.log_odds,
+                            fmt::join(effect.cluster, ", ")));
+  if (result.gain.rows > 0)
+    context.say(fmt::format("  held out {} rows: {:.2f} -> {:.2f} standard deviations, {:.0f} % less ({:.0f} to {:.0f})",
+                            result.gain.rows, result.gain.before, result.gain.after, result.gain.reduction_pct,
+                            result.gain.low_pct, result.gain.high_pct));
+  return {};
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnose.hpp"
+#include "io/config.hpp"
+#include "steps/diagnosis/model.hpp"
+#include "steps/shared/run_step.hpp"
+
+namespace twindeck::steps {
+
+/// Configuration of s9_diagnosis.
+struct DiagnosisConfig {
+  std::string catalogue;              ///< folder; empty: workflows/common/hypotheses or its installed copy
+  std::vector<std::string> pairs;     ///< "7X-8N", where no shape was measured
+  std::vector<std::string> hold_out;  ///< "condition", "condition/mode": in place of marks and rule
+  double alpha = 0.01, residual_alpha = 0.001, either_within = 3.0, least_log_odds = 3.0;
+  long nulls = 0, most_causes = 4, modes = 30, zones = 24, nodes = 24;
+  double sensor_tolerance_m = 0.5;
+  std::string threshold_cache;  ///< folder of thresholds by hash
+  diagnosis::ScatterOptions scatter;
+
+  [[nodiscard]] io::FieldTable fields();
+};
+
+/// Everything that a diagnosis works on, made from files once.
+struct DiagnosisInputs {
+  std::shared_ptr<DiagnosedModel> model;
+  diagnosis::Places places;
+  std::unique_ptr<diagnosis::ReducedModel> reduced;
+  diagnosis::FeatureSet features;
+  std::vector<diagnosis::Hypothesis> catalogue;
+};
+
+[[nodiscard]] DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext& context);
+
+/// Threshold of the largest log odds: of cached nulls where the same model, rows (without their values), catalogue and rule
+/// were run before, of nulls run now where the configuration asks for them, else the analytic tail.
+struct Threshold {
+  double value;
+  std::string from;
+};
+[[nodiscard]] Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
+                                       const diagnosis::Inference& inference, StepContext& context);
+
+/// Runs the whole step.
+[[nodiscard]] Status run_diagnosis(const DiagnosisConfig& config, StepContext& context);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "steps/identification/identification.hpp"
+#include "sysid/merging.hpp"
+
+namespace twindeck::steps {
+
+/// One setup of a condition, identified.
+struct SetupResult {
+  Conditioned conditioned;
+  sysid::Identification found;
+  signal::PowerSpectra spectra;
+  sysid::SingularSpectra singular;
+};
+
+/// PoSER against PreGER for one mode.
+struct MergingCheck {
+  bool found = false;  ///< PreGER has the mode
+  double frequency_Hz = 0.0, damping_ratio = 0.0, mac = 0.0;
+  Eigen::VectorXcd shape;  ///< (all channels)
+};
+
+/// All setups of a condition.
+struct ConditionResult {
+  std::string condition;
+  std::vector<CampaignChannel> channels;  ///< of all setups, in the order of their first appearance
+  std::vector<SetupResult> setups;
+  std::vector<sysid::MergedMode> modes;  ///< ascending in frequency
+  std::vector<MergingCheck> checks;      ///< one a mode where there are several setups
+};
+
+/// Identifies each setup and merges them. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has
+/// the mode; standard deviations are PoSER's in either case.
+[[nodiscard]] ConditionResult identify_condition(const Campaign& campaign, const std::vector<RecordGroup>& groups,
+                                                 const IdentificationConfig& config, const StepContext& context);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,229 @@
+#include "steps/identification/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/error.hpp"
+#include "io/atomic.hpp"
+#include "steps/identification/exports.hpp"
+
+namespace twindeck::steps {
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+namespace {
+
+std::string name_of(std::size_t mode) { return std::to_string(mode + 1); }
+
+// A deviation that happens to vanish must not give a row of infinite weight.
+double at_least(double deviation, double smallest) { return std::max(deviation, smallest); }
+
+bool is_partial(const sysid::MergedMode& mode) { return mode.shape.array().real().isNaN().any(); }
+
+const sysid::Cluster& cluster_of(const ConditionResult& result, std::pair<std::size_t, std::size_t> member) {
+  return result.setups[member.first].found.modes[member.second];
+}
+
+std::size_t orders_of(const ConditionResult& result, const sysid::MergedMode& mode) {
+  std::size_t most = 0;
+  for (const auto& member : mode.members) most = std::max(most, cluster_of(result, member).members.size());
+  return most;
+}
+
+void write_modes(const ConditionResult& result, const fs::path& file) {
+  io::CsvWriter csv({"mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct",
+                     "frequency_scatter_Hz", "damping_ratio_scatter_pct", "orders", "setups", "partial", "efdd_frequency_Hz",
+                     "efdd_damping_ratio_pct"});
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const sysid::MergedMode& mode = result.modes[m];
+    const sysid::Cluster& first = cluster_of(result, mode.members.front());
+    const bool single = mode.members.size() == 1;
+    const sysid::EfddMode check = sysid::efdd(result.setups[mode.members.front().first].singular, mode.frequency_Hz);
+    csv.row({name_of(m), mode.frequency_Hz, mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio,
+             100.0 * mode.deviation.damping_ratio, single ? first.frequency_scatter_Hz : mode.frequency_scatter_Hz,
+             100.0 * (single ? first.damping_ratio_scatter : mode.damping_ratio_scatter), orders_of(result, mode),
+             mode.members.size(), is_partial(mode) ? 1 : 0, check.found ? std::optional(check.frequency_Hz) : std::nullopt,
+             check.found ? std::optional(100.0 * check.damping_ratio) : std::nullopt});
+  }
+  csv.save(file);
+}
+
+void write_shapes(const ConditionResult& result, const fs::path& file) {
+  io::CsvWriter csv({"mode", "point", "direction", "value", "value_imag"});
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const Eigen::VectorXcd& shape = result.modes[m].shape;
+    std::complex<double> largest = 0.0;
+    for (Index i = 0; i < shape.size(); ++i) {
+      if (!std::isnan(shape[i].real()) && std::abs(shape[i]) > std::abs(largest)) largest = shape[i];
+    }
+    for (std::size_t c = 0; c < result.channels.size(); ++c) {
+      const std::complex<double> value = shape[static_cast<Index>(c)] / largest;
+      if (std::isnan(value.real())) continue;
+      csv.row({name_of(m), result.channels[c].point, result.channels[c].name, value.real(), value.imag()});
+    }
+  }
+  csv.save(file);
+}
+
+/// Position in the merged list of a setup's mode, "" for none.
+std::string merged_name(const ConditionResult& result, std::size_t setup, int mode) {
+  if (mode < 0) return "";
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    for (const auto& member : result.modes[m].members) {
+      if (member == std::pair(setup, static_cast<std::size_t>(mode))) return name_of(m);
+    }
+  }
+  return "";
+}
+
+void write_poles(const ConditionResult& result, const fs::path& file) {
+  io::CsvWriter csv({"setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping",
+                     "stable_shape", "mode", "condition"});
+  for (std::size_t s = 0; s < result.setups.size(); ++s) {
+    for (const sysid::DiagramPole& p : result.setups[s].found.diagram) {
+      csv.row({result.setups[s].conditioned.setup, p.pole.order, p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio,
+               p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0, p.stable_shape ? 1 : 0, merged_name(result, s, p.mode),
+               result.condition});
+    }
+  }
+  csv.save(file);
+}
+
+void write_spectra(const ConditionResult& result, const fs::path& folder) {
+  io::CsvWriter psd({"channel", "frequency_Hz", "psd_m2_s3", "setup", "condition"});
+  io::CsvWriter singular({"setup", "frequency_Hz", "sv1", "sv2", "sv3", "condition"});
+  for (const SetupResult& setup : result.setups) {
+    const std::string& name = setup.conditioned.setup;
+    for (std::size_t c = 0; c < setup.conditioned.channels.size(); ++c) {
+      for (Index f = 0; f < setup.spectra.frequency_Hz.size(); ++f) {
+        psd.row({setup.conditioned.channels[c].name, setup.spectra.frequency_Hz[f],
+                 setup.spectra.density(f, static_cast<Index>(c)), name, result.condition});
+      }
+    }
+    for (Index f = 0; f < setup.singular.frequency_Hz.size(); ++f) {
+      const auto value = [&](Index k) {
+        return k < setup.singular.values.cols() ? std::optional(setup.singular.values(f, k)) : std::nullopt;
+      };
+      singular.row({name, setup.singular.frequency_Hz[f], value(0), value(1), value(2), result.condition});
+    }
+  }
+  psd.save(folder / "psd.csv");
+  singular.save(folder / "singular_values.csv");
+}
+
+void write_merging(const ConditionResult& result, const fs::path& file) {
+  io::CsvWriter csv(
+      {"mode", "frequency_Hz", "preger_frequency_Hz", "damping_ratio_pct", "preger_damping_ratio_pct", "mac", "setups"});
+  for (std::size_t m = 0; m < result.checks.size(); ++m) {
+    const MergingCheck& check = result.checks[m];
+    const auto known = [&](double value) { return check.found ? std::optional(value) : std::nullopt; };
+    csv.row({name_of(m), result.modes[m].frequency_Hz, known(check.frequency_Hz), 100.0 * result.modes[m].damping_ratio,
+             known(100.0 * check.damping_ratio), known(check.mac), result.modes[m].members.size()});
+  }
+  csv.save(file);
+}
+
+/// The rows of the campaign's channels.csv that shapes are known at, as they stand there.
+void write_channels(const Campaign& campaign, const ConditionResult& result, const fs::path& file) {
+  const auto table = io::CsvTable::read(campaign.folder / "channels.csv", {"channel"}, {}, true);
+  io::CsvWriter csv(table.columns());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const bool used = std::any_of(result.channels.begin(), result.channels.end(),
+                                  [&](const CampaignChannel& c) { return c.name == table.text(row, "channel"); });
+    if (!used) continue;
+    std::vector<io::Cell> cells;
+    for (const std::string& column : table.columns()) cells.emplace_back(table.text(row, column));
+    csv.row(cells);
+  }
+  csv.save(file);
+}
+
+}  // namespace
+
+void write_condition(const Campaign& campaign, const ConditionResult& result, const fs::path& folder) {
+  fs::create_directories(folder);
+  write_modes(result, folder / "modes.csv");
+  write_shapes(result, folder / "shapes.csv");
+  write_poles(result, folder / "poles.csv");
+  write_spectra(result, folder);
+  if (!result.checks.empty()) write_merging(result, folder / "merging.csv");
+  write_channels(campaign, result, folder / "channels.csv");
+}
+
+void write_features(const Campaign& campaign, const std::vector<ConditionResult>& results,
+                    const std::vector<std::vector<io::Cell>>& more, const std::vector<ChannelQuality>& more_quality,
+                    const fs::path& folder) {
+  fs::create_directories(folder);
+  io::CsvWriter csv({"type", "mode", "channel", "condition", "value", "std"});
+  std::vector<ChannelQuality> quality;
+  std::string conditions;
+  for (const ConditionResult& result : results) {
+    const std::string& condition = result.condition;
+    conditions += "[" + condition + "]\n";
+    for (std::size_t m = 0; m < result.modes.size(); ++m) {
+      const sysid::MergedMode& mode = result.modes[m];
+      const std::string name = name_of(m);
+      csv.row({"frequency_Hz", name, "", condition, mode.frequency_Hz,
+               at_least(mode.deviation.frequency_Hz, 1e-9 * mode.frequency_Hz)});
+      csv.row({"damping_ratio_pct", name, "", condition, 100.0 * mode.damping_ratio,
+               at_least(100.0 * mode.deviation.damping_ratio, 1e-9)});
+      for (std::size_t c = 0; c < result.channels.size(); ++c) {
+        const auto i = static_cast<Index>(c);
+        if (std::isnan(mode.shape[i].real())) continue;
+        const std::string& channel = result.channels[c].name;
+        csv.row({"shape", name, channel, condition, mode.shape[i].real(), at_least(mode.deviation.shape_real[i], 1e-6)});
+        csv.row({"shape_imag", name, channel, condition, mode.shape[i].imag(), at_least(mode.deviation.shape_imag[i], 1e-6)});
+      }
+    }
+    for (const SetupResult& setup : result.setups) {
+      quality.insert(quality.end(), setup.conditioned.quality.begin(), setup.conditioned.quality.end());
+    }
+  }
+  for (const std::vector<io::Cell>& row : more) csv.row(row);
+  csv.save(folder / "rows.csv");
+  fs::copy_file(campaign.folder / "channels.csv", folder / "channels.csv");
+  if (campaign.conditions.empty()) {
+    io::write_file_atomically(folder / "conditions.toml", conditions);
+  } else {
+    fs::copy_file(campaign.folder / "conditions.toml", folder / "conditions.toml");
+  }
+  quality.insert(quality.end(), more_quality.begin(), more_quality.end());
+  write_quality(quality, folder / "quality.csv");
+}
+
+void write_identification(const Campaign& campaign, const std::vector<ConditionResult>& results,
+                          const std::vector<DecayResult>& decays, const std::vector<StayResult>& stays,
+                          const IdentificationConfig& config, const fs::path& folder) {
+  std::vector<ChannelQuality> quality;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const fs::path place = i == 0 ? folder : folder / "conditions" / results[i].condition;
+    write_condition(campaign, results[i], place);
+    write_mode_exports(results[i], place);
+  }
+  write_decays(decays, results, config, folder);
+  write_stays(stays, config.stay_level, folder);
+  for (const DecayResult& decay : decays) quality.insert(quality.end(), decay.quality.begin(), decay.quality.end());
+  for (const StayResult& stay : stays) quality.insert(quality.end(), stay.quality.begin(), stay.quality.end());
+  write_features(campaign, results, stay_rows(stays), quality, folder / "features");
+}
+
+std::vector<std::string> report_lines(const ConditionResult& result) {
+  std::vector<std::string> lines = {
+      fmt::format("condition {}, {} setup{}", result.condition, result.setups.size(), result.setups.size() == 1 ? "" : "s"),
+      fmt::format("{:>4} {:>10} {:>9} {:>9} {:>9} {:>7} {:>7}", "mode", "f [Hz]", "sigma", "zeta [%]", "sigma", "orders",
+                  "setups")};
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const sysid::MergedMode& mode = result.modes[m];
+    lines.push_back(fmt::format("{:>4} {:>10.4f} {:>9.4f} {:>9.3f} {:>9.3f} {:>7} {:>7}{}", name_of(m), mode.frequency_Hz,
+                                mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio, 100.0 * mode.deviation.damping_ratio,
+                                orders_of(result, mode), mode.members.size(), is_partial(mode) ? " partial" : ""));
+  }
+  return lines;
+}
+
+}  // namespace twindeck::steps

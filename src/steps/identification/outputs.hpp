@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+
+#include "io/csv.hpp"
+#include "steps/identification/condition.hpp"
+#include "steps/identification/decays.hpp"
+#include "steps/identification/stays.hpp"
+
+namespace twindeck::steps {
+
+/// Of one condition, in a folder:
+/// modes.csv   DESIGN section 3, and `frequency_scatter_Hz,damping_ratio_scatter_pct` (standard deviation of the poles over the
+/// model
+///             orders, of setups where there are several), `orders` (at how many orders the mode was found, the most of its
+///             setups), `setups`, `partial` (1: some channels did not see it), `efdd_frequency_Hz,efdd_damping_ratio_pct`
+///             (cross-check of the first setup that has it, empty where its bell is too short)
+/// shapes.csv  direction = channel
+/// poles.csv   `setup,order,frequency_Hz,damping_ratio_pct,stable_frequency,stable_damping,stable_shape,mode,condition` (mode
+/// empty where
+///             the pole belongs to none; of the merged list)
+/// psd.csv     `channel,frequency_Hz,psd_m2_s3,setup,condition`
+/// singular_values.csv  `setup,frequency_Hz,sv1,sv2,sv3,condition` of channels scaled to unit RMS [1/Hz]
+/// merging.csv `mode,frequency_Hz,preger_frequency_Hz,damping_ratio_pct,preger_damping_ratio_pct,mac,setups` where there are
+/// several setups channels.csv rows of the campaign's channels.csv that the shapes are known at
+void write_condition(const Campaign& campaign, const ConditionResult& result, const std::filesystem::path& folder);
+
+/// features/: rows.csv of all conditions, conditions.toml and channels.csv of the campaign (channels.csv as it is;
+/// conditions.toml with an empty table a condition where the campaign has none), quality.csv. Shapes have unit norm there, so
+/// that every entry has a standard deviation. @param more  further rows (stays), written after those of the modes
+void write_features(const Campaign& campaign, const std::vector<ConditionResult>& results,
+                    const std::vector<std::vector<io::Cell>>& more, const std::vector<ChannelQuality>& more_quality,
+                    const std::filesystem::path& folder);
+
+/// Everything: the first condition's files at the top and each further condition's under conditions/<condition>/, decays.csv
+/// and amplitude.csv, stays.csv and stay_tensions.csv, features/.
+void write_identification(const Campaign& campaign, const std::vector<ConditionResult>& results,
+                          const std::vector<DecayResult>& decays, const std::vector<StayResult>& stays,
+                          const IdentificationConfig& config, const std::filesystem::path& folder);
+
+/// What was found, for people.
+[[nodiscard]] std::vector<std::string> report_lines(const ConditionResult& result);
+
+}  // namespace twindeck::steps

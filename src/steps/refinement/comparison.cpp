@@ -1,0 +1,141 @@
+#include "steps/refinement/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <regex>
+#include <set>
+
+#include "core/error.hpp"
+#include "io/csv.hpp"
+#include "modal/mac.hpp"
+#include "steps/shared/measured_shapes.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+using Eigen::Index;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); }
+
+const std::string& label(const Measured& measured, Index i) { return measured.labels[static_cast<std::size_t>(i)]; }
+
+}  // namespace
+
+std::string numerical_label(Index position) { return fmt::format("{}N", position + 1); }
+
+Pairing pair_by_order(const Measured& measured, Index n_numerical, const std::vector<bool>& keep) {
+  Pairing pairing;
+  pairing.method = "order";
+  for (Index i = 0; i < std::min(measured.modes.size(), n_numerical); ++i) {
+    if (keep.empty() || keep[static_cast<std::size_t>(i)]) pairing.pairs.push_back({i, i, kUnknown, false});
+  }
+  return pairing;
+}
+
+Pairing pair_as_published(const Measured& measured, Index n_numerical, const std::vector<std::string>& published,
+                          const Place& place) {
+  Pairing pairing;
+  pairing.method = "published";
+  static const std::regex form("([^ -]+)-([1-9][0-9]{0,5})N");
+  std::set<std::string> seen;
+  for (const std::string& entry : published) {
+    std::smatch parts;
+    if (!std::regex_match(entry, parts, form)) {
+      throw InputError(place, fmt::format("'{}' is no pair, expected for example \"7X-8N\"", entry),
+                       "name the measured mode, a dash, and the numerical mode");
+    }
+    const std::string experimental = parts[1];
+    const Index numerical = std::stol(parts[2]) - 1;
+    if (!seen.insert(experimental).second || !seen.insert(numerical_label(numerical)).second) {
+      throw InputError(place, fmt::format("pair '{}' names a mode that another pair names too", entry), "pair each mode once");
+    }
+    if (numerical >= n_numerical) {
+      throw InputError(place, fmt::format("pair '{}' asks for numerical mode {} of {}", entry, numerical + 1, n_numerical),
+                       "raise n_modes");
+    }
+    const auto at = std::find(measured.labels.begin(), measured.labels.end(), experimental);
+    if (at != measured.labels.end())
+      pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), numerical, kUnknown, false});
+  }
+  std::sort(pairing.pairs.begin(), pairing.pairs.end(),
+            [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
+  return pairing;
+}
+
+Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
+                        const modal::PairingOptions& options, double sensor_tolerance_m) {
+  if (!measured.modes.has_shapes()) {
+    throw InputError({measured.source, 0, "shape"}, "holds no measured shape, so that modes can't be paired by MAC",
+                     "give shapes, or pairs");
+  }
+  const Eigen::MatrixXcd phi_n = shapes_at_sensors(measured, model, modes, sensor_tolerance_m);
+  // A mode that stands still at every sensor has no MAC; it can't be anybody's partner and takes part with zeros.
+  std::vector<Index> moving;
+  for (Index j = 0; j < phi_n.cols(); ++j) {
+    if (phi_n.col(j).norm() > 1e-9 * modes.shapes.col(j).cwiseAbs().maxCoeff()) moving.push_back(j);
+  }
+  Pairing pairing;
+  pairing.method = "mac";
+  pairing.mac = Eigen::MatrixXd::Zero(phi_n.cols(), measured.modes.size());
+  const Eigen::MatrixXcd phi_moving = phi_n(Eigen::all, moving);
+  const Eigen::VectorXd frequency_moving = modes.frequency_Hz(moving);
+  pairing.mac(moving, Eigen::all) = modal::mac(phi_moving, measured.modes.shapes);
+  pairing.pairs = modal::pair_by_mac(measured.modes.frequency_Hz, measured.modes.shapes, frequency_moving, phi_moving, options);
+  for (modal::ModePair& pair : pairing.pairs) pair.numerical = moving[static_cast<std::size_t>(pair.numerical)];
+  return pairing;
+}
+
+std::vector<ComparisonRow> compare(const std::string& stage, const Measured& measured, const Eigen::VectorXd& computed_Hz,
+                                   const Pairing& pairing) {
+  std::vector<ComparisonRow> rows;
+  for (const modal::ModePair& pair : pairing.pairs) {
+    rows.push_back({stage, label(measured, pair.experimental), numerical_label(pair.numerical),
+                    measured.modes.frequency_Hz[pair.experimental], computed_Hz[pair.numerical], known(pair.mac),
+                    pairing.method});
+  }
+  return rows;
+}
+
+double mean_abs_error_pct(const std::vector<ComparisonRow>& rows, const std::string& stage) {
+  double sum = 0.0;
+  int count = 0;
+  for (const ComparisonRow& row : rows) {
+    if (row.stage != stage) continue;
+    sum += std::abs(row.error_pct());
+    ++count;
+  }
+  return count == 0 ? kUnknown : sum / count;
+}
+
+void write_comparison(const std::vector<ComparisonRow>& rows, const std::filesystem::path& folder) {
+  io::CsvWriter csv(
+      {"stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"});
+  for (const ComparisonRow& row : rows) {
+    csv.row(
+        {row.stage, row.experimental, row.numerical, row.measured_Hz, row.computed_Hz, row.error_pct(), row.mac, row.pairing});
+  }
+  csv.save(folder / "comparison.csv");
+}
+
+void write_mac(const Measured& measured, const Pairing& pairing, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"experimental_mode", "numerical_mode", "mac"});
+  for (Index j = 0; j < pairing.mac.rows(); ++j) {
+    for (Index i = 0; i < pairing.mac.cols(); ++i) csv.row({label(measured, i), numerical_label(j), pairing.mac(j, i)});
+  }
+  csv.save(folder / "mac.csv");
+}
+
+void write_pairs(const Measured& measured, const Pairing& pairing, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"experimental_mode", "numerical_mode", "mac", "clustered"});
+  for (const modal::ModePair& pair : pairing.pairs) {
+    csv.row({label(measured, pair.experimental), numerical_label(pair.numerical), known(pair.mac), pair.clustered ? 1 : 0});
+  }
+  csv.save(folder / "pairs.csv");
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/eigenmodes.hpp"
+#include "modal/pairing.hpp"
+#include "steps/shared/measured.hpp"
+#include "steps/shared/model_source.hpp"
+
+/// Measured against computed modes: shared by s4_refinement and s6_updating.
+namespace twindeck::steps {
+
+/// "8N": numerical modes are named by their position in the model, from 1.
+[[nodiscard]] std::string numerical_label(Eigen::Index position);
+
+/// How measured modes were given their numerical partners.
+struct Pairing {
+  std::vector<modal::ModePair> pairs;  ///< in the order of the measured modes
+  std::string method;                  ///< "order" | "published" | "mac"
+  Eigen::MatrixXd mac;                 ///< (n_N × n_X) at the sensors; empty where no shape was measured
+};
+
+/// First measured with first computed mode, and so on; only the measured modes for which `keep` is true (all if it is empty).
+[[nodiscard]] Pairing pair_by_order(const Measured& measured, Eigen::Index n_numerical, const std::vector<bool>& keep = {});
+
+/// A published assignment such as {"1X-1N", "7X-8N"}. Pairs whose measured mode is not in `measured` are passed over.
+/// @param place  where the list stands, for messages
+/// @throws InputError  for an entry of another form, a mode named twice, or a numerical mode beyond `n_numerical`
+[[nodiscard]] Pairing pair_as_published(const Measured& measured, Eigen::Index n_numerical,
+                                        const std::vector<std::string>& published, const Place& place);
+
+/// By MAC at the sensors, one-to-one.
+/// @throws InputError  if no shape was measured, or a sensor can't be placed on the model
+[[nodiscard]] Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
+                                      const modal::PairingOptions& options, double sensor_tolerance_m);
+
+/// A row of comparison.csv; error = (f_N - f_X)/f_X as in Tables 6, 7 and 9.
+struct ComparisonRow {
+  std::string stage, experimental, numerical;
+  double measured_Hz = 0.0, computed_Hz = 0.0;
+  std::optional<double> mac;
+  std::string pairing;
+  [[nodiscard]] double error_pct() const { return 100.0 * (computed_Hz - measured_Hz) / measured_Hz; }
+};
+[[nodiscard]] std::vector<ComparisonRow> compare(const std::string& stage, const Measured& measured,
+                                                 const Eigen::VectorXd& computed_Hz, const Pairing& pairing);
+/// Mean of |error| over the rows of a stage [%]; NaN for none.
+[[nodiscard]] double mean_abs_error_pct(const std::vector<ComparisonRow>& rows, const std::string& stage);
+
+/// comparison.csv: `stage,experimental_mode,numerical_mode,measured_Hz,computed_Hz,error_pct,mac,pairing`.
+void write_comparison(const std::vector<ComparisonRow>& rows, const std::filesystem::path& folder);
+/// mac.csv: `experimental_mode,numerical_mode,mac`; header only where no shape was measured.
+void write_mac(const Measured& measured, const Pairing& pairing, const std::filesystem::path& folder);
+/// pairs.csv: `experimental_mode,numerical_mode,mac,clustered` (0 or 1).
+void write_pairs(const Measured& measured, const Pairing& pairing, const std::filesystem::path& folder);
+
+}  // namespace twindeck::steps

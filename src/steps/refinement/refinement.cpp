@@ -1,0 +1,117 @@
+#include "steps/refinement/refinement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "model_io/export.hpp"
+#include "steps/refinement/comparison.hpp"
+#include "steps/shared/measured.hpp"
+#include "steps/shared/model_outputs.hpp"
+#include "steps/shared/study.hpp"
+
+namespace twindeck::steps {
+
+io::FieldTable RefinementConfig::fields() {
+  io::FieldTable table;
+  table.integer("n_modes", n_modes, {1, 1000}, "computed modes that are written and compared")
+      .integer("extra_modes", extra_modes, {0, 1000},
+               "modes solved for beyond n_modes, so that a followed mode is found when it moves up")
+      .text("variant", variant, "variant of the generator that is the refined model")
+      .texts("pairs", pairs,
+             "published assignment, measured-numerical (\"7X-8N\"), used where no shape was measured; empty: by order")
+      .text("condition", condition,
+            "condition of the measured features; empty: the only one, or the only one with dampers = \"off\"")
+      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairs by MAC below it are left out")
+      .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
+              "relative; pairs by MAC further off are not admitted")
+      .number("cluster_gap", cluster_gap, "", io::non_negative(),
+              "relative frequency gap below which numerical modes count as close")
+      .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
+              "largest distance of a sensor from the node that stands for it");
+  return table;
+}
+
+namespace {
+
+/// The refined model: the generator's variant, or what there is when the model is the user's own.
+LoadedModel refined_model(StepContext& context, const RefinementConfig& config, const LoadedModel& initial,
+                          std::optional<Study>& study) {
+  if (!context.study.empty()) study = read_study(context.study);
+  const bool generated = !context.model && study && !study->model_generator.empty();
+  return generated ? load_study_model(context, config.variant) : initial;
+}
+
+/// Measured modes that take part: those of the published pairs where such a list is used, otherwise all.
+std::vector<bool> compared_modes(const Measured& measured, const Pairing& refined) {
+  std::vector<bool> keep(measured.labels.size(), refined.method != "published");
+  for (const modal::ModePair& pair : refined.pairs) keep[static_cast<std::size_t>(pair.experimental)] = true;
+  return keep;
+}
+
+Pairing pair_refined(const StepContext& context, const RefinementConfig& config, const Measured& measured,
+                     const SolvedModel& refined, const modal::PairingOptions& options) {
+  if (measured.modes.has_shapes())
+    return pair_at_sensors(measured, refined.loaded, refined.modes, options, config.sensor_tolerance_m);
+  if (config.pairs.empty()) return pair_by_order(measured, refined.modes.frequency_Hz.size());
+  const Place place{(context.study / "s4_refinement.toml").string(), 0, "pairs"};
+  return pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place);
+}
+
+void compare_with_measurement(StepContext& context, const RefinementConfig& config, const SolvedModel& initial,
+                              const SolvedModel& refined) {
+  const std::optional<Measured> measured = find_measured(context, config.condition);
+  if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
+  const Measured some = measured.value_or(Measured{});
+  const modal::PairingOptions options{config.minimum_mac, config.maximum_frequency_error, config.cluster_gap};
+  Pairing after, before;
+  if (measured) {
+    after = pair_refined(context, config, some, refined, options);
+    before = some.modes.has_shapes() ? pair_at_sensors(some, initial.loaded, initial.modes, options, config.sensor_tolerance_m)
+                                     : pair_by_order(some, initial.modes.frequency_Hz.size(), compared_modes(some, after));
+  }
+  std::vector<ComparisonRow> rows = compare("initial", some, initial.modes.frequency_Hz, before);
+  for (const ComparisonRow& row : compare("refined", some, refined.modes.frequency_Hz, after)) rows.push_back(row);
+  write_comparison(rows, context.out);
+  write_mac(some, after, context.out);
+  write_pairs(some, after, context.out);
+  if (!rows.empty()) {
+    context.say(fmt::format("mean |error| of {} pairs: initial {:.2f} %, refined {:.2f} % (pairs by {})", after.pairs.size(),
+                            mean_abs_error_pct(rows, "initial"), mean_abs_error_pct(rows, "refined"), after.method));
+  }
+}
+
+}  // namespace
+
+Status run_refinement(StepContext& context, const RefinementConfig& config) {
+  // 1. Initial and refined model, with their modes.
+  LoadedModel initial_model = load_model(context, context.results / "s1_model" / "model");
+  std::optional<Study> study;
+  LoadedModel refined_source = refined_model(context, config, initial_model, study);
+  const auto n = static_cast<int>(
+      std::min<Eigen::Index>(config.n_modes, std::min(initial_model.system.size(), refined_source.system.size())));
+  const SolvedModel initial = solve_modes(std::move(initial_model), n);
+  const SolvedModel refined = solve_modes(std::move(refined_source), n);
+  model_io::write_modes(published_modes(refined.loaded.fe_model(), refined.loaded.system, refined.modes), context.out);
+  save_model(refined.loaded, refined.loaded.theta, context.out / "model");
+
+  // 2. Against the measurement.
+  compare_with_measurement(context, config, initial, refined);
+
+  // 3. What each as-built change does.
+  ChangeStudy changes;
+  if (!context.model && study && !study->model_generator.empty()) {
+    changes = study_changes(study->model_file, study->model_mesh, n, static_cast<int>(config.extra_modes),
+                            [&](int done, int of) { context.progress("as-built changes", done, of); });
+  }
+  write_changes(changes, context.out);
+  for (const Status& status : {initial.modes.status, refined.modes.status, changes.status}) {
+    if (!status.converged) return status;
+  }
+  return {};
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+#include "io/config.hpp"
+#include "steps/sensitivity/selection.hpp"
+#include "steps/sensitivity/sensitivity.hpp"
+
+namespace twindeck::steps {
+
+/// Configuration of s5_sensitivity.
+struct SensitivityConfig {
+  long n_modes = 15;
+  std::vector<double> compared_modes;  ///< numbers from 1; empty: all n_modes
+  double forward_step = 0.01;
+  double frequency_std_pct = 0.5;
+  double selection_threshold = 1.0;
+  double singular_value_cutoff = 1.0;
+  double resolution_cutoff = 0.5;
+  std::vector<std::string> published_selection;  ///< names the paper kept; empty where nothing is published
+
+  io::FieldTable fields();
+};
+
+/// @throws InputError  for a compared mode beyond n_modes, a published name that is no parameter, a model without parameters
+void check_sensitivity_config(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
+                              const std::string& source);
+
+[[nodiscard]] std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters);
+
+/// A of selection.hpp: shift of each compared frequency, in its standard deviations, over half the range of each parameter [-]
+/// (n_compared × n_parameters).
+[[nodiscard]] Eigen::MatrixXd scaled_sensitivity(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
+                                                 const Sensitivities& found);
+
+/// `sensitivity.csv`: mode,parameter,unit,exact_Hz_per_unit,relative,richardson_Hz_per_unit,forward_eq6_Hz_per_unit,
+/// forward_truncation_Hz_per_unit; truncation = Eq. (6) minus extrapolated central difference; relative = d ln f / d ln p.
+void write_sensitivity(const std::vector<fe::Parameter>& parameters, const Sensitivities& found,
+                       const std::filesystem::path& file);
+/// `selection.csv`: parameter,unit,score,rank,selected,published,reason
+void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<SelectedParameter>& selection,
+                     const SensitivityConfig& config, const std::filesystem::path& file);
+/// `singular_values.csv`: index,value,relative,identifiable
+void write_singular_values(const Identifiability& identified, const SensitivityConfig& config,
+                           const std::filesystem::path& file);
+/// `identifiability.csv`: parameter,identifiable,resolution
+void write_identifiability(const std::vector<fe::Parameter>& parameters, const Identifiability& identified,
+                           const SensitivityConfig& config, const std::filesystem::path& file);
+
+/// For people: agreement of the three ways, selection beside the paper's, directions that the frequencies see.
+[[nodiscard]] std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,
+                                                          const Sensitivities& found,
+                                                          const std::vector<SelectedParameter>& selection,
+                                                          const Identifiability& identified, const SensitivityConfig& config);
+
+}  // namespace twindeck::steps

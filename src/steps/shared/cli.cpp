@@ -1,0 +1,151 @@
+#include "steps/shared/cli.hpp"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "core/build_info.hpp"
+
+namespace twindeck::steps {
+namespace fs = std::filesystem;
+namespace {
+
+std::string bare(const std::string& flag) { return flag.substr(std::min(flag.find_first_not_of('-'), flag.size())); }
+
+std::string help_footer(const Step& step) {
+  std::string footer = "Examples:\n";
+  for (const std::string& example : step.examples) footer += "  " + example + "\n";
+  footer += "\nExit codes: 0 done; 1 not converged (see <out>.unconverged/); 2 bad input; 3 a mistake of the program.";
+  return footer;
+}
+
+/// An option that is not known: names it and the nearest one.
+[[noreturn]] void refuse(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  const std::string option = word.substr(0, word.find('='));
+  if (option.starts_with("-")) {
+    throw InputError({"command line", 0, option}, "is no known option" + did_you_mean(option, known),
+                     "--help lists the options");
+  }
+  throw InputError({"command line", 0, ""}, "has '" + word + "', which belongs to no option", "--help shows two examples");
+}
+
+void check_folder(const char* option, const std::optional<fs::path>& folder) {
+  if (folder && !fs::is_directory(*folder)) {
+    throw InputError({"command line", 0, option}, "'" + folder->string() + "' is no folder", "name a folder that exists");
+  }
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, char** argv, const Step& step) {
+  CommandLine line;
+  CLI::App app{step.token + ": " + step.summary, step.token};
+  app.footer(help_footer(step));
+  app.allow_extras();
+  app.set_help_flag("-h,--help", "print this and end");
+
+  std::string study, out, results, model, campaign, modes, features, key;
+  std::int64_t seed = 0;
+  bool version_asked = false, print_config = false;
+  app.add_option("--study", study, "folder of the study: study.toml and the step's own configuration")->type_name("DIR");
+  app.add_option("--out", out, "folder to write; earlier results of this step in it are replaced when the step has finished")
+      ->type_name("DIR");
+  app.add_option("--results", results, "root that results of earlier steps are read from (default: the folder above --out)")
+      ->type_name("DIR");
+  app.add_option("--model", model, "model folder, or .inp file, to use instead of the study's")->type_name("DIR");
+  app.add_option("--campaign", campaign, "campaign folder (raw records) to use instead of the study's")->type_name("DIR");
+  app.add_option("--modes", modes, "folder with measured modes.csv to use instead of the study's")->type_name("DIR");
+  app.add_option("--features", features, "features folder to use instead of the study's")->type_name("DIR");
+  app.add_option("--set", line.sets, "change a key of the configuration; --describe tells which there are")
+      ->type_name("KEY=VALUE");
+  CLI::Option* seed_option = app.add_option("--seed", seed, "seed of everything random, 0 or more (default: the study's)")
+                                 ->type_name("N")
+                                 ->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", line.threads, "threads to use (default: all); results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  app.add_flag("--accept-unconverged", line.accept_unconverged, "publish results that did not converge, marked as such");
+  app.add_flag("--quiet", line.quiet, "print errors only");
+  app.add_flag("--print-config", print_config, "print the resolved configuration as TOML and end");
+  CLI::Option* describe =
+      app.add_option("--describe", key,
+                     "print meaning, unit, range and default of one key, of all, or of study.toml or model.toml, and end")
+          ->type_name("KEY")
+          ->expected(0, 1);
+  app.add_flag("--version", version_asked, "print the version and end");
+
+  std::map<std::string, std::string> values;
+  std::map<std::string, bool> switches;
+  for (const Flag& flag : step.flags) {
+    const std::string name = bare(flag.name);
+    if (flag.takes_value) {
+      app.add_option("--" + name, values[name], flag.meaning)->type_name("VALUE");
+    } else {
+      app.add_flag("--" + name, switches[name], flag.meaning);
+    }
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    line.action = CommandLine::Action::help;
+    line.text = app.help();
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw InputError({"command line", 0, ""}, error.what(), "--help lists the options");
+  }
+  if (const auto extras = app.remaining(); !extras.empty()) refuse(app, extras.front());
+
+  const auto optional_path = [](const std::string& text) { return text.empty() ? std::optional<fs::path>() : fs::path(text); };
+  line.study = study;
+  line.out = out;
+  line.results = results;
+  line.model = optional_path(model);
+  line.campaign = optional_path(campaign);
+  line.modes = optional_path(modes);
+  line.features = optional_path(features);
+  if (seed_option->count() > 0) line.seed = static_cast<std::uint64_t>(seed);
+  for (const auto& [name, value] : values) {
+    if (app.count("--" + name) > 0) line.flags.emplace_back(name, value);
+  }
+  for (const auto& [name, on] : switches) {
+    if (on) line.flags.emplace_back(name, "");
+  }
+  if (version_asked) {
+    line.action = CommandLine::Action::version;
+    line.text = step.token + " (twindeck) " + version();
+    return line;
+  }
+  for (const Flag& flag : step.flags) {
+    const std::string name = bare(flag.name);
+    if (!flag.instead || app.count("--" + name) == 0) continue;
+    line.action = CommandLine::Action::print;
+    for (const std::string& printed : flag.instead(flag.takes_value ? values[name] : "")) line.text += printed + "\n";
+    return line;
+  }
+  check_folder("--study", optional_path(study));
+  if (describe->count() > 0) {
+    line.action = CommandLine::Action::describe;
+    line.text = key;
+    return line;
+  }
+  if (print_config) {
+    line.action = CommandLine::Action::print_config;
+    return line;
+  }
+  if (out.empty()) {
+    throw InputError({"command line", 0, "--out"}, "is missing",
+                     "name the folder to write, for example --out results/x/" + step.token);
+  }
+  if (!line.model || !fs::is_regular_file(*line.model) || line.model->extension() != ".inp")
+    check_folder("--model", line.model);
+  check_folder("--campaign", line.campaign);
+  check_folder("--modes", line.modes);
+  check_folder("--features", line.features);
+  return line;
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modal/modes.hpp"
+#include "steps/shared/run_step.hpp"
+
+namespace twindeck::steps {
+
+/// A measuring channel of channels.csv: where it sits and along what.
+struct Channel {
+  std::string name;
+  std::string point;                                    ///< "" where channels.csv gives none
+  std::optional<Eigen::Vector3d> x_m;                   ///< position, where it is known
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< direction cosines dx dy dz, unit length
+};
+
+/// Measured modes with what names and places them.
+struct Measured {
+  modal::ModeSet modes;             ///< direction of a shape's dof: x … rz, or the name of a channel
+  std::vector<std::string> labels;  ///< (n_modes) "7X"
+  std::vector<Channel> channels;    ///< empty without channels.csv
+  std::string source;               ///< folder, for messages
+};
+
+/// Reads the modes of one condition out of a features folder (DESIGN section 3): rows.csv, conditions.toml and, where there are
+/// shapes, channels.csv. Modes come in ascending frequency; rows that are held out stay out.
+/// @param condition  a table of conditions.toml; "" means the only one, or the only one with dampers = "off"
+/// @throws InputError  with file, line, column: an unknown type, condition or channel, a row without a standard deviation, a
+/// mode
+///                     without a frequency, a shape with gaps
+[[nodiscard]] Measured read_measured_features(const std::filesystem::path& folder, const std::string& condition);
+
+/// Reads modes.csv, and shapes.csv and channels.csv where they are there, from a folder (`--modes DIR`).
+/// @throws InputError  as above
+[[nodiscard]] Measured read_measured_modes(const std::filesystem::path& folder);
+
+/// The measured modes that a step works with: `--modes DIR`, else `--features DIR`, else the study's features, registered as
+/// inputs. Nothing if none of the three is there.
+[[nodiscard]] std::optional<Measured> find_measured(StepContext& context, const std::string& condition);
+
+}  // namespace twindeck::steps

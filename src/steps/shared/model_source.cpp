@@ -1,0 +1,92 @@
+#include "steps/shared/model_source.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "model_io/inp.hpp"
+#include "model_io/model_folder.hpp"
+#include "ponte/generator.hpp"
+#include "steps/shared/study.hpp"
+
+namespace twindeck::steps {
+
+LoadedModel from_model(fe::Model model) {
+  LoadedModel loaded;
+  loaded.source = model.source;
+  loaded.theta = fe::initial_parameters(model);
+  loaded.structure = std::make_shared<const fe::Structure>(std::move(model));
+  loaded.model = std::shared_ptr<const fe::Model>(loaded.structure, &loaded.structure->model());
+  loaded.state = loaded.structure->prestress(loaded.theta);
+  loaded.system = loaded.structure->system(loaded.state);
+  // A prestress is found on the structure without its stays, which refuses a mechanism already.
+  if (loaded.model->prestress.rule == fe::PullRule::none) {
+    fe::check_no_mechanism(loaded.system, loaded.theta, loaded.source);
+  }
+  return loaded;
+}
+
+LoadedModel read_model_folder(const std::filesystem::path& folder) {
+  if (!model_io::is_matrix_model(folder)) return from_model(model_io::read_model(folder));
+  LoadedModel loaded;
+  loaded.source = folder.string();
+  loaded.system = model_io::read_matrix_model(folder);
+  loaded.theta = loaded.system.initial();
+  return loaded;
+}
+
+LoadedModel import_inp(StepContext& context, const std::filesystem::path& file) {
+  context.input(file);
+  auto beside = file;
+  beside.replace_extension(".toml");
+  if (std::filesystem::exists(beside)) context.input(beside);
+  model_io::InpModel imported = model_io::read_inp(file);
+  for (const std::string& note : imported.notes) context.say(note);
+  return from_model(std::move(imported.model));
+}
+
+LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
+  const std::filesystem::path folder = context.model.value_or(default_folder);
+  if (std::filesystem::is_regular_file(folder)) return import_inp(context, folder);
+  if (!std::filesystem::is_directory(folder)) {
+    const std::string step = default_folder.parent_path().filename().string();
+    throw InputError({folder.string(), 0, ""}, "is not there, expected a model folder",
+                     context.model ? "give --model the folder that holds model.toml"
+                                   : "run " + step + " first, or give a model folder by --model DIR");
+  }
+  return read_model_folder(context.input(folder));
+}
+
+LoadedModel load_study_model(StepContext& context, const std::string& variant) {
+  if (context.model) return load_model(context, *context.model);
+  if (context.study.empty()) {
+    throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
+  }
+  const Study study = read_study(context.study);
+  if (!study.model_inp.empty()) return import_inp(context, study.model_inp);
+  if (study.model_folder.empty() && study.model_generator.empty()) {
+    throw InputError({(context.study / "study.toml").string(), 0, "model"}, "names no model",
+                     "give [model] generator and file, or folder, or a model folder by --model DIR");
+  }
+  if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
+  return from_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
+}
+
+LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps) {
+  if (displacements == "as_model" || !loaded.model) return loaded;
+  fe::Model model = std::move(*loaded.model);
+  model.prestress.displacements = displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
+  model.prestress.load_steps = load_steps;
+  return from_model(std::move(model));
+}
+
+void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
+  if (loaded.model) {
+    model_io::write_model(fe::with_parameters(*loaded.model, theta), folder);
+    return;
+  }
+  fe::ParametricSystem system = loaded.system;
+  for (std::size_t p = 0; p < system.parameters.size(); ++p) system.parameters[p].initial = theta[static_cast<Eigen::Index>(p)];
+  model_io::write_matrix_model(system, folder);
+}
+
+}  // namespace twindeck::steps

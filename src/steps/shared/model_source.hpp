@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "fe/assembly.hpp"
+#include "fe/model.hpp"
+#include "fe/parametric_system.hpp"
+#include "fe/structure.hpp"
+#include "steps/shared/run_step.hpp"
+
+namespace twindeck::steps {
+
+/// A model ready to be solved, wherever it came from.
+struct LoadedModel {
+  std::shared_ptr<const fe::Model> model;          ///< null for a matrix model
+  std::shared_ptr<const fe::Structure> structure;  ///< the same, numbered and assembled
+  fe::ParametricSystem system;
+  Eigen::VectorXd theta;     ///< (n_parameters) values as the model stands, in the parameters' units
+  fe::PrestressState state;  ///< empty vectors for a matrix model
+  std::string source;        ///< folder or generator, for messages
+  /// Null for a matrix model: what model_io's writers take.
+  [[nodiscard]] const fe::Model* fe_model() const { return model.get(); }
+};
+
+/// Checks a model, finds its prestress and assembles it.
+/// @throws InputError  for a model that is not sound, or a mechanism
+[[nodiscard]] LoadedModel from_model(fe::Model model);
+
+/// Reads a model folder, of finite elements or of matrices.
+[[nodiscard]] LoadedModel read_model_folder(const std::filesystem::path& folder);
+
+/// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp) and says what of it does not enter a model.
+[[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
+
+/// The model that a step works on: `--model DIR` (or an .inp file) where it is given, otherwise the folder that an earlier step
+/// wrote, with its files registered as inputs.
+/// @throws InputError  naming the step to run first if there is neither
+[[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
+
+/// The study's own model (study.toml [model]): a variant of the generator, or a folder or .inp file, which have no variants.
+/// `--model DIR` goes before both.
+[[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
+
+/// The same model in equilibrium under its dead load with displacements "linear" or "large" (fe::Displacements); "as_model", or
+/// a matrix model: as it is.
+[[nodiscard]] LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps);
+
+/// Writes the model as a model folder, with `theta` as its values.
+void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder);
+
+}  // namespace twindeck::steps

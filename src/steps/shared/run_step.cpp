@@ -1,0 +1,203 @@
+#include "steps/shared/run_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "core/build_info.hpp"
+#include "io/atomic.hpp"
+#include "io/manifest.hpp"
+#include "model_io/model_folder.hpp"
+#include "steps/shared/cli.hpp"
+#include "steps/shared/run_step_signals.hpp"
+#include "steps/shared/run_step_threads.hpp"
+#include "steps/shared/study.hpp"
+
+namespace twindeck::steps {
+namespace fs = std::filesystem;
+namespace {
+
+/// One line whatever was thrown: line ends inside a message become blanks.
+int failure(const std::string& token, const std::string& kind, std::string message, int code) {
+  std::replace_if(
+      message.begin(), message.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
+  std::fputs(fmt::format("{}: {}{}\n", token, kind, message).c_str(), stderr);
+  return code;
+}
+
+/// The step's configuration: its own file in the study, then --set in order.
+void read_configuration(const CommandLine& line, Step& step, StepContext& context) {
+  if (!line.study.empty()) {
+    if (const fs::path study_file = line.study / "study.toml"; fs::exists(study_file)) {
+      context.seed = read_study(line.study).seed;
+      context.input(study_file);
+    }
+    if (const fs::path own = line.study / (step.token + ".toml"); fs::exists(own)) {
+      step.fields.load(context.input(own));
+    }
+  }
+  for (const std::string& assignment : line.sets) step.fields.set(assignment);
+  if (line.seed) context.seed = *line.seed;
+}
+
+/// Only a folder of this very step, or an empty one, may be replaced: --out set to something else must not cost anybody's
+/// files.
+void refuse_to_replace_foreign(const fs::path& folder, const std::string& token) {
+  if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) return;
+  if (!fs::is_directory(folder) || !io::is_step_folder(folder)) {
+    throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' exists and holds no results of a step",
+                     "name another folder, or remove this one yourself");
+  }
+  if (const std::string owner = io::read_manifest(folder).step; owner != token) {
+    throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' holds results of " + owner,
+                     "name another folder");
+  }
+}
+
+fs::path unconverged_place(fs::path out) { return out += ".unconverged"; }
+
+std::map<std::string, std::string> hashes_below(const fs::path& folder) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) hashes[fs::relative(entry.path(), folder).generic_string()] = io::sha256(entry.path());
+  }
+  return hashes;
+}
+
+/// A key of the step's configuration, or all; or all of one of the files that are no step's own.
+std::string describe(const Step& step, const std::string& key) {
+  if (key == "study.toml") return describe_study();
+  if (key == "model.toml") return model_io::describe_model_toml();
+  return step.fields.describe(key);
+}
+
+int compute(int argc, char** argv, const CommandLine& line, Step& step, StepContext& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const fs::path out = io::without_trailing_slash(line.out);
+  const fs::path unconverged = unconverged_place(out);
+
+  // 1. Everything that can be refused is refused before anything is written.
+  read_configuration(line, step, context);
+  step.fields.require();
+  refuse_to_replace_foreign(out, step.token);
+  refuse_to_replace_foreign(unconverged, step.token);
+  context.study = line.study;
+  context.results = line.results.empty() ? (out.has_parent_path() ? out.parent_path() : fs::path(".")) : line.results;
+  context.model = line.model;
+  context.campaign = line.campaign;
+  context.modes = line.modes;
+  context.features = line.features;
+  context.flags_ = line.flags;
+  context.threads = set_threads(line.threads);
+
+  // 2. The step computes and writes beside its place.
+  const CleanInterrupt interrupt(io::FolderReplacement::partial_place(out));  // first, so that no moment is uncovered
+  io::FolderReplacement replacement(out);
+  context.out = replacement.partial();
+  const Status status = step.run(context);
+
+  // 3. The manifest comes last.
+  io::Manifest manifest;
+  manifest.step = step.token;
+  manifest.status = status.converged ? "converged" : "unconverged";
+  manifest.message = status.message;
+  manifest.config_toml = step.fields.print();
+  manifest.command_line.assign(argv, argv + argc);
+  manifest.seed = context.seed;
+  manifest.threads = context.threads;
+  for (const auto& [path, hash] : context.input_hashes_) manifest.inputs[path] = hash;
+  manifest.outputs = hashes_below(context.out);
+  manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  io::write_manifest(manifest, context.out);
+
+  // 4. What is finished replaces what was there; what did not converge goes beside it.
+  if (!status.converged && !line.accept_unconverged) {
+    replacement.publish(unconverged);
+    return failure(step.token, "not converged: ",
+                   status.message + "; see " + unconverged.string() + ", or publish it with --accept-unconverged", 1);
+  }
+  replacement.publish();
+  std::error_code ignored;
+  fs::remove_all(unconverged, ignored);  // of an earlier attempt, now overtaken
+  context.say(fmt::format("{} in {:.1f} s, written to {}", status.converged ? "done" : "accepted though not converged",
+                          manifest.seconds, out.string()));
+  return 0;
+}
+
+}  // namespace
+
+std::optional<std::string> StepContext::flag(const std::string& name) const {
+  const std::string wanted = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  for (const auto& [given, value] : flags_) {
+    if (given == wanted) return value;
+  }
+  return std::nullopt;
+}
+
+bool StepContext::has_flag(const std::string& name) const { return flag(name).has_value(); }
+
+fs::path StepContext::input(const fs::path& path) {
+  if (!fs::exists(path)) {
+    throw InputError({path.string(), 0, ""}, "does not exist",
+                     "run the step that writes it, or point to your own data (--help)");
+  }
+  io::check_against_manifest(path);
+  const auto register_file = [&](const fs::path& file) {
+    inputs_.push_back(file);
+    input_hashes_.emplace(file.generic_string(), io::sha256(file));
+  };
+  if (!fs::is_directory(path)) {
+    register_file(path);
+    return path;
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(path)) {
+    // A manifest tells seconds and dates of another step; what counts is the files that it vouches for.
+    if (entry.is_regular_file() && entry.path().filename() != "manifest.json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::for_each(files.begin(), files.end(), register_file);
+  return path;
+}
+
+int run_step(int argc, char** argv, Step step) {
+  StepContext context;
+  context.token_ = step.token;
+  try {
+    const CommandLine line = parse_command_line(argc, argv, step);
+    context.quiet = line.quiet;
+    switch (line.action) {
+      case CommandLine::Action::help:
+        std::fputs(line.text.c_str(), stdout);
+        return 0;
+      case CommandLine::Action::print:
+        std::fputs(line.text.c_str(), stdout);
+        return 0;
+      case CommandLine::Action::version:
+        std::fputs((line.text + "\n").c_str(), stdout);
+        return 0;
+      case CommandLine::Action::describe:
+        std::fputs(describe(step, line.text).c_str(), stdout);
+        return 0;
+      case CommandLine::Action::print_config:
+        read_configuration(line, step, context);
+        std::fputs(step.fields.print().c_str(), stdout);
+        return 0;
+      case CommandLine::Action::run:
+        return compute(argc, argv, line, step, context);
+    }
+    throw InternalError("the command line asks for nothing known");
+  } catch (const InputError& error) {
+    return failure(step.token, "", error.what(), 2);
+  } catch (const fs::filesystem_error& error) {
+    return failure(step.token, "", error.what(), 2);
+  } catch (const std::exception& error) {
+    return failure(step.token, "internal error: ", error.what(), 3);
+  } catch (...) {
+    return failure(step.token, "internal error: ", "something unknown was thrown", 3);
+  }
+}
+
+}  // namespace twindeck::steps

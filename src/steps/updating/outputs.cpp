@@ -1,0 +1,147 @@
+#include "steps/updating/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "io/csv.hpp"
+
+namespace twindeck::steps {
+namespace {
+
+const char* bound_name(int side) { return side < 0 ? "lower" : side > 0 ? "upper" : "none"; }
+
+const fe::Parameter& parameter_at(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active, std::size_t j) {
+  return parameters[static_cast<std::size_t>(active[j])];
+}
+
+std::optional<double> change_pct(double initial, double final_value) {
+  if (initial == 0.0) return std::nullopt;
+  return 100.0 * (final_value / initial - 1.0);
+}
+
+// As the search saw it: divided by the size of the initial value, by the range where that is 0.
+double normalised(const fe::Parameter& parameter, double value) {
+  return value / (parameter.initial != 0.0 ? std::abs(parameter.initial) : parameter.upper - parameter.lower);
+}
+
+std::vector<std::string> with_parameter_names(std::vector<std::string> columns, const std::vector<fe::Parameter>& parameters,
+                                              const std::vector<int>& active) {
+  for (std::size_t j = 0; j < active.size(); ++j) columns.push_back(parameter_at(parameters, active, j).name);
+  return columns;
+}
+
+// Position of a start's optimum among the distinct ones, from 1; 0 where it did not converge.
+int optimum_number(const updating::UpdatingResult& result, const updating::StartResult& start) {
+  const auto at = std::find(result.optima.begin(), result.optima.end(), start.optimum);
+  return at == result.optima.end() ? 0 : static_cast<int>(at - result.optima.begin()) + 1;
+}
+
+}  // namespace
+
+void write_parameters(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                      const updating::UpdatingResult& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"parameter", "unit", "initial_value", "final_value", "change_pct", "lower", "upper", "bound"});
+  for (std::size_t j = 0; j < active.size(); ++j) {
+    const fe::Parameter& parameter = parameter_at(parameters, active, j);
+    const double value = result.theta(active[j]);
+    csv.row({parameter.name, parameter.unit, parameter.initial, value, change_pct(parameter.initial, value), parameter.lower,
+             parameter.upper, bound_name(result.on_bound.at(j))});
+  }
+  csv.save(file);
+}
+
+void write_history(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                   const updating::UpdatingResult& result, const std::filesystem::path& file) {
+  io::CsvWriter csv(with_parameter_names(
+      {"start", "outer", "iteration", "cost", "projected_gradient", "step_norm", "trust_radius"}, parameters, active));
+  for (const updating::IterationRecord& record : result.history) {
+    std::vector<io::Cell> cells = {record.start,    record.outer, record.iteration, record.cost,
+                                   record.gradient, record.step,  record.radius};
+    for (const double x : record.theta) cells.emplace_back(x);
+    csv.row(cells);
+  }
+  csv.save(file);
+}
+
+void write_starts(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                  const updating::UpdatingResult& result, const std::filesystem::path& file) {
+  io::CsvWriter csv(with_parameter_names(
+      {"start", "cost", "projected_gradient_relative", "iterations", "converged", "optimum", "message"}, parameters, active));
+  for (std::size_t k = 0; k < result.starts.size(); ++k) {
+    const updating::StartResult& start = result.starts[k];
+    const int optimum = optimum_number(result, start);
+    std::vector<io::Cell> cells = {k,
+                                   start.cost,
+                                   start.relative_projected_gradient,
+                                   start.iterations,
+                                   start.converged ? 1 : 0,
+                                   optimum > 0 ? io::Cell(optimum) : io::Cell(""),
+                                   start.message};
+    for (std::size_t j = 0; j < active.size(); ++j) {
+      cells.emplace_back(normalised(parameter_at(parameters, active, j), start.theta(static_cast<Eigen::Index>(j))));
+    }
+    csv.row(cells);
+  }
+  csv.save(file);
+}
+
+void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                            const updating::UpdatingResult& result, const std::filesystem::path& file) {
+  std::vector<ComparisonRow> alike;
+  std::copy_if(comparison.begin(), comparison.end(), std::back_inserter(alike), [&](const ComparisonRow& row) {
+    return std::find(common.begin(), common.end(), row.experimental) != common.end();
+  });
+  io::CsvWriter csv({"quantity", "value", "unit"});
+  csv.row({"mean_abs_error_before_pct", mean_abs_error_pct(comparison, "before"), "%"});
+  csv.row({"mean_abs_error_after_pct", mean_abs_error_pct(comparison, "after"), "%"});
+  csv.row({"pairs", comparison.size() / 2, "-"});
+  if (!alike.empty()) {
+    csv.row({"mean_abs_error_common_before_pct", mean_abs_error_pct(alike, "before"), "%"});
+    csv.row({"mean_abs_error_common_after_pct", mean_abs_error_pct(alike, "after"), "%"});
+    csv.row({"pairs_common", alike.size() / 2, "-"});
+  }
+  const updating::StartResult& best = result.starts.at(static_cast<std::size_t>(result.best));
+  csv.row({"cost", best.cost, "-"});
+  csv.row({"projected_gradient_relative", best.relative_projected_gradient, "-"});
+  csv.row({"starts", result.starts.size(), "-"});
+  csv.row(
+      {"starts_converged",
+       static_cast<long>(std::count_if(result.starts.begin(), result.starts.end(), [](const auto& s) { return s.converged; })),
+       "-"});
+  csv.row({"distinct_optima", result.optima.size(), "-"});
+  csv.row({"parameters_on_bounds",
+           static_cast<long>(std::count_if(result.on_bound.begin(), result.on_bound.end(), [](int side) { return side != 0; })),
+           "-"});
+  csv.row({"smallest_followed_mac", result.followed_mac.minCoeff(), "-"});
+  csv.save(file);
+}
+
+std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                                      const updating::UpdatingResult& result) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{:<14} {:>13} {:>13} {:>9}  {}", "parameter", "initial", "final", "change", "bound"));
+  for (std::size_t j = 0; j < active.size(); ++j) {
+    const fe::Parameter& parameter = parameter_at(parameters, active, j);
+    const double value = result.theta(active[j]);
+    const std::optional<double> change = change_pct(parameter.initial, value);
+    const std::string percent = change ? fmt::format("{:+.2f} %", *change) : "";
+    lines.push_back(fmt::format("{:<14} {:>13.6g} {:>13.6g} {:>9}  {}", parameter.name, parameter.initial, value, percent,
+                                result.on_bound.at(j) == 0 ? "" : bound_name(result.on_bound[j])));
+  }
+  lines.push_back(
+      fmt::format("{:<5} {:>13} {:>9} {:>6} {:>7} {:>7}  {}", "start", "cost", "gradient", "steps", "solves", "optimum", ""));
+  for (std::size_t k = 0; k < result.starts.size(); ++k) {
+    const updating::StartResult& start = result.starts[k];
+    lines.push_back(fmt::format("{:<5} {:>13.6e} {:>9.1e} {:>6} {:>7} {:>7}  {}", k, start.cost,
+                                start.relative_projected_gradient, start.iterations, start.solves,
+                                start.converged ? fmt::format("{}", optimum_number(result, start)) : "-",
+                                start.converged ? (static_cast<int>(k) == result.best ? "best" : "") : start.message));
+  }
+  return lines;
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+#include "steps/refinement/comparison.hpp"
+#include "updating/updating.hpp"
+
+namespace twindeck::steps {
+
+/// `parameters.csv`: parameter,unit,initial_value,final_value,change_pct,lower,upper,bound (lower|upper|none), one row an
+/// updated parameter; change_pct is empty where the initial value is 0.
+void write_parameters(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                      const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// `history.csv`: start,outer,iteration,cost,projected_gradient,step_norm,trust_radius and the normalised parameters, one row
+/// an accepted step.
+void write_history(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                   const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// `starts.csv`: start,cost,projected_gradient_relative,iterations,converged,optimum,message and the final normalised
+/// parameters. `optimum` numbers the distinct optima from 1, best first; empty for a start that did not converge.
+void write_starts(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                  const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over the
+/// measured modes `common` (those that an earlier table compares too), so that means are over like and like; cost and
+/// optimality of the best start; numbers of starts, of distinct optima, of parameters on a bound.
+void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                            const updating::UpdatingResult& result, const std::filesystem::path& file);
+
+/// What was found, for people: values before and after, bounds hit, cost and optimality of each start.
+[[nodiscard]] std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters,
+                                                    const std::vector<int>& active, const updating::UpdatingResult& result);
+
+}  // namespace twindeck::steps

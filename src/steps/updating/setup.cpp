@@ -1,0 +1,179 @@
+#include "steps/updating/setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "io/csv.hpp"
+
+namespace twindeck::steps {
+namespace {
+
+std::vector<std::string> selected_by_sensitivity(StepContext& context) {
+  const std::filesystem::path file = context.results / "s5_sensitivity" / "selection.csv";
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InputError({file.string(), 0, ""}, "is not there, but parameters_from is \"s5_sensitivity\"",
+                     "run s5_sensitivity first, or list the parameters");
+  }
+  const io::CsvTable table = io::CsvTable::read(context.input(file), {"parameter", "selected"}, {}, true);
+  std::vector<std::string> names;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.integer(row, "selected") != 0) names.push_back(table.text(row, "parameter"));
+  }
+  return names;
+}
+
+bool has_range(const fe::Parameter& parameter) { return parameter.lower < parameter.upper; }
+
+modal::PairingOptions pairing_options(const UpdatingConfig& config) {
+  modal::PairingOptions options;
+  options.minimum_mac = config.minimum_mac;
+  options.maximum_frequency_error = config.maximum_frequency_error;
+  options.cluster_gap = config.cluster_gap;
+  return options;
+}
+
+}  // namespace
+
+io::FieldTable UpdatingConfig::fields() {
+  io::FieldTable table;
+  table
+      .choice("parameters_from", parameters_from, {"list", "s5_sensitivity"},
+              "which parameters are updated: those of `parameters`, or those that s5_sensitivity selected")
+      .texts("parameters", parameters, "names of the parameters to update; empty: all that have a range")
+      .texts("pairs", pairs, "published assignment such as \"7X-8N\", used where no shape was measured; empty: by order")
+      .texts("common_pairs", common_pairs,
+             "measured modes (\"7X\") of a second mean error, over pairs that an earlier table has too")
+      .text("condition", condition, "condition of the measured features; empty: the only one, or the only one without dampers")
+      .number("trust_radius", trust_radius, "", io::positive(), "initial trust radius of the dogleg, in normalised parameters")
+      .integer("starts", starts, {1.0, 1000.0}, "searches: from the initial values, and from seeded points inside the bounds")
+      .integer("n_modes", n_modes, {1.0, 200.0}, "modes solved for, among which the paired ones are followed")
+      .integer("max_iterations", max_iterations, {1.0, 1e5}, "most steps of one solve at fixed prestress")
+      .integer("outer_iterations", outer_iterations, {1.0, 1000.0}, "most prestress states of one search")
+      .number("optimality_tolerance", optimality_tolerance, "", {1e-12, 1e-2, true},
+              "projected gradient at which a solve has converged, relative to the gradient at its start")
+      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: pairs below it are left out")
+      .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
+              "pairing by MAC: a pair further apart in frequency (relative) is not admitted")
+      .number("cluster_gap", cluster_gap, "", io::non_negative(),
+              "pairing by MAC: relative gap below which modes count as close")
+      .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(), "largest distance of a sensor from its node");
+  return table;
+}
+
+updating::UpdatingOptions UpdatingConfig::options(std::uint64_t seed) const {
+  updating::UpdatingOptions options;
+  options.trust_radius = trust_radius;
+  options.starts = static_cast<int>(starts);
+  options.n_modes = static_cast<int>(n_modes);
+  options.max_iterations = static_cast<int>(max_iterations);
+  options.outer_iterations = static_cast<int>(outer_iterations);
+  options.optimality_tolerance = optimality_tolerance;
+  options.seed = seed;
+  return options;
+}
+
+dynamics::EigenModes available_modes(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, int n_modes) {
+  dynamics::ModalSolver solver(system);
+  dynamics::EigenModes modes = solver.solve(theta, std::min(n_modes, static_cast<int>(system.size())));
+  const auto found = static_cast<int>(modes.frequency_Hz.size());
+  if (!modes.status.converged && found > 0 && found < n_modes) modes = solver.solve(theta, found);
+  return modes;
+}
+
+LoadedModel with_values(const LoadedModel& loaded, const Eigen::VectorXd& theta) {
+  LoadedModel changed = loaded;
+  changed.theta = theta;
+  if (loaded.structure) {  // the matrices as the updating saw them: same parameters, prestress of the new values
+    changed.state = loaded.structure->prestress(theta);
+    changed.system = loaded.structure->system(changed.state);
+  }
+  return changed;
+}
+
+std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedModel& loaded, StepContext& context) {
+  const std::vector<fe::Parameter>& parameters = loaded.system.parameters;
+  std::vector<std::string> known;
+  for (const fe::Parameter& parameter : parameters) known.push_back(parameter.name);
+  const bool from_s5 = config.parameters_from == "s5_sensitivity";
+  const std::vector<std::string> names = from_s5 ? selected_by_sensitivity(context) : config.parameters;
+  std::vector<int> active;
+  if (names.empty() && !from_s5) {
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      if (has_range(parameters[p])) active.push_back(static_cast<int>(p));
+    }
+  }
+  for (const std::string& name : names) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at == known.end()) {
+      throw InputError({"", 0, "parameters"},
+                       fmt::format("'{}' is no parameter of {}{}", name, loaded.source, did_you_mean(name, known)),
+                       "list parameters of the model");
+    }
+    const auto p = static_cast<int>(at - known.begin());
+    if (std::find(active.begin(), active.end(), p) != active.end()) {
+      throw InputError({"", 0, "parameters"}, fmt::format("names '{}' twice", name), "list each parameter once");
+    }
+    if (!has_range(parameters[static_cast<std::size_t>(p)])) {
+      throw InputError({loaded.source, 0, name}, "is fixed (its bounds coincide), but is listed for updating",
+                       "give it a range in the model, or take it off the list");
+    }
+    active.push_back(p);
+  }
+  if (active.empty()) {
+    throw InputError({loaded.source, 0, "parameter"}, "no parameter to update: none is listed or selected, or none has a range",
+                     "define parameters with lower < upper in model.toml");
+  }
+  return active;
+}
+
+Pairing pair_for_updating(const UpdatingConfig& config, const LoadedModel& loaded, const dynamics::EigenModes& modes,
+                          const Measured& measured) {
+  Pairing pairing;
+  if (measured.modes.has_shapes()) {
+    pairing = pair_at_sensors(measured, loaded, modes, pairing_options(config), config.sensor_tolerance_m);
+  } else if (!config.pairs.empty()) {
+    pairing = pair_as_published(measured, modes.frequency_Hz.size(), config.pairs, {"", 0, "pairs"});
+  } else {
+    pairing = pair_by_order(measured, modes.frequency_Hz.size());
+  }
+  if (pairing.pairs.empty()) {
+    throw InputError({measured.source, 0, ""}, "no measured mode has a computed partner",
+                     "check frequencies and pairs, or raise maximum_frequency_error");
+  }
+  return pairing;
+}
+
+std::vector<updating::FrequencyTarget> frequency_targets(const Measured& measured, const Pairing& pairing) {
+  std::vector<updating::FrequencyTarget> targets;
+  for (const modal::ModePair& pair : pairing.pairs) {
+    targets.push_back({measured.labels[static_cast<std::size_t>(pair.experimental)] + "-" + numerical_label(pair.numerical),
+                       static_cast<int>(pair.numerical), measured.modes.frequency_Hz(pair.experimental),
+                       measured.modes.frequency_std_Hz(pair.experimental)});
+  }
+  return targets;
+}
+
+updating::Refresh prestress_refresh(const LoadedModel& loaded) {
+  if (!loaded.structure) return {};
+  return
+      [structure = loaded.structure](const Eigen::VectorXd& theta) { return structure->system(structure->prestress(theta)); };
+}
+
+Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before, const updating::UpdatingResult& result,
+                         const LoadedModel& after, const dynamics::EigenModes& modes, const Measured& measured) {
+  Pairing pairing = before;
+  if (measured.modes.has_shapes()) {
+    pairing.mac = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m).mac;
+  }
+  for (std::size_t i = 0; i < pairing.pairs.size(); ++i) {
+    modal::ModePair& pair = pairing.pairs[i];
+    pair.numerical = result.mode_after.at(i);
+    if (pairing.mac.size() > 0) pair.mac = pairing.mac(pair.numerical, pair.experimental);
+  }
+  return pairing;
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/eigenmodes.hpp"
+#include "io/config.hpp"
+#include "steps/refinement/comparison.hpp"
+#include "steps/shared/measured.hpp"
+#include "steps/shared/model_source.hpp"
+#include "steps/shared/run_step.hpp"
+#include "updating/updating.hpp"
+
+namespace twindeck::steps {
+
+/// Configuration of s6_updating.
+struct UpdatingConfig {
+  std::string parameters_from = "list";   ///< "list" | "s5_sensitivity"
+  std::vector<std::string> parameters;    ///< empty: all that have a range
+  std::vector<std::string> pairs;         ///< "7X-8N", where no shape was measured; empty: by order
+  std::vector<std::string> common_pairs;  ///< experimental modes of the second mean; empty: none
+  std::string condition;                  ///< of the measured features
+  double trust_radius = 2.0;
+  long starts = 8;
+  long n_modes = 20;
+  long max_iterations = 100;
+  long outer_iterations = 12;
+  double optimality_tolerance = 1e-6;
+  double minimum_mac = 0.0;
+  double maximum_frequency_error = 0.35;
+  double cluster_gap = 0.02;
+  double sensor_tolerance_m = 0.5;
+
+  [[nodiscard]] io::FieldTable fields();
+  [[nodiscard]] updating::UpdatingOptions options(std::uint64_t seed) const;
+};
+
+/// The lowest modes, as many of `n_modes` as the structure has.
+[[nodiscard]] dynamics::EigenModes available_modes(const fe::ParametricSystem& system, const Eigen::VectorXd& theta,
+                                                   int n_modes);
+
+/// The model with parameter values put in and its prestress found anew.
+[[nodiscard]] LoadedModel with_values(const LoadedModel& loaded, const Eigen::VectorXd& theta);
+
+/// Positions of the parameters to update: as listed, as s5_sensitivity selected them, or all that have a range.
+/// @throws InputError  for a name that is no parameter, is listed twice or has no range
+[[nodiscard]] std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedModel& loaded, StepContext& context);
+
+/// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order.
+/// @throws InputError  where no pair is left
+[[nodiscard]] Pairing pair_for_updating(const UpdatingConfig& config, const LoadedModel& loaded,
+                                        const dynamics::EigenModes& modes, const Measured& measured);
+
+[[nodiscard]] std::vector<updating::FrequencyTarget> frequency_targets(const Measured& measured, const Pairing& pairing);
+
+/// How prestress is found anew for parameter values; empty for a matrix model. Holds a reference to `loaded`.
+[[nodiscard]] updating::Refresh prestress_refresh(const LoadedModel& loaded);
+
+/// The same measured modes with the computed modes that the updating followed them to, and MAC where shapes were measured.
+/// @param before  the pairing that the targets came from
+[[nodiscard]] Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before,
+                                       const updating::UpdatingResult& result, const LoadedModel& after,
+                                       const dynamics::EigenModes& modes, const Measured& measured);
+
+}  // namespace twindeck::steps

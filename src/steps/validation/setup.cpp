@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "buffeting/loads.hpp"
+#include "io/csv.hpp"
+#include "steps/validation/validation.hpp"
+
+namespace twindeck::steps {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+namespace {
+
+AerodynamicsConfig read_aerodynamics(const ValidationConfig& config, StepContext& context) {
+  if (config.aerodynamics.empty() && context.study.empty()) {
+    throw InputError({"", 0, "aerodynamics"}, "neither a study nor a configuration of step 7 was given",
+                     "give --study, or --set aerodynamics=s7_aerodynamics.toml");
+  }
+  AerodynamicsConfig out;
+  io::FieldTable fields = out.fields();
+  fields.load(context.input(config.aerodynamics.empty() ? context.study / "s7_aerodynamics.toml"
+                                                        : std::filesystem::path(config.aerodynamics)));
+  fields.require();
+  return out;
+}
+
+/// The level that step 7 fitted for a set.
+double fitted_level(StepContext& context, const std::string& set) {
+  const std::filesystem::path file = context.input(context.results / "s7_aerodynamics" / "sets.csv");
+  const io::CsvTable table = io::CsvTable::read(file, {"set", "level"}, {}, true);
+  std::vector<std::string> known;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "set") == set) return table.number(row, "level");
+    known.push_back(table.text(row, "set"));
+  }
+  throw InputError({file.string(), 0, "set"}, "has no set '" + set + "'" + did_you_mean(set, known),
+                   fmt::format("choose one of {}", fmt::join(known, ", ")));
+}
+
+/// Loads of a unit gust on each strip, v' and w', by rule A, over the free degrees of freedom. @return (n × 2 n_strips)
+MatrixXd gust_patterns(const BridgeInWind& bridge, const ValidationConfig& config) {
+  const aero::YawRule& rule = aero::published_yaw_rule("A");
+  const double intensity_ratio = 0.5;  // w' is about half as strong as v': patterns are weighed by their size
+  const auto n = static_cast<Index>(bridge.model.strips.size());
+  MatrixXd at_nodes = MatrixXd::Zero(6 * n, 2 * n);
+  for (Index i = 0; i < n; ++i) {
+    const aero::Strip& strip = bridge.model.strips[static_cast<std::size_t>(i)];
+    const buffeting::LoadFactor factor =
+        buffeting::buffeting_factor(bridge.sections[static_cast<std::size_t>(strip.section)], strip, rule,
+                                    bridge.aerodynamics.density_kg_m3, 1.0, config.equation_choice());
+    const aero::Kinematics kinematics = aero::kinematics(strip, rule.axes, bridge.aerodynamics.wind());
+    at_nodes.block<6, 1>(6 * i, i) = kinematics.transpose() * factor.col(0);
+    at_nodes.block<6, 1>(6 * i, n + i) = intensity_ratio * kinematics.transpose() * factor.col(1);
+  }
+  const MatrixXd nodal = bridge.model.nodes.motion.transpose() * at_nodes;
+  return bridge.loaded.system.expansion.transpose() * nodal;
+}
+
+}  // namespace
+
+Sensors find_sensors(const LoadedModel& loaded, const WindModel& model, const MatrixXd& vectors) {
+  Sensors out;
+  const MatrixXd full = loaded.system.expand(vectors);
+  const std::vector<aero::StripMotion> motions = motions_of(model.nodes, full);
+  for (const auto& [name, node] : loaded.model->monitoring_points) {
+    if (name.starts_with("M")) out.points.push_back(name);  // other named points are no accelerometers
+  }
+  for (std::size_t i = 1; i < motions.size(); i += 3) out.nodes.push_back(i);
+  out.motion.resize(out.lateral_row(out.nodes.size()), vectors.cols());
+  for (std::size_t p = 0; p < out.points.size(); ++p) {
+    out.motion.middleRows<3>(3 * static_cast<Index>(p)) =
+        full.middleRows<3>(6 * loaded.model->monitoring_points.at(out.points[p]));
+  }
+  for (std::size_t i = 0; i < out.nodes.size(); ++i) {
+    out.motion.row(out.lateral_row(i)) = model.strips[out.nodes[i]].normal.transpose() * motions[out.nodes[i]].topRows<3>();
+    out.motion.row(out.vertical_row(i)) = motions[out.nodes[i]].row(2);
+  }
+  return out;
+}
+
+BridgeInWind prepare_bridge_in_wind(const ValidationConfig& config, StepContext& context) {
+  BridgeInWind out;
+  out.aerodynamics = read_aerodynamics(config, context);
+  out.aerodynamics.n_modes = config.n_modes;
+  out.loaded = load_model(context, context.results / "s6_updating" / "model");
+  const std::vector<DeckAerodynamics> data = read_deck_aerodynamics(out.aerodynamics, context);
+  out.model = prepare_wind_model(out.aerodynamics, out.loaded);
+  out.level = fitted_level(context, config.set);
+  out.sections = sections_of(out.aerodynamics, data, config.set, out.level);
+  Reduction reduction;
+  reduction.dampers = config.dampers;
+  reduction.static_shapes = config.static_shapes;
+  reduction.patterns = gust_patterns(out, config);
+  out.reduced = reduce(out.model, out.loaded, out.aerodynamics.structural_damping, reduction);
+  out.sensors = find_sensors(out.loaded, out.model, out.reduced.vectors);
+  out.frozen_omega = std::sqrt(out.model.modes.eigenvalue[0]);
+  return out;
+}
+
+aero::Deployment deployment_of(const AerodynamicsConfig& config, const std::string& model) {
+  std::vector<std::string> known;
+  for (aero::Deployment& deployment : config.deployments()) {
+    if (deployment.name == model) return deployment;
+    known.push_back(deployment.name);
+  }
+  throw InputError({"", 0, "run"}, "names the model '" + model + "'" + did_you_mean(model, known),
+                   fmt::format("step 7 has {}", fmt::join(known, ", ")));
+}
+
+aero::AeroelasticSystem system_of(const BridgeInWind& bridge, const aero::Deployment& deployment) {
+  return {bridge.reduced.structure,   bridge.sections, bridge.model.strips, bridge.reduced.motions,
+          bridge.aerodynamics.wind(), deployment};
+}
+
+wind::FieldDefinition field_at_nodes(const BridgeInWind& bridge, const wind::TurbulenceSet& set, double height_m,
+                                     double speed_m_s, wind::Component component, bool frozen) {
+  const Eigen::Vector3d along = bridge.aerodynamics.wind().direction, across = Eigen::Vector3d::UnitZ().cross(along);
+  const auto n = static_cast<Index>(bridge.model.strips.size());
+  wind::FieldDefinition field;
+  field.component = component;
+  field.position_m.resize(n, 3);
+  for (Index i = 0; i < n; ++i) {
+    const Eigen::Vector3d& x = bridge.model.strips[static_cast<std::size_t>(i)].x_m;
+    field.position_m.row(i) << x.dot(along), x.dot(across), x.z();
+  }
+  field.speed_m_s = Eigen::VectorXd::Constant(n, speed_m_s);
+  field.sigma_m_s = Eigen::VectorXd::Constant(n, wind::standard_deviation(set, component, height_m, speed_m_s));
+  field.length_m = Eigen::VectorXd::Constant(n, wind::length_scale(set, component, height_m));
+  field.decay = set.decay[static_cast<std::size_t>(component)];
+  field.frozen = frozen;
+  return field;
+}
+
+}  // namespace twindeck::steps
