@@ -108,13 +108,40 @@ ConditionModel condition_model(const CampaignSettings& settings, const Condition
   return out;
 }
 
+MotionRecorder::MotionRecorder(const ConditionModel& model, const CampaignSettings& settings, MatrixXd seen, Index n_samples)
+    : seen_(std::move(seen)),
+      first_late_((seen_.rows() + 1) / 2),
+      substeps_(settings.substeps),
+      late_substep_(settings.second_logger_lag),
+      square_(VectorXd::Zero(seen_.rows())) {
+  motion_.acceleration_m_s2.resize(n_samples, seen_.rows());
+  motion_.damper_force_N.resize(model.dampers.empty() ? 0 : n_samples * substeps_, std::ssize(model.dampers));
+}
+
+void MotionRecorder::take(Index sample, long substep, const dynamics::TrapezoidalStepper& stepper) {
+  if (sample < 0) return;
+  const Index n_late = seen_.rows() - first_late_;
+  if (substep == 0)
+    motion_.acceleration_m_s2.row(sample).head(first_late_).noalias() =
+        (seen_.topRows(first_late_) * stepper.acceleration()).transpose();
+  if (substep == late_substep_)
+    motion_.acceleration_m_s2.row(sample).tail(n_late).noalias() =
+        (seen_.bottomRows(n_late) * stepper.acceleration()).transpose();
+  if (motion_.damper_force_N.size() > 0) motion_.damper_force_N.row(sample * substeps_ + substep) = stepper.damper_force();
+  if (substep + 1 == substeps_) square_ += (seen_ * stepper.displacement()).cwiseAbs2();
+}
+
+Motion MotionRecorder::motion() {
+  motion_.rms_displacement_m = (square_ / static_cast<double>(motion_.acceleration_m_s2.rows())).cwiseSqrt();
+  return std::move(motion_);
+}
+
 Motion simulate(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
                 const std::vector<LayoutChannel>& channels, const std::vector<LayoutPoint>& points, std::uint64_t seed,
                 std::uint64_t stream) {
   const Index r = model.basis.omega_rad_s.size(), n = model.n_modes;
   const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
   const auto n_samples = static_cast<Index>(std::lround(record.duration_s * settings.rate_Hz));
-  const Index n_channels = std::ssize(channels), first_late = (n_channels + 1) / 2;
   dynamics::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
   if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
@@ -133,10 +160,7 @@ Motion simulate(const ConditionModel& model, const CampaignSettings& settings, c
   // A force of density S [N²/Hz, one-sided] sampled at f has the variance S f / 2.
   const double intensity = std::sqrt(0.5 * settings.rate_Hz);
   VectorXd normal(n), before = VectorXd::Zero(r), after = VectorXd::Zero(r);
-  Motion motion;
-  motion.acceleration_m_s2.resize(n_samples, n_channels);
-  motion.damper_force_N.resize(model.dampers.empty() ? 0 : n_samples * settings.substeps, std::ssize(model.dampers));
-  VectorXd square = VectorXd::Zero(n_channels);
+  MotionRecorder recorder(model, settings, seen, n_samples);
   for (Index sample = -warm_up; sample < n_samples; ++sample) {
     for (Index i = 0; i < n; ++i)
       normal[i] = normal_number(seed, stream, static_cast<std::uint64_t>((sample + warm_up) * n + i));
@@ -145,20 +169,10 @@ Motion simulate(const ConditionModel& model, const CampaignSettings& settings, c
     for (long k = 0; k < settings.substeps; ++k) {
       const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
       stepper.step((1.0 - part) * before + part * after);
-      if (sample < 0) continue;
-      if (k == 0)
-        motion.acceleration_m_s2.row(sample).head(first_late).noalias() =
-            (seen.topRows(first_late) * stepper.acceleration()).transpose();
-      if (k == settings.second_logger_lag) {
-        motion.acceleration_m_s2.row(sample).tail(n_channels - first_late).noalias() =
-            (seen.bottomRows(n_channels - first_late) * stepper.acceleration()).transpose();
-      }
-      if (!model.dampers.empty()) motion.damper_force_N.row(sample * settings.substeps + k) = stepper.damper_force();
+      recorder.take(sample, k, stepper);
     }
-    if (sample >= 0) square += (seen * stepper.displacement()).cwiseAbs2();
   }
-  motion.rms_displacement_m = (square / static_cast<double>(n_samples)).cwiseSqrt();
-  return motion;
+  return recorder.motion();
 }
 
 TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settings, const MatrixXd& damper_force_N,

@@ -86,14 +86,12 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
 
   // 3. The motion.
   const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
-  const Index n_samples = force.cols(), n_channels = std::ssize(channels), first_late = (n_channels + 1) / 2;
+  const Index n_samples = force.cols();
   dynamics::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
   if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
-  Motion motion;
-  motion.acceleration_m_s2.resize(n_samples, n_channels);
-  motion.damper_force_N.resize(model.dampers.empty() ? 0 : n_samples * settings.substeps, std::ssize(model.dampers));
-  VectorXd square = VectorXd::Zero(n_channels), before = VectorXd::Zero(force.rows()), after = before;
+  MotionRecorder recorder(model, settings, seen, n_samples);
+  VectorXd before = VectorXd::Zero(force.rows()), after = before;
   const auto warm_up = std::min<Index>(n_samples, static_cast<Index>(std::lround(kWarmUp_s * settings.rate_Hz)));
   for (Index sample = -warm_up; sample < n_samples; ++sample) {
     before = after;
@@ -103,21 +101,10 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
       const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
       stepper.step((1.0 - part) * before + part * after + self.damping * stepper.velocity() +
                    self.stiffness * stepper.displacement());
-      if (sample < 0) continue;
-      if (k == 0) {
-        motion.acceleration_m_s2.row(sample).head(first_late).noalias() =
-            (seen.topRows(first_late) * stepper.acceleration()).transpose();
-      }
-      if (k == settings.second_logger_lag) {
-        motion.acceleration_m_s2.row(sample).tail(n_channels - first_late).noalias() =
-            (seen.bottomRows(n_channels - first_late) * stepper.acceleration()).transpose();
-      }
-      if (!model.dampers.empty()) motion.damper_force_N.row(sample * settings.substeps + k) = stepper.damper_force();
+      recorder.take(sample, k, stepper);
     }
-    if (sample >= 0) square += (seen * stepper.displacement()).cwiseAbs2();
   }
-  motion.rms_displacement_m = (square / static_cast<double>(n_samples)).cwiseSqrt();
-  return motion;
+  return recorder.motion();
 }
 
 }  // namespace twindeck::steps
