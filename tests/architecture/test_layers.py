@@ -3,6 +3,7 @@
 Oracle: the declared graph itself. The second class plants violations in a temporary tree and requires that they are found, so the
 check is known to be able to fail.
 """
+import graphlib
 import pathlib
 import re
 import tempfile
@@ -50,9 +51,25 @@ def violations(src):
     return found
 
 
+def step_circle(src):
+    """The folders of src/steps that include each other in a circle; empty if none do."""
+    edges = {}
+    for file in (src / "steps").glob("*/*.[hc]pp"):
+        edges.setdefault(file.parent.name, set()).update(
+            t for t in re.findall(r'#\s*include\s*"steps/(\w+)/', file.read_text()) if t != file.parent.name)
+    try:
+        graphlib.TopologicalSorter(edges).prepare()
+    except graphlib.CycleError as circle:
+        return circle.args[1]
+    return []
+
+
 class Layers(unittest.TestCase):
     def test_includes_answer_to_the_declared_layers(self):
         self.assertEqual(violations(ROOT / "src"), [])
+
+    def test_steps_include_each_other_in_no_circle(self):
+        self.assertEqual(step_circle(ROOT / "src"), [])
 
     def test_ceres_stays_in_one_file(self):
         files = [f.name for f in (ROOT / "src").rglob("*.[hc]pp") if re.search(r"#\s*include\s*<ceres", f.read_text())]
@@ -117,6 +134,10 @@ class TheCheckCanFail(unittest.TestCase):
     def test_a_third_party_header_in_a_header_is_found(self):
         found = violations(self.tree({"layers.toml": self.LAYERS} | self.USED | {"fe/c.hpp": "#include <ceres/ceres.h>\n"}))
         self.assertTrue(any("crosses" in f for f in found), found)
+
+    def test_a_circle_of_steps_is_found(self):
+        tree = self.tree({"steps/a/x.hpp": '#include "steps/b/y.hpp"\n', "steps/b/y.hpp": '#include "steps/a/x.hpp"\n'})
+        self.assertEqual(set(step_circle(tree)), {"a", "b"})
 
 
 if __name__ == "__main__":
