@@ -3,13 +3,11 @@ files' hashes in place of the comparison with a paper."""
 import html
 import time
 
-import jinja2
-
 from .cells import csv_text, number
-from .figures import FIGURES
-from .figures.flow import flow
+from .figures import figures_of
 from .manifests import stale_inputs, stale_outputs, write_manifest
-from .report import TEMPLATE, _image, _provenance, _quantities, _text
+from .page.parts import common_parts
+from .page.pieces import image, quantities, render, text
 from .study import Study
 from .tables.writer import heading, write_csv
 
@@ -26,8 +24,7 @@ CAPTIONS = {"fig_01": "The steps of the study.", "fig_05": "Modes 1 and 2 of the
 
 
 def is_own(study: Study) -> bool:
-    """A study that holds no printed tables has nothing to be compared with."""
-    return not (study.data / "paper").is_dir()
+    return not study.has_paper()
 
 
 def write_own_tables(study: Study) -> list:
@@ -63,17 +60,13 @@ def _cell(value) -> str:
 def write_own_report(study: Study):
     settings = study.read_toml(study.workflow / "study.toml")
     declared = study.steps()
-    tables = [_text(study, f"tables/{name}.html") for file, (name, _) in TABLES.items() if file.split("/")[0] in declared]
-    figures = [{"name": f.NAME, "caption": CAPTIONS.get(f.NAME, f.CAPTION), "png": _image(study, f.NAME)}
-               for f in FIGURES if all(step in declared for step in f.NEEDS) and _image(study, f.NAME)]
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    steps = flow(study)
-    style = (TEMPLATE / "report.html.j2").read_text(encoding="utf-8").partition("<style>")[2].partition("</style>")[0]
-    page = environment.get_template("own_report.html.j2").render(
-        title=settings.get("title", study.name), study=study.name, style=style, steps=steps, tables=tables, figures=figures,
-        model=_quantities(study, "s1_model/summary.csv"), updating=_quantities(study, "s6_updating/summary.csv"),
-        bounds=_on_bounds(study), stale=_stale(study), provenance=_provenance(study, steps))
+    tables = [text(study, f"tables/{name}.html") for file, (name, _) in TABLES.items() if file.split("/")[0] in declared]
+    figures = [{"name": f.NAME, "caption": CAPTIONS.get(f.NAME, f.CAPTION), "png": image(study, f.NAME)}
+               for f in figures_of(study) if image(study, f.NAME)]
+    page = render(
+        "own_report.html.j2", **common_parts(study, settings), paper_sections=False, source=settings.get("source", ""), tables=tables,
+        figures=figures, tiles=[], model=quantities(study, "s1_model/summary.csv"), updating=quantities(study, "s6_updating/summary.csv"),
+        bounds=_on_bounds(study), stale=_stale(study))
     target = study.results / "report" / "report.html"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(page, encoding="utf-8")

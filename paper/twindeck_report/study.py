@@ -58,6 +58,10 @@ class Study:
             raise InputError(f'{self.workflow / "study.toml"}: steps: expected a list such as ["s1_model", "s4_refinement"]')
         return steps
 
+    def has_paper(self) -> bool:
+        """A study without printed tables has nothing to be compared with."""
+        return (self.data / "paper").is_dir()
+
     def _mend(self, path: Path) -> str:
         try:
             first = path.relative_to(self.results).parts[0]

@@ -4,21 +4,14 @@ import time
 from ..manifests import write_manifest
 from ..study import Study
 from ..tables.writer import write_csv
-from . import FIGURES
+from . import figures_of
 from .style import save
-
-
-def _has_mesh(study: Study, figure) -> bool:
-    """A model made of matrices has no nodes to draw."""
-    return not getattr(figure, "DRAWS_MESH", False) or not (study.results / "s1_model/model/dofs.csv").is_file()
 
 
 def write_figures(study: Study) -> list:
     """Figures whose step belongs to the study; a declared step that has not run is an error. Returns their names."""
     started = time.monotonic()
-    declared = study.steps()
-    drawn = [(figure.NAME, *figure.draw(study)) for figure in FIGURES
-             if all(step in declared for step in figure.NEEDS) and _has_mesh(study, figure)]
+    drawn = [(figure.NAME, *figure.draw(study)) for figure in figures_of(study)]
     folder = study.results / "figures"
     folder.mkdir(parents=True, exist_ok=True)
     written = []

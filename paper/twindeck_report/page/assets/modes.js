@@ -1,0 +1,127 @@
+// Mode shapes of the models and of the measurement, moving.
+const SWAY = 0.07;  // largest displacement as a share of the structure's size, at the middle of the slider
+
+class ModeShapes {
+  constructor(root, data) {
+    this.root = root;
+    this.data = data;
+    this.meshes = data.meshes.map(m => ({ points: unpack(m.points, Float32Array), lines: unpack(m.lines, Uint32Array), faces: unpack(m.faces, Uint32Array) }));
+    this.shapes = new Map();
+    this.phase = Math.PI / 2;
+    this.playing = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+    const find = name => root.querySelector(`[name=${name}]`);
+    [this.sets, this.list, this.size, this.play, this.over, this.rest] = ['set', 'mode', 'sway', 'play', 'over', 'rest'].map(find);
+    this.text = root.querySelector('.caption');
+    data.sets.forEach((s, i) => this.sets.add(new Option(s.title, i)));
+    const model = data.sets.findIndex(s => s.kind === 'model');
+    this.sets.value = Math.max(0, model);
+    this.sets.addEventListener('change', () => this.choose(this.partner()));
+    this.list.addEventListener('change', () => this.take());
+    for (const box of [this.over, this.rest]) box.addEventListener('change', () => this.take());
+    this.size.addEventListener('input', () => this.viewer.paint());
+    this.play.addEventListener('click', () => this.run(!this.playing));
+    this.viewer = new Viewer(root, v => this.move(v));
+    this.choose(0);
+    this.run(this.playing);
+    let last = performance.now();
+    const step = now => {
+      if (this.playing && this.viewer.visible) {
+        this.phase += 0.0042 * Math.min(100, now - last);
+        this.viewer.paint();
+      }
+      last = now;
+      requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
+  }
+
+  run(on) {
+    this.playing = on;
+    this.play.textContent = on ? 'Pause' : 'Play';
+    this.play.setAttribute('aria-pressed', on);
+  }
+
+  /// The mode of the newly chosen set that belongs to the one shown before, where the pairing is known.
+  partner() {
+    const next = this.data.sets[this.sets.value], shown = this.mode;
+    if (!this.set || !shown || next === this.set) return 0;
+    if (shown.partner !== undefined && next.kind === 'model' && this.data.sets.find(s => s.kind === 'model') === next) return shown.partner;
+    if (next.kind === 'points') return Math.max(0, next.modes.findIndex(m => m.partner === this.set.modes.indexOf(shown)));
+    return Math.min(this.set.modes.indexOf(shown), next.modes.length - 1);
+  }
+
+  choose(index) {
+    this.set = this.data.sets[this.sets.value];
+    this.list.replaceChildren(...this.set.modes.map((m, i) => new Option(`${m.label}: ${m.frequency.toFixed(3)} Hz`, i)));
+    this.list.value = index;
+    this.root.querySelector('.for-points').hidden = this.set.kind !== 'points' || this.set.mesh === null;
+    this.take();
+  }
+
+  take() {
+    const set = this.set, mode = this.mode = set.modes[this.list.value], first = this.data.sets.find(s => s.kind === 'model');
+    const mesh = set.mesh === null ? null : this.meshes[set.kind === 'model' ? set.mesh : first.mesh];
+    const scene = { base: new Float32Array(0), faces: new Uint32Array(0), lines: new Uint32Array(0), spots: new Float32Array(0), names: [], dot: 9, ghost: this.rest.checked, spotsOnTop: true };
+    this.along = null;
+    if (set.kind === 'model') {
+      Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines });
+      this.along = { shape: this.shape(mode, 'shape', Int16Array), scale: 1 / 32767 };
+    } else {
+      Object.assign(scene, { spots: unpack(set.points, Float32Array), names: set.names });
+      this.real = this.shape(mode, 'real', Float32Array);
+      this.imaginary = this.shape(mode, 'imag', Float32Array);
+      if (mesh && this.over.checked && mode.partner !== undefined) {
+        Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines });
+        const partner = first.modes[mode.partner];
+        this.along = { shape: this.shape(partner, 'shape', Int16Array), scale: mode.factor / 32767 };
+      } else if (mesh) {
+        Object.assign(scene, { base: mesh.points, lines: mesh.lines, ghost: false });
+      } else {  // no model: the sensors are joined as the campaign says
+        Object.assign(scene, { base: scene.spots, lines: unpack(set.lines, Uint32Array) });
+      }
+    }
+    this.joined = set.kind === 'points' && !mesh;
+    const keep = this.shown !== undefined && this.shown === (mesh || set);
+    this.shown = mesh || set;
+    this.viewer.show(scene, keep);
+    this.describe();
+  }
+
+  shape(mode, part, type) {
+    if (!this.shapes.has(mode)) this.shapes.set(mode, {});
+    const kept = this.shapes.get(mode);
+    return kept[part] ??= unpack(mode[part], type);
+  }
+
+  describe() {
+    const { set, mode } = this, first = this.data.sets.find(s => s.kind === 'model');
+    let text = `${set.title}, mode ${mode.label}: ${mode.frequency.toFixed(4)} Hz`;
+    if (mode.damping !== null) text += `, damping ratio ${mode.damping.toFixed(2)} %`;
+    if (mode.partner !== undefined) {
+      const partner = first.modes[mode.partner];
+      text += `. Closest in shape: mode ${partner.label} of the ${first.title.toLowerCase()}, ${partner.frequency.toFixed(4)} Hz, MAC ${mode.mac.toFixed(2)}`;
+    }
+    this.text.textContent = `${text}.`;
+  }
+
+  move(v) {
+    const sway = SWAY * v.orbit.size * this.size.value, c = Math.cos(this.phase - Math.PI / 2), s = Math.sin(this.phase - Math.PI / 2);
+    const { base } = v.scene;
+    if (this.along) {
+      const { shape, scale } = this.along, part = sway * c * scale;
+      for (let i = 0; i < base.length; i += 3) {
+        for (let k = 0; k < 3; ++k) v.moved[i + k] = base[i + k] + part * shape[i + k];
+        blend([PALE, BLUE, NAVY], Math.abs(scale) * Math.hypot(shape[i], shape[i + 1], shape[i + 2]), v.colours, i);
+      }
+    } else {
+      v.moved.set(base);
+      for (let i = 0; i < base.length; i += 3) blend([GHOST, GHOST], 0, v.colours, i);
+    }
+    for (let i = 0; i < v.spots.length; ++i) v.spots[i] = v.scene.spots[i] + sway * (this.real[i] * c - this.imaginary[i] * s);
+    for (let i = 0; i < v.spots.length; i += 3) blend([ORANGE, ORANGE], 0, v.spotColours, i);
+    if (this.joined) {
+      v.moved.set(v.spots);
+      for (let i = 0; i < base.length; i += 3) blend([PALE, BLUE, NAVY], Math.hypot(this.real[i], this.real[i + 1], this.real[i + 2]), v.colours, i);
+    }
+  }
+}

@@ -1,0 +1,31 @@
+// Sets the parts going, each where its place is on the page, and keeps the table of contents in step with scrolling.
+const data = JSON.parse(document.getElementById('twindeck-data').textContent);
+const page = window.twindeck = {};
+const modesAt = document.getElementById('mode-shapes'), whereAt = document.getElementById('where'), polesAt = document.getElementById('poles');
+if (modesAt && data.modes) page.modes = new ModeShapes(modesAt, data.modes);
+if (whereAt && data.where) page.where = new Where(whereAt, data.where, data.modes.meshes[data.where.mesh]);
+if (polesAt && data.poles) page.poles = new Stabilisation(polesAt, data.poles);
+
+const links = new Map([...document.querySelectorAll('nav.contents a')].map(a => [a.hash.slice(1), a]));
+const inView = new Set();
+const watch = new IntersectionObserver(entries => {
+  for (const e of entries) e.isIntersecting ? inView.add(e.target.id) : inView.delete(e.target.id);
+  const first = [...links.keys()].find(id => inView.has(id));
+  for (const [id, a] of links) a.classList.toggle('here', id === first);
+}, { rootMargin: '-10% 0px -60% 0px' });
+document.querySelectorAll('main section[id]').forEach(s => watch.observe(s));
+
+for (const box of document.querySelectorAll('input[data-filter]')) {
+  const rows = document.querySelectorAll(`#${box.dataset.filter} tbody tr`);
+  const list = document.getElementById(box.dataset.filter);
+  box.addEventListener('input', () => {
+    list.classList.toggle('short', box.value === '');
+    const words = box.value.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const row of rows) row.hidden = !words.every(w => row.textContent.toLowerCase().includes(w));
+  });
+}
+for (const button of document.querySelectorAll('button[data-more]'))
+  button.addEventListener('click', () => {
+    const open = document.getElementById(button.dataset.more).classList.toggle('short');
+    button.textContent = open ? button.dataset.all : 'show fewer';
+  });

@@ -1,0 +1,95 @@
+// Stabilisation diagrams: poles over frequency and order (or damping ratio), numbers under the pointer. SVG, so that it prints as drawn.
+const SVG = 'http://www.w3.org/2000/svg';
+const svg = (name, attributes, text) => {
+  const node = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  if (text !== undefined) node.textContent = text;
+  return node;
+};
+
+const ticks = (low, high, count) => {
+  const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw)), step = power * [1, 2, 5, 10].find(m => m * power >= raw);
+  const found = [];
+  for (let t = Math.ceil(low / step) * step; t <= high + 1e-9 * step; t += step) found.push(Number(t.toPrecision(10)));
+  return found;
+};
+
+class Stabilisation {
+  constructor(root, data) {
+    this.root = root;
+    this.data = data;
+    this.picture = root.querySelector('svg');
+    this.label = root.querySelector('.label');
+    this.record = root.querySelector('[name=record]');
+    this.axis = root.querySelector('[name=axis]');
+    this.stable = root.querySelector('[name=stable]');
+    data.panels.forEach((p, i) => this.record.add(new Option(`${p.setup}, ${p.condition}`, i)));
+    for (const control of [this.record, this.axis, this.stable]) control.addEventListener('change', () => this.draw());
+    this.picture.addEventListener('pointermove', e => this.point(e));
+    this.picture.addEventListener('pointerleave', () => this.leave());
+    this.draw();
+  }
+
+  draw() {
+    const W = 960, H = 430, L = 52, R = 14, T = 26, B = 42;
+    const panel = this.data.panels[this.record.value], [low, high] = panel.band, damping = this.axis.value === 'damping';
+    const all = panel.poles.filter(p => p[1] >= low && p[1] <= high && (!this.stable.checked || p[3] === 7) && (!damping || (p[2] >= 0 && p[2] <= 8)));
+    const top = damping ? Math.min(8, 1.08 * Math.max(1, ...all.map(p => p[2]))) : 2 + Math.max(1, ...panel.poles.map(p => p[0]));
+    const x = f => L + (W - L - R) * (f - low) / (high - low), y = v => H - B - (H - B - T) * v / top;
+    const g = svg('g', {});
+    for (const t of ticks(low, high, 9)) {
+      g.append(svg('line', { x1: x(t), x2: x(t), y1: T, y2: H - B, class: 'grid' }), svg('text', { x: x(t), y: H - B + 16, class: 'tick', 'text-anchor': 'middle' }, String(t)));
+    }
+    for (const t of ticks(0, top, 6)) {
+      g.append(svg('line', { x1: L, x2: W - R, y1: y(t), y2: y(t), class: 'grid' }), svg('text', { x: L - 8, y: y(t) + 4, class: 'tick', 'text-anchor': 'end' }, String(t)));
+    }
+    if (panel.spectrum.length) {
+      const logs = panel.spectrum.map(s => Math.log10(s[1])), floor = Math.min(...logs), span = Math.max(...logs) - floor || 1;
+      const at = (s, i) => `${x(s[0]).toFixed(1)} ${(H - B - (H - B - T) * 0.96 * (logs[i] - floor) / span).toFixed(1)}`;
+      g.append(svg('path', { d: 'M' + panel.spectrum.map(at).join('L'), class: 'spectrum' }));
+    }
+    let last = -99;
+    for (const [mode, f] of this.data.modes[panel.condition] || []) {
+      if (f < low || f > high) continue;
+      g.append(svg('line', { x1: x(f), x2: x(f), y1: T - 4, y2: H - B, class: 'mode' }));
+      const close = x(f) - last < 16;
+      g.append(svg('text', { x: x(f), y: close ? T - 17 : T - 7, class: 'tick strong', 'text-anchor': 'middle' }, String(mode)));
+      last = close ? -99 : x(f);
+    }
+    this.seen = all.map(p => ({ p, x: x(p[1]), y: y(damping ? p[2] : p[0]) }));
+    const rank = p => p[3] === 7 ? 2 : p[3] & 1 ? 1 : 0;
+    for (const s of [...this.seen].sort((a, b) => rank(a.p) - rank(b.p)))
+      g.append(svg('circle', { cx: s.x.toFixed(1), cy: s.y.toFixed(1), r: [1.7, 2.6, 3][rank(s.p)], class: ['new', 'part', 'whole'][rank(s.p)] }));
+    g.append(svg('path', { d: `M${L} ${T}V${H - B}H${W - R}`, class: 'axes' }), svg('text', { x: (L + W - R) / 2, y: H - 6, class: 'tick', 'text-anchor': 'middle' }, 'frequency (Hz)'),
+      svg('text', { transform: `translate(13 ${(T + H - B) / 2}) rotate(-90)`, class: 'tick', 'text-anchor': 'middle' }, damping ? 'damping ratio (%)' : 'model order'));
+    this.ring = svg('circle', { r: 7, class: 'ring', visibility: 'hidden' });
+    g.append(this.ring);
+    this.picture.setAttribute('viewBox', `0 0 ${W} ${H}`);
+    this.picture.replaceChildren(g);
+  }
+
+  point(e) {
+    const to = this.picture.getScreenCTM().inverse(), at = new DOMPoint(e.clientX, e.clientY).matrixTransform(to);
+    let best = 14, found = null;
+    for (const s of this.seen) {
+      const d = Math.hypot(s.x - at.x, s.y - at.y) - (s.p[3] === 7 ? 1 : 0);
+      if (d < best) { best = d; found = s; }
+    }
+    if (!found) return this.leave();
+    const [order, f, zeta, met, mode] = found.p, box = this.picture.parentElement.getBoundingClientRect();
+    const criteria = ['frequency', 'damping', 'shape'].filter((_, i) => met >> i & 1);
+    this.label.innerHTML = `<b>${f.toFixed(4)} Hz</b>, ${zeta.toFixed(2)} %<br>order ${order}${mode ? `, mode ${mode}` : ''}<br>${criteria.length ? `stable: ${criteria.join(', ')}` : 'not stable'}`;
+    this.label.hidden = false;
+    const left = e.clientX - box.left;
+    this.label.style.left = `${left > box.width - 190 ? left - 175 : left + 14}px`;
+    this.label.style.top = `${e.clientY - box.top + 12}px`;
+    this.ring.setAttribute('cx', found.x);
+    this.ring.setAttribute('cy', found.y);
+    this.ring.setAttribute('visibility', 'visible');
+  }
+
+  leave() {
+    this.label.hidden = true;
+    this.ring.setAttribute('visibility', 'hidden');
+  }
+}

@@ -1,0 +1,59 @@
+"""The story that step 9 tells: what is wrong, why, how the model was extended, what was gained."""
+import json
+
+from ..study import Study
+from .heatmap import heatmaps
+from .places import places
+
+VERDICTS = {
+    "none": ("good", "Nothing is missing", "The best admissible model explains the measurement: updating is enough."),
+    "named": ("good", "One cause explains it", "What the best admissible model leaves unexplained is explained by what is named here."),
+    "ambiguous": ("warn", "Several causes explain it equally well", "The rows that were measured cannot tell the members of a cluster apart."),
+    "unknown": ("bad", "Something is missing that no entry of the catalogue explains",
+                "What is named below helps, but the residual test still rejects the extended model: do not take it for the cause."),
+}
+
+
+def diagnosis_data(study: Study, settings: dict) -> dict | None:
+    path = study.results / "s9_diagnosis" / "diagnosis.json"
+    if "s9_diagnosis" not in study.steps() or not path.is_file():
+        return None
+    study.used.add(path)
+    told = json.loads(path.read_text(encoding="utf-8"))
+    tone, title, meaning = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    rows = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "residual_before", "residual_after"])
+    beyond = {side: _beyond(rows, side) for side in ("before", "after")}
+    tried = _tried(study)
+    folder = "s6_updating/model" if "s6_updating" in study.steps() else None
+    where = places(study, settings, folder, told.get("localisation", []))
+    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "rows": len(rows), "heatmaps": heatmaps(rows),
+            "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
+            "gain_of": _kinds(study)}
+
+
+def _beyond(rows, side: str) -> int:
+    return int((rows[f"beyond_{side}"] == 1).sum()) if f"beyond_{side}" in rows else int((rows[f"residual_{side}"].abs() > 3.0).sum())
+
+
+def _count(study: Study) -> int:
+    return len(study.step_csv("s9_diagnosis/hypotheses.csv")) if (study.results / "s9_diagnosis/hypotheses.csv").is_file() else 0
+
+
+def _tried(study: Study) -> list:
+    """The likeliest entries: log odds against `nothing`."""
+    if not (study.results / "s9_diagnosis/hypotheses.csv").is_file():
+        return []
+    table = study.step_csv("s9_diagnosis/hypotheses.csv", ["cause", "location", "log_odds"])
+    table = table[table["log_odds"].notna()].sort_values("log_odds", ascending=False, kind="stable").drop_duplicates(["cause", "location"])
+    most = max(1.0, float(table["log_odds"].max())) if len(table) else 1.0
+    return [{"cause": r["cause"], "location": r["location"], "odds": r["log_odds"], "share": max(0.0, 100.0 * r["log_odds"] / most),
+             "status": r.get("status", "") if isinstance(r.get("status", ""), str) else ""} for r in table.head(12).to_dict("records")]
+
+
+def _kinds(study: Study) -> list:
+    """Mean square of the standardised residuals, kind by kind."""
+    if not (study.results / "s9_diagnosis/misfit.csv").is_file():
+        return []
+    table = study.step_csv("s9_diagnosis/misfit.csv", ["by", "name", "rows", "mean_square_before", "mean_square_after"])
+    return [{"name": str(r["name"]).replace("_", " "), "rows": int(r["rows"]), "before": r["mean_square_before"]**0.5,
+             "after": r["mean_square_after"]**0.5} for r in table[table["by"] == "type"].to_dict("records")]

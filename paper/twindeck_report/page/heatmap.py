@@ -1,0 +1,80 @@
+"""Residuals in standard deviations as coloured cells: kind by kind, mode by mode, sensor by sensor."""
+import html
+
+import numpy as np
+
+CELL, FULL = 15, 5.0  # [px]; the colour is full at this many standard deviations
+COLD, WARM = (11, 95, 165), (179, 38, 30)
+
+
+def colour(z: float) -> str:
+    """White at zero, blue where the measurement lies below the model, red above."""
+    t = min(1.0, abs(z) / FULL)**0.8
+    return "#" + "".join(f"{round(248 + t * (c - 248)):02x}" for c in (WARM if z > 0 else COLD))
+
+
+def heatmaps(rows) -> list:
+    """[{title, svg}] in the order of the file, one a kind and condition."""
+    found = []
+    for (kind, condition), part in rows.fillna({"channel": "", "condition": "", "mode": -1}).groupby(["type", "condition"], sort=False):
+        title = f"{kind.replace('_', ' ')}{', ' + str(condition).replace('_', ' ') if condition else ''}"
+        many = part["channel"].nunique() > 1
+        sides = [(side, _grid(part, f"residual_{side}", many)) for side in ("before", "after")]
+        found.append({"title": f"{title}: {len(part)} rows", "svg": _pair(sides) if many else _strip(sides)})
+    return found
+
+
+def _grid(part, column: str, many: bool) -> dict:
+    """(row, column) -> (value, held out): modes over sensors, or one row over modes."""
+    return {(f"mode {int(r['mode'])}" if many and r["mode"] >= 0 else "", str(r["channel"]) if many else f"{int(r['mode'])}"):
+            (r[column], r["held_out"] == 1) for r in part.to_dict("records") if np.isfinite(r[column])}
+
+
+def _strip(sides) -> str:
+    """Before over after, with the numbers in the cells."""
+    columns = list(dict.fromkeys(c for _, grid in sides for _, c in grid))
+    wide, high, left = 52, 24, 56
+    body = "".join(f'<text class="axis" x="{left + wide * (i + 0.5):.1f}" y="12" text-anchor="middle">mode {html.escape(c)}</text>' for i, c in enumerate(columns))
+    for j, (side, grid) in enumerate(sides):
+        body += f'<text class="axis" x="0" y="{20 + high * j + 16}">{side}</text>'
+        for i, c in enumerate(columns):
+            if ("", c) in grid:
+                z, held = grid["", c]
+                ink = "#fff" if abs(z) > 0.55 * FULL else "#1d2733"
+                body += (f'<g><title>mode {html.escape(c)}, {side}: {z:+.2f} standard deviations{", held out" if held else ""}</title>'
+                         f'<rect x="{left + wide * i}" y="{20 + high * j}" width="{wide - 2}" height="{high - 2}" fill="{colour(z)}"{_held(held)}/>'
+                         f'<text x="{left + wide * (i + 0.5) - 1:.1f}" y="{20 + high * j + 15}" text-anchor="middle" fill="{ink}">{z:+.1f}</text></g>')
+    return _svg(left + wide * len(columns), 22 + high * len(sides), body)
+
+
+def _pair(sides) -> str:
+    columns = list(dict.fromkeys(c for _, grid in sides for _, c in grid))
+    names = list(dict.fromkeys(r for _, grid in sides for r, _ in grid))
+    cell = CELL if len(columns) <= 64 else max(4, 960 // len(columns))
+    left, body, y = 56, "", 0
+    for side, grid in sides:
+        body += f'<text class="axis strong" x="0" y="{y + 12}">{side}</text>'
+        y += 18
+        for name in names:
+            body += f'<text class="axis" x="0" y="{y + 11}">{html.escape(name)}</text>'
+            for i, c in enumerate(columns):
+                if (name, c) in grid:
+                    z, held = grid[name, c]
+                    body += (f'<rect x="{left + cell * i}" y="{y}" width="{cell - 1}" height="{CELL - 1}" fill="{colour(z)}"{_held(held)}>'
+                             f'<title>{html.escape(name)}, {html.escape(c)}, {side}: {z:+.2f} standard deviations{", held out" if held else ""}</title></rect>')
+            y += CELL
+        y += 6
+    if cell >= 12:
+        for i, c in enumerate(columns):
+            x = left + cell * i + 10
+            body += f'<text class="axis" transform="translate({x} {y + 4}) rotate(90)">{html.escape(c[:14])}</text>'
+        y += 8 + 6 * max(len(c[:14]) for c in columns)
+    return _svg(left + cell * len(columns) + 8, y, body)
+
+
+def _held(held: bool) -> str:
+    return ' stroke="#1d2733" stroke-width="1.4"' if held else ""
+
+
+def _svg(width: float, height: float, body: str) -> str:
+    return f'<svg class="heat" viewBox="0 0 {width} {height}" style="width:{width}px" role="img">{body}</svg>'

@@ -1,0 +1,74 @@
+"""Where a location of the diagnosis (node:7, stay:NE3, group:E_c1, …) lies on the model."""
+from pathlib import Path
+
+import numpy as np
+
+from ..study import Study
+from .drawing import read_drawing
+from .shapes import packed
+
+
+def places(study: Study, settings: dict, folder: str | None, localisation: list) -> list:
+    """[{location, score, spots: [[x, y, z], …], nodes: positions in the drawing}], highest score first; spots and nodes stay empty
+    where a location has no place, as for a mode or a sensor whose place nobody told."""
+    drawing = read_drawing(study, folder) if folder else None
+    finder = _Finder(study, settings, folder, drawing)
+    ordered = sorted(localisation, key=lambda entry: -entry["score"])
+    return [{"location": e["location"], "score": e["score"], **finder.find(e["location"])} for e in ordered]
+
+
+def where_data(found: list, nodes: int) -> dict:
+    """Scores as colours of the drawing's nodes, and spots for what acts at a point."""
+    score = np.zeros(nodes)
+    spots = []
+    for entry in found:
+        at = [i for i in entry["nodes"] if i < nodes]
+        score[at] = np.maximum(score[at], entry["score"])
+        spots += [{"name": entry["location"], "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]} for spot in entry["spots"]]
+    most = max((entry["score"] for entry in found), default=1.0)
+    return {"mesh": 0, "score": packed(score / most, "f4"), "spots": spots, "most": round(most, 2)}
+
+
+class _Finder:
+    def __init__(self, study, settings, folder, drawing):
+        self.study, self.folder, self.drawing, self.nodes, self.channels, self.groups = study, folder, drawing, {}, {}, {}
+        if folder and drawing:
+            table = study.step_csv(f"{folder}/nodes.csv", ["node", "x_m", "y_m", "z_m"])
+            self.nodes = {str(r["node"]): [r["x_m"], r["y_m"], r["z_m"]] for r in table.to_dict("records")}
+            for parameter in study.read_toml(study.results / folder / "model.toml").get("parameter", []):
+                self.groups[parameter["name"]] = parameter.get("of", [])
+        listed = Path(str(settings.get("features", ""))) / "channels.csv"
+        if settings.get("features") and listed.is_file():
+            table = study.read_csv(listed)
+            if {"channel", "x_m", "y_m", "z_m"} <= set(table.columns):
+                self.channels = {str(r["channel"]): [r["x_m"], r["y_m"], r["z_m"]] for r in table.dropna(subset=["x_m", "y_m", "z_m"]).to_dict("records")}
+
+    def find(self, location: str) -> dict:
+        kind, _, names = location.partition(":")
+        parts = names.split(",")
+        spots, nodes = [], []
+        if kind in ("node", "nodes"):
+            spots = [self.nodes[p] for p in parts if p in self.nodes]
+        elif kind in ("channel", "channels"):
+            spots = [self.channels[p] for p in parts if p in self.channels]
+        elif kind in ("support", "damper"):
+            spots = self._attached(names)
+        elif self.drawing is not None and kind in ("element", "stay"):
+            nodes = self.drawing.elements.get(names, []) if kind == "element" else self.drawing.names.get(names, [])
+            if nodes:
+                spots = [self.drawing.points[nodes].mean(axis=0).tolist()]
+        elif self.drawing is not None and kind == "group":
+            nodes = sorted({i for group in self.groups.get(names, [names]) for i in self.drawing.groups.get(group, [])})
+        return {"spots": spots, "nodes": nodes}
+
+    def _attached(self, name: str) -> list:
+        """Middle of the supports or springs that bear this name, or whose group does."""
+        found = []
+        for file, key, node in (("supports.csv", "support", "node"), ("springs.csv", "spring", "node2")):
+            if self.folder and (self.study.results / self.folder / file).is_file():
+                table = self.study.step_csv(f"{self.folder}/{file}", [key, "node"])
+                for row in table.to_dict("records"):
+                    if name in (str(row[key]), str(row.get("group"))):
+                        at = row.get(node) if row.get(node) == row.get(node) else row["node"]
+                        found += [self.nodes[k] for k in (str(at).removesuffix(".0"),) if k in self.nodes]
+        return [np.mean(found, axis=0).tolist()] if found else []

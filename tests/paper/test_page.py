@@ -1,0 +1,136 @@
+"""report.html in a real browser, from disk, with the network off; skipped where no Chromium is installed.
+
+Oracle: the made-up study by construction (a strip of shells with half waves as modes), and the browser itself: what it asked the network
+for, what stands in its console, whether pictures hold more than one colour and change from frame to frame.
+"""
+import os
+import sys
+import tempfile
+import unittest
+import zlib
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
+
+import browser  # noqa: E402
+import made_up_study  # noqa: E402
+from twindeck_report import cli  # noqa: E402
+from twindeck_report.page import scripts  # noqa: E402
+
+CANVAS = """(() => { const c = document.querySelector('#mode-shapes canvas'), d = document.createElement('canvas');
+d.width = 200; d.height = 120; const p = d.getContext('2d'); p.drawImage(c, 0, 0, 200, 120);
+return Array.from(p.getImageData(0, 0, 200, 120).data); })()"""
+LARGEST = 15_000_000
+
+
+def colours(pixels):
+    return {tuple(pixels[i:i + 3]) for i in range(0, len(pixels), 4)}
+
+
+def pixels_of(png):
+    """Raw rows of a PNG, filters and all: enough to tell whether a picture is more than one colour."""
+    data, at = b"", 8
+    while at < len(png):
+        size, kind = int.from_bytes(png[at:at + 4], "big"), png[at + 4:at + 8]
+        if kind == b"IDAT":
+            data += png[at + 8:at + 8 + size]
+        at += 12 + size
+    return zlib.decompress(data)
+
+
+@unittest.skipUnless(browser.program(), "no Chromium here (Debian: apt-get install chromium): the page is not looked at in a browser")
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        cls.addClassCleanup(os.chdir, os.getcwd())
+        data, workflow, results = made_up_study.make_study(cls.folder)
+        cls.page = results / "report/report.html"
+        os.chdir(cls.folder)
+        for command in ("tables", "figures", "report"):
+            with redirect_stdout(StringIO()):
+                code = cli.main([command, "--study", "made_up", "--results", str(results), "--data", str(data), "--workflow", str(workflow)])
+            assert code == 0, command
+
+    def looked_at(self, webgl):
+        with browser.Browser(webgl) as b:
+            b.open(self.page.resolve())
+            b.wait("window.twindeck && twindeck.modes && twindeck.modes.viewer.frames > 1")
+            renderer = b.run("document.getElementById('mode-shapes').dataset.renderer")
+            self.drawn_and_moving(b)
+            self.stands_still_for_print(b)
+            self.poles_tell_their_numbers(b)
+            shot = Path(self.folder) / f"page_{renderer}.png"
+            self.assertGreater(len(set(pixels_of(b.screenshot(shot)))), 20, "the screenshot is not blank")
+            self.assertEqual(b.errors, [])
+            asked = [a for a in b.requests if not a.startswith(("data:", "file:", "blob:"))]
+            self.assertEqual(asked, [], "nothing is asked of the network")
+        return renderer
+
+    def drawn_and_moving(self, b):
+        b.run("document.getElementById('mode-shapes').scrollIntoView({behavior: 'instant'})")
+        b.run("twindeck.modes.run(true)")
+        first, frames = b.run(CANVAS), b.run("twindeck.modes.viewer.frames")
+        self.assertGreater(len(colours(first)), 10, "the canvas draws more than its background")
+        b.wait(f"twindeck.modes.viewer.frames > {frames + 5}")
+        self.assertNotEqual(b.run(CANVAS), first, "the animation runs")
+        b.run("twindeck.modes.run(false)")
+        still = b.run(CANVAS)
+        b.run("twindeck.modes.viewer.orbit.azimuth += 0.7; twindeck.modes.viewer.paint()")
+        self.assertNotEqual(b.run(CANVAS), still, "the picture turns")
+        # half waves: mode m of the strip has its largest displacement where sin(m pi x / 100) is one, and no motion at its ends
+        b.run("(() => { const m = twindeck.modes; m.list.value = 1; m.list.dispatchEvent(new Event('change')); m.phase = Math.PI / 2; m.viewer.paint(); })()")
+        self.assertIn("mode 2", b.run("document.querySelector('#mode-shapes .caption').textContent"))
+        moved = b.run("(() => { const v = twindeck.modes.viewer; return Array.from(v.moved).map((x, i) => x - v.scene.base[i]); })()")
+        rise = moved[2::3]
+        self.assertAlmostEqual(rise[0], 0.0, places=5)
+        self.assertAlmostEqual(rise[2 * 5], max(rise), places=4)
+        self.assertAlmostEqual(rise[2 * 15], -max(rise), places=4)
+
+    def stands_still_for_print(self, b):
+        b.run("window.dispatchEvent(new Event('beforeprint'))")
+        b.call("Emulation.setEmulatedMedia", media="print")
+        shown = b.run("['#mode-shapes canvas', '#mode-shapes img.now', '.stills', 'nav.contents'].map(n => getComputedStyle(document.querySelector(n)).display)")
+        self.assertEqual(shown, ["none", "block", "block", "none"])
+        self.assertGreater(b.run("document.querySelector('#mode-shapes img.now').naturalWidth"), 300)
+        b.call("Emulation.setEmulatedMedia", media="")
+        self.assertTrue(b.pdf().startswith(b"%PDF"))
+
+    def poles_tell_their_numbers(self, b):
+        b.run("document.getElementById('poles').scrollIntoView({behavior: 'instant'})")
+        told = b.run("""(() => { const p = twindeck.poles, s = p.seen.find(s => s.p[3] === 7), m = p.picture.getScreenCTM();
+          const at = new DOMPoint(s.x, s.y).matrixTransform(m);
+          p.picture.dispatchEvent(new PointerEvent('pointermove', { clientX: at.x, clientY: at.y }));
+          return [p.label.hidden, p.label.textContent, s.p]; })()""")
+        self.assertFalse(told[0])
+        order, frequency, damping = told[2][:3]
+        for part in (f"{frequency:.4f} Hz", f"{damping:.2f} %", f"order {order}", "stable: frequency, damping, shape"):
+            self.assertIn(part, told[1])
+
+    def test_with_webgl(self):
+        if not scripts.three():
+            self.skipTest("three.js is not installed (libjs-three): the page draws without it")
+        self.assertIn(self.looked_at(webgl=True), ("webgl", "canvas"))
+
+    def test_without_webgl(self):
+        self.assertEqual(self.looked_at(webgl=False), "canvas")
+
+    def test_page_can_be_sent_by_mail(self):
+        self.assertLess(self.page.stat().st_size, LARGEST)
+
+    def test_console_errors_are_noticed(self):
+        """The watch itself can fail."""
+        bad = Path(self.folder) / "bad.html"
+        bad.write_text("<canvas></canvas><img src='https://example.org/a.png'><script>console.error('told'); nothing.at.all;</script>", encoding="utf-8")
+        with browser.Browser(webgl=False) as b:
+            b.open(bad.resolve())
+            b.run("1")
+            self.assertGreaterEqual(len(b.errors), 2)
+            self.assertIn("https://example.org/a.png", b.requests)
+
+
+if __name__ == "__main__":
+    unittest.main()
