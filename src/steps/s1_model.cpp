@@ -33,10 +33,12 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   dynamics::ModalSolver solver(loaded.system);
   const dynamics::EigenModes modes = solver.solve(loaded.theta, static_cast<int>(config.n_modes));
 
-  // 3. Modes and shapes, a picture, tables of stays, dampers and sizes, and the model as a folder of data for any other step.
+  // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, and the model as a folder of data for any
+  // other step.
   model_io::write_modes(steps::published_modes(model, loaded.system, modes), context.out);
   if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
   steps::write_stays(model, loaded.state, context.out);
+  steps::write_member_forces(model, loaded.state, context.out);
   steps::write_dampers(model, context.out);
   const bool is_bridge = !context.model && steps::read_study(context.study).model_generator == "ponte";
   steps::write_summary(model, loaded.system, is_bridge ? steps::PartOf(ponte::part_of) : steps::PartOf(), context.out);

@@ -12,8 +12,8 @@ NEEDS = ("s1_model", "s2_sensors")
 
 def draw(study: Study):
     mesh, layout = read_mesh(study, "s1_model/model"), layout_of(study, "M")
-    figure, axes = plt.subplots(figsize=(8.4, 4.6))
-    figure.subplots_adjust(0.08, 0.11, 0.98, 0.98)
+    figure, axes = plt.subplots(figsize=(8.4, 3.9))
+    figure.subplots_adjust(0.08, 0.12, 0.99, 0.99)
     draw_plan(axes, mesh)
     draw_sensors(axes, layout, names=True)
     axes.set_ylabel("Y (m)")

@@ -4,6 +4,7 @@ import pandas as pd
 from matplotlib.collections import LineCollection
 
 from ..study import Study
+from .layout_plan import DECKS, MARGIN
 from .mesh import displacements, read_mesh
 from .style import INK, PALE, plt
 
@@ -21,8 +22,8 @@ def draw(study: Study):
     mesh = read_mesh(study, "s1_model/model")
     frequencies = study.step_csv("s1_model/modes.csv", ["mode", "frequency_Hz"]).set_index("mode")["frequency_Hz"]
     shapes = {mode: displacements(study, "s1_model/shapes.csv", mode, mesh) for mode in MODES}
-    figure, axes = plt.subplots(2, 2, figsize=(10.4, 5.2), height_ratios=(1.5, 1))
-    figure.subplots_adjust(0.06, 0.08, 0.93, 0.93, hspace=0.05, wspace=0.12)
+    figure, axes = plt.subplots(2, 2, figsize=(10.4, 5.6), height_ratios=(1.45, 1))
+    figure.subplots_adjust(0.05, 0.085, 0.93, 0.94, hspace=0.04, wspace=0.08)
     for (space, plan), mode in zip(axes.T, MODES):
         _deformed(space, mesh, shapes[mode])
         space.set_title(f"Mode {mode}N: {frequencies[mode]:.3f} Hz", fontsize=11)
@@ -68,6 +69,9 @@ def _plan(axes, mesh, shape):
     picture = axes.scatter(mesh.points[order, 0], mesh.points[order, 1], c=vertical[order], cmap="RdBu_r", vmin=-1, vmax=1, s=5,
                            linewidths=0, zorder=2, rasterized=True)
     axes.set_aspect("equal")
+    lower, upper = mesh.extent(*DECKS)
+    axes.set_xlim(lower[0] - MARGIN, upper[0] + MARGIN)
+    axes.set_ylim(lower[1] - MARGIN, upper[1] + MARGIN)
     axes.tick_params(labelsize=8)
     axes.spines["left"].set_color(INK)
     return picture

@@ -15,8 +15,8 @@ NEEDS = ("s1_model", "s2_sensors")
 def draw(study: Study):
     mesh = read_mesh(study, "s1_model/model")
     scores = study.step_csv("s2_sensors/setups.csv", ["setup", "R_k"]).set_index("setup")["R_k"]
-    figure, both = plt.subplots(1, 2, figsize=(10.4, 3.6), sharey=True)
-    figure.subplots_adjust(0.06, 0.13, 0.99, 0.92, wspace=0.04)
+    figure, both = plt.subplots(1, 2, figsize=(10.4, 2.9), sharey=True)
+    figure.subplots_adjust(0.055, 0.15, 0.995, 0.92, wspace=0.03)
     kept = []
     for axes, setup in zip(both, ("ST1", "DC1")):
         kept.append(layout_of(study, setup))

@@ -17,7 +17,7 @@ def draw(study: Study):
     truth = study.step_csv("s2_sensors/blind_test.csv", ["setup", "frequency_Hz"])
     figure, axes = plt.subplots(figsize=(7.2, 4.2))
     figure.subplots_adjust(0.09, 0.12, 0.98, 0.97)
-    draw_clusters(axes, poles, BAND, "cluster", 4.0)
+    draw_clusters(axes, poles, BAND, "cluster", 3.0)
     for line in truth["frequency_Hz"].dropna().unique():
         if BAND[0] < line < BAND[1]:
             axes.axvline(line, color=INK, linewidth=0.7, linestyle=(0, (1, 3)))

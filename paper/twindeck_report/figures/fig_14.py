@@ -18,11 +18,11 @@ NEEDS = ("s1_model", "s3_identification")
 def draw(study: Study):
     mesh = read_mesh(study, "s1_model/model")
     channels = study.step_csv(f"{STEP}/features/channels.csv", ["channel", "x_m", "y_m", "dz"]).set_index("channel")
-    figure, both = plt.subplots(1, 2, figsize=(10.4, 4.0), sharey=True)
-    figure.subplots_adjust(0.06, 0.12, 0.99, 0.86, wspace=0.04)
+    figure, both = plt.subplots(1, 2, figsize=(10.4, 3.6), sharey=True)
+    figure.subplots_adjust(0.055, 0.12, 0.995, 0.86, wspace=0.03)
     chosen, kept = [], []
     for axes, condition, rows, words in zip(both, (WITHOUT, WITH), (without_dampers(study), with_dampers(study)), ("without dampers", "with dampers")):
-        draw_plan(axes, mesh)
+        draw_plan(axes, mesh, 16.0)
         if 1 not in rows:
             if condition == WITHOUT:
                 raise InputError(f"{study.results / STEP}/modes.csv: no mode near the first of Table 4")

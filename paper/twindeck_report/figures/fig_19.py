@@ -25,7 +25,8 @@ def draw(study: Study):
     angles = sorted(h1["angle_of_attack_deg"].unique())
     for i, angle in enumerate(angles):
         rows = h1[(h1["set"] == "standin") & (h1["angle_of_attack_deg"] == angle)]
-        left.plot(rows["V_over_fB"], rows["h1"], color=plt.cm.viridis(i / max(1, len(angles) - 1) * 0.9), linewidth=1.4, label=f"α = {angle:+.0f}°")
+        left.plot(rows["V_over_fB"], rows["h1"], color=plt.cm.viridis(i / max(1, len(angles) - 1) * 0.9),
+                  linewidth=1.4 if angle >= 0 else 2.6, alpha=1.0 if angle >= 0 else 0.45, label=f"α = {angle:+.0f}°")
     steady = h1[(h1["set"] == "quasi_steady") & (h1["angle_of_attack_deg"] == 0)]
     left.plot(steady["V_over_fB"], steady["h1"], color=INK, linewidth=1.0, linestyle=(0, (5, 3)), label="quasi-steady, α = 0°")
     left.axhline(0, color=PALE, linewidth=0.8)

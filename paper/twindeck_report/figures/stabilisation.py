@@ -31,19 +31,38 @@ def draw_stabilisation(axes, poles, psd, band, label="order"):
 
 
 def draw_clusters(axes, poles, band, key, highest_damping):
-    """Frequency against damping: poles of clusters coloured, the rest grey."""
+    """Frequency against damping: poles of clusters coloured, the rest grey. Medians are named in a row at the top."""
     poles = poles[poles["frequency_Hz"].between(*band) & (poles["damping_ratio_pct"] < highest_damping)]
     rest = poles[poles[key].isna()]
     axes.plot(rest["frequency_Hz"], rest["damping_ratio_pct"], ".", color=PALE, markersize=3)
     colours = (ACCENT, WARN, GOOD, "#8a5a00", "#5b3a8c", "#00707a")
+    medians = []
     for i, (_, rows) in enumerate(poles[poles[key].notna()].groupby(key)):
-        axes.plot(rows["frequency_Hz"], rows["damping_ratio_pct"], "o", color=colours[i % len(colours)], markersize=3.2, alpha=0.7)
-        f, z = rows["frequency_Hz"].median(), rows["damping_ratio_pct"].median()
-        axes.plot(f, z, "+", color=INK, markersize=10, markeredgewidth=1.2)
-        axes.annotate(f"{f:.3f} Hz", (f, z), xytext=(4, 6), textcoords="offset points", fontsize=7)
+        colour = colours[i % len(colours)]
+        axes.plot(rows["frequency_Hz"], rows["damping_ratio_pct"], "o", color=colour, markersize=3.2, alpha=0.7)
+        medians.append((rows["frequency_Hz"].median(), rows["damping_ratio_pct"].median(), colour))
     axes.set_xlim(*band)
     axes.set_ylim(0, highest_damping)
+    medians.sort()
+    for (f, z, colour), place in zip(medians, apart([f for f, *_ in medians], 0.022 * (band[1] - band[0]), band)):
+        axes.plot(f, z, "+", color=INK, markersize=10, markeredgewidth=1.2)
+        axes.plot([f, place], [z, 0.9 * highest_damping], color=colour, linewidth=0.5, alpha=0.5, zorder=0)
+        axes.text(place, 0.905 * highest_damping, f"{f:.3f} Hz", fontsize=7, rotation=90, ha="center", va="bottom", color=colour)
     axes.set_xlabel("frequency (Hz)")
     axes.set_ylabel("damping ratio (%)")
 
 
+def apart(places: list, least: float, band: tuple) -> list:
+    """Sorted places moved as little as needed to lie at least `least` from each other: groups that touch spread about their mean."""
+    groups = []
+    for place in places:
+        groups.append([place])
+        while len(groups) > 1 and _spread(groups[-1], least)[0] - _spread(groups[-2], least)[-1] < least:
+            last = groups.pop()
+            groups[-1] += last
+    return [min(max(p, band[0] + least / 2), band[1] - least / 2) for group in groups for p in _spread(group, least)]
+
+
+def _spread(group: list, least: float) -> list:
+    middle = sum(group) / len(group)
+    return [middle + (i - (len(group) - 1) / 2) * least for i in range(len(group))]

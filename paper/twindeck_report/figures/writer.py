@@ -1,5 +1,8 @@
 """figures/<name>.pdf, .png and the plotted data beside them as .csv, then figures/manifest.json."""
+import shutil
+import tempfile
 import time
+from pathlib import Path
 
 from ..manifests import write_manifest
 from ..study import Study
@@ -9,15 +12,19 @@ from .style import save
 
 
 def write_figures(study: Study) -> list:
-    """Figures whose step belongs to the study; a declared step that has not run is an error. Returns their names."""
+    """Figures whose step belongs to the study; a declared step that has not run is an error, and then none is replaced. Returns
+    their names."""
     started = time.monotonic()
-    drawn = [(figure.NAME, *figure.draw(study)) for figure in figures_of(study)]
     folder = study.results / "figures"
     folder.mkdir(parents=True, exist_ok=True)
-    written = []
-    for name, picture, data in drawn:
-        written += save(picture, folder / name)
-        write_csv(data, folder / f"{name}.csv")
-        written.append(folder / f"{name}.csv")
+    names, written = [], []
+    with tempfile.TemporaryDirectory(dir=study.results, prefix=".figures_") as fresh:
+        for figure in figures_of(study):
+            picture, data = figure.draw(study)
+            written += save(picture, Path(fresh) / figure.NAME)
+            write_csv(data, Path(fresh) / f"{figure.NAME}.csv")
+            written.append(Path(fresh) / f"{figure.NAME}.csv")
+            names.append(figure.NAME)
+        written = [Path(shutil.move(path, folder / path.name)) for path in written]
     write_manifest("figures", folder, study.used, written, started)
-    return [name for name, *_ in drawn]
+    return names

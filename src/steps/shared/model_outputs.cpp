@@ -62,6 +62,22 @@ void write_stays(const fe::Model* model, const fe::PrestressState& state, const 
   stays.save(folder / "stays.csv");
 }
 
+void write_member_forces(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder) {
+  io::CsvWriter members({"element", "group", "x_m", "y_m", "z_m", "length_m", "axial_force_N"});
+  for (std::size_t i = 0; model != nullptr && i < model->elements.size(); ++i) {
+    const fe::Element& e = model->elements[i];
+    if (e.type != fe::ElementType::beam && e.type != fe::ElementType::bar) continue;
+    const auto end = [&](std::size_t k) -> Eigen::Vector3d {
+      return model->nodes[static_cast<std::size_t>(e.nodes[k])].x_m + e.offset_m[k];
+    };
+    const Eigen::Vector3d middle = 0.5 * (end(0) + end(1));
+    const auto at = static_cast<Eigen::Index>(i);
+    const double force = state.axial_force_N.size() > at ? state.axial_force_N[at] : 0.0;
+    members.row({e.id, e.group, middle.x(), middle.y(), middle.z(), (end(1) - end(0)).norm(), force});
+  }
+  members.save(folder / "member_forces.csv");
+}
+
 void write_dampers(const fe::Model* model, const std::filesystem::path& folder) {
   io::CsvWriter dampers({"damper", "group", "damping_N_s_m", "stiffness_N_m", "arrangement"});
   if (model != nullptr) {

@@ -25,6 +25,11 @@ namespace twindeck::steps {
 /// @param model  null for a matrix model: header only
 void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder);
 
+/// member_forces.csv: `element,group,x_m,y_m,z_m,length_m,axial_force_N` of every beam and bar under dead load and pulls:
+/// middle and length between the ends (nodes and offsets), axial force, tension positive.
+/// @param model  null for a matrix model: header only
+void write_member_forces(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder);
+
 /// dampers.csv: `damper,group,damping_N_s_m,stiffness_N_m,arrangement` of the springs whose group begins with "damper";
 /// arrangement viscous (no spring), parallel (Kelvin) or series (Maxwell).
 void write_dampers(const fe::Model* model, const std::filesystem::path& folder);

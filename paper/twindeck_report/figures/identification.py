@@ -1,0 +1,34 @@
+"""Stabilisation and cluster diagrams of the virtual campaign, setup ST1: Figures 10 and 11 without dampers, 12 and 13 with them."""
+from ..identified import folder_of
+from ..study import Study
+from .stabilisation import draw_clusters, draw_stabilisation, stable
+from .style import plt
+
+SETUP, BAND = "ST1", (0.5, 2.6)  # the paper's setup, and the band of its first ten modes [Hz]
+COLUMNS = ["setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping", "stable_shape", "mode"]
+
+
+def stabilisation_figure(study: Study, condition: str):
+    poles = poles_of(study, condition)
+    psd = study.step_csv(f"{folder_of(condition)}/psd.csv", ["channel", "frequency_Hz", "psd_m2_s3"])
+    if "setup" in psd.columns:
+        psd = psd[psd["setup"] == SETUP]
+    figure, axes = plt.subplots(figsize=(8.4, 4.4))
+    figure.subplots_adjust(0.08, 0.11, 0.91, 0.93)
+    draw_stabilisation(axes, poles, psd, BAND)
+    figure.legend(*axes.get_legend_handles_labels(), frameon=False, fontsize=8, ncols=3, loc="upper center")
+    return figure, poles
+
+
+def cluster_figure(study: Study, condition: str):
+    poles = poles_of(study, condition)
+    poles = poles[stable(poles)]
+    figure, axes = plt.subplots(figsize=(8.4, 4.4))
+    figure.subplots_adjust(0.08, 0.11, 0.98, 0.97)
+    draw_clusters(axes, poles, BAND, "mode", 5.0)
+    return figure, poles
+
+
+def poles_of(study: Study, condition: str):
+    poles = study.step_csv(f"{folder_of(condition)}/poles.csv", COLUMNS)
+    return poles[(poles["setup"] == SETUP) & poles["frequency_Hz"].between(*BAND)]
