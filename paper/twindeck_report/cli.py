@@ -62,6 +62,8 @@ def _verify(study: Study) -> int:
         return 1 if stale else 0
     result = run_check(study)
     write_deviations(result, study.results / "report")
+    for line in result.coverage():
+        print(line)
     print(result.summary())
     for line in result.failures:
         print(f"paper check: {line}", file=sys.stderr)
@@ -77,7 +79,7 @@ def _ratchet(study: Study) -> int:
         print(f"{study.data / 'ratchet.csv'} left as it was: the paper check fails")
         return 1
     write_ratchet(study, result.cells)
-    print(f"{study.data / 'ratchet.csv'}: {len(result.cells)} cells")
+    print(f"{study.data / 'ratchet.csv'}: {sum(not cell.shown for cell in result.cells)} cells")
     return 0
 
 

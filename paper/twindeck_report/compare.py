@@ -25,8 +25,9 @@ class Cell:
     inside: bool
     kind: str
     basis: str
-    verdict: str = ""  # inside | outside | known | stale entry
+    verdict: str = ""  # inside | outside | known | stale entry | shown
     one_sided: bool = False
+    shown: bool = False  # beside the paper's, no claim of agreement: never judged
 
     @property
     def name(self) -> str:
@@ -34,7 +35,9 @@ class Cell:
 
     @property
     def used_pct(self) -> float:
-        """Share of the allowed deviation that is used up; infinite if nothing is allowed."""
+        """Share of the allowed deviation that is used up; infinite if nothing is allowed, or no share is to be told."""
+        if self.shown:
+            return float("inf")
         if self.deviation is None or self.allowed is None:
             return 0.0 if self.inside else float("inf")
         deviation = max(0.0, self.deviation) if self.one_sided else abs(self.deviation)
@@ -79,7 +82,7 @@ def row_names(frame, key) -> pd.Series:
 
 
 def compare_table(study: Study, table: str, tolerances: Tolerances) -> list:
-    """The compared cells of one table. A row or column that is gone counts as an empty cell, outside."""
+    """The cells of one table. A row or column that is gone counts as an empty cell, outside; what is only shown is not judged."""
     key = tolerances.keys[table]
     ours, paper = load_table(study, table, key), load_paper(study, table, key)
     rules = tolerances.columns[table]
@@ -90,8 +93,6 @@ def compare_table(study: Study, table: str, tolerances: Tolerances) -> list:
     cells = []
     for row in paper.index:
         for column, rule in rules.items():
-            if rule.rule == "shown":
-                continue
             printed = paper.at[row, column]
             found = ours.at[row, column] if row in ours.index and column in ours.columns else ""
             if printed or found:
@@ -110,6 +111,9 @@ def _cell(rule: Column, rules, row, printed, found, paper, changes) -> Cell:
         return Cell(rule.table, row, rule.name, printed, found, deviation, allowed, inside, rule.kind_of(row), basis, "", one_sided)
 
     theirs, value = number(printed), number(found)
+    if rule.rule == "shown":
+        deviation = None if theirs is None or value is None else value - theirs
+        return Cell(rule.table, row, rule.name, printed, found, deviation, None, True, rule.kind_of(row), rule.basis, shown=True)
     if rule.rule == "exact":
         return cell(None, None, printed == found)
     if theirs is None or value is None:

@@ -1,12 +1,22 @@
-"""report/deviations.csv, deviations.md and junit.xml: the check's result for a spreadsheet, a reader and a CI server."""
+"""report/deviations.csv, claims.csv, deviations.md and junit.xml: the check's result for a spreadsheet, a reader and a CI server."""
 import csv
 from pathlib import Path
 from xml.etree import ElementTree
 
+from .cells import csv_text, number
 from .check import CheckResult, explain, percent
 from .compare import row_for_csv
 
 HEADER = ["table", "row", "column", "paper", "ours", "deviation", "allowed", "used_pct", "kind", "verdict", "basis"]
+
+CLAIM_HEADER = ["claim", "section", "unit", "paper", "ours", "deviation", "allowed", "kind", "verdict", "basis"]
+
+
+def claim_row(claim) -> list:
+    paper = number(claim.paper)
+    deviation = None if claim.ours is None or paper is None else claim.ours - paper
+    return [claim.name, claim.source, claim.unit, claim.paper, csv_text(claim.ours), csv_text(deviation), csv_text(claim.allowed), claim.kind,
+            claim.verdict, claim.basis]
 
 
 def write_deviations(result: CheckResult, folder: Path) -> None:
@@ -15,6 +25,10 @@ def write_deviations(result: CheckResult, folder: Path) -> None:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(HEADER)
         writer.writerows(row_for_csv(cell) for cell in result.cells)
+    with (folder / "claims.csv").open("w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(CLAIM_HEADER)
+        writer.writerows(claim_row(claim) for claim in result.claims)
     (folder / "deviations.md").write_text(markdown(result), encoding="utf-8")
     ElementTree.indent(tree := junit(result))
     tree.write(folder / "junit.xml", encoding="utf-8", xml_declaration=True)
@@ -34,8 +48,9 @@ def markdown(result: CheckResult) -> str:
     lines += ["## Claims of the text", ""]
     lines += table(["claim", "where", "unit", "paper", "ours", "kind", "verdict", "basis"],
                    [[c.name, c.source, c.unit, c.paper, c.shown, c.kind, c.verdict, c.basis] for c in result.claims])
+    lines += ["## Printed numbers of the tables", ""] + [f"- {line}" for line in result.coverage()] + [""]
     lines += ["## Ratchet", "", result.ratchet, ""]
-    lines += ["## Every compared cell, worst first", ""]
+    lines += ["## Every cell, worst first, then what is only shown", ""]
     lines += table(HEADER, [[_short(text) for text in row_for_csv(cell)] for cell in result.cells])
     return "\n".join(lines)
 
@@ -57,10 +72,10 @@ def _short(text: str) -> str:
 
 
 def junit(result: CheckResult) -> ElementTree.ElementTree:
-    cases = [(c.table, f"{c.row} {c.column}", c.verdict in ("inside", "known"), explain(c)) for c in result.cells]
+    cases = [(c.table, f"{c.row} {c.column}", c.verdict in ("inside", "known", "shown"), explain(c)) for c in result.cells]
     cases += [(r.rule.table, f"rms {r.rule.column}", r.inside, percent(r.value)) for r in result.rms]
     cases += [("orders", o.name, o.holds, o.found) for o in result.orders]
-    cases += [("claims", c.name, c.verdict == "inside", c.shown) for c in result.claims if c.allowed is not None]
+    cases += [("claims", c.name, c.verdict in ("inside", "known"), c.shown) for c in result.claims if c.allowed is not None]
     cases += [("ratchet", c.name, False, problem) for c, problem in result.grown]
     cases += [("hashes", str(path), False, problem) for path, problem in result.stale]
     cases += [("tables", name, False, "missing") for name in result.missing]

@@ -21,7 +21,7 @@ def check_ratchet(study: Study, cells: list) -> tuple:
         raise InputError(f"{path}: deviation_pct: a cell that is not a number")
     announced = announced_tables(study)
     grown = []
-    for cell in cells:
+    for cell in (c for c in cells if not c.shown):
         earlier = before.get((cell.table, cell.row, cell.column))
         if earlier is not None and cell.deviation_pct > earlier + MARGIN_POINTS and cell.table not in announced:
             grown.append((cell, f"deviation grew from {earlier:.3g} to {cell.deviation_pct:.3g} points since the last release; "
@@ -42,7 +42,7 @@ def write_ratchet(study: Study, cells: list) -> None:
     with (study.data / "ratchet.csv").open("w", encoding="utf-8", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(HEADER)
-        for cell in cells:
+        for cell in (c for c in cells if not c.shown):
             ours = number(cell.ours)
             writer.writerow([cell.table, cell.row, cell.column, cell.ours if ours is None else csv_text(ours),
                              f"{cell.deviation_pct:.6g}"])

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+import made_up_bridge
 import made_up_campaign
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -96,15 +97,19 @@ def write_paper(folder):
                [[f"{i + 1}X", PARTNERS[i], *numbers(MEASURED[i], r, 2)] for i, r in zip(KEPT, UPDATED)]
                + [["11X", "13N", *numbers(2.7, 0.996, 2)]])
 
+    names = [f"MAC_{i + 1}X" for i in KEPT] + ["MAC_11X"]
+    write_rows(folder / "table_10.csv", ["numerical_mode", *names],
+               [[partner, *("0.90" if i == j else "0.05" for j in range(len(names)))] for i, partner in enumerate([PARTNERS[k] for k in KEPT] + ["13N"])])
     shutil.copy(RULES / "paper" / "table_11.csv", folder)  # words without numbers
     write_rows(folder / "table_12.csv", ["ns", "group", "description", "V_cr_m_per_s", "f_cr_Hz"],
                [[ns, "made up", "", speed, "0.7900"] for ns, speed in CRITICAL])
     runs = [f"{run}_{event}_err_pct" for run in ("NS1_normal_wind", "NS2_cosine_and_skew", "NS3_windY_NS2") for event in ("August", "April")]
     write_rows(folder / "table_13.csv", ["accelerometer", *runs], [[f"M{m}", *(f"{m - 4.5 + 0.1 * i:.2f}" for i in range(6))] for m in range(1, 9)])
     shutil.copy(RULES / "paper" / "table_14.csv", folder)  # words, and angles that are the deck's
-    write_rows(folder / "claims.csv", ["claim", "value", "unit", "source", "kind"],
-               [["preliminary_f10", f"{soft[9]:.3f}", "Hz", "made up", "calibrated"],
-                ["degrees_of_freedom", "500", "-", "made up", "virtual"], ["friction_velocity", "1.76", "m/s", "made up", "input"]])
+    write_rows(folder / "claims.csv", ["claim", "value", "unit", "source", "kind", "why_not"],
+               [["preliminary_f10", f"{soft[9]:.3f}", "Hz", "made up", "calibrated", ""], ["degrees_of_freedom", "500", "-", "made up", "virtual", ""],
+                ["foot_bottom_chord_sign", "-1", "-", "made up", "predicted", ""],
+                ["return_period", "100", "years", "made up", "unavailable", "A made-up reason."]])
 
 
 def write_features(data):
@@ -132,6 +137,10 @@ def write_steps(paper, results):
     write_rows(results / "s1_model/dampers.csv", ["damper", "group", "damping_N_s_m", "stiffness_N_m", "arrangement"], dampers)
 
     write_model(results / "s1_model")
+    made_up_bridge.write_members(write_rows, results / "s1_model")
+    made_up_bridge.write_dampers(write_rows, results / "s1_model/model", [d[0] for d in dampers])
+    for step in ("s4_refinement", "s6_updating"):
+        write_model(results / step)
 
     header = ["stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"]
 
@@ -162,7 +171,7 @@ def write_model(folder):
     nodes = [[i + 1, 5.0 * (i // 2), 3.0 * (i % 2), 10.0] for i in range(2 * n)] + [[2 * n + 1, 50.0, 1.5, 40.0]]
     blank = [""] * 4
     elements = [[k + 1, "shell", "", "slab", "concrete", "slab", 2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2] for k in range(n - 1)]
-    elements += [[n, "stay", "NE1", "stay_44", "steel", "stay", n, 2 * n + 1, *blank[:2]]]
+    elements += [[n + i, "stay", name, "stay_44", "steel", "stay", n + i, 2 * n + 1, *blank[:2]] for i, name in enumerate(("NE1", "NW1"))]
     write_rows(folder / "model/nodes.csv", ["node", "x_m", "y_m", "z_m"], nodes)
     write_rows(folder / "model/elements.csv",
                ["element", "type", "name", "group", "material", "section", "node1", "node2", "node3", "node4"], elements)

@@ -74,6 +74,7 @@ class Report(unittest.TestCase):
         self.assertEqual(len(data["sensitivity_map"]), 15 * 15)
         self.assertEqual({r["parameter"] for r in data["sensitivity_map"] if r["selected"] == "1"},
                          {p[0] for p in made_up_study.PARAMETERS})
+        self.assertEqual(len(list((self.results / "figures").glob("fig_*.png"))), 21, "every figure of the paper")
         self.assertEqual({r["start"] for r in data["updating_history"]}, {"0"}, "the start of least cost")
 
     def test_same_input_same_bytes(self):

@@ -1,7 +1,6 @@
 """Fig. 2: free bodies of both decks, and the axial forces that their curvature puts into the chords under dead load."""
-
+from ..deck_section import CHORDS, DECKS, chord_forces, mean_forces, sections
 from ..study import Study
-from .deck_section import CHORDS, DECKS, chord_forces, mean_forces, sections
 from .style import ACCENT, INK, PALE, WARN, plt
 
 NAME = "fig_02"
@@ -28,7 +27,7 @@ def draw(study: Study):
             along.plot(part["station_m"], part["axial_force_N"] / 1e6, color=COLOURS[chord], linewidth=1.3 if chord == "bottom" else 0.9, label=chord)
         along.axhline(0, color=INK, linewidth=0.7)
         along.set_ylabel("axial force (MN)")
-        along.set_title(f"{deck} deck, bottom chord: {_sign(mean.at[deck, 'bottom'])} here, {STATED[deck]} in section 2.1", loc="left", fontsize=9)
+        along.set_title(f"{deck} deck, bottom: {_sign(mean.at[deck, 'bottom'])} ({STATED[deck]} in section 2.1)", loc="left", fontsize=9)
     axes[0, 1].legend(frameon=False, fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98))
     axes[1, 1].set_xlabel("station along the deck from mid-length (m)")
     return figure, forces

@@ -2,8 +2,8 @@
 import pandas as pd
 from matplotlib.patches import Polygon
 
+from ..deck_section import CHORDS, sections
 from ..study import Study
-from .deck_section import CHORDS, sections
 from .style import ACCENT, INK, PALE, plt
 from .wind import nodes
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from ..errors import InputError
-from ..study import Study
+from .errors import InputError
+from .study import Study
 
 DECKS = ("foot", "cycle")
 STAY_LETTER = {"foot": "E", "cycle": "W"}  # NE1 … SE8 carry the foot deck, NW1 … SW7 the cycle deck
@@ -33,6 +33,18 @@ def circle_through(points) -> Circle:
     return Circle(a, b, float(np.sqrt(c + a * a + b * b)))
 
 
+def deck_axis(bottom, top) -> Circle:
+    """The circle midway between a deck's two top chords. Its centre is the bottom chord's: a fit through two circles at once would
+    not find their common centre."""
+    centre = circle_through(bottom)
+    radii = centre.radius_of(top)
+    return Circle(centre.x_m, centre.y_m, 0.5 * float(radii.min() + radii.max()))
+
+
+def axis_of(members: pd.DataFrame, deck: str) -> Circle:
+    return deck_axis(*(members[members["group"] == f"{deck}_{level}_chord"] for level in ("bottom", "top")))
+
+
 def chord_forces(study: Study, folder: str = "s1_model") -> pd.DataFrame:
     """deck, chord, station_m, radius_m, z_m, axial_force_N of every piece of a chord under dead load and stay pulls; tension positive."""
     name = f"{folder}/member_forces.csv"
@@ -42,7 +54,7 @@ def chord_forces(study: Study, folder: str = "s1_model") -> pd.DataFrame:
         bottom, top = (members[members["group"] == f"{deck}_{level}_chord"] for level in ("bottom", "top"))
         if bottom.empty or top.empty:
             raise InputError(f"{study.results / name}: no members of the groups {deck}_bottom_chord and {deck}_top_chord")
-        axis = circle_through(top)
+        axis = deck_axis(bottom, top)
         for chord, rows in (("bottom", bottom), ("top inner", top[axis.radius_of(top) < axis.radius_m]),
                             ("top outer", top[axis.radius_of(top) >= axis.radius_m])):
             parts.append(pd.DataFrame({"deck": deck, "chord": chord, "station_m": axis.station_of(rows), "radius_m": axis.radius_of(rows),
@@ -66,7 +78,7 @@ def sections(study: Study, folder: str = "s1_model") -> dict:
     found = {}
     for deck in DECKS:
         rows = forces[(forces["deck"] == deck) & (forces["station_m"].abs() < 12.0)]
-        axis = circle_through(members[members["group"] == f"{deck}_top_chord"])
+        axis = axis_of(members, deck)
         top = rows[rows["chord"] != "bottom"]["z_m"].mean()
         places = {chord: (part["radius_m"].mean() - axis.radius_m, part["z_m"].mean() - top) for chord, part in rows.groupby("chord")}
         own = anchors[anchors["stay"].str[1:2] == STAY_LETTER[deck]]
