@@ -141,6 +141,7 @@ def write_steps(paper, results):
     made_up_bridge.write_dampers(write_rows, results / "s1_model/model", [d[0] for d in dampers])
     for step in ("s4_refinement", "s6_updating"):
         write_model(results / step)
+        shutil.copy(results / "s1_model/modes.csv", results / step)
 
     header = ["stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"]
 

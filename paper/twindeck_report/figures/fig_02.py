@@ -9,7 +9,6 @@ CAPTION = ("Left: free bodies of both decks at mid-length, chords and stay ancho
            "Section 2.1 puts the foot deck's bottom chord in tension and the cycle deck's in compression. With the stays on the edges next to the mast, "
            "as in our model, the signs are the opposite: the arrows H are drawn as ours.")
 NEEDS = ("s1_model",)
-DRAWS_CHORDS = True
 COLOURS = {"bottom": INK, "top inner": ACCENT, "top outer": WARN}
 STATED = {"foot": "tension", "cycle": "compression"}  # section 2.1, of the bottom chord
 

@@ -13,7 +13,6 @@ CAPTION = ("(a) Dampers in plan, drawn from the model's springs.csv: ring, acts 
            "paper's drawing is not available): the C dampers' because they bring Table 4 with dampers near. (b), (c) SCHEMATICS, not the paper's photographs: "
            "types A and B as spring and dashpot in series, C as a dashpot, with the constants of Table 1.")
 NEEDS = ("s1_model",)
-DRAWS_DAMPERS = True
 COLOURS = {"A": GOOD, "B": ACCENT, "C": WARN}
 
 
