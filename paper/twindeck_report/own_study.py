@@ -3,11 +3,14 @@ files' hashes in place of the comparison with a paper."""
 import html
 import time
 
+import pandas as pd
+
 from .cells import csv_text, number
 from .figures import figures_of
 from .manifests import stale_inputs, stale_outputs, write_manifest
 from .page.parts import common_parts
 from .page.pieces import image, quantities, render, text
+from .page.source import read_source
 from .study import Study
 from .tables.writer import heading, write_csv
 
@@ -40,8 +43,26 @@ def write_own_tables(study: Study) -> list:
         (folder / f"{name}.html").write_text(_html(table, title), encoding="utf-8")
         written += [folder / f"{name}.csv", folder / f"{name}.html"]
         names.append(name)
+    by_condition = _by_condition(study)
+    if by_condition is not None:
+        write_csv(by_condition, folder / "identified_by_condition.csv")
+        (folder / "identified_by_condition.html").write_text(_html(by_condition, "Modes identified, condition by condition"), encoding="utf-8")
+        written += [folder / "identified_by_condition.csv", folder / "identified_by_condition.html"]
+        names.append("identified_by_condition")
     write_manifest("tables", folder, study.used, written, started)
     return names
+
+
+def _by_condition(study: Study):
+    """The identified modes of every condition in one table; None where there is one condition only."""
+    others = sorted((study.results / "s3_identification/conditions").glob("*/modes.csv")) if "s3_identification" in study.steps() else []
+    if not others:
+        return None
+    first = study.step_csv("s3_identification/poles.csv", ["condition"])["condition"].iloc[0]
+    columns = ["mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"]
+    parts = [study.step_csv("s3_identification/modes.csv", columns)[columns].assign(condition=first)]
+    parts += [study.read_csv(path, columns)[columns].assign(condition=path.parent.name) for path in others]
+    return pd.concat(parts)[["condition", *columns]].astype(object)
 
 
 def _html(table, title: str) -> str:
@@ -61,10 +82,12 @@ def write_own_report(study: Study):
     settings = study.read_toml(study.workflow / "study.toml")
     declared = study.steps()
     tables = [text(study, f"tables/{name}.html") for file, (name, _) in TABLES.items() if file.split("/")[0] in declared]
+    if (study.results / "tables/identified_by_condition.html").is_file():
+        tables.append(text(study, "tables/identified_by_condition.html"))
     figures = [{"name": f.NAME, "caption": CAPTIONS.get(f.NAME, f.CAPTION), "png": image(study, f.NAME)}
                for f in figures_of(study) if image(study, f.NAME)]
     page = render(
-        "own_report.html.j2", **common_parts(study, settings), paper_sections=False, source=settings.get("source", ""), tables=tables,
+        "own_report.html.j2", **common_parts(study, settings), paper_sections=False, source=read_source(study), tables=tables,
         figures=figures, tiles=[], model=quantities(study, "s1_model/summary.csv"), updating=quantities(study, "s6_updating/summary.csv"),
         bounds=_on_bounds(study), stale=_stale(study))
     target = study.results / "report" / "report.html"

@@ -62,6 +62,10 @@ def main(data, out):
         writer.writerow(HEADER)
         writer.writerows(channels.values())
     (out / "conditions.toml").write_text("[fans]\n")
+    if (data / "lines.txt").is_file():  # which points the authors join when they draw the frame
+        pairs = [line.split() for line in (data / "lines.txt").read_text().splitlines()[1:] if len(line.split()) == 2]
+        with open(out / "lines.csv", "w", newline="") as f:
+            csv.writer(f, lineterminator="\n").writerows([["point", "other_point"], *pairs])
     text = "".join(f'[[record]]\nsetup = "{setup}"\nkind = "ambient"\nfile = "{file}"\nsampling_rate_Hz = {RATE_HZ}\n'
                    f"channels = [{', '.join(chr(34) + n + chr(34) for n in names)}]\ncondition = \"fans\"\n\n" for setup, file, names in records)
     (out / "campaign.toml").write_text(text)
