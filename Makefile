@@ -23,7 +23,7 @@ else
 include workflows/steps.mk
 endif
 
-.PHONY: blind-trials help all deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
+.PHONY: paper blind-trials help all deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -55,7 +55,7 @@ tables: $(RESULTS)/tables/manifest.json ## tables as CSV, TeX, HTML
 figures: $(RESULTS)/figures/manifest.json ## figures as PDF, PNG and their data
 report: $(RESULTS)/report/report.html ## one self-contained page
 
-REPORT_SOURCES := $(shell find paper data/$(STUDY) -type f -not -path '*/__pycache__/*' 2>/dev/null)
+REPORT_SOURCES := $(shell find paper data/$(STUDY) -type f -not -path '*/__pycache__/*' -not -path 'paper/article/*' 2>/dev/null)
 REPORT_ARGUMENTS = --study $(STUDY) --results $(RESULTS) --data $(PAPER)
 
 $(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) workflows/python.sh
@@ -66,6 +66,11 @@ $(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) workflows/
 
 $(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json
 	@$(REPORT) report $(REPORT_ARGUMENTS)
+
+paper: $(RESULTS)/paper/paper.pdf ## our article as PDF, with the generated tables, figures and numbers (needs LaTeX; says how to get it)
+
+$(RESULTS)/paper/paper.pdf: $(RESULTS)/report/report.html $(shell find paper/article -name '*.tex')
+	@$(REPORT) article $(REPORT_ARGUMENTS)
 
 verify: $(RESULTS)/report/report.html ## hold the tables, as they lie there, against the paper within the declared tolerances
 	@$(REPORT) verify $(REPORT_ARGUMENTS)

@@ -19,6 +19,9 @@ if [ "${1:-}" = "--report" ]; then
   for package in $wanted; do
     printf '  %-28s %s\n' "$package" "$(dpkg-query -W -f='${Version}' "$package" 2>/dev/null | grep . || echo 'missing')"
   done
+  # what `make paper` alone asks for
+  printf '  %-28s %s\n' "LaTeX (optional)" "$(pdflatex --version 2>/dev/null | head -1 | grep . \
+    || echo 'missing; make paper wants texlive-latex-base texlive-latex-recommended texlive-fonts-recommended')"
   if [ -z "$missing" ]; then
     echo "deps: all $(echo "$wanted" | wc -w) packages are installed, nothing to do"
   else

@@ -1,4 +1,4 @@
-"""python3 -m twindeck_report tables|figures|report|verify|ratchet --study S [--results DIR] [--data DIR] [--workflow DIR]"""
+"""python3 -m twindeck_report tables|figures|report|verify|article|ratchet --study S [--results DIR] [--data DIR] [--workflow DIR]"""
 import argparse
 import sys
 from pathlib import Path
@@ -70,6 +70,15 @@ def _verify(study: Study) -> int:
     return 0 if result.passed else 1
 
 
+def _article(study: Study) -> int:
+    from .article.build import write_article
+
+    if is_own(study):
+        raise InputError(f"study {study.name}: it has no printed paper, and the article tells of one; see its report.html instead")
+    print(f"{write_article(study)} written")
+    return 0
+
+
 def _ratchet(study: Study) -> int:
     """Sets ratchet.csv from results that pass; results that fail are not worth holding on to."""
     result = run_check(study)
@@ -88,6 +97,7 @@ COMMANDS = {
     "figures": (_figures, "figures as PDF and PNG with the plotted data beside them"),
     "report": (_report, "report.html, one self-contained page"),
     "verify": (_verify, "compare the tables with the paper as printed"),
+    "article": (_article, "our article as PDF (needs LaTeX)"),
     "ratchet": (_ratchet, "hold the present deviations as those of a release"),
 }
 

@@ -1,6 +1,7 @@
 """table_NN.csv, .tex and .html: ours, and beside each compared column the paper's number and the kind of ours."""
 import csv
 import html
+import re
 import time
 from pathlib import Path
 
@@ -28,7 +29,8 @@ def write_tables(study: Study) -> list:
         title = f"Table {str(number_).replace('_', ' ')}. {TABLES[number_].TITLE}"
         name = folder / table_name(number_)
         write_csv(table, name.with_suffix(".csv"))
-        name.with_suffix(".tex").write_text(latex(table, printed, title), encoding="utf-8")
+        name.with_suffix(".tex").write_text(latex(table, printed, title, f"tab:{table_name(number_)}", _numbered(number_)),
+                                              encoding="utf-8")
         name.with_suffix(".html").write_text(html_table(table, printed, title), encoding="utf-8")
         written += [name.with_suffix(suffix) for suffix in (".csv", ".tex", ".html")]
     write_manifest("tables", folder, study.used, written, started)
@@ -86,24 +88,51 @@ def html_table(table: pd.DataFrame, printed: pd.DataFrame, title: str) -> str:
             f"<thead><tr>{''.join(head)}</tr></thead>\n<tbody>\n" + "\n".join(body) + "\n</tbody>\n</table>\n")
 
 
-def latex(table: pd.DataFrame, printed: pd.DataFrame, title: str) -> str:
-    """A booktabs table: ours, the paper's number in parentheses."""
-    lines = []
+def latex(table: pd.DataFrame, printed: pd.DataFrame, title: str, label: str = "", of_paper: str = "") -> str:
+    """A booktabs table: ours, the paper's number in parentheses where it is another. `\\fitwidth` may be defined by the document that
+    takes it in, to hold a wide table inside the page. `of_paper` is the number that the table shall bear."""
+    lines, alignments = [], _alignments(printed)
     for i in range(len(table)):
         cells = []
         for column in printed.columns:
             text = tex(shown(table[column][i], printed[column][i]))
-            if f"{column}_paper" in table and printed[column][i]:
+            repeats = number(printed[column][i]) is None and csv_text(table[column][i]) == printed[column][i]
+            if f"{column}_paper" in table and printed[column][i] and not repeats:
                 text += f" ({tex(printed[column][i])})"
-            cells.append(text)
+            cells.append(re.sub(r"([,*/])", r"\1\\allowbreak{}", text) if "p{" in alignments[column] else text)
         lines.append("  " + " & ".join(cells) + r" \\")
-    alignment = "".join("r" if any(number(t) is not None for t in printed[c]) else "l" for c in printed.columns)
-    kinds = "; ".join(f"{heading(c)}: {k}" for c, k in column_kinds(table, printed))
+    alignment = "".join(alignments.values())
+    found = column_kinds(table, printed)
+    one = {k for _, k in found}
+    kinds = f"Every number: {one.pop()}" if len(one) == 1 else "; ".join(f"{heading(c)}: {k}" for c, k in found)
     caption = tex(f"{title.partition('. ')[2]}; in parentheses the paper's. {kinds}.")
     return "\n".join([
-        r"\begin{table}", r"  \centering", f"  \\caption{{{caption}}}", f"  \\begin{{tabular}}{{{alignment}}}", r"  \toprule",
+        r"\providecommand{\fitwidth}[1]{#1}",
+        r"\begin{table}", *([f"  \\renewcommand{{\\thetable}}{{{of_paper}}}"] if of_paper else []), r"  \centering", f"  \\caption{{{caption}}}" + (f"\\label{{{label}}}" if label else ""),
+        f"  \\fitwidth{{\\begin{{tabular}}{{{alignment}}}", r"  \toprule",
         "  " + " & ".join(tex(heading(c)) for c in printed.columns) + r" \\", r"  \midrule", *lines,
-        r"  \bottomrule", r"  \end{tabular}", r"\end{table}", ""])
+        r"  \bottomrule", r"  \end{tabular}}", r"\end{table}", ""])
+
+
+def _numbered(number_) -> str:
+    """12 -> 12; 12_quasi_steady -> 12 (quasi steady)."""
+    first, _, rest = str(number_).partition("_")
+    return f"{first} ({rest.replace('_', ' ')})" if rest else first
+
+
+def _alignments(printed: pd.DataFrame) -> dict:
+    """Numbers to the right, words to the left, long words in a column that breaks them; beside such a column long headings break too."""
+    longest = {c: max((len(text) for text in printed[c]), default=0) for c in printed.columns}
+    wide = max(longest.values()) > 60
+
+    def one(column):
+        if longest[column] > 24:
+            return r">{\raggedright\arraybackslash}p{%dem}" % min(14, 6 + longest[column] // 8)
+        if wide and len(heading(column)) > 12:
+            return r">{\raggedright\arraybackslash}p{5em}"
+        return "r" if any(number(text) is not None for text in printed[column]) else "l"
+
+    return {column: one(column) for column in printed.columns}
 
 
 def column_kinds(table: pd.DataFrame, printed: pd.DataFrame) -> list:
@@ -132,7 +161,10 @@ def _words(name: str) -> str:
     return name if len(name) <= 4 else name.replace("_", " ")
 
 
+SPECIAL = {**{c: "\\" + c for c in "&%$#_{}"}, "^": r"\textasciicircum{}", "~": r"\textasciitilde{}", "\\": r"\textbackslash{}",
+           "°": r"$^\circ$", "²": "$^2$", "ρ": r"$\rho$", "α": r"$\alpha$", "ξ": r"$\xi$", "½": r"$\frac{1}{2}$", "₁": "$_1$", "₂": "$_2$", "β": r"$\beta$",
+           "θ": r"$\theta$"}
+
+
 def tex(text: str) -> str:
-    for character in "&%$#_{}":
-        text = text.replace(character, "\\" + character)
-    return text
+    return "".join(SPECIAL.get(character, character) for character in text)
