@@ -2,7 +2,7 @@
 import pandas as pd
 
 from ..study import Study
-from .damping_curves import damping
+from .damping_curves import damping, name_ends
 from .style import ACCENT, GOOD, INK, PALE, WARN, plt
 from .wind import SYNTHETIC
 
@@ -30,11 +30,13 @@ def draw(study: Study):
     left.set_title("mode 1 without dampers", loc="left")
     left.legend(frameon=False, fontsize=8)
     damped = damping(study, "standin", "on")
+    ends, colours = {}, {}
     for mode, rows in damped.groupby("mode"):
         above = rows["damping_ratio_pct"].min() >= 2.0
         right.plot(rows["V_m_s"], rows["damping_ratio_pct"], color=GOOD if above else WARN, linewidth=1.2)
-        right.text(rows["V_m_s"].iloc[-1] + 0.5, rows["damping_ratio_pct"].iloc[-1], str(mode), fontsize=7, va="center")
+        ends[str(mode)], colours[str(mode)] = (rows["V_m_s"].iloc[-1], rows["damping_ratio_pct"].iloc[-1]), GOOD if above else WARN
     kept.append(damped)
+    name_ends(right, ends, colours, 0.22)
     right.axhline(2.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     right.set_title("every followed mode with dampers", loc="left")
     for axes in (left, right):

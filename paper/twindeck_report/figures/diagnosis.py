@@ -37,7 +37,7 @@ def draw(study: Study):
     else:
         left.set_xlabel("row of residuals.csv")
     left.set_ylabel("(measured - computed) / deviation")
-    left.legend(frameon=False, fontsize=8)
+    left.legend(frameon=False, fontsize=8, loc="lower left")
     right.barh(np.arange(len(places)), places["score"], color=ACCENT)
     right.set_yticks(np.arange(len(places)), places["location"], fontsize=7)
     right.invert_yaxis()

@@ -1,6 +1,6 @@
 """Fig. 20: total damping as a function of the wind velocity, footbridge without dampers, orthogonal wind (model A)."""
 from ..study import Study
-from .damping_curves import critical, damping
+from .damping_curves import critical, damping, name_ends
 from .style import INK, PALE, WARN, plt
 from .wind import SYNTHETIC
 
@@ -15,13 +15,16 @@ def draw(study: Study):
     table = damping(study, "standin", "off")
     table = table[table["structural_damping_pct"] == table["structural_damping_pct"].min()]
     figure, axes = plt.subplots(figsize=(7.4, 4.2))
-    figure.subplots_adjust(0.1, 0.12, 0.97, 0.95)
+    figure.subplots_adjust(0.1, 0.12, 0.93, 0.95)
+    ends, colours = {}, {}
     for mode, rows in table.groupby("mode"):
         if mode > SHOWN_MODES:
             continue
         first = mode == 1
         colour = WARN if first else plt.cm.Blues(0.4 + 0.1 * mode)
-        axes.plot(rows["V_m_s"], rows["damping_ratio_pct"], color=colour, linewidth=2.0 if first else 1.2, label=f"mode {mode}")
+        axes.plot(rows["V_m_s"], rows["damping_ratio_pct"], color=colour, linewidth=2.0 if first else 1.2)
+        ends[f"mode {mode}"], colours[f"mode {mode}"] = (rows["V_m_s"].iloc[-1], rows["damping_ratio_pct"].iloc[-1]), colour
+    name_ends(axes, ends, colours, 0.17)
     axes.axhline(0, color=INK, linewidth=0.9)
     speed = critical(study, "standin")
     speed = speed[speed["model"] == "A"]["V_cr_m_s"].iloc[0]
@@ -31,5 +34,4 @@ def draw(study: Study):
     axes.text(40.6, axes.get_ylim()[1] * 0.94, "design wind", fontsize=8, color="#5b6673")
     axes.set_xlabel("wind velocity V (m/s)")
     axes.set_ylabel("total damping ξ (%)")
-    axes.legend(frameon=False, fontsize=8, loc="lower left")
     return figure, table
