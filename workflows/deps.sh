@@ -19,6 +19,15 @@ if [ "${1:-}" = "--report" ]; then
   for package in $wanted; do
     printf '  %-28s %s\n' "$package" "$(dpkg-query -W -f='${Version}' "$package" 2>/dev/null | grep . || echo 'missing')"
   done
+  optional=$(dirname "$0")/debian-packages-optional.txt
+  if [ -f "$optional" ]; then
+    echo "  optional:"
+    sed -e '/^#/d' -e '/^$/d' "$optional" | while read -r package what; do
+      state=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
+      if [ "$state" = "install ok installed" ]; then state=$(dpkg-query -W -f='${Version}' "$package"); else state="not here: apt-get install --no-install-recommends $package"; fi
+      printf '  %-28s %s (%s)\n' "$package" "$state" "$what"
+    done
+  fi
   # what `make paper` alone asks for
   printf '  %-28s %s\n' "LaTeX (optional)" "$(pdflatex --version 2>/dev/null | head -1 | grep . \
     || echo 'missing; make paper wants texlive-latex-base texlive-latex-recommended texlive-fonts-recommended')"
