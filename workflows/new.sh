@@ -17,5 +17,5 @@ for file in "workflows/$name"/*.toml; do
   sed "s#template#$name#g" "$file" >"$file.new" && mv "$file.new" "$file"
 done
 echo "workflows/$name/   study.toml and a configuration per step, with comments"
-echo "data/$name/        model/ and features/ of a small frame: put your own in their place"
+echo "data/$name/        model/, campaign/ and features/ of a small frame: put your own in their place"
 echo "next: make all STUDY=$name, then open results/$name/report/report.html; docs/README.md lists the guides"

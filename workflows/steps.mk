@@ -17,10 +17,23 @@ READS_s7_aerodynamics := s6_updating
 READS_s8_validation := s0_campaign s6_updating s7_aerodynamics
 READS_s9_diagnosis := s6_updating
 
+# Measured modes that step 3 of the study identifies: the steps that compare with them wait for it.
+ifneq ($(shell grep -s '^features *=.*s3_identification/features' $(WORKFLOW)/study.toml),)
+READS_s4_refinement += s3_identification
+READS_s6_updating += s3_identification
+READS_s9_diagnosis += s3_identification
+endif
+
 # What a step reads of the study's data beside STUDY_INPUTS.
 INPUTS_s0_campaign := $(wildcard data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)
 INPUTS_s2_sensors := $(wildcard data/$(STUDY)/layout/*)
 INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
+
+# Records of one's own: data/<study>/campaign/.
+ifneq ($(wildcard data/$(STUDY)/campaign/campaign.toml),)
+OPTIONS_s3_identification := --campaign data/$(STUDY)/campaign
+INPUTS_s3_identification := $(wildcard data/$(STUDY)/campaign/* data/$(STUDY)/campaign/records/*)
+endif
 
 # A study of outside records makes its inputs from them once: make s9 STUDY=gt_pedestrian_bridge DATA=dir
 ifneq ($(wildcard $(WORKFLOW)/make_inputs.py),)

@@ -41,7 +41,8 @@ class OwnStudy(unittest.TestCase):
         self.assertEqual(self.new.returncode, 0, self.new.stderr)
         self.assertEqual(self.all.returncode, 0, self.all.stderr)
         page = (self.root / "results/mine/report/report.html").read_text(encoding="utf-8")
-        for part in ("two-storey frame", "Parameters after updating", "k_base", "data:image/png;base64,"):
+        for part in ("two-storey frame", "Parameters after updating", "k_base", "data:image/png;base64,", 'id="mode-shapes"', 'id="poles"', "Nothing is missing",
+                     "Modes identified from the records"):
             self.assertIn(part, page)
         self.assertNotIn("template", (self.root / "workflows/mine/study.toml").read_text().replace("the template", ""))
 
@@ -57,7 +58,7 @@ class OwnStudy(unittest.TestCase):
         self.assertNotIn("s6_updating:", again.stdout + again.stderr)
 
     def test_every_column_is_described(self):
-        for step in ("s1_model", "s4_refinement", "s5_sensitivity", "s6_updating"):
+        for step in ("s1_model", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating"):
             self.assertEqual(reference.undescribed(self.root / "results/mine" / step), [])
 
     def test_why_names_the_newer_file(self):

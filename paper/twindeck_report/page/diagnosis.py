@@ -26,7 +26,7 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
     tried = _tried(study)
     folder = "s6_updating/model" if "s6_updating" in study.steps() else None
     where = places(study, settings, folder, told.get("localisation", []))
-    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "rows": len(rows), "heatmaps": heatmaps(rows),
+    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
             "gain_of": _kinds(study)}
 

@@ -1,7 +1,7 @@
 """The steps as boxes and arrows, as SVG: what reads what, how each ended and how long it took."""
 import html
 
-WIDTH, HEIGHT, GAP_X, GAP_Y = 148, 74, 26, 18
+WIDTH, HEIGHT, GAP_X, GAP_Y = 162, 74, 26, 18
 COLOURS = {"converged": "ok", "not run": "idle"}
 
 

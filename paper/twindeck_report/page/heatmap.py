@@ -4,6 +4,9 @@ import html
 import numpy as np
 
 CELL, FULL = 15, 5.0  # [px]; the colour is full at this many standard deviations
+NAMES = {"frequency_Hz": "Frequencies", "damping_ratio_pct": "Damping ratios", "shape": "Shapes", "shape_imag": "Shapes, imaginary parts",
+         "stay_frequency_Hz": "Frequencies of the stays", "rms_m_s2": "RMS accelerations", "static_m": "Static displacements",
+         "psd_floor_m2_s3": "Floors of the spectra"}
 COLD, WARM = (11, 95, 165), (179, 38, 30)
 
 
@@ -13,13 +16,13 @@ def colour(z: float) -> str:
     return "#" + "".join(f"{round(248 + t * (c - 248)):02x}" for c in (WARM if z > 0 else COLD))
 
 
-def heatmaps(rows) -> list:
-    """[{title, svg}] in the order of the file, one a kind and condition."""
+def heatmaps(rows, extended: bool) -> list:
+    """[{title, svg}] in the order of the file, one a kind and condition; `extended`: before and after the extension."""
     found = []
     for (kind, condition), part in rows.fillna({"channel": "", "condition": "", "mode": -1}).groupby(["type", "condition"], sort=False):
-        title = f"{kind.replace('_', ' ')}{', ' + str(condition).replace('_', ' ') if condition else ''}"
+        title = f"{NAMES.get(kind, kind.replace('_', ' '))}{', ' + str(condition).replace('_', ' ') if condition else ''}"
         many = part["channel"].nunique() > 1
-        sides = [(side, _grid(part, f"residual_{side}", many)) for side in ("before", "after")]
+        sides = [(side, _grid(part, f"residual_{side}", many)) for side in (("before", "after") if extended else ("before",))]
         found.append({"title": f"{title}: {len(part)} rows", "svg": _pair(sides) if many else _strip(sides)})
     return found
 
@@ -36,7 +39,7 @@ def _strip(sides) -> str:
     wide, high, left = 52, 24, 56
     body = "".join(f'<text class="axis" x="{left + wide * (i + 0.5):.1f}" y="12" text-anchor="middle">mode {html.escape(c)}</text>' for i, c in enumerate(columns))
     for j, (side, grid) in enumerate(sides):
-        body += f'<text class="axis" x="0" y="{20 + high * j + 16}">{side}</text>'
+        body += f'<text class="axis" x="0" y="{20 + high * j + 16}">{side if len(sides) > 1 else ""}</text>'
         for i, c in enumerate(columns):
             if ("", c) in grid:
                 z, held = grid["", c]
@@ -53,8 +56,9 @@ def _pair(sides) -> str:
     cell = CELL if len(columns) <= 64 else max(4, 960 // len(columns))
     left, body, y = 56, "", 0
     for side, grid in sides:
-        body += f'<text class="axis strong" x="0" y="{y + 12}">{side}</text>'
-        y += 18
+        if len(sides) > 1:
+            body += f'<text class="axis strong" x="0" y="{y + 12}">{side}</text>'
+            y += 18
         for name in names:
             body += f'<text class="axis" x="0" y="{y + 11}">{html.escape(name)}</text>'
             for i, c in enumerate(columns):
