@@ -110,7 +110,8 @@ COMPUTED = {
     "comfort_limit_lateral": (setting("s8_validation", "comfort_lateral"), rounding, AS_SET),
     "acceleration_below_vertical_limit": (_peak("vertical"), None, EVENTS + " Largest peak of both events; the text says that it stays below the limit."),
     "acceleration_below_lateral_limit": (_peak("lateral"), None, EVENTS + " Largest peak of both events; the text says that it stays below the limit."),
-    "friction_velocity": (_printed_profile, relative(0.01), "The roughness length was set so that this and the design speed go together (1 % for its two digits)."),
+    "friction_velocity": (_printed_profile, relative(0.01), "The roughness length was set so that this and the design speed go together "
+                          "(1 % for its two digits)."),
     "air_density": (setting("s7_aerodynamics", "density"), rounding, AS_SET),
     "eq_7_displacement": (quantity("s7_aerodynamics", "static_displacement_G_H", 1e3), None, SYNTHETIC),
     "eq_7_rotation": (quantity("s7_aerodynamics", "static_rotation_G_H"), None, SYNTHETIC),

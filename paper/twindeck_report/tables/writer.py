@@ -162,8 +162,8 @@ def _words(name: str) -> str:
 
 
 SPECIAL = {**{c: "\\" + c for c in "&%$#_{}"}, "^": r"\textasciicircum{}", "~": r"\textasciitilde{}", "\\": r"\textbackslash{}",
-           "°": r"$^\circ$", "²": "$^2$", "ρ": r"$\rho$", "α": r"$\alpha$", "ξ": r"$\xi$", "½": r"$\frac{1}{2}$", "₁": "$_1$", "₂": "$_2$", "β": r"$\beta$",
-           "θ": r"$\theta$"}
+           "°": r"$^\circ$", "²": "$^2$", "½": r"$\frac{1}{2}$", "₁": "$_1$", "₂": "$_2$",
+           "ρ": r"$\rho$", "α": r"$\alpha$", "β": r"$\beta$", "ξ": r"$\xi$", "θ": r"$\theta$"}
 
 
 def tex(text: str) -> str:
