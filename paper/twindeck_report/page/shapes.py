@@ -34,7 +34,8 @@ def shape_data(study: Study, settings: dict) -> dict | None:
         first = first or (drawing, shapes)
     measured = read_measured(study, settings)
     if measured is not None and len(measured.points) > 1:
-        sets.insert(0, _measured_set(measured, first))
+        virtual = "s0_campaign" in study.steps()
+        sets.insert(0, _measured_set(measured, first, "Identified, virtual campaign" if virtual else "Identified"))
     if not sets:
         return None
     return {"meshes": meshes, "sets": sets}
@@ -64,7 +65,7 @@ def _model_modes(study: Study, token: str, drawing, budget: int):
     return modes, shapes
 
 
-def _measured_set(measured, first) -> dict:
+def _measured_set(measured, first, title: str) -> dict:
     pairs = partners(measured, first[0].points, first[1]) if first else []
     modes = []
     for i, ((label, frequency, damping), shape) in enumerate(zip(measured.modes, measured.shapes)):
@@ -74,7 +75,7 @@ def _measured_set(measured, first) -> dict:
             mode["partner"], mode["mac"], mode["factor"] = pairs[i][0], round(pairs[i][1], 4), pairs[i][2]
         modes.append(mode)
     # the first mesh lies under the sensors only if they stand on it
-    return {"id": "measured", "title": "Identified", "kind": "points", "mesh": 0 if pairs else None, "points": packed(measured.positions, "f4"),
+    return {"id": "measured", "title": title, "kind": "points", "mesh": 0 if pairs else None, "points": packed(measured.positions, "f4"),
             "names": measured.points, "lines": packed(np.array(measured.lines).reshape(-1, 2), "u4"), "modes": modes}
 
 

@@ -33,6 +33,7 @@ def stills(data: dict) -> str | None:
             if chosen["kind"] == "points":
                 axes_.plot(*flat.T, ".", color=colour if where is points else WARN, markersize=3)
         axes_.set_aspect("equal")
+        _frame(axes_, np.column_stack([points @ axis, points @ up]), SWAY * length)
         axes_.axis("off")
         axes_.set_title(f"mode {mode['label']}, {mode['frequency']:.3f} Hz", fontsize=9)
     for axes_ in list(axes.flat)[count:]:
@@ -42,6 +43,15 @@ def stills(data: dict) -> str | None:
     figure.savefig(out, format="png", dpi=110, metadata={"Software": None})
     plt.close(figure)
     return base64.b64encode(out.getvalue()).decode("ascii")
+
+
+def _frame(axes_, flat, margin: float) -> None:
+    """Limits that hold nearly all points: a long thin approach ramp should not make the rest small."""
+    cut = 1.2 if len(flat) > 200 else 0.0
+    left, right = np.percentile(flat[:, 0], [cut, 100.0 - cut])
+    shown = flat[(flat[:, 0] >= left) & (flat[:, 0] <= right), 1]
+    axes_.set_xlim(left - margin, right + margin)
+    axes_.set_ylim(shown.min() - margin, shown.max() + margin)
 
 
 def _geometry(data, chosen):

@@ -20,6 +20,7 @@ class ModeShapes {
     for (const box of [this.over, this.rest]) box.addEventListener('change', () => this.take());
     this.size.addEventListener('input', () => this.viewer.paint());
     this.play.addEventListener('click', () => this.run(!this.playing));
+    window.addEventListener('beforeprint', () => { this.phase = Math.PI / 2; });  // print shows the largest displacement
     this.viewer = new Viewer(root, v => this.move(v));
     this.choose(0);
     this.run(this.playing);
