@@ -72,6 +72,17 @@ class Scores(unittest.TestCase):
         self.assertIn("a target is missed", told)
 
 
+def slurm_answers():
+    """True where a Slurm controller runs that has a node, as one-node Slurm on this machine does."""
+    if not shutil.which("sinfo"):
+        return False
+    try:
+        done = subprocess.run(["sinfo", "--noheader", "--states=idle,mixed"], capture_output=True, text=True, timeout=20)
+    except subprocess.TimeoutExpired:
+        return False
+    return done.returncode == 0 and bool(done.stdout.strip())
+
+
 @unittest.skipUnless(SNAKEMAKE, "no Snakemake here (Debian: apt-get install --no-install-recommends snakemake)")
 class Batch(unittest.TestCase):
     @classmethod
@@ -80,8 +91,8 @@ class Batch(unittest.TestCase):
         shutil.copytree(ROOT / "workflows" / "batch", cls.root / "workflows" / "batch", ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copytree(ROOT / "data" / "template", cls.root / "data" / "template")
 
-    def snakemake(self, *arguments):
-        done = subprocess.run([SNAKEMAKE, "-s", "workflows/batch/Snakefile", "-j2", "--config", f"executables={BIN}", *arguments], cwd=self.root,
+    def snakemake(self, *arguments, how=("-j2",)):
+        done = subprocess.run([SNAKEMAKE, "-s", "workflows/batch/Snakefile", *how, "--config", f"executables={BIN}", *arguments], cwd=self.root,
                               capture_output=True, text=True, timeout=3600, env={**os.environ, "HOME": str(self.root), "OMP_NUM_THREADS": "1"})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stderr
@@ -100,6 +111,14 @@ class Batch(unittest.TestCase):
         with open(self.root / "results/batch/updating_seeds.csv", newline="") as stream:
             self.assertEqual({r["seed"] for r in csv.DictReader(stream)}, {"1", "2", "3", "4"})
         self.assertIn("Nothing to be done", self.snakemake("blind_trials=0"))
+
+    @unittest.skipUnless(slurm_answers(), "no Slurm answers here (sinfo); its profile is not tried")
+    def test_slurm_gives_the_same_bytes(self):
+        self.snakemake("blind_trials=0")
+        here = {name: (self.root / f"results/batch/{name}.csv").read_bytes() for name in ("trust_radius", "updating_seeds")}
+        self.snakemake("blind_trials=0", "results=results/slurm", how=("--profile", "workflows/batch/profile/slurm"))
+        for name, content in here.items():
+            self.assertEqual((self.root / f"results/slurm/{name}.csv").read_bytes(), content)
 
     @unittest.skipUnless(os.environ.get("TWINDECK_SLOW"), "some minutes: set TWINDECK_SLOW=1")
     def test_blind_trials_in_chunks_are_those_of_one_run(self):
