@@ -1,0 +1,167 @@
+"""What the report page draws, before a browser sees it.
+
+Oracles: shapes that were put in and must come out through oblique sensors; a mode shape and itself (MAC 1), and one at right angles to it
+(MAC 0); a block of solids whose inner face nobody sees.
+"""
+import base64
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
+
+from twindeck_report.errors import InputError  # noqa: E402
+from twindeck_report.page import measured, poles, scripts  # noqa: E402
+from twindeck_report.page.drawing import read_drawing  # noqa: E402
+from twindeck_report.page.flowchart import duration, flowchart  # noqa: E402
+from twindeck_report.page.heatmap import colour, heatmaps  # noqa: E402
+from twindeck_report.page.places import where_data  # noqa: E402
+from twindeck_report.page.shapes import packed  # noqa: E402
+from twindeck_report.figures.flow import FlowStep  # noqa: E402
+from twindeck_report.study import Study  # noqa: E402
+
+
+def write(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+class Drawings(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.study = Study("made_up", self.root, self.root / "data", self.root / "workflow")
+
+    def model(self, elements):
+        corners = [(x, y, z) for z in (0, 1, 2) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        write(self.root / "model/nodes.csv", "node,x_m,y_m,z_m\n" + "".join(f"{i},{x},{y},{z}\n" for i, (x, y, z) in enumerate(corners, 1)) + "99,9,9,9\n")
+        header = "element,type,name,group,material,section," + ",".join(f"node{i}" for i in range(1, 9))
+        write(self.root / "model/elements.csv", header + "\n" + "\n".join(elements) + "\n")
+        return read_drawing(self.study, "model")
+
+    def test_two_solids_show_ten_faces(self):
+        """Two cubes, one on the other: 12 faces less the two that touch; 10 squares are 20 triangles; the edges of the seam are drawn
+        once as edges of neighbours, hence not free."""
+        drawing = self.model(["1,solid,,block,concrete,,1,2,3,4,5,6,7,8", "2,solid,,block,concrete,,5,6,7,8,9,10,11,12"])
+        self.assertEqual(len(drawing.faces), 20)
+        self.assertEqual(len(drawing.ids), 12, "the node that no element touches is left out")
+        area = 0.5 * np.linalg.norm(np.cross(drawing.points[drawing.faces[:, 1]] - drawing.points[drawing.faces[:, 0]],
+                                             drawing.points[drawing.faces[:, 2]] - drawing.points[drawing.faces[:, 0]]), axis=1).sum()
+        self.assertAlmostEqual(area, 10.0)
+        self.assertEqual(sorted(drawing.groups["concrete"]), list(range(12)))
+
+    def test_shells_show_their_free_edges_and_members_their_line(self):
+        """Two squares that share an edge have six free edges; a stay from node 1 to node 12 is a line of its own, with its name."""
+        drawing = self.model(["1,shell,,slab,concrete,,1,2,6,5,,,,", "2,shell,,slab,concrete,,2,3,7,6,,,,", "3,stay,NE1,stays,steel,,1,12,,,,,,"])
+        self.assertEqual((len(drawing.faces), len(drawing.lines)), (4, 7))
+        self.assertEqual({drawing.ids[i] for i in drawing.names["NE1"]}, {"1", "12"})
+
+    def test_an_unknown_node_is_named(self):
+        with self.assertRaisesRegex(InputError, "elements.csv: node 77 is not in nodes.csv"):
+            self.model(["1,beam,,b,steel,,1,77,,,,,,"])
+
+    def test_matrices_have_nothing_to_draw(self):
+        self.assertIsNone(read_drawing(self.study, "model"))
+
+
+class Measured(unittest.TestCase):
+    def setUp(self):
+        random = np.random.default_rng(3)
+        self.positions = np.array([[0.0, 0, 0], [10.0, 0, 0], [20.0, 1, 0]])
+        self.truth = random.normal(size=(2, 3, 3)) + 1j * random.normal(size=(2, 3, 3))
+        axes = random.normal(size=(9, 3))
+        axes /= np.linalg.norm(axes, axis=1)[:, None]
+        rows = [[f"c{i}", f"P{i // 3}", *self.positions[i // 3], *axes[i]] for i in range(9)]
+        self.channels = pd.DataFrame(rows, columns=["channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz"])
+        self.axes = axes
+
+    def assembled(self, shapes):
+        table = pd.DataFrame([{"mode": m + 1, "channel": f"c{i}", "value": self.axes[i] @ shapes[m, i // 3]} for m in range(len(shapes)) for i in range(9)])
+        return measured._assembled(self.channels, table, [(str(m + 1), 1.0 + m, None) for m in range(len(shapes))], [["P0", "P1"], ["P1", "gone"]])
+
+    def test_oblique_sensors_give_the_vectors_back(self):
+        found = self.assembled(self.truth)
+        for shape, truth in zip(found.shapes, self.truth):
+            np.testing.assert_allclose(shape, truth / np.abs(truth).max(), atol=1e-12)
+        self.assertEqual(found.lines, [(0, 1)], "a line to a point without sensors is left out")
+
+    def test_a_missing_channel_moves_nothing_along_itself(self):
+        """Two of three axes at P0: the vector lies in their plane and meets both readings."""
+        table = pd.DataFrame([{"mode": 1, "channel": f"c{i}", "value": self.axes[i] @ self.truth[0, i // 3]} for i in range(1, 9)])
+        found = measured._assembled(self.channels, table, [("1", 1.0, None)], [])
+        full = found.shapes[0]
+        scale = (self.axes[4] @ full[1]) / (self.axes[4] @ self.truth[0, 1])
+        for i in (1, 2):
+            self.assertAlmostEqual(self.axes[i] @ full[0], scale * (self.axes[i] @ self.truth[0, 0]))
+
+    def test_the_partner_is_the_mode_of_highest_mac(self):
+        real = self.truth.real
+        first, second = real[0], real[1]
+        projected = np.array([[self.axes[i] @ s[i // 3] for i in range(9)] for s in (first, second)])
+        # the second, less what it has of the first at the sensors: MAC 0 with the first
+        other = second - first * (projected[0] @ projected[1]) / (projected[0] @ projected[0])
+        found = self.assembled(np.array([3.0 * first, other]).astype(complex))
+        pairs = measured.partners(found, self.positions, [other, -2.0 * first])
+        self.assertEqual([p[0] for p in pairs], [1, 0])
+        np.testing.assert_allclose([p[1] for p in pairs], 1.0, atol=1e-12)
+        np.testing.assert_allclose(pairs[0][2] * -2.0 * first, found.shapes[0].real, atol=1e-12, err_msg="the factor puts one onto the other")
+        self.assertLess(measured.partners(found, self.positions, [other])[0][1], 1e-12)
+
+    def test_sensors_off_the_model_have_no_partner(self):
+        found = self.assembled(self.truth)
+        self.assertEqual(measured.partners(found, self.positions + [0, 5.0, 0], [np.ones((3, 3))]), [])
+
+
+class Pieces(unittest.TestCase):
+    def test_packed_numbers_come_back(self):
+        values = np.array([[1.5, -2.0], [0.25, 1e6]])
+        np.testing.assert_array_equal(np.frombuffer(base64.b64decode(packed(values, "f4")), "<f4").reshape(2, 2), values)
+
+    def test_embedded_text_cannot_end_its_script(self):
+        self.assertNotIn("</", scripts.embedded({"name": "</script><b>"}))
+
+    def test_colours_of_residuals(self):
+        self.assertEqual(colour(0.0), "#f8f8f8")
+        self.assertEqual((colour(50.0), colour(-50.0)), ("#b3261e", "#0b5fa5"))
+        rows = pd.DataFrame({"type": "frequency_Hz", "mode": [1, 2], "channel": [np.nan, np.nan], "condition": "still", "held_out": [0, 1],
+                             "residual_before": [4.0, -1.0], "residual_after": [0.5, -1.0]})
+        (found,) = heatmaps(rows, True)
+        self.assertEqual(found["title"], "Frequencies, still: 2 rows")
+        for part in ("mode 1, before: +4.00 standard deviations<", "mode 2, after: -1.00 standard deviations, held out<"):
+            self.assertIn(part, found["svg"])
+        self.assertNotIn("after", heatmaps(rows, False)[0]["svg"])
+
+    def test_scores_lie_on_their_parts(self):
+        found = [{"location": "group:E", "score": 4.0, "spots": [], "nodes": [0, 1]}, {"location": "node:7", "score": 2.0, "spots": [[1.0, 2.0, 3.0]], "nodes": []},
+                 {"location": "element:3", "score": 1.0, "spots": [], "nodes": [1, 2]}]
+        data = where_data(found, 4)
+        np.testing.assert_allclose(np.frombuffer(base64.b64decode(data["score"]), "<f4"), [1.0, 1.0, 0.25, 0.0])
+        self.assertEqual(data["spots"], [{"name": "node:7", "score": 2.0, "at": [1.0, 2.0, 3.0]}])
+
+    def test_steps_stand_right_of_what_they_read(self):
+        def step(token, reads, status="converged", seconds=1.0):
+            return FlowStep(token, "does\nthis", "", reads, status, seconds, "", "")
+
+        drawn = flowchart([step("s1_model", ()), step("s4_refinement", ("s1_model",), seconds=125.0), step("s6_updating", ("s4_refinement", "s1_model"), "not run", None)])
+        self.assertEqual(drawn.count('class="arrow"'), 3)
+        places = [int(part.split('"')[0]) for part in drawn.split('<rect x="')[1:]]
+        self.assertEqual(places, sorted(places))
+        for part in ("2 min 05 s", "not run", 'class="box idle"'):
+            self.assertIn(part, drawn)
+        self.assertEqual(duration(None), "")
+
+    def test_peaks_survive_thinning(self):
+        n = 5 * poles.MOST_SPECTRUM
+        table = pd.DataFrame({"setup": "A", "frequency_Hz": np.arange(n) / n, "sv1": 1.0})
+        table.loc[1234, "sv1"] = 9.0
+        kept = poles._spectrum(table, "A", 0.0, 1.0)
+        self.assertLessEqual(len(kept), poles.MOST_SPECTRUM)
+        self.assertIn([round(1234 / n, 4), 9.0], kept)
+
+
+if __name__ == "__main__":
+    unittest.main()
