@@ -34,7 +34,7 @@ class FlatCanvas {
     orbit.project(moved, this.width, this.height, this.at);
     if (scene.ghost) {
       orbit.project(scene.base, this.width, this.height, this.rest);
-      this.stroke(this.rest, lines, css(GHOST), 0.6);
+      this.stroke(this.rest, lines, css(GHOST), 1);
     }
     for (let t = 0; t < this.order.length; ++t)
       this.depth[t] = this.at[3 * faces[3 * t] + 2] + this.at[3 * faces[3 * t + 1] + 2] + this.at[3 * faces[3 * t + 2] + 2];
@@ -51,7 +51,8 @@ class FlatCanvas {
       pen.fill();
       pen.stroke();
     }
-    this.stroke(this.at, lines, css(LINE), 0.8);
+    if (faces.length) this.stroke(this.at, lines, css(LINE), 0.8);
+    else this.members(lines, colours);
     orbit.project(spots, this.width, this.height, this.dots);
     orbit.project(scene.spots, this.width, this.height, this.feet);
     for (let s = 0; s < spots.length; s += 3) {
@@ -64,6 +65,21 @@ class FlatCanvas {
       pen.beginPath();
       pen.arc(this.dots[s], this.dots[s + 1], 0.5 * scene.dot, 0, 7);
       pen.fill();
+    }
+  }
+
+  /// A frame without plates: its members are all there is to see, and carry the colours.
+  members(lines, colours) {
+    const { pen, at } = this;
+    pen.lineWidth = 2.2;
+    pen.lineCap = 'round';
+    for (let l = 0; l < lines.length; l += 2) {
+      const i = 3 * lines[l], j = 3 * lines[l + 1];
+      pen.strokeStyle = css([0, 1, 2].map(k => 0.5 * (colours[i + k] + colours[j + k])));
+      pen.beginPath();
+      pen.moveTo(at[i], at[i + 1]);
+      pen.lineTo(at[j], at[j + 1]);
+      pen.stroke();
     }
   }
 

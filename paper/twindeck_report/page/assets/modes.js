@@ -1,6 +1,8 @@
 // Mode shapes of the models and of the measurement, moving.
 const SWAY = 0.07;  // largest displacement as a share of the structure's size, at the middle of the slider
 
+const fewMembers = mesh => mesh.faces.length === 0 && mesh.lines.length < 4000;
+
 class ModeShapes {
   constructor(root, data) {
     this.root = root;
@@ -21,7 +23,7 @@ class ModeShapes {
     this.size.addEventListener('input', () => this.viewer.paint());
     this.play.addEventListener('click', () => this.run(!this.playing));
     window.addEventListener('beforeprint', () => { this.phase = Math.PI / 2; });  // print shows the largest displacement
-    this.viewer = new Viewer(root, v => this.move(v));
+    this.viewer = new Viewer(root, v => this.move(v), this.meshes.every(fewMembers));
     this.choose(0);
     this.run(this.playing);
     let last = performance.now();

@@ -14,12 +14,13 @@ const unpack = (text, type) => {
 };
 
 class Viewer {
-  /// `root` holds the canvas; `draw(viewer)` draws once with the renderer that there is.
-  constructor(root, draw) {
+  /// `root` holds the canvas; `draw(viewer)` sets positions and colours. WebGL draws lines one pixel thin: a frame of few members and no
+  /// plates (`membersOnly`) is easier to see on a plain canvas.
+  constructor(root, draw, membersOnly) {
     this.root = root;
     this.canvas = root.querySelector('canvas');
     this.label = root.querySelector('.label');
-    this.renderer = webgl() ? new SolidCanvas(this.canvas) : new FlatCanvas(this.canvas);
+    this.renderer = !membersOnly && webgl() ? new SolidCanvas(this.canvas) : new FlatCanvas(this.canvas);
     root.dataset.renderer = this.renderer.name;
     this.draw = draw;
     this.frames = 0;
