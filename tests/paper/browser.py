@@ -11,9 +11,18 @@ import time
 import urllib.request
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
-FLAGS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars", "--no-first-run", "--disable-extensions",
-         "--disable-background-networking", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1", "--remote-debugging-port=0",
-         "--remote-allow-origins=*"]
+FLAGS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-dev-shm-usage",
+    "--hide-scrollbars",
+    "--no-first-run",
+    "--disable-extensions",
+    "--disable-background-networking",
+    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
+    "--remote-debugging-port=0",
+    "--remote-allow-origins=*",
+]
 WITH_WEBGL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 WITHOUT_WEBGL = ["--disable-gpu", "--disable-3d-apis"]
 
@@ -29,8 +38,18 @@ class Browser:
     def __init__(self, webgl=True, width=1300, height=900):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.process = subprocess.Popen(
-            [program(), *FLAGS, *(WITH_WEBGL if webgl else WITHOUT_WEBGL), f"--window-size={width},{height}", f"--user-data-dir={self.folder.name}", "about:blank"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "HOME": self.folder.name})
+            [
+                program(),
+                *FLAGS,
+                *(WITH_WEBGL if webgl else WITHOUT_WEBGL),
+                f"--window-size={width},{height}",
+                f"--user-data-dir={self.folder.name}",
+                "about:blank",
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, "HOME": self.folder.name},
+        )
         self.errors, self.requests, self.number = [], [], 0
         try:
             self._connect()
@@ -55,15 +74,25 @@ class Browser:
         path = target["webSocketDebuggerUrl"].split(str(port), 1)[1]
         self.socket = socket.create_connection(("127.0.0.1", port), timeout=120)
         key = base64.b64encode(os.urandom(16)).decode()
-        self.socket.sendall((f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-                             f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
+        self.socket.sendall(
+            (
+                f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n"
+            ).encode()
+        )
         self.stream = self.socket.makefile("rb")
         while self.stream.readline().strip():
             pass
 
     def _send(self, text):
         data, mask = text.encode(), os.urandom(4)
-        size = bytes([0x80 | len(data)]) if len(data) < 126 else b"\xfe" + struct.pack(">H", len(data)) if len(data) < 65536 else b"\xff" + struct.pack(">Q", len(data))
+        size = (
+            bytes([0x80 | len(data)])
+            if len(data) < 126
+            else b"\xfe" + struct.pack(">H", len(data))
+            if len(data) < 65536
+            else b"\xff" + struct.pack(">Q", len(data))
+        )
         self.socket.sendall(b"\x81" + size + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(data)))
 
     def _receive(self):
@@ -93,7 +122,9 @@ class Browser:
     def _note(self, message):
         what, told = message.get("method"), message.get("params", {})
         if what == "Runtime.exceptionThrown":
-            self.errors.append(told["exceptionDetails"].get("exception", {}).get("description") or told["exceptionDetails"]["text"])
+            self.errors.append(
+                told["exceptionDetails"].get("exception", {}).get("description") or told["exceptionDetails"]["text"]
+            )
         elif what == "Runtime.consoleAPICalled" and told["type"] in ("error", "assert"):
             self.errors.append(" ".join(str(a.get("value", a.get("description"))) for a in told["args"]))
         elif what == "Log.entryAdded" and told["entry"]["level"] == "error":

@@ -27,21 +27,23 @@ LARGEST = 15_000_000
 
 
 def colours(pixels):
-    return {tuple(pixels[i:i + 3]) for i in range(0, len(pixels), 4)}
+    return {tuple(pixels[i : i + 3]) for i in range(0, len(pixels), 4)}
 
 
 def pixels_of(png):
     """Raw rows of a PNG, filters and all: enough to tell whether a picture is more than one colour."""
     data, at = b"", 8
     while at < len(png):
-        size, kind = int.from_bytes(png[at:at + 4], "big"), png[at + 4:at + 8]
+        size, kind = int.from_bytes(png[at : at + 4], "big"), png[at + 4 : at + 8]
         if kind == b"IDAT":
-            data += png[at + 8:at + 8 + size]
+            data += png[at + 8 : at + 8 + size]
         at += 12 + size
     return zlib.decompress(data)
 
 
-@unittest.skipUnless(browser.program(), "no Chromium here (Debian: apt-get install chromium): the page is not looked at in a browser")
+@unittest.skipUnless(
+    browser.program(), "no Chromium here (Debian: apt-get install chromium): the page is not looked at in a browser"
+)
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -52,7 +54,9 @@ class Page(unittest.TestCase):
         os.chdir(cls.folder)
         for command in ("tables", "figures", "report"):
             with redirect_stdout(StringIO()):
-                code = cli.main([command, "--study", "made_up", "--results", str(results), "--data", str(data), "--workflow", str(workflow)])
+                code = cli.main(
+                    [command, "--study", "made_up", "--results", str(results), "--data", str(data), "--workflow", str(workflow)]
+                )
             assert code == 0, command
 
     def looked_at(self, webgl):
@@ -82,9 +86,13 @@ class Page(unittest.TestCase):
         b.run("twindeck.modes.viewer.orbit.azimuth += 0.7; twindeck.modes.viewer.paint()")
         self.assertNotEqual(b.run(CANVAS), still, "the picture turns")
         # half waves: mode m of the strip has its largest displacement where sin(m pi x / 100) is one, and no motion at its ends
-        b.run("(() => { const m = twindeck.modes; m.list.value = 1; m.list.dispatchEvent(new Event('change')); m.phase = Math.PI / 2; m.viewer.paint(); })()")
+        b.run(
+            "(() => { const m = twindeck.modes; m.list.value = 1; m.list.dispatchEvent(new Event('change')); m.phase = Math.PI / 2; m.viewer.paint(); })()"
+        )
         self.assertIn("mode 2", b.run("document.querySelector('#mode-shapes .caption').textContent"))
-        moved = b.run("(() => { const v = twindeck.modes.viewer; return Array.from(v.moved).map((x, i) => x - v.scene.base[i]); })()")
+        moved = b.run(
+            "(() => { const v = twindeck.modes.viewer; return Array.from(v.moved).map((x, i) => x - v.scene.base[i]); })()"
+        )
         rise = moved[2::3]
         self.assertAlmostEqual(rise[0], 0.0, places=5)
         self.assertAlmostEqual(rise[2 * 5], max(rise), places=4)
@@ -93,7 +101,9 @@ class Page(unittest.TestCase):
     def stands_still_for_print(self, b):
         b.run("window.dispatchEvent(new Event('beforeprint'))")
         b.call("Emulation.setEmulatedMedia", media="print")
-        shown = b.run("['#mode-shapes canvas', '#mode-shapes img.now', '.stills', 'nav.contents'].map(n => getComputedStyle(document.querySelector(n)).display)")
+        shown = b.run(
+            "['#mode-shapes canvas', '#mode-shapes img.now', '.stills', 'nav.contents'].map(n => getComputedStyle(document.querySelector(n)).display)"
+        )
         self.assertEqual(shown, ["none", "block", "block", "none"])
         self.assertGreater(b.run("document.querySelector('#mode-shapes img.now').naturalWidth"), 300)
         b.call("Emulation.setEmulatedMedia", media="")
@@ -101,10 +111,12 @@ class Page(unittest.TestCase):
 
     def poles_tell_their_numbers(self, b):
         b.run("document.getElementById('poles').scrollIntoView({behavior: 'instant'})")
-        told = b.run("""(() => { const p = twindeck.poles, s = p.seen.find(s => s.p[3] === 7), m = p.picture.getScreenCTM();
+        told = b.run(
+            """(() => { const p = twindeck.poles, s = p.seen.find(s => s.p[3] === 7), m = p.picture.getScreenCTM();
           const at = new DOMPoint(s.x, s.y).matrixTransform(m);
           p.picture.dispatchEvent(new PointerEvent('pointermove', { clientX: at.x, clientY: at.y }));
-          return [p.label.hidden, p.label.textContent, s.p]; })()""")
+          return [p.label.hidden, p.label.textContent, s.p]; })()"""
+        )
         self.assertFalse(told[0])
         order, frequency, damping = told[2][:3]
         for part in (f"{frequency:.4f} Hz", f"{damping:.2f} %", f"order {order}", "stable: frequency, damping, shape"):
@@ -124,7 +136,10 @@ class Page(unittest.TestCase):
     def test_console_errors_are_noticed(self):
         """The watch itself can fail."""
         bad = Path(self.folder) / "bad.html"
-        bad.write_text("<canvas></canvas><img src='https://example.org/a.png'><script>console.error('told'); nothing.at.all;</script>", encoding="utf-8")
+        bad.write_text(
+            "<canvas></canvas><img src='https://example.org/a.png'><script>console.error('told'); nothing.at.all;</script>",
+            encoding="utf-8",
+        )
         with browser.Browser(webgl=False) as b:
             b.open(bad.resolve())
             b.run("1")

@@ -38,7 +38,10 @@ class Drawings(unittest.TestCase):
 
     def model(self, elements):
         corners = [(x, y, z) for z in (0, 1, 2) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
-        write(self.root / "model/nodes.csv", "node,x_m,y_m,z_m\n" + "".join(f"{i},{x},{y},{z}\n" for i, (x, y, z) in enumerate(corners, 1)) + "99,9,9,9\n")
+        write(
+            self.root / "model/nodes.csv",
+            "node,x_m,y_m,z_m\n" + "".join(f"{i},{x},{y},{z}\n" for i, (x, y, z) in enumerate(corners, 1)) + "99,9,9,9\n",
+        )
         header = "element,type,name,group,material,section," + ",".join(f"node{i}" for i in range(1, 9))
         write(self.root / "model/elements.csv", header + "\n" + "\n".join(elements) + "\n")
         return read_drawing(self.study, "model")
@@ -49,14 +52,24 @@ class Drawings(unittest.TestCase):
         drawing = self.model(["1,solid,,block,concrete,,1,2,3,4,5,6,7,8", "2,solid,,block,concrete,,5,6,7,8,9,10,11,12"])
         self.assertEqual(len(drawing.faces), 20)
         self.assertEqual(len(drawing.ids), 12, "the node that no element touches is left out")
-        area = 0.5 * np.linalg.norm(np.cross(drawing.points[drawing.faces[:, 1]] - drawing.points[drawing.faces[:, 0]],
-                                             drawing.points[drawing.faces[:, 2]] - drawing.points[drawing.faces[:, 0]]), axis=1).sum()
+        area = (
+            0.5
+            * np.linalg.norm(
+                np.cross(
+                    drawing.points[drawing.faces[:, 1]] - drawing.points[drawing.faces[:, 0]],
+                    drawing.points[drawing.faces[:, 2]] - drawing.points[drawing.faces[:, 0]],
+                ),
+                axis=1,
+            ).sum()
+        )
         self.assertAlmostEqual(area, 10.0)
         self.assertEqual(sorted(drawing.groups["concrete"]), list(range(12)))
 
     def test_shells_show_their_free_edges_and_members_their_line(self):
         """Two squares that share an edge have six free edges; a stay from node 1 to node 12 is a line of its own, with its name."""
-        drawing = self.model(["1,shell,,slab,concrete,,1,2,6,5,,,,", "2,shell,,slab,concrete,,2,3,7,6,,,,", "3,stay,NE1,stays,steel,,1,12,,,,,,"])
+        drawing = self.model(
+            ["1,shell,,slab,concrete,,1,2,6,5,,,,", "2,shell,,slab,concrete,,2,3,7,6,,,,", "3,stay,NE1,stays,steel,,1,12,,,,,,"]
+        )
         self.assertEqual((len(drawing.faces), len(drawing.lines)), (4, 7))
         self.assertEqual({drawing.ids[i] for i in drawing.names["NE1"]}, {"1", "12"})
 
@@ -80,8 +93,16 @@ class Measured(unittest.TestCase):
         self.axes = axes
 
     def assembled(self, shapes):
-        table = pd.DataFrame([{"mode": m + 1, "channel": f"c{i}", "value": self.axes[i] @ shapes[m, i // 3]} for m in range(len(shapes)) for i in range(9)])
-        return measured._assembled(self.channels, table, [(str(m + 1), 1.0 + m, None) for m in range(len(shapes))], [["P0", "P1"], ["P1", "gone"]])
+        table = pd.DataFrame(
+            [
+                {"mode": m + 1, "channel": f"c{i}", "value": self.axes[i] @ shapes[m, i // 3]}
+                for m in range(len(shapes))
+                for i in range(9)
+            ]
+        )
+        return measured._assembled(
+            self.channels, table, [(str(m + 1), 1.0 + m, None) for m in range(len(shapes))], [["P0", "P1"], ["P1", "gone"]]
+        )
 
     def test_oblique_sensors_give_the_vectors_back(self):
         found = self.assembled(self.truth)
@@ -91,7 +112,9 @@ class Measured(unittest.TestCase):
 
     def test_a_missing_channel_moves_nothing_along_itself(self):
         """Two of three axes at P0: the vector lies in their plane and meets both readings."""
-        table = pd.DataFrame([{"mode": 1, "channel": f"c{i}", "value": self.axes[i] @ self.truth[0, i // 3]} for i in range(1, 9)])
+        table = pd.DataFrame(
+            [{"mode": 1, "channel": f"c{i}", "value": self.axes[i] @ self.truth[0, i // 3]} for i in range(1, 9)]
+        )
         found = measured._assembled(self.channels, table, [("1", 1.0, None)], [])
         full = found.shapes[0]
         scale = (self.axes[4] @ full[1]) / (self.axes[4] @ self.truth[0, 1])
@@ -108,7 +131,9 @@ class Measured(unittest.TestCase):
         pairs = measured.partners(found, self.positions, [other, -2.0 * first])
         self.assertEqual([p[0] for p in pairs], [1, 0])
         np.testing.assert_allclose([p[1] for p in pairs], 1.0, atol=1e-12)
-        np.testing.assert_allclose(pairs[0][2] * -2.0 * first, found.shapes[0].real, atol=1e-12, err_msg="the factor puts one onto the other")
+        np.testing.assert_allclose(
+            pairs[0][2] * -2.0 * first, found.shapes[0].real, atol=1e-12, err_msg="the factor puts one onto the other"
+        )
         self.assertLess(measured.partners(found, self.positions, [other])[0][1], 1e-12)
 
     def test_sensors_off_the_model_have_no_partner(self):
@@ -127,8 +152,17 @@ class Pieces(unittest.TestCase):
     def test_colours_of_residuals(self):
         self.assertEqual(colour(0.0), "#f8f8f8")
         self.assertEqual((colour(50.0), colour(-50.0)), ("#b3261e", "#0b5fa5"))
-        rows = pd.DataFrame({"type": "frequency_Hz", "mode": [1, 2], "channel": [np.nan, np.nan], "condition": "still", "held_out": [0, 1],
-                             "residual_before": [4.0, -1.0], "residual_after": [0.5, -1.0]})
+        rows = pd.DataFrame(
+            {
+                "type": "frequency_Hz",
+                "mode": [1, 2],
+                "channel": [np.nan, np.nan],
+                "condition": "still",
+                "held_out": [0, 1],
+                "residual_before": [4.0, -1.0],
+                "residual_after": [0.5, -1.0],
+            }
+        )
         (found,) = heatmaps(rows, True)
         self.assertEqual(found["title"], "Frequencies, still: 2 rows")
         for part in ("mode 1, before: +4.00 standard deviations<", "mode 2, after: -1.00 standard deviations, held out<"):
@@ -136,8 +170,11 @@ class Pieces(unittest.TestCase):
         self.assertNotIn("after", heatmaps(rows, False)[0]["svg"])
 
     def test_scores_lie_on_their_parts(self):
-        found = [{"location": "group:E", "score": 4.0, "spots": [], "nodes": [0, 1]}, {"location": "node:7", "score": 2.0, "spots": [[1.0, 2.0, 3.0]], "nodes": []},
-                 {"location": "element:3", "score": 1.0, "spots": [], "nodes": [1, 2]}]
+        found = [
+            {"location": "group:E", "score": 4.0, "spots": [], "nodes": [0, 1]},
+            {"location": "node:7", "score": 2.0, "spots": [[1.0, 2.0, 3.0]], "nodes": []},
+            {"location": "element:3", "score": 1.0, "spots": [], "nodes": [1, 2]},
+        ]
         data = where_data(found, 4)
         np.testing.assert_allclose(np.frombuffer(base64.b64decode(data["score"]), "<f4"), [1.0, 1.0, 0.25, 0.0])
         self.assertEqual(data["spots"], [{"name": "node:7", "score": 2.0, "at": [1.0, 2.0, 3.0]}])
@@ -146,7 +183,13 @@ class Pieces(unittest.TestCase):
         def step(token, reads, status="converged", seconds=1.0):
             return FlowStep(token, "does\nthis", "", reads, status, seconds, "", "")
 
-        drawn = flowchart([step("s1_model", ()), step("s4_refinement", ("s1_model",), seconds=125.0), step("s6_updating", ("s4_refinement", "s1_model"), "not run", None)])
+        drawn = flowchart(
+            [
+                step("s1_model", ()),
+                step("s4_refinement", ("s1_model",), seconds=125.0),
+                step("s6_updating", ("s4_refinement", "s1_model"), "not run", None),
+            ]
+        )
         self.assertEqual(drawn.count('class="arrow"'), 3)
         places = [int(part.split('"')[0]) for part in drawn.split('<rect x="')[1:]]
         self.assertEqual(places, sorted(places))

@@ -51,7 +51,9 @@ def added_up(*texts):
         files = [pathlib.Path(folder) / f"{i}.txt" for i in range(len(texts))]
         for file, text in zip(files, texts):
             file.write_text(text, encoding="utf-8")
-        return subprocess.run([sys.executable, ROOT / "workflows/batch/blind_score.py", *files], capture_output=True, text=True, check=True).stdout
+        return subprocess.run(
+            [sys.executable, ROOT / "workflows/batch/blind_score.py", *files], capture_output=True, text=True, check=True
+        ).stdout
 
 
 class Scores(unittest.TestCase):
@@ -64,10 +66,20 @@ class Scores(unittest.TestCase):
 
     def test_chunks_add(self):
         """1 of 1 and 0 of 1 are 1 of 2; Wilson's interval of 1 of 2 is 9.5 to 90.5 %, wholly below a target of 97 %."""
-        other = CHUNK.replace("   7 named", "   9 none ").replace("   8 none", "  10 none").replace("1/1    100.0 %  [ 20.7, 100.0]", "0/1      0.0 %  [  0.0,  79.3]")
+        other = (
+            CHUNK.replace("   7 named", "   9 none ")
+            .replace("   8 none", "  10 none")
+            .replace("1/1    100.0 %  [ 20.7, 100.0]", "0/1      0.0 %  [  0.0,  79.3]")
+        )
         told = added_up(other, CHUNK)
-        self.assertIn("detection, 6 sigma and above                                  1/2     50.0 %  [  9.5,  90.5]  target >=  97 %  MISSED", told)
-        self.assertEqual([int(blind_score.TRIAL.match(line)[1]) for line in told.splitlines() if blind_score.TRIAL.match(line)], [7, 8, 9, 10])
+        self.assertIn(
+            "detection, 6 sigma and above                                  1/2     50.0 %  [  9.5,  90.5]  target >=  97 %  MISSED",
+            told,
+        )
+        self.assertEqual(
+            [int(blind_score.TRIAL.match(line)[1]) for line in told.splitlines() if blind_score.TRIAL.match(line)],
+            [7, 8, 9, 10],
+        )
         self.assertIn("  dampk           2    2    2    2", told)
         self.assertIn("a target is missed", told)
 
@@ -88,12 +100,20 @@ class Batch(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.root = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-        shutil.copytree(ROOT / "workflows" / "batch", cls.root / "workflows" / "batch", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(
+            ROOT / "workflows" / "batch", cls.root / "workflows" / "batch", ignore=shutil.ignore_patterns("__pycache__")
+        )
         shutil.copytree(ROOT / "data" / "template", cls.root / "data" / "template")
 
     def snakemake(self, *arguments, how=("-j2",)):
-        done = subprocess.run([SNAKEMAKE, "-s", "workflows/batch/Snakefile", *how, "--config", f"executables={BIN}", *arguments], cwd=self.root,
-                              capture_output=True, text=True, timeout=3600, env={**os.environ, "HOME": str(self.root), "OMP_NUM_THREADS": "1"})
+        done = subprocess.run(
+            [SNAKEMAKE, "-s", "workflows/batch/Snakefile", *how, "--config", f"executables={BIN}", *arguments],
+            cwd=self.root,
+            capture_output=True,
+            text=True,
+            timeout=3600,
+            env={**os.environ, "HOME": str(self.root), "OMP_NUM_THREADS": "1"},
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stderr
 
@@ -103,8 +123,27 @@ class Batch(unittest.TestCase):
             rows = list(csv.DictReader(stream))
         self.assertEqual(sorted({r["trust_radius"] for r in rows}), ["0.2", "1", "2"])
         out = self.root / "by_hand"
-        subprocess.run([BIN / "s6_updating", "--model", "data/template/model", "--features", "data/template/features", "--out", out, "--seed", "1",
-                        "--set", "trust_radius=0.2", "--threads", "1", "--quiet"], cwd=self.root, check=True, timeout=300)
+        subprocess.run(
+            [
+                BIN / "s6_updating",
+                "--model",
+                "data/template/model",
+                "--features",
+                "data/template/features",
+                "--out",
+                out,
+                "--seed",
+                "1",
+                "--set",
+                "trust_radius=0.2",
+                "--threads",
+                "1",
+                "--quiet",
+            ],
+            cwd=self.root,
+            check=True,
+            timeout=300,
+        )
         with open(out / "summary.csv", newline="") as stream:
             by_hand = [(r["quantity"], r["value"]) for r in csv.DictReader(stream)]
         self.assertEqual([(r["quantity"], r["value"]) for r in rows if r["trust_radius"] == "0.2"], by_hand)

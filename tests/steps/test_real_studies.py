@@ -22,7 +22,9 @@ STRONG = ("oct1979_484", "dec2009_498")
 
 
 def at_hand(folder):
-    return unittest.skipUnless((DATA / folder).is_dir(), f"the records are not at hand ({DATA / folder}); name their parent folder by TWINDECK_DATA")
+    return unittest.skipUnless(
+        (DATA / folder).is_dir(), f"the records are not at hand ({DATA / folder}); name their parent folder by TWINDECK_DATA"
+    )
 
 
 class RealStudies(unittest.TestCase):
@@ -35,8 +37,14 @@ class RealStudies(unittest.TestCase):
 
     def make(self, *arguments):
         environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
-        return subprocess.run(["make", "NO_BUILD=1", f"BIN={BIN}", "THREADS=1", *arguments], cwd=self.root, env=environment, capture_output=True,
-                              text=True, timeout=600)
+        return subprocess.run(
+            ["make", "NO_BUILD=1", f"BIN={BIN}", "THREADS=1", *arguments],
+            cwd=self.root,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=600,
+        )
 
     def report(self, study, folder):
         done = self.make("all", f"STUDY={study}", f"DATA={DATA / folder}")
@@ -63,8 +71,14 @@ class RealStudies(unittest.TestCase):
             found = [float(r["frequency_Hz"]) for r in rows if r["condition"] == condition]
             weak[condition] = min(found, key=lambda f: abs(f - peak))
             self.assertLess(abs(weak[condition] - peak), 0.15, condition)
-        for condition in STRONG:  # of the modes known to a tenth of a hertz or, in twenty seconds of strong motion, a third of one
-            found = [r for r in rows if r["condition"] == condition and 2.0 < float(r["frequency_Hz"]) < 3.5 and float(r["frequency_std_Hz"]) < 0.35]
+        for (
+            condition
+        ) in STRONG:  # of the modes known to a tenth of a hertz or, in twenty seconds of strong motion, a third of one
+            found = [
+                r
+                for r in rows
+                if r["condition"] == condition and 2.0 < float(r["frequency_Hz"]) < 3.5 and float(r["frequency_std_Hz"]) < 0.35
+            ]
             lowest = min(float(r["frequency_Hz"]) for r in found)
             self.assertLess(lowest, 0.85 * min(weak.values()), f"{condition}: less than 72 % of the stiffness is left")
             print(f"{condition}: {lowest:.2f} Hz, weak shaking {min(weak.values()):.2f} to {max(weak.values()):.2f} Hz")

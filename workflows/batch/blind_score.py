@@ -55,8 +55,10 @@ def main(files):
         low, high = wilson(k, n)
         wrong = n > 0 and (100 * high < target if sense == ">=" else 100 * low > target)
         missed = missed or wrong
-        print(f"  {name:<58} {k:>4}/{n:<4} {100 * k / n if n else 0:>5.1f} %  [{100 * low:>5.1f}, {100 * high:>5.1f}]  target {sense} {target:>3} %  "
-              + ("no case" if n == 0 else "MISSED" if wrong else "held"))
+        print(
+            f"  {name:<58} {k:>4}/{n:<4} {100 * k / n if n else 0:>5.1f} %  [{100 * low:>5.1f}, {100 * high:>5.1f}]  target {sense} {target:>3} %  "
+            + ("no case" if n == 0 else "MISSED" if wrong else "held")
+        )
     print("a target is missed" if missed else "targets held")
     return 0
 

@@ -20,9 +20,15 @@ OUTPUTS = {3: -0.96 * SPAN, 5: -0.5 * SPAN, 7: 0.0, 9: 0.5 * SPAN, 13: 0.96 * SP
 DECK_HEIGHT = 17 * 0.3048
 RATE_HZ = 50.0
 # Weakest first. The names say when; the last three digits the largest acceleration of the deck [cm/s^2].
-EVENTS = [("calexico_20nov2008", "nov2008_017"), ("borregosprings_10jun2016", "jun2016_030"), ("calexicoaftershock_30dec2009", "aftershock2009_038"),
-          ("borregosprings_07jul2010", "jul2010_053"), ("superstitionhills87", "nov1987_237"), ("imperialvalley79", "oct1979_484"),
-          ("calexico_30dec2009", "dec2009_498")]
+EVENTS = [
+    ("calexico_20nov2008", "nov2008_017"),
+    ("borregosprings_10jun2016", "jun2016_030"),
+    ("calexicoaftershock_30dec2009", "aftershock2009_038"),
+    ("borregosprings_07jul2010", "jul2010_053"),
+    ("superstitionhills87", "nov1987_237"),
+    ("imperialvalley79", "oct1979_484"),
+    ("calexico_30dec2009", "dec2009_498"),
+]
 
 
 def fail(message):
@@ -38,10 +44,28 @@ def main(data, out):
     out.mkdir(parents=True, exist_ok=True)
     with open(out / "channels.csv", "w", newline="") as f:
         writer = csv.writer(f, lineterminator="\n")
-        writer.writerow(["channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"])
+        writer.writerow(
+            ["channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"]
+        )
         for places, role, height in ((INPUTS, "input", 0.0), (OUTPUTS, "response", DECK_HEIGHT)):
             for number, x in places.items():
-                writer.writerow([f"c{number:02d}", f"P{number:02d}", f"{x:.6g}", 0, f"{height:.6g}", 0, 1, 0, "acceleration", "m/s^2", 1, 0, role])
+                writer.writerow(
+                    [
+                        f"c{number:02d}",
+                        f"P{number:02d}",
+                        f"{x:.6g}",
+                        0,
+                        f"{height:.6g}",
+                        0,
+                        1,
+                        0,
+                        "acceleration",
+                        "m/s^2",
+                        1,
+                        0,
+                        role,
+                    ]
+                )
     (out / "lines.csv").write_text("point,other_point\nP03,P05\nP05,P07\nP07,P09\nP09,P13\n")
     records, conditions = "", ""
     for event, condition in EVENTS:
@@ -57,8 +81,10 @@ def main(data, out):
         (out / condition).mkdir(exist_ok=True)
         np.save(out / condition / "record.npy", samples.astype(np.float64))
         names = ", ".join(f'"c{n:02d}"' for n in wanted)
-        records += (f'[[record]]\nsetup = "transverse"\nkind = "earthquake"\nfile = "{condition}/record.npy"\n'
-                    f'sampling_rate_Hz = {rate:.6g}\nchannels = [{names}]\ncondition = "{condition}"\n\n')
+        records += (
+            f'[[record]]\nsetup = "transverse"\nkind = "earthquake"\nfile = "{condition}/record.npy"\n'
+            f'sampling_rate_Hz = {rate:.6g}\nchannels = [{names}]\ncondition = "{condition}"\n\n'
+        )
         conditions += f"[{condition}]\n"
     (out / "campaign.toml").write_text(records)
     (out / "conditions.toml").write_text(conditions)

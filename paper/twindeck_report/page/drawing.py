@@ -86,5 +86,12 @@ def _compressed(nodes, lines, faces, elements, groups, names) -> Drawing:
     def table(rows, width: int) -> np.ndarray:
         return np.array([[new[i] for i in row] for row in rows], dtype=np.int64).reshape(-1, width)
 
-    return Drawing(tuple(kept["node"].astype(str)), kept[["x_m", "y_m", "z_m"]].to_numpy(float), table(sorted(set(lines)), 2),
-                   table(faces, 3), renumbered(elements), renumbered(groups), renumbered(names))
+    return Drawing(
+        tuple(kept["node"].astype(str)),
+        kept[["x_m", "y_m", "z_m"]].to_numpy(float),
+        table(sorted(set(lines)), 2),
+        table(faces, 3),
+        renumbered(elements),
+        renumbered(groups),
+        renumbered(names),
+    )

@@ -25,9 +25,11 @@ def flowchart(steps: list) -> str:
     width, height = len(rows) * (WIDTH + GAP_X) - GAP_X + 4, tallest * (HEIGHT + GAP_Y) - GAP_Y + 4
     arrows = "".join(_arrow(place[r], place[s.token]) for s in steps for r in s.reads if r in place)
     boxes = "".join(_box(s, *place[s.token]) for s in steps)
-    return (f'<svg class="flow" viewBox="0 0 {width:.0f} {height:.0f}" style="max-width:{width:.0f}px" role="img" aria-label="Flowchart of the steps">'
-            '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
-            f'<path d="M0 0L8 4L0 8z"/></marker></defs>{arrows}{boxes}</svg>')
+    return (
+        f'<svg class="flow" viewBox="0 0 {width:.0f} {height:.0f}" style="max-width:{width:.0f}px" role="img" aria-label="Flowchart of the steps">'
+        '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
+        f'<path d="M0 0L8 4L0 8z"/></marker></defs>{arrows}{boxes}</svg>'
+    )
 
 
 def _arrow(start, end) -> str:
@@ -41,11 +43,16 @@ def _arrow(start, end) -> str:
 def _box(step, x: float, y: float) -> str:
     number, _, name = step.token.partition("_")
     lines = step.meaning.split("\n")[:2]
-    words = "".join(f'<text class="words" x="{x + 12:.0f}" y="{y + 35 + 13 * i:.0f}">{html.escape(line)}</text>' for i, line in enumerate(lines))
+    words = "".join(
+        f'<text class="words" x="{x + 12:.0f}" y="{y + 35 + 13 * i:.0f}">{html.escape(line)}</text>'
+        for i, line in enumerate(lines)
+    )
     state = COLOURS.get(step.status, "bad")
     foot = html.escape(duration(step.seconds) if step.status == "converged" else step.status)
     title = html.escape(f"{step.token}: {step.status}{'. ' + step.message if step.message else ''}")
-    return (f'<g class="box {state}"><title>{title}</title><rect x="{x:.0f}" y="{y:.0f}" width="{WIDTH}" height="{HEIGHT}" rx="6"/>'
-            f'<rect class="edge" x="{x:.0f}" y="{y:.0f}" width="4" height="{HEIGHT}" rx="2"/>'
-            f'<text class="name" x="{x + 12:.0f}" y="{y + 18:.0f}">{html.escape(number)} <tspan>{html.escape(name)}</tspan></text>{words}'
-            f'<text class="foot" x="{x + WIDTH - 10:.0f}" y="{y + HEIGHT - 8:.0f}">{foot}</text></g>')
+    return (
+        f'<g class="box {state}"><title>{title}</title><rect x="{x:.0f}" y="{y:.0f}" width="{WIDTH}" height="{HEIGHT}" rx="6"/>'
+        f'<rect class="edge" x="{x:.0f}" y="{y:.0f}" width="4" height="{HEIGHT}" rx="2"/>'
+        f'<text class="name" x="{x + 12:.0f}" y="{y + 18:.0f}">{html.escape(number)} <tspan>{html.escape(name)}</tspan></text>{words}'
+        f'<text class="foot" x="{x + WIDTH - 10:.0f}" y="{y + HEIGHT - 8:.0f}">{foot}</text></g>'
+    )

@@ -24,12 +24,18 @@ class MeasuredSet:
 def read_measured(study: Study, settings: dict) -> MeasuredSet | None:
     """From s3_identification, else from the folder of features that study.toml names, if it says where the sensors are."""
     identified = study.results / "s3_identification"
-    if "s3_identification" in study.steps() and (identified / "shapes.csv").is_file() and (identified / "channels.csv").is_file():
+    if (
+        "s3_identification" in study.steps()
+        and (identified / "shapes.csv").is_file()
+        and (identified / "channels.csv").is_file()
+    ):
         channels = study.step_csv("s3_identification/channels.csv")
         shapes = study.step_csv("s3_identification/shapes.csv", ["mode", "direction", "value"])
         modes = study.step_csv("s3_identification/modes.csv", ["mode", "frequency_Hz"])
         imaginary = shapes["value_imag"] if "value_imag" in shapes else 0.0
-        table = pd.DataFrame({"mode": shapes["mode"], "channel": shapes["direction"].astype(str), "value": shapes["value"] + 1j * imaginary})
+        table = pd.DataFrame(
+            {"mode": shapes["mode"], "channel": shapes["direction"].astype(str), "value": shapes["value"] + 1j * imaginary}
+        )
         listed = [(str(r["mode"]), r["frequency_Hz"], r.get("damping_ratio_pct")) for r in modes.to_dict("records")]
         return _assembled(channels, table, listed, _wires(study))
     folder = Path(str(settings.get("features", "")))
@@ -37,9 +43,13 @@ def read_measured(study: Study, settings: dict) -> MeasuredSet | None:
         return None
     rows = study.read_csv(folder / "rows.csv", ["type", "mode", "channel", "value"])
     real, imaginary = rows[rows["type"] == "shape"], rows[rows["type"] == "shape_imag"]
-    table = real[["mode", "channel", "value"]].merge(imaginary[["mode", "channel", "value"]], on=["mode", "channel"], how="left", suffixes=("", "_i"))
+    table = real[["mode", "channel", "value"]].merge(
+        imaginary[["mode", "channel", "value"]], on=["mode", "channel"], how="left", suffixes=("", "_i")
+    )
     table["value"] = table["value"] + 1j * table["value_i"].fillna(0.0)
-    scalar = {kind: rows[rows["type"] == kind].groupby("mode")["value"].first() for kind in ("frequency_Hz", "damping_ratio_pct")}
+    scalar = {
+        kind: rows[rows["type"] == kind].groupby("mode")["value"].first() for kind in ("frequency_Hz", "damping_ratio_pct")
+    }
     listed = [(str(int(m)), f, scalar["damping_ratio_pct"].get(m)) for m, f in scalar["frequency_Hz"].items()]
     return _assembled(study.read_csv(folder / "channels.csv"), table, listed, [])
 
@@ -57,7 +67,9 @@ def _assembled(channels: pd.DataFrame, table: pd.DataFrame, listed: list, wires:
     if not set(needed) <= set(channels.columns) or channels[needed].isna().any(axis=None) or table.empty:
         return None
     channels = channels.assign(channel=channels["channel"].astype(str), point=channels["point"].astype(str))
-    channels = channels[channels["channel"].isin(set(table["channel"].astype(str)))].drop_duplicates("channel").reset_index(drop=True)
+    channels = (
+        channels[channels["channel"].isin(set(table["channel"].astype(str)))].drop_duplicates("channel").reset_index(drop=True)
+    )
     column = {name: i for i, name in enumerate(channels["channel"])}
     table = table.assign(mode=table["mode"].astype(int).astype(str), channel=table["channel"].astype(str))
     known = set(table["mode"])
@@ -100,7 +112,7 @@ def partners(measured: MeasuredSet, points: np.ndarray, model_shapes: list) -> l
         a, b = values[there], projected[:, there]
         cross = b @ a
         energy = np.maximum((b**2).sum(axis=1), 1e-300)
-        mac = np.abs(cross)**2 / energy / max((np.abs(a)**2).sum(), 1e-300)
+        mac = np.abs(cross) ** 2 / energy / max((np.abs(a) ** 2).sum(), 1e-300)
         best = int(mac.argmax())
         drawn = (shape[[measured.points.index(p) for p in measured.channels["point"]]] * cosines).sum(axis=1)[there]
         found.append((best, float(mac[best]), float((b[best] @ drawn).real / energy[best])))

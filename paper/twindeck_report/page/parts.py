@@ -10,16 +10,36 @@ def common_parts(study: Study, settings: dict) -> dict:
     modes = shapes.shape_data(study, settings)
     told = diagnosis.diagnosis_data(study, settings)
     data = {"modes": modes, "poles": poles.pole_data(study), "where": None}
-    if told and told["folder"] and modes and modes["meshes"] and any(entry["spots"] or entry["nodes"] for entry in told["where"]):
+    if (
+        told
+        and told["folder"]
+        and modes
+        and modes["meshes"]
+        and any(entry["spots"] or entry["nodes"] for entry in told["where"])
+    ):
         nodes = next((s for s in modes["sets"] if s["kind"] == "model"), None)
         if nodes is not None and nodes["id"] == "s6_updating":
             data["where"] = places.where_data(told["where"], _nodes(modes["meshes"][0]))
     timed = [s for s in steps if s.seconds is not None]
-    return {"title": settings.get("title", study.name), "study": study.name, "steps": steps, "flowchart": flowchart.flowchart(steps),
-            "duration": flowchart.duration, "seconds": sum(s.seconds for s in timed), "slowest": sorted(timed, key=lambda s: -s.seconds)[:3],
-            "provenance": provenance.provenance(study, steps), "diagnosis": told, "modes": modes, "poles": data["poles"], "where": data["where"],
-            "stills": still.stills(modes) if modes else None, "embedded": scripts.embedded(data), "style": scripts.style(),
-            "scripts": scripts.scripts(), "three": scripts.three() if modes else ""}
+    return {
+        "title": settings.get("title", study.name),
+        "study": study.name,
+        "steps": steps,
+        "flowchart": flowchart.flowchart(steps),
+        "duration": flowchart.duration,
+        "seconds": sum(s.seconds for s in timed),
+        "slowest": sorted(timed, key=lambda s: -s.seconds)[:3],
+        "provenance": provenance.provenance(study, steps),
+        "diagnosis": told,
+        "modes": modes,
+        "poles": data["poles"],
+        "where": data["where"],
+        "stills": still.stills(modes) if modes else None,
+        "embedded": scripts.embedded(data),
+        "style": scripts.style(),
+        "scripts": scripts.scripts(),
+        "three": scripts.three() if modes else "",
+    }
 
 
 def _nodes(mesh: dict) -> int:

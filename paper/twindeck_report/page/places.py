@@ -24,7 +24,10 @@ def where_data(found: list, nodes: int) -> dict:
     for entry in found:
         at = [i for i in entry["nodes"] if i < nodes]
         score[at] = np.maximum(score[at], entry["score"])
-        spots += [{"name": entry["location"], "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]} for spot in entry["spots"]]
+        spots += [
+            {"name": entry["location"], "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]}
+            for spot in entry["spots"]
+        ]
     most = max((entry["score"] for entry in found), default=1.0)
     return {"mesh": 0, "score": packed(score / most, "f4"), "spots": spots, "most": round(most, 2)}
 
@@ -41,7 +44,10 @@ class _Finder:
         if settings.get("features") and listed.is_file():
             table = study.read_csv(listed)
             if {"channel", "x_m", "y_m", "z_m"} <= set(table.columns):
-                self.channels = {str(r["channel"]): [r["x_m"], r["y_m"], r["z_m"]] for r in table.dropna(subset=["x_m", "y_m", "z_m"]).to_dict("records")}
+                self.channels = {
+                    str(r["channel"]): [r["x_m"], r["y_m"], r["z_m"]]
+                    for r in table.dropna(subset=["x_m", "y_m", "z_m"]).to_dict("records")
+                }
 
     def find(self, location: str) -> dict:
         kind, _, names = location.partition(":")

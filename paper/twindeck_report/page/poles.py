@@ -10,21 +10,36 @@ def pole_data(study: Study) -> dict | None:
     if "s3_identification" not in study.steps():
         return None
     panels, modes = [], {}
-    folders = ["s3_identification"] + sorted(f"s3_identification/conditions/{p.name}"
-                                             for p in (study.results / "s3_identification/conditions").glob("*") if p.is_dir())
+    folders = ["s3_identification"] + sorted(
+        f"s3_identification/conditions/{p.name}"
+        for p in (study.results / "s3_identification/conditions").glob("*")
+        if p.is_dir()
+    )
     for folder in folders:
         if not (study.results / folder / "poles.csv").is_file():
             continue
-        poles = study.step_csv(f"{folder}/poles.csv", ["setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency",
-                                                        "stable_damping", "stable_shape"])
-        spectra = study.step_csv(f"{folder}/singular_values.csv") if (study.results / folder / "singular_values.csv").is_file() else None
+        poles = study.step_csv(
+            f"{folder}/poles.csv",
+            ["setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping", "stable_shape"],
+        )
+        spectra = (
+            study.step_csv(f"{folder}/singular_values.csv")
+            if (study.results / folder / "singular_values.csv").is_file()
+            else None
+        )
         if "condition" not in poles:
             poles = poles.assign(condition=folder.rpartition("/")[2])
         for (setup, condition), rows in poles.groupby(["setup", "condition"], sort=False):
             low, high = rows["frequency_Hz"].quantile([0.002, 0.998])
-            panels.append({"setup": str(setup), "condition": str(condition).replace("_", " "),
-                           "band": [round(0.95 * low, 4), round(1.02 * high, 4)], "poles": [_pole(r) for r in rows.to_dict("records")],
-                           "spectrum": _spectrum(spectra, setup, 0.95 * low, 1.02 * high)})
+            panels.append(
+                {
+                    "setup": str(setup),
+                    "condition": str(condition).replace("_", " "),
+                    "band": [round(0.95 * low, 4), round(1.02 * high, 4)],
+                    "poles": [_pole(r) for r in rows.to_dict("records")],
+                    "spectrum": _spectrum(spectra, setup, 0.95 * low, 1.02 * high),
+                }
+            )
             modes.setdefault(str(condition).replace("_", " "), _modes(study, folder))
     return {"panels": panels, "modes": modes} if panels else None
 
@@ -33,8 +48,13 @@ def _pole(row: dict) -> list:
     """Order, frequency, damping ratio, criteria met (1 frequency, 2 damping, 4 shape), mode or nothing."""
     met = int(row["stable_frequency"]) + 2 * int(row["stable_damping"]) + 4 * int(row["stable_shape"])
     mode = row.get("mode")
-    return [int(row["order"]), round(row["frequency_Hz"], 5), round(row["damping_ratio_pct"], 3), met,
-            None if mode is None or mode != mode else int(mode)]
+    return [
+        int(row["order"]),
+        round(row["frequency_Hz"], 5),
+        round(row["damping_ratio_pct"], 3),
+        met,
+        None if mode is None or mode != mode else int(mode),
+    ]
 
 
 def _spectrum(table, setup, low: float, high: float):

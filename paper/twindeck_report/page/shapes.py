@@ -29,8 +29,15 @@ def shape_data(study: Study, settings: dict) -> dict | None:
         if not modes:
             continue
         meshes.append(mesh_data(drawing))
-        sets.append({"id": token, "title": title, "kind": "model", "mesh": len(meshes) - 1,
-                     "modes": [{**mode, "shape": packed(np.round(32767 * shape), "i2")} for mode, shape in zip(modes, shapes)]})
+        sets.append(
+            {
+                "id": token,
+                "title": title,
+                "kind": "model",
+                "mesh": len(meshes) - 1,
+                "modes": [{**mode, "shape": packed(np.round(32767 * shape), "i2")} for mode, shape in zip(modes, shapes)],
+            }
+        )
         first = first or (drawing, shapes)
     measured = read_measured(study, settings)
     if measured is not None and len(measured.points) > 1:
@@ -69,14 +76,27 @@ def _measured_set(measured, first, title: str) -> dict:
     pairs = partners(measured, first[0].points, first[1]) if first else []
     modes = []
     for i, ((label, frequency, damping), shape) in enumerate(zip(measured.modes, measured.shapes)):
-        mode = {"label": label, "frequency": _rounded(frequency), "damping": _rounded(damping),
-                "real": packed(shape.real, "f4"), "imag": packed(shape.imag, "f4")}
+        mode = {
+            "label": label,
+            "frequency": _rounded(frequency),
+            "damping": _rounded(damping),
+            "real": packed(shape.real, "f4"),
+            "imag": packed(shape.imag, "f4"),
+        }
         if pairs:
             mode["partner"], mode["mac"], mode["factor"] = pairs[i][0], round(pairs[i][1], 4), pairs[i][2]
         modes.append(mode)
     # the first mesh lies under the sensors only if they stand on it
-    return {"id": "measured", "title": title, "kind": "points", "mesh": 0 if pairs else None, "points": packed(measured.positions, "f4"),
-            "names": measured.points, "lines": packed(np.array(measured.lines).reshape(-1, 2), "u4"), "modes": modes}
+    return {
+        "id": "measured",
+        "title": title,
+        "kind": "points",
+        "mesh": 0 if pairs else None,
+        "points": packed(measured.positions, "f4"),
+        "names": measured.points,
+        "lines": packed(np.array(measured.lines).reshape(-1, 2), "u4"),
+        "modes": modes,
+    }
 
 
 def _rounded(value):

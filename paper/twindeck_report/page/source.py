@@ -10,7 +10,10 @@ def read_source(study: Study) -> dict | None:
     if not path.is_file():
         return None
     told = study.read_toml(path)
-    return {**{key: told.get(key, "") for key in KEYS}, "tables": [_compared(study, path, entry) for entry in told.get("published", [])]}
+    return {
+        **{key: told.get(key, "") for key in KEYS},
+        "tables": [_compared(study, path, entry) for entry in told.get("published", [])],
+    }
 
 
 def _compared(study: Study, path, entry: dict) -> dict:
@@ -26,6 +29,13 @@ def _compared(study: Study, path, entry: dict) -> dict:
     for i, value in enumerate(entry["values"]):
         at = int(abs(ours - value).argmin()) if entry.get("nearest") and len(ours) else i
         if at < len(ours):
-            rows.append({"published": value, "published_std": entry.get("stds", [None] * (i + 1))[i], "ours": ours[at],
-                         "std": None if stds is None or stds[at] != stds[at] else stds[at], "deviation_pct": 100.0 * (ours[at] / value - 1.0)})
+            rows.append(
+                {
+                    "published": value,
+                    "published_std": entry.get("stds", [None] * (i + 1))[i],
+                    "ours": ours[at],
+                    "std": None if stds is None or stds[at] != stds[at] else stds[at],
+                    "deviation_pct": 100.0 * (ours[at] / value - 1.0),
+                }
+            )
     return {"what": entry["what"], "unit": entry["unit"], "rows": rows}

@@ -20,7 +20,9 @@ def stills(data: dict) -> str | None:
     axis, up = _view(points)
     length = np.ptp(points, axis=0).max() or 1.0
     columns = min(3, count)
-    figure, axes = plt.subplots((count + columns - 1) // columns, columns, figsize=(9.0, 2.3 * ((count + columns - 1) // columns)), squeeze=False)
+    figure, axes = plt.subplots(
+        (count + columns - 1) // columns, columns, figsize=(9.0, 2.3 * ((count + columns - 1) // columns)), squeeze=False
+    )
     for axes_, mode in zip(axes.flat, chosen["modes"]):
         if chosen["kind"] == "model":
             shape = np.frombuffer(base64.b64decode(mode["shape"]), "<i2").reshape(-1, 3) / 32767.0
@@ -61,7 +63,7 @@ def _geometry(data, chosen):
     if chosen["kind"] == "model":
         faces = np.frombuffer(base64.b64decode(source["faces"]), "<u4").reshape(-1, 3).astype(int)
         lines = np.vstack([lines, faces[:, :2]]) if len(faces) else lines
-    return points, lines[::max(1, len(lines) // LINES)]
+    return points, lines[:: max(1, len(lines) // LINES)]
 
 
 def _view(points):

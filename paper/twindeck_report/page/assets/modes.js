@@ -7,12 +7,14 @@ class ModeShapes {
   constructor(root, data) {
     this.root = root;
     this.data = data;
-    this.meshes = data.meshes.map(m => ({ points: unpack(m.points, Float32Array), lines: unpack(m.lines, Uint32Array), faces: unpack(m.faces, Uint32Array) }));
+    this.meshes = data.meshes.map(m => ({
+      points: unpack(m.points, Float32Array), lines: unpack(m.lines, Uint32Array), faces: unpack(m.faces, Uint32Array) }));
     this.shapes = new Map();
     this.phase = Math.PI / 2;
     this.playing = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
     const find = name => root.querySelector(`[name=${name}]`);
-    [this.sets, this.list, this.size, this.play, this.over, this.rest] = ['set', 'mode', 'sway', 'play', 'over', 'rest'].map(find);
+    [this.sets, this.list, this.size] = ['set', 'mode', 'sway'].map(find);
+    [this.play, this.over, this.rest] = ['play', 'over', 'rest'].map(find);
     this.text = root.querySelector('.caption');
     data.sets.forEach((s, i) => this.sets.add(new Option(s.title, i)));
     const model = data.sets.findIndex(s => s.kind === 'model');
@@ -46,9 +48,9 @@ class ModeShapes {
 
   /// The mode of the newly chosen set that belongs to the one shown before, where the pairing is known.
   partner() {
-    const next = this.data.sets[this.sets.value], shown = this.mode;
+    const next = this.data.sets[this.sets.value], shown = this.mode, model = this.data.sets.find(s => s.kind === 'model');
     if (!this.set || !shown || next === this.set) return 0;
-    if (shown.partner !== undefined && next.kind === 'model' && this.data.sets.find(s => s.kind === 'model') === next) return shown.partner;
+    if (shown.partner !== undefined && next === model) return shown.partner;
     if (next.kind === 'points') return Math.max(0, next.modes.findIndex(m => m.partner === this.set.modes.indexOf(shown)));
     return Math.min(this.set.modes.indexOf(shown), next.modes.length - 1);
   }
@@ -64,7 +66,8 @@ class ModeShapes {
   take() {
     const set = this.set, mode = this.mode = set.modes[this.list.value], first = this.data.sets.find(s => s.kind === 'model');
     const mesh = set.mesh === null ? null : this.meshes[set.kind === 'model' ? set.mesh : first.mesh];
-    const scene = { base: new Float32Array(0), faces: new Uint32Array(0), lines: new Uint32Array(0), spots: new Float32Array(0), names: [], dot: 9, ghost: this.rest.checked, spotsOnTop: true };
+    const none = new Uint32Array(0), nowhere = new Float32Array(0);
+    const scene = { base: nowhere, faces: none, lines: none, spots: nowhere, names: [], dot: 9, ghost: this.rest.checked, spotsOnTop: true };
     this.along = null;
     if (set.kind === 'model') {
       Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines });
@@ -102,13 +105,14 @@ class ModeShapes {
     if (mode.damping !== null) text += `, damping ratio ${mode.damping.toFixed(2)} %`;
     if (mode.partner !== undefined) {
       const partner = first.modes[mode.partner];
-      text += `. Closest in shape: mode ${partner.label} of the ${first.title.toLowerCase()}, ${partner.frequency.toFixed(4)} Hz, MAC ${mode.mac.toFixed(2)}`;
+      text += `. Closest in shape: mode ${partner.label} of the ${first.title.toLowerCase()}, `
+        + `${partner.frequency.toFixed(4)} Hz, MAC ${mode.mac.toFixed(2)}`;
     }
     this.text.textContent = `${text}.`;
   }
 
   move(v) {
-    const sway = SWAY * v.orbit.size * this.size.value, c = Math.cos(this.phase - Math.PI / 2), s = Math.sin(this.phase - Math.PI / 2);
+    const sway = SWAY * v.orbit.size * this.size.value, c = Math.sin(this.phase), s = -Math.cos(this.phase);
     const { base } = v.scene;
     if (this.along) {
       const { shape, scale } = this.along, part = sway * c * scale;
@@ -124,7 +128,8 @@ class ModeShapes {
     for (let i = 0; i < v.spots.length; i += 3) blend([ORANGE, ORANGE], 0, v.spotColours, i);
     if (this.joined) {
       v.moved.set(v.spots);
-      for (let i = 0; i < base.length; i += 3) blend([PALE, BLUE, NAVY], Math.hypot(this.real[i], this.real[i + 1], this.real[i + 2]), v.colours, i);
+      const { real } = this;
+      for (let i = 0; i < base.length; i += 3) blend([PALE, BLUE, NAVY], Math.hypot(real[i], real[i + 1], real[i + 2]), v.colours, i);
     }
   }
 }

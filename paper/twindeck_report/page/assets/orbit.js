@@ -1,4 +1,5 @@
-// Camera on a sphere around the middle of the structure: turned by dragging, moved with Shift, brought nearer with + and - or the wheel.
+// Camera on a sphere around the middle of the structure: turned by dragging, moved with Shift, brought nearer with + and - or
+// the wheel.
 const FIELD = 28 * Math.PI / 180;
 
 class Orbit {
@@ -39,13 +40,15 @@ class Orbit {
     for (let corner = 0; corner < 8; ++corner) {
       const d = this.span.map((s, k) => (corner >> k & 1 ? 0.5 : -0.5) * s);
       const along = axis => d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
-      distance = Math.max(distance, along(back) + 1.06 * Math.max(Math.abs(along(up)) / tan, Math.abs(along(right)) / (tan * this.aspect)));
+      const needed = Math.max(Math.abs(along(up)), Math.abs(along(right)) / this.aspect) / tan;
+      distance = Math.max(distance, along(back) + 1.06 * needed);
     }
     this.distance = Math.max(distance, 0.05 * this.size);
   }
 
   axes() {
-    const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
+    const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth);
+    const ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
     return [[-sa, ca, 0], [-ca * se, -sa * se, ce], [ca * ce, sa * ce, se]];  // right, up, from the target to the eye
   }
 

@@ -1,7 +1,7 @@
 // Sets the parts going, each where its place is on the page, and keeps the table of contents in step with scrolling.
 const data = JSON.parse(document.getElementById('twindeck-data').textContent);
 const page = window.twindeck = {};
-const modesAt = document.getElementById('mode-shapes'), whereAt = document.getElementById('where'), polesAt = document.getElementById('poles');
+const [modesAt, whereAt, polesAt] = ['mode-shapes', 'where', 'poles'].map(id => document.getElementById(id));
 if (modesAt && data.modes) page.modes = new ModeShapes(modesAt, data.modes);
 if (whereAt && data.where) page.where = new Where(whereAt, data.where, data.modes.meshes[data.where.mesh]);
 if (polesAt && data.poles) page.poles = new Stabilisation(polesAt, data.poles);

@@ -1,4 +1,5 @@
-// Stabilisation diagrams: poles over frequency and order (or damping ratio), numbers under the pointer. SVG, so that it prints as drawn.
+// Stabilisation diagrams: poles over frequency and order (or damping ratio), numbers under the pointer. SVG, so that it prints
+// as drawn.
 const SVG = 'http://www.w3.org/2000/svg';
 const svg = (name, attributes, text) => {
   const node = document.createElementNS(SVG, name);
@@ -7,8 +8,11 @@ const svg = (name, attributes, text) => {
   return node;
 };
 
+const HIGHEST_DAMPING = 8;  // [%] of the diagram over damping ratios
+
 const ticks = (low, high, count) => {
-  const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw)), step = power * [1, 2, 5, 10].find(m => m * power >= raw);
+  const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
+  const step = power * [1, 2, 5, 10].find(m => m * power >= raw);
   const found = [];
   for (let t = Math.ceil(low / step) * step; t <= high + 1e-9 * step; t += step) found.push(Number(t.toPrecision(10)));
   return found;
@@ -33,15 +37,21 @@ class Stabilisation {
   draw() {
     const W = 960, H = 430, L = 52, R = 14, T = 26, B = 42;
     const panel = this.data.panels[this.record.value], [low, high] = panel.band, damping = this.axis.value === 'damping';
-    const all = panel.poles.filter(p => p[1] >= low && p[1] <= high && (!this.stable.checked || p[3] === 7) && (!damping || (p[2] >= 0 && p[2] <= 8)));
-    const top = damping ? Math.min(8, 1.08 * Math.max(1, ...all.map(p => p[2]))) : 2 + Math.max(1, ...panel.poles.map(p => p[0]));
+    const all = panel.poles.filter(([, f, zeta, met]) => f >= low && f <= high && (met === 7 || !this.stable.checked)
+      && (!damping || (zeta >= 0 && zeta <= HIGHEST_DAMPING)));
+    const top = damping ? Math.min(HIGHEST_DAMPING, 1.08 * Math.max(1, ...all.map(p => p[2])))
+      : 2 + Math.max(1, ...panel.poles.map(p => p[0]));
     const x = f => L + (W - L - R) * (f - low) / (high - low), y = v => H - B - (H - B - T) * v / top;
     const g = svg('g', {});
+    const line = (x1, y1, x2, y2, kind) => g.append(svg('line', { x1, y1, x2, y2, class: kind }));
+    const write = (text, at, anchor = 'middle', kind = 'tick') => g.append(svg('text', { ...at, class: kind, 'text-anchor': anchor }, text));
     for (const t of ticks(low, high, 9)) {
-      g.append(svg('line', { x1: x(t), x2: x(t), y1: T, y2: H - B, class: 'grid' }), svg('text', { x: x(t), y: H - B + 16, class: 'tick', 'text-anchor': 'middle' }, String(t)));
+      line(x(t), T, x(t), H - B, 'grid');
+      write(String(t), { x: x(t), y: H - B + 16 });
     }
     for (const t of ticks(0, top, 6)) {
-      g.append(svg('line', { x1: L, x2: W - R, y1: y(t), y2: y(t), class: 'grid' }), svg('text', { x: L - 8, y: y(t) + 4, class: 'tick', 'text-anchor': 'end' }, String(t)));
+      line(L, y(t), W - R, y(t), 'grid');
+      write(String(t), { x: L - 8, y: y(t) + 4 }, 'end');
     }
     if (panel.spectrum.length) {
       const logs = panel.spectrum.map(s => Math.log10(s[1])), floor = Math.min(...logs), span = Math.max(...logs) - floor || 1;
@@ -51,17 +61,19 @@ class Stabilisation {
     let last = -99;
     for (const [mode, f] of this.data.modes[panel.condition] || []) {
       if (f < low || f > high) continue;
-      g.append(svg('line', { x1: x(f), x2: x(f), y1: T - 4, y2: H - B, class: 'mode' }));
+      line(x(f), T - 4, x(f), H - B, 'mode');
       const close = x(f) - last < 16;
-      g.append(svg('text', { x: x(f), y: close ? T - 17 : T - 7, class: 'tick strong', 'text-anchor': 'middle' }, String(mode)));
+      write(String(mode), { x: x(f), y: close ? T - 17 : T - 7 }, 'middle', 'tick strong');
       last = close ? -99 : x(f);
     }
     this.seen = all.map(p => ({ p, x: x(p[1]), y: y(damping ? p[2] : p[0]) }));
     const rank = p => p[3] === 7 ? 2 : p[3] & 1 ? 1 : 0;
     for (const s of [...this.seen].sort((a, b) => rank(a.p) - rank(b.p)))
-      g.append(svg('circle', { cx: s.x.toFixed(1), cy: s.y.toFixed(1), r: [1.7, 2.6, 3][rank(s.p)], class: ['new', 'part', 'whole'][rank(s.p)] }));
-    g.append(svg('path', { d: `M${L} ${T}V${H - B}H${W - R}`, class: 'axes' }), svg('text', { x: (L + W - R) / 2, y: H - 6, class: 'tick', 'text-anchor': 'middle' }, 'frequency (Hz)'),
-      svg('text', { transform: `translate(13 ${(T + H - B) / 2}) rotate(-90)`, class: 'tick', 'text-anchor': 'middle' }, damping ? 'damping ratio (%)' : 'model order'));
+      g.append(svg('circle', {
+        cx: s.x.toFixed(1), cy: s.y.toFixed(1), r: [1.7, 2.6, 3][rank(s.p)], class: ['new', 'part', 'whole'][rank(s.p)] }));
+    g.append(svg('path', { d: `M${L} ${T}V${H - B}H${W - R}`, class: 'axes' }));
+    write('frequency (Hz)', { x: (L + W - R) / 2, y: H - 6 });
+    write(damping ? 'damping ratio (%)' : 'model order', { transform: `translate(13 ${(T + H - B) / 2}) rotate(-90)` });
     this.ring = svg('circle', { r: 7, class: 'ring', visibility: 'hidden' });
     g.append(this.ring);
     this.picture.setAttribute('viewBox', `0 0 ${W} ${H}`);
@@ -78,7 +90,8 @@ class Stabilisation {
     if (!found) return this.leave();
     const [order, f, zeta, met, mode] = found.p, box = this.picture.parentElement.getBoundingClientRect();
     const criteria = ['frequency', 'damping', 'shape'].filter((_, i) => met >> i & 1);
-    this.label.innerHTML = `<b>${f.toFixed(4)} Hz</b>, ${zeta.toFixed(2)} %<br>order ${order}${mode ? `, mode ${mode}` : ''}<br>${criteria.length ? `stable: ${criteria.join(', ')}` : 'not stable'}`;
+    this.label.innerHTML = `<b>${f.toFixed(4)} Hz</b>, ${zeta.toFixed(2)} %<br>order ${order}${mode ? `, mode ${mode}` : ''}<br>`
+      + (criteria.length ? `stable: ${criteria.join(', ')}` : 'not stable');
     this.label.hidden = false;
     const left = e.clientX - box.left;
     this.label.style.left = `${left > box.width - 190 ? left - 175 : left + 14}px`;

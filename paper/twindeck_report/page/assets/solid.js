@@ -20,6 +20,7 @@ class SolidCanvas {
     this.world.add(new THREE.AmbientLight(0xffffff, 0.82));
     this.lamp = new THREE.DirectionalLight(0xffffff, 0.3);
     this.world.add(this.lamp);
+    const coloured = { vertexColors: THREE.VertexColors };
     const attribute = array => new THREE.BufferAttribute(array, 3);
     const index = array => new THREE.BufferAttribute(scene.base.length / 3 < 65536 ? Uint16Array.from(array) : array, 1);
     this.position = attribute(new Float32Array(scene.base));
@@ -37,11 +38,12 @@ class SolidCanvas {
     };
     if (scene.faces.length)
       add(new THREE.Mesh(body(this.position, scene.faces, this.colour), new THREE.MeshLambertMaterial({
-        vertexColors: THREE.VertexColors, side: THREE.DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 })));
+        ...coloured, side: THREE.DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 })));
     add(new THREE.LineSegments(body(this.position, scene.lines, this.colour), new THREE.LineBasicMaterial(
-        scene.faces.length ? { color: new THREE.Color(...LINE) } : { vertexColors: THREE.VertexColors })));
+        scene.faces.length ? { color: new THREE.Color(...LINE) } : coloured)));
     if (scene.ghost) {  // drawn first and without depth: whatever moves lies over it
-      const ghost = new THREE.LineSegments(body(attribute(scene.base), scene.lines), new THREE.LineBasicMaterial({ color: new THREE.Color(...GHOST), depthWrite: false }));
+      const ghost = new THREE.LineSegments(body(attribute(scene.base), scene.lines),
+        new THREE.LineBasicMaterial({ color: new THREE.Color(...GHOST), depthWrite: false }));
       ghost.renderOrder = -1;
       add(ghost);
     }
@@ -52,8 +54,9 @@ class SolidCanvas {
     this.stickColour = attribute(new Float32Array(2 * scene.spots.length));
     if (count) {
       const over = scene.spotsOnTop ? { depthTest: false } : {};
-      add(new THREE.LineSegments(body(this.stick, null, this.stickColour), new THREE.LineBasicMaterial({ vertexColors: THREE.VertexColors, ...over })));
-      this.dotMaterial = new THREE.PointsMaterial({ size: scene.dot, sizeAttenuation: false, vertexColors: THREE.VertexColors, map: this.disc, alphaTest: 0.5, ...over });
+      add(new THREE.LineSegments(body(this.stick, null, this.stickColour), new THREE.LineBasicMaterial({ ...coloured, ...over })));
+      this.dotMaterial = new THREE.PointsMaterial({
+        ...coloured, size: scene.dot, sizeAttenuation: false, map: this.disc, alphaTest: 0.5, ...over });
       add(new THREE.Points(body(this.spot, null, this.spotColour), this.dotMaterial));
     }
     this.scene = scene;
