@@ -86,6 +86,12 @@ blind-trials: build ## make blind-trials N=400 TIER=features: hidden effects loo
 	@cmake --build $(BUILD) -j $(JOBS) --target blind_trials
 	@$(BUILD)/bin/blind_trials $(N) $(SEED)
 
+BATCH ?= -j$(JOBS)
+batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as independent jobs of Snakemake (docs/batch.md)
+	@command -v snakemake >/dev/null || { echo "batch: snakemake is not here: apt-get install --no-install-recommends snakemake" >&2; exit 2; }
+	@cmake --build $(BUILD) -j $(JOBS) --target blind_trials
+	@snakemake -s workflows/batch/Snakefile $(BATCH)
+
 bench: build ## ratios against peers: modes, derivatives, memory (results/bench/bench.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes
 	@workflows/python.sh tests/bench/modes.py $(BIN) $(BIN)/bench_modes results/bench

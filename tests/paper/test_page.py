@@ -67,6 +67,7 @@ class Page(unittest.TestCase):
             self.drawn_and_moving(b)
             self.stands_still_for_print(b)
             self.poles_tell_their_numbers(b)
+            self.rows_are_found(b)
             shot = Path(self.folder) / f"page_{renderer}.png"
             self.assertGreater(len(set(pixels_of(b.screenshot(shot)))), 20, "the screenshot is not blank")
             self.assertEqual(b.errors, [])
@@ -121,6 +122,19 @@ class Page(unittest.TestCase):
         order, frequency, damping = told[2][:3]
         for part in (f"{frequency:.4f} Hz", f"{damping:.2f} %", f"order {order}", "stable: frequency, damping, shape"):
             self.assertIn(part, told[1])
+
+    def rows_are_found(self, b):
+        """Worst first, the first rows only; a search shows every row that holds its words."""
+        count = "[...document.querySelectorAll('#cells tbody tr')].filter(r => getComputedStyle(r).display !== 'none').length"
+        total, first = b.run("document.querySelectorAll('#cells tbody tr').length"), b.run(count)
+        self.assertLess(first, total)
+        b.run(
+            "(() => { const i = document.querySelector('[data-filter=cells]'); i.value = 'table_12 v_cr';"
+            " i.dispatchEvent(new Event('input')); })()"
+        )
+        rows = b.run("[...document.querySelectorAll('#cells tbody tr')].map(r => r.textContent.toLowerCase())")
+        self.assertEqual(b.run(count), sum("table_12" in row and "v_cr" in row for row in rows))
+        b.run("document.querySelector('[data-more=cells]').click()")
 
     def test_with_webgl(self):
         if not scripts.three():
