@@ -10,6 +10,7 @@ from .known import apply_known_deviations
 from .orders import check_orders
 from .ratchet import check_ratchet
 from .stale import find_stale
+from .statements import check_statements
 from .study import Study
 from .tolerances import RmsRule, read_tolerances
 
@@ -30,6 +31,7 @@ class CheckResult:
     rms: list
     orders: list
     claims: list
+    statements: list  # of the text, hit or miss: shown, they fail nothing
     ratchet: str
     grown: list  # [(Cell, what is wrong)]
     stale: list  # [(Path, what is wrong)]
@@ -80,7 +82,8 @@ def run_check(study: Study) -> CheckResult:
     orders = check_orders(study, tolerances.keys) if not missing else []
     ratchet, grown = check_ratchet(study, cells)
     cells.sort(key=lambda c: (c.shown, c.verdict in ("inside", "known"), -c.used_pct))
-    result = CheckResult(cells, rms, orders, check_claims(study) if not missing else [], ratchet, grown,
+    result = CheckResult(cells, rms, orders, check_claims(study) if not missing else [],
+                         check_statements(study) if not missing else [], ratchet, grown,
                          find_stale(study, tolerances), missing, lacking(study, tolerances), counts(study, tolerances, cells))
     result.failures = _failures(study, result)
     return result

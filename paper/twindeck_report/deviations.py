@@ -1,4 +1,4 @@
-"""report/deviations.csv, claims.csv, deviations.md and junit.xml: the check's result for a spreadsheet, a reader and a CI server."""
+"""report/deviations.csv, claims.csv, statements.csv, deviations.md and junit.xml: the check's result for a spreadsheet, a reader and a CI server."""
 import csv
 from pathlib import Path
 from xml.etree import ElementTree
@@ -8,6 +8,7 @@ from .check import CheckResult, explain, percent
 from .compare import row_for_csv
 
 HEADER = ["table", "row", "column", "paper", "ours", "deviation", "allowed", "used_pct", "kind", "verdict", "basis"]
+STATEMENTS = ["statement", "where", "found", "verdict"]
 
 CLAIM_HEADER = ["claim", "section", "unit", "paper", "ours", "deviation", "allowed", "kind", "verdict", "basis"]
 
@@ -29,6 +30,10 @@ def write_deviations(result: CheckResult, folder: Path) -> None:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(CLAIM_HEADER)
         writer.writerows(claim_row(claim) for claim in result.claims)
+    with (folder / "statements.csv").open("w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(STATEMENTS)
+        writer.writerows([s.statement, s.source, s.found, s.verdict] for s in result.statements)
     (folder / "deviations.md").write_text(markdown(result), encoding="utf-8")
     ElementTree.indent(tree := junit(result))
     tree.write(folder / "junit.xml", encoding="utf-8", xml_declaration=True)
@@ -48,6 +53,8 @@ def markdown(result: CheckResult) -> str:
     lines += ["## Claims of the text", ""]
     lines += table(["claim", "where", "unit", "paper", "ours", "kind", "verdict", "basis"],
                    [[c.name, c.source, c.unit, c.paper, c.shown, c.kind, c.verdict, c.basis] for c in result.claims])
+    lines += ["## Statements of the text on wind", "", "Ours rest on synthetic aerodynamic data: a miss is a finding and fails nothing.", ""]
+    lines += table(STATEMENTS, [[s.statement, s.source, s.found, s.verdict] for s in result.statements])
     lines += ["## Printed numbers of the tables", ""] + [f"- {line}" for line in result.coverage()] + [""]
     lines += ["## Ratchet", "", result.ratchet, ""]
     lines += ["## Every cell, worst first, then what is only shown", ""]

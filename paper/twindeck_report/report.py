@@ -5,6 +5,7 @@ from .check import explain, percent, run_check
 from .figures import figures_of
 from .page.parts import common_parts
 from .page.pieces import image, quantities, render, six, text
+from .statements import critical_rows, ranges_of_table_13
 from .study import Study
 from .tables import TABLES, table_name
 from .trust_region import trust_region_facts
@@ -21,6 +22,7 @@ def write_report(study: Study) -> Path:
     page = render(
         "report.html.j2", **common_parts(study, settings), paper_sections=True, measured=settings.get("measured", "published"), result=result,
         cells=[_cell(c) for c in result.cells], percent=percent, tables=tables, figures=figures, tiles=_tiles(result),
+        critical=critical_rows(study), ranges=ranges_of_table_13(study),
         bounds=_bounds(study, parameters), trust=trust_region_facts(study), summary=quantities(study, "s6_updating/summary.csv"),
         errata=study.read_toml(study.data / "errata.toml").get("erratum", []), model=quantities(study, "s1_model/summary.csv"))
     target = study.results / "report" / "report.html"

@@ -47,6 +47,19 @@ MatrixXd static_corrections(const linalg::Cholesky& factor, const linalg::Sparse
   return orthonormal(mass, rest * eigen.eigenvectors().rightCols(kept));
 }
 
+MatrixXd krylov_shapes(const linalg::Cholesky& factor, const linalg::SparseMatrix& mass,
+                       const Eigen::Ref<const MatrixXd>& patterns, Index generations) {
+  if (patterns.cols() == 0 || generations == 0) return MatrixXd(mass.rows(), 0);
+  MatrixXd out(mass.rows(), generations * patterns.cols());
+  MatrixXd load = patterns;
+  for (Index g = 0; g < generations; ++g) {
+    const MatrixXd shape = factor.solve(load).colwise().normalized();
+    out.middleCols(g * patterns.cols(), patterns.cols()) = shape;
+    load = times(mass, shape);
+  }
+  return out;
+}
+
 ReducedBasis reduced_basis(const linalg::SparseMatrix& stiffness, const linalg::SparseMatrix& mass,
                            const Eigen::Ref<const MatrixXd>& modes, const Eigen::Ref<const MatrixXd>& shapes) {
   MatrixXd scaled = shapes;

@@ -26,6 +26,14 @@ struct ReducedBasis {
                                                  const Eigen::Ref<const Eigen::MatrixXd>& modes,
                                                  const Eigen::Ref<const Eigen::MatrixXd>& patterns, Eigen::Index count);
 
+/// K⁻¹ P, K⁻¹ M K⁻¹ P, …: `generations` blocks, each the static answer to the inertia of the one before. With patterns at the
+/// points that are asked for, the first makes their slow motion right under any load, each further one the next power of the
+/// frequency.
+/// @return (n × generations k), columns of unit length
+/// Reference: Wilson, Yuan and Dickens (1982), Earthq. Eng. Struct. Dyn. 10, 813-821 (load-dependent Ritz vectors).
+[[nodiscard]] Eigen::MatrixXd krylov_shapes(const linalg::Cholesky& factor, const linalg::SparseMatrix& mass,
+                                            const Eigen::Ref<const Eigen::MatrixXd>& patterns, Eigen::Index generations);
+
 /// Ritz vectors of the space of `modes` and `shapes`. Shapes that the others span already are dropped.
 /// @param stiffness, mass  lower triangles (n × n)  @param modes  (n × m) M-orthonormal  @param shapes  (n × k) any
 /// Reference: Craig (1987), A review of time-domain and frequency-domain component mode synthesis methods, J. Modal Analysis 2.

@@ -65,6 +65,21 @@ Eigen::VectorXd RealFft::inverse(const Eigen::Ref<const Eigen::VectorXcd>& spect
   return Eigen::Map<const Eigen::VectorXd>(impl_->time, impl_->n) / static_cast<double>(impl_->n);
 }
 
+void RealFft::sum_of_waves(const std::complex<double>* waves, Index first, Index count, double* values) {
+  TWINDECK_ASSERT(first >= 1 && 2 * (first + count) <= impl_->n + 1);
+  auto* bins = reinterpret_cast<std::complex<double>*>(impl_->frequency);
+  std::fill(bins, bins + first, 0.0);
+  std::copy(waves, waves + count, bins + first);
+  std::fill(bins + first + count, bins + impl_->n / 2 + 1, 0.0);
+  if (fftw_alignment_of(values) ==
+      fftw_alignment_of(impl_->time)) {  // a plan holds for memory aligned as that it was made with
+    fftw_execute_dft_c2r(impl_->backward, impl_->frequency, values);
+    return;
+  }
+  fftw_execute(impl_->backward);
+  std::copy(impl_->time, impl_->time + impl_->n, values);
+}
+
 Index fast_fft_size(Index wanted) {
   for (Index n = std::max<Index>(wanted, 1);; ++n) {
     Index rest = n;

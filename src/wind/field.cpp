@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -77,24 +78,22 @@ Eigen::MatrixXcd cross_spectrum(const FieldDefinition& field, double f_Hz) {
 }
 
 Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz) {
-  Eigen::MatrixXd lower = coherence(field, f_Hz);
-  const Index n = lower.rows();
-  for (Index j = 0; j < n; ++j) {
-    // What is left of a point's unit variance once the points before it are known; rounding of the sums is of the order 1e-15.
-    const double pivot = lower(j, j) - lower.row(j).head(j).squaredNorm();
-    if (!(pivot > 1e-13)) {
-      throw InputError(
-          {"", 0, "wind field"},
-          fmt::format("has a coherence that is not positive definite at {} Hz (found at point {} of {})", f_Hz, j + 1, n),
-          "take away points that coincide, or give neighbouring points more alike mean speeds");
-    }
-    lower(j, j) = std::sqrt(pivot);
-    const Index below = n - j - 1;
-    lower.col(j).tail(below) -= lower.bottomLeftCorner(below, j) * lower.row(j).head(j).transpose();
-    lower.col(j).tail(below) /= lower(j, j);
-    lower.col(j).head(j).setZero();
+  constexpr double least = 1e-13;  // of a pivot; rounding of the sums is of the order 1e-15
+  const Eigen::MatrixXd gamma = coherence(field, f_Hz);
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(gamma);
+  if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().array().square().minCoeff() > least)
+    return cholesky.matrixL();
+  // What is left of a point's unit variance once the points before it are known: the first with nothing left.
+  Index j = 1;
+  while (j + 1 < gamma.rows()) {
+    const Eigen::LLT<Eigen::MatrixXd> leading(gamma.topLeftCorner(j + 1, j + 1));
+    if (leading.info() != Eigen::Success || !(leading.matrixLLT().diagonal().array().square().minCoeff() > least)) break;
+    ++j;
   }
-  return lower;
+  throw InputError({"", 0, "wind field"},
+                   fmt::format("has a coherence that is not positive definite at {} Hz (found at point {} of {})", f_Hz, j + 1,
+                               gamma.rows()),
+                   "take away points that coincide, or give neighbouring points more alike mean speeds");
 }
 
 Eigen::MatrixXcd spectral_factor(const FieldDefinition& field, double f_Hz) {

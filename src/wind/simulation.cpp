@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -15,7 +16,6 @@
 namespace twindeck::wind {
 
 using Eigen::Index;
-using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -47,11 +47,26 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
   anchor_Hz_.back() = highest;
   for (const double f : anchor_Hz_) factor_.push_back(coherence_factor(field_, f));
 
-  first_wave_.assign(anchor_Hz_.size(), n_waves_ + 1);
-  for (Index l = n_waves_; l >= 1; --l) {
-    first_wave_[static_cast<std::size_t>(bracket(df_ * static_cast<double>(l)).lower)] = l;
+  if (options_.indexing == Indexing::double_index) return;
+  if (!every) {
+    for (std::size_t a = 1; a < factor_.size(); ++a) pair_.emplace_back(factor_[a - 1], factor_[a]);
   }
-  for (std::size_t a = first_wave_.size() - 1; a > 0; --a) first_wave_[a - 1] = std::min(first_wave_[a - 1], first_wave_[a]);
+  share_.resize(n_waves_);
+  for (Index l = 1; l <= n_waves_; ++l) {
+    const Bracket at = bracket(df_ * static_cast<double>(l));
+    share_[l - 1] = at.share;
+    const auto pair = static_cast<std::size_t>(at.lower);
+    if (stretch_.empty() || stretch_.back().pair != pair || stretch_.back().count == kLanes) stretch_.push_back({pair, l, 0});
+    ++stretch_.back().count;
+  }
+  for (Index j = 0; j < field_.size(); ++j) {
+    if (j == 0 || !field_.same_turbulence(j, j - 1)) {
+      amplitude_.conservativeResize(n_waves_, amplitude_.cols() + 1);
+      for (Index l = 1; l <= n_waves_; ++l)
+        amplitude_(l - 1, amplitude_.cols() - 1) = std::sqrt(2.0 * df_ * field_.spectrum(j, df_ * static_cast<double>(l)));
+    }
+    kind_.push_back(amplitude_.cols() - 1);
+  }
 }
 
 Simulator::Bracket Simulator::bracket(double f_Hz) const {
@@ -75,91 +90,70 @@ MatrixXd Simulator::amplitude_factor(Index l) const {
   return spectra(field_, f).cwiseSqrt().asDiagonal() * factor;
 }
 
-/// Random waves exp(i phi_ml), or complex normal numbers of unit mean square, l = first, first + 1, …
-/// @return (2 count × n) real parts, then imaginary parts
-MatrixXd Simulator::waves(std::uint64_t seed, Index first, Index count) const {
-  MatrixXd wave(2 * count, field_.size());
-  VectorXd turns(count);
-  for (Index m = 0; m < wave.cols(); ++m) {
-    const auto stream = static_cast<std::uint64_t>(field_.component) << 32 | static_cast<std::uint64_t>(m);
-    for (Index i = 0; i < count; ++i) turns[i] = uniform_number(seed, stream, 2 * static_cast<std::uint64_t>(first + i));
-    double *real = wave.col(m).data(), *imaginary = real + count;
-    for (Index i = 0; i < count; ++i) unit_wave(turns[i], real[i], imaginary[i]);
-    if (options_.amplitudes == Amplitudes::fixed) continue;
-    for (Index i = 0; i < count; ++i) {
-      const double size =
-          std::sqrt(-std::log(1.0 - uniform_number(seed, stream, 2 * static_cast<std::uint64_t>(first + i) + 1)));
-      real[i] *= size;
-      imaginary[i] *= size;
-    }
-  }
-  return wave;
+void Simulator::waves(std::uint64_t seed, Index m, Index first, double* real, double* imaginary) const {
+  const auto stream = static_cast<std::uint64_t>(field_.component) << 32 | static_cast<std::uint64_t>(m);
+  random_waves(seed, stream, first, options_.amplitudes == Amplitudes::gaussian, real, imaginary);
 }
 
-/// sqrt(2 df) sum_m H_jm exp(i phi_ml) of the waves of one bracket, into rows first - 1 … of `spectrum`.
-void Simulator::add_bracket(std::uint64_t seed, std::size_t a, Index first, Index count, MatrixXcd& spectrum) const {
-  // L is real: the product is done on real and imaginary parts stacked, with the factor at the anchor below and the one above.
-  const MatrixXd wave = waves(seed, first, count);
-  const MatrixXd below = wave * factor_[a].transpose().triangularView<Eigen::Upper>();
-  const MatrixXd above = wave * factor_[a + 1].transpose().triangularView<Eigen::Upper>();
-  const VectorXd cosine =
-      factor_[a].cwiseProduct(factor_[a + 1]).rowwise().sum();  // of the angle between the two rows of a point
-  VectorXd share(count), amplitude(count), c = VectorXd::Ones(count), s = VectorXd::Zero(count);
-  for (Index i = 0; i < count; ++i) share[i] = bracket(df_ * static_cast<double>(first + i)).share;
-  const double per_metre = df_ / field_.speed_m_s.mean();  // turns of wave l = 1 a metre along the wind
-  for (Index j = 0; j < field_.size(); ++j) {
-    if (j == 0 || !field_.same_turbulence(j, j - 1)) {
-      for (Index i = 0; i < count; ++i) {
-        amplitude[i] = std::sqrt(2.0 * df_ * field_.spectrum(j, df_ * static_cast<double>(first + i)));
+/// Half the amplitudes of each point's waves l = 1 … n_waves, at the head of the point's column of `velocity`, which has room
+/// for them: no wave reaches half the rate.
+void Simulator::put_waves(std::uint64_t seed, MatrixXd& velocity) const {
+  const Index n = field_.size();
+  // The wind's drift to a point, exp(-2 pi i l turns): that of a stretch's first wave times that of wave 0 … kLanes - 1.
+  const double per_metre = field_.frozen ? df_ / field_.speed_m_s.mean() : 0.0;  // turns of wave l = 1 a metre along the wind
+  const VectorXd turns = per_metre * field_.position_m.col(0);
+  std::vector<Drift> lane_drift(static_cast<std::size_t>(n));
+  for (Index j = 0; j < n; ++j) {
+    Drift& own = lane_drift[static_cast<std::size_t>(j)];
+    drifts(VectorXd::LinSpaced(kLanes, 0.0, (kLanes - 1) * turns[j]).eval().data(), own.real, own.imaginary);
+  }
+#pragma omp parallel
+  {
+    std::vector<double> wave(static_cast<std::size_t>(2 * kLanes * n));
+    Drift first;
+#pragma omp for schedule(dynamic, 8)
+    for (std::size_t k = 0; k < stretch_.size(); ++k) {
+      const Stretch& at = stretch_[k];
+      for (Index m = 0; m < n; ++m) {
+        double* own = wave.data() + 2 * kLanes * m;
+        waves(seed, m, at.first, own, own + kLanes);
+      }
+      std::optional<FactorPair> made;  // a factor at every frequency: twice the memory for pairs would be no good
+      if (pair_.empty()) made.emplace(factor_[at.pair], factor_[at.pair + 1]);
+      const FactorPair& factor = made ? *made : pair_[at.pair];
+      WaveLanes lanes{};
+      for (Index i = 0; i < at.count; ++i) lanes.share[i] = share_[at.first - 1 + i];
+      for (Index j = 0; j < n; ++j) {
+        if (j == 0 || kind_[static_cast<std::size_t>(j)] != kind_[static_cast<std::size_t>(j - 1)]) {
+          const double* amplitude = &amplitude_(at.first - 1, kind_[static_cast<std::size_t>(j)]);
+          for (Index i = 0; i < at.count; ++i) lanes.amplitude[i] = 0.5 * amplitude[i];
+        }
+        const auto lane = static_cast<std::size_t>(j % kLanes);
+        if (lane == 0) {
+          double turn[kLanes] = {};
+          for (Index i = j; i < std::min<Index>(n, j + kLanes); ++i) turn[i - j] = turns[i] * static_cast<double>(at.first);
+          drifts(turn, first.real, first.imaginary);
+        }
+        double sums[2 * kLanes];
+        wave_sums(factor, j, wave.data(), lanes, {first.real[lane], first.imaginary[lane]},
+                  lane_drift[static_cast<std::size_t>(j)], sums);
+        std::copy(sums, sums + 2 * at.count, &velocity(2 * (at.first - 1), j));
       }
     }
-    if (field_.frozen) {
-      const double x = field_.position_m(j, 0) * per_metre, sign = x < 0.0 ? 1.0 : -1.0;
-      for (Index i = 0; i < count; ++i) {
-        unit_wave(std::abs(x) * static_cast<double>(first + i), c[i], s[i]);
-        s[i] *= sign;
-      }
-    }
-    const double *low = below.col(j).data(), *high = above.col(j).data();
-    auto* out = reinterpret_cast<double*>(&spectrum(first - 1, j));
-    for (Index i = 0; i < count; ++i) {
-      const double t = share[i], r = 1.0 - t;
-      const double size = amplitude[i] / std::sqrt(r * r + t * t + 2.0 * r * t * cosine[j]);  // rows back to length one
-      const double real = size * (r * low[i] + t * high[i]), imaginary = size * (r * low[count + i] + t * high[count + i]);
-      out[2 * i] = c[i] * real - s[i] * imaginary;
-      out[2 * i + 1] = c[i] * imaginary + s[i] * real;
-    }
   }
-}
-
-/// Amplitudes of every wave and point. @return (n_waves × n), row l - 1
-MatrixXcd Simulator::point_spectra(std::uint64_t seed) const {
-  MatrixXcd spectrum(n_waves_, field_.size());
-  const auto n_brackets = static_cast<Index>(factor_.size()) - 1;
-#pragma omp parallel for schedule(dynamic)
-  for (Index b = n_brackets - 1; b >= 0; --b) {  // the largest first
-    const auto a = static_cast<std::size_t>(b);
-    const Index end = b + 1 < n_brackets ? first_wave_[a + 1] : n_waves_ + 1;
-    for (Index first = first_wave_[a]; first < end; first += 256) {  // pieces that stay in the cache
-      add_bracket(seed, a, first, std::min<Index>(256, end - first), spectrum);
-    }
-  }
-  return spectrum;
 }
 
 MatrixXd Simulator::sample(std::uint64_t seed) const {
   if (options_.indexing == Indexing::double_index) return sample_double_index(seed);
-  const MatrixXcd spectrum = point_spectra(seed);
   MatrixXd velocity(n_samples_, field_.size());
+  put_waves(seed, velocity);
 #pragma omp parallel
   {
     signal::RealFft fft(n_samples_);
-    Eigen::VectorXcd bins = Eigen::VectorXcd::Zero(n_samples_ / 2 + 1);
 #pragma omp for schedule(static)
     for (Index j = 0; j < field_.size(); ++j) {
-      // A cosine of amplitude a is a/2 in the bins of +f and -f; the inverse transform divides by the number of samples.
-      bins.segment(1, n_waves_) = 0.5 * static_cast<double>(n_samples_) * spectrum.col(j);
-      velocity.col(j) = fft.inverse(bins);
+      double* own = velocity.col(j).data();
+      fft.sum_of_waves(reinterpret_cast<const std::complex<double>*>(own), 1, n_waves_, own);
     }
   }
   return velocity;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wind/field.hpp"
+#include "wind/wave_sums.hpp"
 
 namespace twindeck::wind {
 
@@ -65,18 +66,27 @@ class Simulator {
   [[nodiscard]] Bracket bracket(double f_Hz) const;
   /// Row j of L: that of the two anchors around f, mixed and brought to length one.
   [[nodiscard]] Eigen::RowVectorXd interpolated_row(double f_Hz, Eigen::Index j) const;
-  [[nodiscard]] Eigen::MatrixXd waves(std::uint64_t seed, Eigen::Index first, Eigen::Index count) const;
-  void add_bracket(std::uint64_t seed, std::size_t a, Eigen::Index first, Eigen::Index count, Eigen::MatrixXcd& spectrum) const;
-  [[nodiscard]] Eigen::MatrixXcd point_spectra(std::uint64_t seed) const;
+  /// Waves [real, imaginary] of stream m, l = first, first + 1, … first + kLanes - 1.
+  void waves(std::uint64_t seed, Eigen::Index m, Eigen::Index first, double* real, double* imaginary) const;
+  void put_waves(std::uint64_t seed, Eigen::MatrixXd& velocity) const;
   [[nodiscard]] Eigen::MatrixXd sample_double_index(std::uint64_t seed) const;
 
   FieldDefinition field_;
   SimulationOptions options_;
   Eigen::Index n_samples_ = 0, n_waves_ = 0;
   double df_ = 0.0;
-  std::vector<double> anchor_Hz_;         ///< ascending
-  std::vector<Eigen::MatrixXd> factor_;   ///< L at the anchors
-  std::vector<Eigen::Index> first_wave_;  ///< waves first_wave_[a] … first_wave_[a+1] - 1 lie between anchors a and a + 1
+  std::vector<double> anchor_Hz_;        ///< ascending
+  std::vector<Eigen::MatrixXd> factor_;  ///< L at the anchors
+  // What a sample needs of its waves, none of it random (single indexing).
+  struct Stretch {
+    std::size_t pair;           ///< of anchors
+    Eigen::Index first, count;  ///< waves, at most kLanes
+  };
+  std::vector<FactorPair> pair_;    ///< of anchors a and a + 1; empty with an anchor at every wave
+  std::vector<Stretch> stretch_;    ///< all waves in order, the costliest first
+  Eigen::VectorXd share_;           ///< (n_waves) of the anchor above
+  std::vector<Eigen::Index> kind_;  ///< column of amplitude_ for each point
+  Eigen::MatrixXd amplitude_;       ///< (n_waves × kinds of turbulence) sqrt(2 df S(f))
 };
 
 }  // namespace twindeck::wind

@@ -14,7 +14,14 @@ using Eigen::Index;
 /// The inner sum has period T and is a transform; the factor before it has period n T.
 Eigen::MatrixXd Simulator::sample_double_index(std::uint64_t seed) const {
   const Index n = field_.size();
-  const Eigen::MatrixXd wave = waves(seed, 1, n_waves_);
+  Eigen::MatrixXcd wave(n_waves_, n);
+  for (Index m = 0; m < n; ++m) {
+    double real[kLanes], imaginary[kLanes];
+    for (Index l = 0; l < n_waves_; ++l) {
+      if (l % kLanes == 0) waves(seed, m, l + 1, real, imaginary);
+      wave(l, m) = {real[l % kLanes], imaginary[l % kLanes]};
+    }
+  }
   const double half = 0.5 * static_cast<double>(n_samples_);
   Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(n * n_samples_, n);
 #pragma omp parallel
@@ -28,7 +35,7 @@ Eigen::MatrixXd Simulator::sample_double_index(std::uint64_t seed) const {
         for (Index l = 0; l < n_waves_; ++l) {
           const double f = (static_cast<double>(l) + shift) * df_;
           const double size = std::sqrt(2.0 * df_ * spectra(field_, f)[j]) * interpolated_row(f, j)[m];
-          bins[l] = half * size * drift(field_, f)[j] * std::complex<double>(wave(l, m), wave(n_waves_ + l, m));
+          bins[l] = half * size * drift(field_, f)[j] * wave(l, m);
         }
         bins[0] *= 2.0;  // zero frequency stands in one bin, the others at +f and -f
         const Eigen::VectorXd real = fft.inverse(bins), imaginary = fft.inverse(std::complex<double>(0.0, -1.0) * bins);

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "model_io/aero_data.hpp"
+#include "verification_table.hpp"
 #include "wind_sections.hpp"
 
 namespace {
@@ -59,7 +60,9 @@ TEST(WindYaw, CosineRuleOnAStraightDeckIsExact) {
   const double normal = critical_speed(yawed_strips({0, 0, 0}, aero::published_yaw_rule("A"), table), v);
   for (const double yaw : {10 * degree, 30 * degree, -50 * degree}) {
     const double found = critical_speed(yawed_strips({yaw, yaw, yaw}, aero::published_yaw_rule("C"), table), speeds(8, 70, 1));
-    EXPECT_NEAR(found * std::cos(yaw) / normal, 1.0, 1e-9) << yaw;
+    verification::check(
+        "Straight deck in skew wind, cosine rule, yaw " + std::to_string(std::lround(yaw / degree)) + " deg [m/s]",
+        normal / std::cos(yaw), found, 1e-9);
   }
 }
 
@@ -76,7 +79,8 @@ TEST(WindYaw, CriticalSpeedsFollowTheClosedFormOfEachRule) {
     double mean = 0;
     for (const double theta : yaw) mean += std::pow(std::cos(theta), q) / 30;
     const double closed = std::pow(mean, -1 / (p + 1));
-    EXPECT_NEAR(critical_speed(yawed_strips(yaw, aero::published_yaw_rule(name), law), v) / normal / closed, 1.0, 1e-9) << name;
+    verification::check("Ratio to normal wind by model " + name + ", closed form", closed,
+                        critical_speed(yawed_strips(yaw, aero::published_yaw_rule(name), law), v) / normal, 1e-9);
   }
 }
 

@@ -1,6 +1,7 @@
 """Mode 1's total damping with the structural damping that was identified instead of assumed, and with dampers."""
 import pandas as pd
 
+from ..statements import design_speed
 from ..study import Study
 from .damping_curves import damping, name_ends
 from .style import ACCENT, GOOD, INK, PALE, WARN, plt
@@ -40,7 +41,7 @@ def draw(study: Study):
     right.axhline(2.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     right.set_title("every followed mode with dampers", loc="left")
     for axes in (left, right):
-        axes.axvline(40.4, color=PALE, linewidth=0.9, linestyle=(0, (4, 3)))
+        axes.axvline(design_speed(study), color=PALE, linewidth=0.9, linestyle=(0, (4, 3)))
         axes.set_xlabel("wind velocity V (m/s)")
     left.set_ylabel("total damping ξ (%)")
     return figure, pd.concat(kept, ignore_index=True)

@@ -1,4 +1,5 @@
 """Fig. 20: total damping as a function of the wind velocity, footbridge without dampers, orthogonal wind (model A)."""
+from ..statements import design_speed
 from ..study import Study
 from .damping_curves import critical, damping, name_ends
 from .style import INK, PALE, WARN, plt
@@ -30,8 +31,9 @@ def draw(study: Study):
     speed = speed[speed["model"] == "A"]["V_cr_m_s"].iloc[0]
     axes.plot([speed], [0], "o", color=WARN)
     axes.annotate(f"{speed:.2f} m/s", (speed, 0), xytext=(8, 8), textcoords="offset points", color=WARN)
-    axes.axvline(40.4, color=PALE, linewidth=0.9, linestyle=(0, (4, 3)))
-    axes.text(40.6, axes.get_ylim()[1] * 0.94, "design wind", fontsize=8, color="#5b6673")
+    design = design_speed(study)
+    axes.axvline(design, color=PALE, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.text(design + 0.2, axes.get_ylim()[1] * 0.94, "design wind", fontsize=8, color="#5b6673")
     axes.set_xlabel("wind velocity V (m/s)")
     axes.set_ylabel("total damping ξ (%)")
     return figure, table

@@ -221,6 +221,7 @@ Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config) 
   write_polars(names, sections, context.out / "polars.csv");
   io::CsvWriter summary({"quantity", "value", "unit"});
   summary.row({"still_air_frequency_1", model.modes.frequency_Hz(0), "Hz"});
+  summary.row({"design_speed", config.design_speed_m_s, "m/s"});
   summary.row({"static_displacement_G_H", difference.displacement_m, "m"});
   summary.row({"static_rotation_G_H", difference.rotation_rad * degrees, "deg"});
   for (const DampingCurves& curves : damping) {

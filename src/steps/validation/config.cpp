@@ -17,6 +17,8 @@ io::FieldTable ValidationConfig::fields() {
       .integer("seeds", seeds, {2.0, 1000.0}, "samples of the turbulence, each of all events and runs")
       .integer("n_modes", n_modes, {1.0, 200.0}, "modes of the reduced structure")
       .integer("static_shapes", static_shapes, {0.0, 200.0}, "static shapes of the wind loads beside them")
+      .integer("point_shapes", point_shapes, {0.0, 10.0},
+               "shapes of each monitoring point's own direction: static (1), of its inertia (2), of the inertia of that (3)")
       .integer("anchors", anchors, {0.0, 100000.0}, "frequencies at which the coherence is factorised; 0: all")
       .number("duration", duration_s, "s", io::positive(), "length of a record")
       .number("lead_in", lead_in_s, "s", io::non_negative(), "time before the record in which the response builds up")

@@ -70,7 +70,10 @@ std::vector<FieldCheck> FieldStatistics::checks() const {
 
     double error = 0.0, difference = 0.0;
     Index pairs = 0;
-    const Index first = 4, last = bins - 3;  // the window smears the steep first bins, the last hold the cutoff
+    // The window smears the steep first bins and, two to each side, the edge at the cutoff, above which there is nothing.
+    const double cutoff = any.spacing_Hz() * static_cast<double>(any.n_waves());
+    const Index first = 4, edge = static_cast<Index>(cutoff / rate_Hz_ * static_cast<double>(segment_)) - 3;
+    const Index last = std::max(first, std::min(edge, bins - 3));
     for (Index i = first; i <= last; ++i) {
       const double f = rate_Hz_ * static_cast<double>(i) / static_cast<double>(segment_);
       error += std::pow(density[i] / field.spectrum(0, f) - 1.0, 2) / static_cast<double>(last - first + 1);

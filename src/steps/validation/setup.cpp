@@ -61,15 +61,31 @@ MatrixXd gust_patterns(const BridgeInWind& bridge, const ValidationConfig& confi
   return bridge.loaded.system.expansion.transpose() * nodal;
 }
 
+/// Names of the monitoring points; other named points are no accelerometers.
+std::vector<std::string> accelerometers(const LoadedModel& loaded) {
+  std::vector<std::string> names;
+  for (const auto& [name, node] : loaded.model->monitoring_points) {
+    if (name.starts_with("M")) names.push_back(name);
+  }
+  return names;
+}
+
+/// Unit vertical forces at the monitoring points, over the free degrees of freedom. @return (n × n_points)
+MatrixXd point_patterns(const LoadedModel& loaded) {
+  const std::vector<std::string> names = accelerometers(loaded);
+  MatrixXd nodal = MatrixXd::Zero(loaded.system.expansion.rows(), static_cast<Index>(names.size()));
+  for (std::size_t p = 0; p < names.size(); ++p)
+    nodal(6 * loaded.model->monitoring_points.at(names[p]) + 2, static_cast<Index>(p)) = 1.0;
+  return loaded.system.expansion.transpose() * nodal;
+}
+
 }  // namespace
 
 Sensors find_sensors(const LoadedModel& loaded, const WindModel& model, const MatrixXd& vectors) {
   Sensors out;
   const MatrixXd full = loaded.system.expand(vectors);
   const std::vector<aero::StripMotion> motions = motions_of(model.nodes, full);
-  for (const auto& [name, node] : loaded.model->monitoring_points) {
-    if (name.starts_with("M")) out.points.push_back(name);  // other named points are no accelerometers
-  }
+  out.points = accelerometers(loaded);
   for (std::size_t i = 1; i < motions.size(); i += 3) out.nodes.push_back(i);
   out.motion.resize(out.lateral_row(out.nodes.size()), vectors.cols());
   for (std::size_t p = 0; p < out.points.size(); ++p) {
@@ -96,6 +112,8 @@ BridgeInWind prepare_bridge_in_wind(const ValidationConfig& config, StepContext&
   reduction.dampers = config.dampers;
   reduction.static_shapes = config.static_shapes;
   reduction.patterns = gust_patterns(out, config);
+  reduction.points = point_patterns(out.loaded);
+  reduction.point_generations = config.point_shapes;
   out.reduced = reduce(out.model, out.loaded, out.aerodynamics.structural_damping, reduction);
   out.sensors = find_sensors(out.loaded, out.model, out.reduced.vectors);
   out.frozen_omega = std::sqrt(out.model.modes.eigenvalue[0]);

@@ -34,7 +34,7 @@ struct ValidationConfig {
   std::string turbulence_file = "data/wind/turbulence_sets.csv", turbulence_set = "printed";
   double height_m = 14.5;
   bool frozen = true, dampers = true;
-  long seeds = 20, n_modes = 30, static_shapes = 8, anchors = 40;
+  long seeds = 20, n_modes = 30, static_shapes = 8, point_shapes = 1, anchors = 40;
   double duration_s = 600.0, lead_in_s = 60.0, step_s = 1.0 / 64.0, cutoff_Hz = 8.0;
   double level = 0.95;
   std::string equations = "consistent";

@@ -114,8 +114,9 @@ DampedModel reduce(const WindModel& model, const LoadedModel& loaded, double dam
   const Eigen::MatrixXd of_dampers = dynamics::static_corrections(factor, mass, modes, patterns, patterns.cols());
   const Eigen::MatrixXd of_loads =
       dynamics::static_corrections(factor, mass, modes, reduction.patterns, reduction.static_shapes);
-  Eigen::MatrixXd shapes(modes.rows(), of_dampers.cols() + of_loads.cols());
-  shapes << of_dampers, of_loads;
+  const Eigen::MatrixXd of_points = dynamics::krylov_shapes(factor, mass, reduction.points, reduction.point_generations);
+  Eigen::MatrixXd shapes(modes.rows(), of_dampers.cols() + of_loads.cols() + of_points.cols());
+  shapes << of_dampers, of_loads, of_points;
   const dynamics::ReducedBasis basis = dynamics::reduced_basis(stiffness, mass, modes, shapes);
 
   DampedModel out;

@@ -1,5 +1,5 @@
-/// Oracles: exactness. Static shapes in the basis make the static answer exact; the modes that were put in come out; the full chain's
-/// own answer to a harmonic load.
+/// Oracles: exactness. Static shapes in the basis make the static answer exact; the modes that were put in come out; the full
+/// chain's own answer to a harmonic load.
 #include "dynamics/reduced_basis.hpp"
 
 #include <gtest/gtest.h>
@@ -39,8 +39,8 @@ TEST(ReducedBasis, KeepsTheModesAndMakesStaticAnswersExact) {
   const MatrixXd mass = basis.vectors.transpose() * (c.m.selfadjointView<Eigen::Lower>() * basis.vectors);
   EXPECT_LT((mass - MatrixXd::Identity(7, 7)).cwiseAbs().maxCoeff(), 1e-9);
   const MatrixXd exact = c.factor.solve(c.patterns());
-  const MatrixXd reduced = basis.vectors * basis.omega_rad_s.cwiseAbs2().cwiseInverse().asDiagonal() *
-                           (basis.vectors.transpose() * c.patterns());
+  const MatrixXd reduced =
+      basis.vectors * basis.omega_rad_s.cwiseAbs2().cwiseInverse().asDiagonal() * (basis.vectors.transpose() * c.patterns());
   EXPECT_LT((exact - reduced).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -59,6 +59,32 @@ TEST(ReducedBasis, CorrectionsHoldMostOfTheEnergyAndStandOffTheModes) {
   EXPECT_GT(missing(0), missing(1));
   EXPECT_GT(missing(1), missing(2));
   EXPECT_NEAR(missing(3) / missing(0), 0.0, 1e-9);
+}
+
+TEST(ReducedBasis, APointsOwnShapeMakesItsSlowMotionExactUnderEveryLoad) {
+  // By reciprocity: e' K^-1 P = (K^-1 e)' P, wherever the load acts. With g generations of shapes of the point on one side of
+  // the transfer function, the error of the point's motion falls with omega^(2 g).
+  const Case c;
+  MatrixXd point = MatrixXd::Zero(60, 1), load = MatrixXd::Zero(60, 1);
+  point(3, 0) = 1.0;
+  load(11, 0) = 1.0;
+  const auto error = [&](int generations, double omega) {
+    const ReducedBasis basis = twindeck::dynamics::reduced_basis(
+        c.k, c.m, c.modes, twindeck::dynamics::krylov_shapes(c.factor, c.m, point, generations));
+    EXPECT_EQ(basis.vectors.cols(), 4 + generations);
+    const VectorXd stiffness = basis.omega_rad_s.cwiseAbs2().array() - omega * omega;
+    const double reduced =
+        ((basis.vectors.transpose() * point).cwiseQuotient(stiffness).transpose() * (basis.vectors.transpose() * load))(0, 0);
+    const MatrixXd dynamic =
+        MatrixXd(c.k.selfadjointView<Eigen::Lower>()) - omega * omega * MatrixXd(c.m.selfadjointView<Eigen::Lower>());
+    const double exact = (point.transpose() * dynamic.lu().solve(load))(0, 0);
+    return std::abs(reduced / exact - 1.0);
+  };
+  const double omega = 0.5 * std::sqrt(SpringChain{.n = 60}.eigenvalue(1));
+  EXPECT_GT(error(0, omega), 1e-2);  // the modes alone
+  EXPECT_LT(error(1, 1e-6 * omega), 1e-9);
+  EXPECT_NEAR(error(1, omega) / error(1, 0.5 * omega), 4.0, 0.4);
+  EXPECT_NEAR(error(2, omega) / error(2, 0.5 * omega), 16.0, 2.0);
 }
 
 TEST(ReducedBasis, DropsShapesThatAreThereAlready) {
