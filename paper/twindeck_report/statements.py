@@ -77,7 +77,7 @@ def _comfort(study: Study) -> list:
     table = study.step_csv("s8_validation/comfort.csv", ["event", "run", "direction", "deck", "peak_m_s2", "limit_m_s2", "verdict"])
     rows = []
     for direction, words in (("vertical", "Vertical accelerations of the damped bridge stay within the comfort limit"),
-                             ("lateral", "Lateral accelerations of the damped bridge stay within the comfort limit, which avoids lock-in")):
+                             ("lateral", "Lock-in is avoided: lateral accelerations of the damped bridge stay within the comfort limit")):
         part = table[table["direction"] == direction]
         if len(part):
             worst = part.loc[part["peak_m_s2"].idxmax()]

@@ -225,10 +225,15 @@ def write_updating(paper, folder):
 
 def write_aerodynamics(paper, folder):
     """A straight deck in yawed wind: critical speeds 0.2 % above the paper's, one smooth curve for everything else."""
-    critical = ["set", "model", "group", "description", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz"]
+    critical = ["set", "model", "group", "description", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz", "ratio_to_A",
+                "f_cr_over_f1", "theta_rms_deg", "exponent", "V_divergence_m_s", "status"]
     printed = read_rows(paper / "table_12.csv")
-    rows = [["standin", r["ns"], r["group"], r["description"], "off", 0.5, 1, 1.002 * float(r["V_cr_m_per_s"]), float(r["f_cr_Hz"])] for r in printed]
-    rows += [["quasi_steady", ns, "made up", "", "off", 0.5, 1, speed, 0.79] for ns, speed in QUASI_STEADY.items()]
+    rest = [1.0, 0.98, 30.0, 3.5, 300.0, "unstable"]
+    rows = [["standin", r["ns"], r["group"], r["description"], "off", 0.5, 1, 1.002 * float(r["V_cr_m_per_s"]), float(r["f_cr_Hz"]), *rest]
+            for r in printed]
+    rows += [["standin", "A", "made up", "", "off", 1.1, 1, 44.0, 0.79, *rest],
+             ["standin", "A", "made up", "", "on", 0.5, "", "", "", "", "", "", "", 300.0, "stable"]]
+    rows += [["quasi_steady", ns, "made up", "", "off", 0.5, 1, speed, 0.79, *rest] for ns, speed in QUASI_STEADY.items()]
     write_rows(folder / "critical.csv", critical, rows)
     words = {r["ns"]: r for r in read_rows(paper / "table_11.csv")}
     write_rows(folder / "rules.csv",
@@ -250,14 +255,19 @@ def write_aerodynamics(paper, folder):
                [[name, "foot", angle, v, -0.1 * v, -1.0] for name in ("standin", "quasi_steady") for angle in (-2.0, 0.0, 2.0) for v in (1, 5, 10)])
     write_rows(folder / "polars.csv", ["set", "deck", "angle_of_attack_deg", "C_D", "C_L", "C_M"],
                [[name, "foot", angle, 0.2, -0.1 * angle, 0.0] for name in ("standin", "quasi_steady") for angle in (-5.0, 0.0, 5.0)])
-    write_rows(folder / "summary.csv", ["quantity", "value", "unit"], [["still_air_frequency_1", 0.8, "Hz"]])
+    write_rows(folder / "summary.csv", ["quantity", "value", "unit"], [["still_air_frequency_1", 0.8, "Hz"], ["design_speed", 40.0, "m/s"]])
 
 
 def write_validation(paper, folder):
     """Errors that are not the paper's, zones that are."""
-    write_rows(folder / "rms.csv", ["event", "run", "channel", "direction", "error_pct", "error_low_pct", "error_high_pct"],
-               [[event, run, f"M{m}", axis, 2.0 * m, 2.0 * m - 1.0, 2.0 * m + 1.0] for event in ("August", "April") for run in ("NS1", "NS2", "NS3")
-                for m in range(1, 9) for axis in "xyz"])
+    write_rows(folder / "rms.csv", ["event", "run", "model", "channel", "direction", "rms_m_s2", "seed_deviation_m_s2", "measured_rms_m_s2",
+                                    "error_pct", "error_low_pct", "error_high_pct"],
+               [[event, run, "A", f"M{m}", axis, 0.1, 0.005, 0.1, 2.0 * m, 2.0 * m - 1.0, 2.0 * m + 1.0] for event in ("August", "April")
+                for run in ("NS1", "NS2", "NS3") for m in range(1, 9) for axis in "xyz"])
+    write_rows(folder / "comfort.csv", ["event", "run", "direction", "deck", "peak_m_s2", "limit_m_s2", "verdict"],
+               [["August", "NS1", "vertical", "foot", 0.5, 0.7, "within"], ["April", "NS1", "vertical", "foot", 0.6, 0.7, "within"],
+                ["April", "NS1", "lateral", "cycle", 0.2, 0.1, "exceeded"]])
+    write_rows(folder / "statements.csv", ["statement", "found", "verdict"], [["Something is so", "3 of 4 cells", "miss"]])
     zones = [[r["deck"], r["theta_from_deg"], r["theta_to_deg"], "end" if "cos" in r["static_polar"] else "middle",
               *(("D", "cosine", 1, 2) if "cos" in r["static_polar"] else ("A", "normal", 0, 0))] for r in read_rows(paper / "table_14.csv")]
     write_rows(folder / "hybrid.csv", ["deck", "theta_from_deg", "theta_to_deg", "zone", "model", "statics", "lookup_cos_power",

@@ -292,6 +292,22 @@ class PaperCheck(unittest.TestCase):
         self.assertIn("table_10 column MAC_2X: 9 printed numbers without a rule", err)
         self.assertIn("table_10: 72 of 81 printed numbers", out)
 
+    def test_statements_hit_or_miss_and_fail_nothing(self):
+        self.assertEqual(self.run_command("verify")[0], 0)
+        rows = {r["statement"]: r for r in made_up_study.read_rows(self.results / "report/statements.csv")}
+        verdict = {text: row["verdict"] for text, row in rows.items()}
+        self.assertEqual(verdict["Without dampers and with 0.5 % structural damping mode 1 gallops below the design wind of 40 m/s"], "hit")
+        self.assertEqual(verdict["Without dampers and with 1.1 % structural damping (identified, not assumed) mode 1 gallops below the design wind "
+                                 "of 40 m/s"], "miss")
+        self.assertEqual(verdict["With dampers there is no instability up to 40 m/s"], "hit")
+        # 2.5 % less 0.025 % a metre per second: mode 1 has 1.5 % at 40 m/s, mode 2 keeps its 2.5 %.
+        damped = rows["With dampers every mode has well above 2 % up to 40 m/s"]
+        self.assertEqual((damped["verdict"], damped["found"]), ("miss", "1 of 2 modes; least mode 1: 1.50 %"))
+        self.assertEqual(verdict["Vertical accelerations of the damped bridge stay within the comfort limit of 0.7 m/s²"], "hit")
+        self.assertEqual(verdict["Lock-in is avoided: lateral accelerations of the damped bridge stay within the comfort limit of 0.1 m/s²"], "miss")
+        self.assertEqual(verdict["Something is so"], "miss")
+        self.assertIn("Something is so", (self.results / "report/deviations.md").read_text(encoding="utf-8"))
+
     def test_ratchet(self):
         self.assertIn("ratchet not yet set", self.run_command("verify")[1])
         self.assertEqual(self.run_command("ratchet")[0], 0)
