@@ -249,10 +249,13 @@ TEST(BuffetingIabse, FlatPlateHasThePublishedSpectra) {
     const VectorXd f = frequencies(1e-3, 2.0, 6000);  // from the lowest published frequency
     const VectorXd rms_all = band_rms(f, response_spectra(system, v, load, none, gusts, sensors, f, options));
     const double rms = rms_all[0];
-    const std::string at = " at " + std::to_string(static_cast<int>(v)) + " m/s [m]";
-    verification::record("IABSE flat plate, heave RMS" + at, target.heave_rms, rms);
-    verification::record("IABSE flat plate, torsion RMS of the edge" + at, target.torsion_rms, 0.5 * chord * rms_all[1]);
-    // The published RMS at 15 m/s is 3.7 % more than the integral of the spectrum published beside it, which ours meets.
+    const std::string where = " at " + std::to_string(static_cast<int>(v)) + " m/s [m]";
+    verification::record("IABSE flat plate, heave RMS" + where, target.heave_rms, rms);
+    verification::record("IABSE flat plate, torsion RMS of the edge" + where, target.torsion_rms, 0.5 * chord * rms_all[1]);
+    // The published RMS are means over the task group's participants, who scattered by 5 to 10 % in heave and 10 to 25 % in
+    // torsion, and not the integrals of the spectra published beside them, which ours meet above: at 15 m/s the spectrum's
+    // integral over any sensible band and grid is 3.6 % less in heave and 18 % in torsion. Torsion is therefore shown, not
+    // judged.
     EXPECT_NEAR(rms / target.heave_rms, 1.0, v == 15.0 ? 0.04 : 0.03) << v;
   }
 }
