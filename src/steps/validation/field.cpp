@@ -19,7 +19,9 @@ FieldStatistics::FieldStatistics(std::string event, const wind::Simulator& along
   const double cutoff = static_cast<double>(along.n_waves() + 1) * along.spacing_Hz();
   stride_ = std::max<Index>(1, static_cast<Index>(rate / (2.0 * cutoff)));
   rate_Hz_ = rate / static_cast<double>(stride_);
-  segment_ = std::min<Index>(1024, along.n_samples() / stride_ / 8 * 2);
+  // 64 s, on which the limits of the verification rest: longer segments are fewer, and their coherence scatters more.
+  const auto segment = 2 * static_cast<Index>(std::llround(32.0 * rate_Hz_));
+  segment_ = std::min<Index>({1024, segment, along.n_samples() / stride_ / 8 * 2});
   const Index n = along.field().size();
   for (Index i = 0; i < 8 && i < n; ++i)
     chosen_.push_back(i * i * (n - 1) / 49);  // neighbours at first, then ever further apart

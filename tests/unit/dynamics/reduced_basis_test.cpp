@@ -82,7 +82,7 @@ TEST(ReducedBasis, APointsOwnShapeMakesItsSlowMotionExactUnderEveryLoad) {
     const double exact = (point.transpose() * dynamic.lu().solve(load))(0, 0);
     return std::abs(reduced / exact - 1.0);
   };
-  const double omega = 0.5 * std::sqrt(SpringChain{.n = 60}.eigenvalue(1));
+  const double omega = 0.2 * std::sqrt(SpringChain{.n = 60}.eigenvalue(1));
   EXPECT_GT(error(0, omega), 1e-2);  // the modes alone
   EXPECT_LT(error(1, 1e-6 * omega), 1e-9);
   EXPECT_NEAR(error(1, omega) / error(1, 0.5 * omega), 4.0, 0.4);
