@@ -79,10 +79,12 @@ Inference::Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Ca
   sigma_factor_ = factor.matrixL();
   const std::set<int> training(training_.begin(), training_.end());
   for (const MeasuredMode& mode : map.measured_modes())
-    if (!mode.real_rows.empty() && training.contains(mode.real_rows.front())) training_scales_ += mode.imag_rows.empty() ? 1 : 2;
+    if (!mode.real_rows.empty() && training.contains(mode.real_rows.front()))
+      training_scales_ += mode.imag_rows.empty() ? 1 : 2;
 }
 
-MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which, const VectorXd& g) const {
+MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
+                           const VectorXd& g) const {
   const Candidate& candidate = *causes[which].candidate;
   MatrixXd out(g.size(), candidate.low.size());
   for (Index i = 0; i < candidate.low.size(); ++i) {
@@ -165,7 +167,8 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start) cons
   const VectorXd r = y_ - fit.map.g + j * fit.map.x;
   fit.whitened = fit.total_factor.triangularView<Eigen::Lower>().solve(r);
   fit.chi_squared = fit.whitened.squaredNorm();
-  fit.cause_jacobian = fit.total_factor.triangularView<Eigen::Lower>().solve(j.rightCols(k) * width.cwiseInverse().asDiagonal());
+  fit.cause_jacobian =
+      fit.total_factor.triangularView<Eigen::Lower>().solve(j.rightCols(k) * width.cwiseInverse().asDiagonal());
   return fit;
 }
 
@@ -275,8 +278,8 @@ void Inference::refine(const Fit& base, Scored& scored) const {
   const MatrixXd slope = lower.triangularView<Eigen::Lower>().solve(j.rightCols(k) * width.cwiseInverse().asDiagonal());
   const MatrixXd precision = slope.transpose() * slope;
   scored.chi_squared = scored.remaining = w.squaredNorm();
-  scored.log_odds = 0.5 * (base.chi_squared + base.log_determinant - scored.chi_squared - log_det) + ockham(precision, *scored.candidate) +
-                    scored.candidate->log_prior;
+  scored.log_odds = 0.5 * (base.chi_squared + base.log_determinant - scored.chi_squared - log_det) +
+                    ockham(precision, *scored.candidate) + scored.candidate->log_prior;
   if (k > 0) {
     MatrixXd h = precision;
     for (Index i = 0; i < k; ++i) h(i, i) += 48.0 / (width[i] * width[i]);
@@ -285,29 +288,36 @@ void Inference::refine(const Fit& base, Scored& scored) const {
 }
 
 std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options) const {
-  std::vector<Scored> found;
-  for (const auto& candidate : candidates_) {
+  // Candidates are held against the base one by one: the number of threads changes nothing.
+  std::vector<Scored> all(candidates_.size());
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const bool there = std::any_of(base.causes.begin(), base.causes.end(),
-                                   [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); });
-    if (there) continue;
-    Scored scored = screen(base, *candidate);
-    if (scored.signature.size() > 0) found.push_back(std::move(scored));
+                                   [&](const Cause& cause) { return cause.candidate->id() == candidates_[i]->id(); });
+    if (!there) all[i] = screen(base, *candidates_[i]);
   }
+  std::vector<Scored> found;
+  for (Scored& scored : all)
+    if (scored.signature.size() > 0) found.push_back(std::move(scored));
   const auto promise = [](const Scored& s) { return 0.5 * s.screen + s.candidate->log_prior; };
   std::stable_sort(found.begin(), found.end(), [&](const Scored& a, const Scored& b) { return promise(a) > promise(b); });
   std::set<std::string> families;
   int fitted = 0;
+  std::vector<Scored*> list;
   for (Scored& scored : found) {
     const bool new_family = !families.contains(scored.candidate->hypothesis->id);
     const bool near = promise(scored) > promise(found.front()) - 12.0;
-    if (fitted < options.short_list || (near && fitted < options.longest_list) || (new_family && scored.screen > options.family_screen)) {
-      fit_linearised(base, scored);
+    if (fitted < options.short_list || (near && fitted < options.longest_list) ||
+        (new_family && scored.screen > options.family_screen)) {
+      list.push_back(&scored);
       ++fitted;
       families.insert(scored.candidate->hypothesis->id);
     } else {
       scored.log_odds = -1e300;
     }
   }
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < list.size(); ++i) fit_linearised(base, *list[i]);
   const auto by_odds = [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; };
   std::stable_sort(found.begin(), found.end(), by_odds);
   if (!found.empty() && found.front().log_odds > -2.0) {

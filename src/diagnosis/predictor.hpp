@@ -27,6 +27,7 @@ struct StateStore {
   };
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> states;
   std::map<std::vector<int>, Changes> changes;
+  UndampedStore undamped;
 };
 
 class Predictor {
@@ -79,6 +80,7 @@ class Predictor {
   Eigen::VectorXd channel_factor_, channel_delay_s_;
   std::map<const SolvedState*, Eigen::MatrixXcd> motion_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> own_;
+  UndampedStore undamped_;
   std::map<int, SolvedState*> of_condition_;
   Prediction out_;
   Eigen::Index scale_ = 0;

@@ -20,38 +20,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-struct RealModes {
-  VectorXd eigenvalue;
-  MatrixXd shapes;  // mass-normalised
-};
-
-/// K phi = lambda M phi through M phi = (1/lambda) K phi, so that M may be singular.
-RealModes real_modes(const MatrixXd& stiffness, const MatrixXd& mass, double highest) {
-  MatrixXd k = stiffness;
-  double shift = 0.0;
-  Eigen::LLT<MatrixXd> factor(k);
-  if (factor.info() != Eigen::Success) {  // free as a rigid body
-    shift = 1e-7 * k.trace() / mass.trace();
-    k += shift * mass;
-    factor.compute(k);
-  }
-  const MatrixXd half = factor.matrixL().solve(mass);
-  MatrixXd a = factor.matrixL().solve(half.transpose());
-  a = (0.5 * (a + a.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(a);
-  RealModes modes;
-  const Index n = a.rows();
+/// Modes with omega² below `highest`.
+Index count_below(const UndampedModes& modes, double highest) {
   Index count = 0;
-  const double least = 1.0 / (highest + shift);
-  while (count < n && eigen.eigenvalues()[n - 1 - count] > least) ++count;
-  modes.eigenvalue.resize(count);
-  modes.shapes.resize(n, count);
-  for (Index i = 0; i < count; ++i) {
-    const double mu = eigen.eigenvalues()[n - 1 - i];
-    modes.eigenvalue[i] = std::max(1.0 / mu - shift, 0.0);
-    modes.shapes.col(i) = factor.matrixU().solve(eigen.eigenvectors().col(n - 1 - i)) / std::sqrt(mu);
-  }
-  return modes;
+  while (count < modes.size() && modes.eigenvalue(count) < highest) ++count;
+  return count;
+}
+
+MatrixXd mass_normalised(const UndampedModes& modes, Index count) {
+  return modes.shapes.leftCols(count) * modes.mu.head(count).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 /// d(s, X) and its derivative in s.
@@ -113,19 +90,20 @@ void dynamic_matrices(const StructureState& state, Complex s, const VectorXcd& p
 }
 
 /// Eigenvalues and shapes of the linear part in modal coordinates (dashpots, Maxwell; friction as given spring and dashpot).
-StateModes state_space(const StructureState& state, const RealModes& modes, const std::vector<Complex>& friction,
-                       double omega) {
-  const Index m = modes.eigenvalue.size();
+StateModes state_space(const StructureState& state, const UndampedModes& undamped, double highest,
+                       const std::vector<Complex>& friction, double omega) {
+  const Index m = count_below(undamped, highest);
+  const MatrixXd shapes = mass_normalised(undamped, m);
   Index extra = 0;
   for (const Attachment& a : state.attachments)
     if (a.kind == Attachment::Kind::maxwell) ++extra;
   MatrixXd system = MatrixXd::Zero(2 * m + extra, 2 * m + extra);
   system.topRightCorner(m, m + extra).leftCols(m).setIdentity();
-  system.block(m, 0, m, m).diagonal() = -modes.eigenvalue;
+  for (Index i = 0; i < m; ++i) system(m + i, i) = -undamped.eigenvalue(i);
   Index z = 2 * m;
   std::size_t slider = 0;
   for (const Attachment& a : state.attachments) {
-    const VectorXd b = modes.shapes.transpose() * a.direction;
+    const VectorXd b = shapes.transpose() * a.direction;
     if (a.kind == Attachment::Kind::dashpot) {
       system.block(m, m, m, m) -= a.damping * b * b.transpose();
     } else if (a.kind == Attachment::Kind::maxwell) {  // force k (b'u - z), c dz/dt = k (b'u - z)
@@ -150,11 +128,11 @@ StateModes state_space(const StructureState& state, const RealModes& modes, cons
             [&](Index a, Index b) { return std::abs(eigen.eigenvalues()[a]) < std::abs(eigen.eigenvalues()[b]); });
   StateModes out;
   out.s.resize(static_cast<Index>(kept.size()));
-  out.shapes.resize(modes.shapes.rows(), out.s.size());
+  out.shapes.resize(shapes.rows(), out.s.size());
   for (Index i = 0; i < out.s.size(); ++i) {
     const Index k = kept[static_cast<std::size_t>(i)];
     out.s[i] = eigen.eigenvalues()[k];
-    out.shapes.col(i) = modes.shapes.cast<Complex>() * eigen.eigenvectors().col(k).head(m);
+    out.shapes.col(i) = shapes.cast<Complex>() * eigen.eigenvectors().col(k).head(m);
   }
   return out;
 }
@@ -198,6 +176,255 @@ StateModes normalised(const StructureState& state, std::vector<std::pair<Complex
   return modes;
 }
 
+/// All roots at once from the state space of the undamped modes, each then refined: slow, for where the roots can't be
+/// followed.
+StateModes solve_by_state_space(const StructureState& state, double highest_Hz, const UndampedModes& undamped) {
+  // Friction elements stick in the undamped start, as far as the lowest mode lets them.
+  const bool sliders = std::any_of(state.attachments.begin(), state.attachments.end(),
+                                   [](const Attachment& a) { return a.kind == Attachment::Kind::jenkins; });
+  const double highest = 6.0 * std::pow(2.0 * std::numbers::pi * highest_Hz, 2);
+  std::vector<Complex> friction;
+  double omega = 2.0 * std::numbers::pi * highest_Hz / 3.0;
+  for (const Attachment& a : state.attachments)
+    if (a.kind == Attachment::Kind::jenkins) friction.push_back(a.stiffness);
+  StateModes modes = state_space(state, undamped, highest, friction, omega);
+  if (sliders && modes.s.size() > 0) {
+    for (int pass = 0; pass < 2; ++pass) {
+      std::size_t k = 0;
+      for (const Attachment& a : state.attachments)
+        if (a.kind == Attachment::Kind::jenkins)
+          friction[k++] = dynamic_stiffness(a, modes.s[0], peak(state, modes.shapes.col(0), a.direction)).first;
+      omega = std::abs(modes.s[0]);
+      modes = state_space(state, undamped, highest, friction, omega);
+      if (modes.s.size() == 0) return modes;
+    }
+  }
+  std::vector<std::pair<Complex, VectorXcd>> found;
+  for (Index i = 0; i < modes.s.size() && modes.frequency_Hz(i) <= 1.1 * highest_Hz; ++i) {
+    Complex s = modes.s[i];
+    VectorXcd phi = modes.shapes.col(i).normalized();
+    refine(state, s, phi);
+    if (!oscillates(s)) continue;
+    if (std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); }))
+      found.emplace_back(s, phi);
+  }
+  return normalised(state, found);
+}
+
+/// Damped modes in the coordinates of the undamped ones, phi = Psi z: there T(s) = diag(1 + s² mu) + B D(s) B' for the p
+/// directions B of few attachments, so that a step of residual inverse iteration costs n p² operations where a factorisation of
+/// T costs n³. No mode is left out: the roots are those of T. Reference: Neumaier (1985), SIAM Journal on Numerical Analysis
+/// 22, 914-923.
+class ModalRoots {
+ public:
+  ModalRoots(const StructureState& state, const UndampedModes& modes) : state_(state), modes_(modes) {
+    b_.resize(state.stiffness.rows(), static_cast<Index>(state.attachments.size()));
+    for (Index k = 0; k < b_.cols(); ++k) {
+      const Attachment& a = state.attachments[static_cast<std::size_t>(k)];
+      b_.col(k) = a.direction;
+      sliders_ = sliders_ || a.kind == Attachment::Kind::jenkins;
+    }
+    bm_ = modes_.shapes.transpose() * b_;
+  }
+
+  /// From the roots of a state with the same attachments and other matrices. False where one is lost, or two end in one.
+  bool follow(const StateModes& neighbour, StateModes& out) const {
+    const Index n = modes_.size();
+    std::vector<std::pair<Complex, VectorXcd>> found;
+    for (Index i = 0; i < neighbour.s.size(); ++i) {
+      VectorXcd phi = VectorXcd::Zero(n);
+      phi.head(neighbour.shapes.rows()) = neighbour.shapes.col(i);
+      if (!add(neighbour.s[i], phi, found, true)) return false;
+    }
+    gather(found, out);
+    return true;
+  }
+
+  /// From the eigenvalues of a smaller linear problem: modes below `keep`, the others by their static part.
+  bool solve(double highest_Hz, StateModes& out) const {
+    VectorXcd forces = VectorXcd::Zero(b_.cols());
+    if (sliders_) {  // held by friction first; then as the lowest mode makes them slide
+      for (Index k = 0; k < b_.cols(); ++k) forces[k] = state_.attachments[static_cast<std::size_t>(k)].stiffness;
+      for (int pass = 0; pass < 2; ++pass) {
+        std::vector<std::pair<Complex, VectorXcd>> first;
+        for (const Complex s : starts(forces, 2.0 * std::numbers::pi * highest_Hz)) {
+          if (!add(s, {}, first, false)) continue;
+          for (Index k = 0; k < b_.cols(); ++k) {
+            const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
+            if (a.kind == Attachment::Kind::jenkins)
+              forces[k] = dynamic_stiffness(a, first[0].first, peak(state_, first[0].second, a.direction)).first;
+          }
+          break;
+        }
+      }
+    }
+    std::vector<std::pair<Complex, VectorXcd>> found;
+    for (const Complex s : starts(forces, 2.0 * std::numbers::pi * 1.1 * highest_Hz))
+      if (!add(s, {}, found, false)) return false;
+    gather(found, out);
+    return out.s.size() > 0;
+  }
+
+ private:
+  using Found = std::vector<std::pair<Complex, VectorXcd>>;
+
+  /// Refines a root and adds it. Roots that no longer vibrate are left out; false where one does not converge, or comes twice.
+  bool add(Complex s, VectorXcd phi, Found& found, bool must_oscillate) const {
+    if (!root(s, phi)) return false;
+    if (!oscillates(s)) return !must_oscillate;
+    for (const auto& other : found)
+      if (same_mode(other, s, phi)) return false;
+    found.emplace_back(s, phi);
+    return true;
+  }
+
+  static void gather(Found& found, StateModes& out) {
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& c) { return std::abs(a.first) < std::abs(c.first); });
+    out.s.resize(static_cast<Index>(found.size()));
+    if (found.empty()) return;
+    out.shapes.resize(found[0].second.size(), out.s.size());
+    for (Index j = 0; j < out.s.size(); ++j) {
+      out.s[j] = found[static_cast<std::size_t>(j)].first;
+      out.shapes.col(j) = found[static_cast<std::size_t>(j)].second;
+    }
+  }
+
+  /// Eigenvalues that vibrate, |s| below `highest`, with sliders as springs and dashpots `forces` [N/m]. In the low modes y:
+  /// y'' = -Lambda y - B f; each attachment follows the residual flexibility R of the other modes and its own spring:
+  /// f = (R + 1/k)^-1 (B'y - z) with z the stroke of its dashpot, c dz/dt = f.
+  [[nodiscard]] std::vector<Complex> starts(const VectorXcd& forces, double highest) const {
+    const Index p = b_.cols(), m = count_below(modes_, 1.5 * highest * highest);
+    const MatrixXd low = modes_.mu.head(m).cwiseSqrt().cwiseInverse().asDiagonal() * bm_.topRows(m);
+    MatrixXd flexibility = bm_.bottomRows(bm_.rows() - m).transpose() * bm_.bottomRows(bm_.rows() - m);
+    VectorXd rate = VectorXd::Zero(p), back = VectorXd::Zero(p);  // dz/dt = rate f - back z
+    for (Index k = 0; k < p; ++k) {
+      const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
+      flexibility(k, k) += 1e-6 * bm_.col(k).squaredNorm();
+      if (a.kind == Attachment::Kind::jenkins) {
+        const double spring = forces[k].real(), dashpot = forces[k].imag();
+        if (dashpot > 1e-3 * spring) {  // z has both beside each other
+          rate[k] = highest / (3.0 * dashpot);
+          back[k] = rate[k] * spring;
+        } else {
+          flexibility(k, k) += 1.0 / spring;
+          back[k] = highest;  // stays where it is
+        }
+      } else {
+        if (a.kind == Attachment::Kind::maxwell) flexibility(k, k) += 1.0 / a.stiffness;
+        rate[k] = 1.0 / std::max(a.damping, 1e-9);
+      }
+    }
+    const MatrixXd stiff = flexibility.llt().solve(MatrixXd::Identity(p, p));
+    MatrixXd system = MatrixXd::Zero(2 * m + p, 2 * m + p);
+    system.block(0, m, m, m).setIdentity();
+    system.block(m, 0, m, m) = -low * stiff * low.transpose();
+    for (Index i = 0; i < m; ++i) system(m + i, i) -= modes_.eigenvalue(i);
+    system.block(m, 2 * m, m, p) = low * stiff;
+    system.block(2 * m, 0, p, m) = rate.asDiagonal() * stiff * low.transpose();
+    system.block(2 * m, 2 * m, p, p) = -(rate.asDiagonal() * stiff);
+    system.block(2 * m, 2 * m, p, p).diagonal() -= back;
+    const Eigen::EigenSolver<MatrixXd> eigen(system, false);
+    std::vector<Complex> roots;
+    for (Index i = 0; i < system.rows(); ++i) {
+      const Complex s = eigen.eigenvalues()[i];
+      if (s.imag() > 1e-6 && oscillates(s) && std::abs(s) <= highest) roots.push_back(s);
+    }
+    std::sort(roots.begin(), roots.end(), [](Complex a, Complex c) { return std::abs(a) < std::abs(c); });
+    return roots;
+  }
+
+  /// T(s)^-1 v in the modes' coordinates: diagonal but for p directions (Woodbury's identity).
+  [[nodiscard]] VectorXcd inverse(Complex s, const VectorXcd& d, const VectorXcd& v) const {
+    const Index n = modes_.size(), p = b_.cols();
+    const Complex square = s * s - modes_.shift;
+    VectorXcd receptance(n);
+    for (Index i = 0; i < n; ++i) {
+      const Complex own = 1.0 + square * modes_.mu[i];
+      receptance[i] = 1.0 / (std::abs(own) > 1e-13 ? own : Complex(1e-13));
+    }
+    MatrixXcd h(p, p);
+    MatrixXd scaled = receptance.real().asDiagonal() * bm_;
+    h.real() = bm_.transpose() * scaled;
+    scaled = receptance.imag().asDiagonal() * bm_;
+    h.imag() = bm_.transpose() * scaled;
+    h = (h * d.asDiagonal()).eval();
+    h.diagonal().array() += 1.0;
+    VectorXcd y = receptance.cwiseProduct(v), q(p);
+    q.real() = bm_.transpose() * y.real();
+    q.imag() = bm_.transpose() * y.imag();
+    const VectorXcd f = d.cwiseProduct(VectorXcd(h.partialPivLu().solve(q)));
+    VectorXcd back(n);
+    back.real() = bm_ * f.real();
+    back.imag() = bm_ * f.imag();
+    return y - receptance.cwiseProduct(back);
+  }
+
+  /// Residual inverse iteration from s, and from phi where it is given, until s stands still.
+  bool root(Complex& s, VectorXcd& phi) const {
+    const Index n = modes_.size(), p = b_.cols();
+    VectorXcd d(p), d_prime(p), q(p), z = VectorXcd::Ones(n);
+    const auto forces = [&](bool first, double relax) {
+      for (Index k = 0; k < p; ++k) {
+        const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
+        const bool slides = a.kind == Attachment::Kind::jenkins;
+        const auto [now, slope] = dynamic_stiffness(a, s, slides && phi.size() > 0 ? peak(state_, phi, a.direction) : 0.0);
+        d[k] = slides && !first ? relax * now + (1.0 - relax) * d[k] : now;
+        d_prime[k] = slope;
+      }
+    };
+    const auto shape = [&] {
+      phi.resize(n);
+      phi.real() = modes_.shapes * z.real();
+      phi.imag() = modes_.shapes * z.imag();
+    };
+    if (phi.size() > 0) {  // K-orthonormal modes: z = Psi' (K + shift M) phi
+      const VectorXd re = state_.stiffness * phi.real() + modes_.shift * (state_.mass * phi.real());
+      const VectorXd im = state_.stiffness * phi.imag() + modes_.shift * (state_.mass * phi.imag());
+      z.real() = modes_.shapes.transpose() * re;
+      z.imag() = modes_.shapes.transpose() * im;
+      forces(true, 1.0);
+    } else {
+      forces(true, 1.0);
+      for (int i = 0; i < 2; ++i) z = inverse(s, d, z).normalized();
+    }
+    for (int iteration = 0; iteration < (sliders_ ? 60 : 15); ++iteration) {
+      if (sliders_) shape();
+      if (sliders_ || iteration > 0)
+        forces(iteration == 0, iteration > 8 ? 0.4 : 1.0);  // strokes and forces may answer each other in turn
+      q.real() = bm_.transpose() * z.real();
+      q.imag() = bm_.transpose() * z.imag();
+      const Complex mass = (z.array().square() * modes_.mu.array()).sum();
+      const Complex value = (z.array().square()).sum() + (s * s - modes_.shift) * mass + (d.array() * q.array().square()).sum();
+      const Complex slope = 2.0 * s * mass + (d_prime.array() * q.array().square()).sum();
+      const Complex step = value / slope;
+      if (!std::isfinite(std::abs(step)) || std::abs(step) > 0.5 * std::abs(s)) return false;
+      s -= step;
+      const bool small = std::abs(step) < (sliders_ ? 1e-8 : 1e-10) * std::abs(s);
+      VectorXcd v = 2.0 * s * z.cwiseProduct(modes_.mu);
+      const VectorXcd force = d_prime.cwiseProduct(q);
+      v.real() += bm_ * force.real();
+      v.imag() += bm_ * force.imag();
+      z = inverse(s, d, v).normalized();
+      if (!z.allFinite()) return false;
+      if (small && iteration > 0) {
+        shape();
+        q.real() = bm_.transpose() * z.real();
+        q.imag() = bm_.transpose() * z.imag();
+        const Complex scale =
+            2.0 * s * (z.array().square() * modes_.mu.array()).sum() + (d_prime.array() * q.array().square()).sum();
+        phi /= std::sqrt(scale / (2.0 * s));
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const StructureState& state_;
+  const UndampedModes& modes_;
+  MatrixXd b_, bm_;  // directions (n × p) over the coordinates and in the modes
+  bool sliders_ = false;
+};
+
 }  // namespace
 
 double StateModes::frequency_Hz(Index i) const { return std::abs(s[i]) / (2.0 * std::numbers::pi); }
@@ -223,64 +450,21 @@ std::complex<double> sliding_stiffness(double stiffness, double threshold_N, dou
   return stiffness * dashpot / (stiffness + dashpot);
 }
 
-StateModes solve_state(const StructureState& state, double highest_Hz) {
+StateModes solve_state(const StructureState& state, double highest_Hz, UndampedStore& store, const StateModes* neighbour) {
   const double highest = std::pow(2.0 * std::numbers::pi * highest_Hz, 2);
+  const UndampedModes& undamped = store.of(state.stiffness, state.mass);
+  StateModes modes;
   if (!state.damped()) {
-    const RealModes real = real_modes(state.stiffness, state.mass, highest);
-    StateModes modes;
-    modes.s.resize(real.eigenvalue.size());
-    for (Index i = 0; i < modes.s.size(); ++i) modes.s[i] = Complex(0.0, std::sqrt(real.eigenvalue[i]));
-    modes.shapes = real.shapes.cast<Complex>();
+    const Index count = count_below(undamped, highest);
+    modes.s.resize(count);
+    for (Index i = 0; i < count; ++i) modes.s[i] = Complex(0.0, std::sqrt(undamped.eigenvalue(i)));
+    modes.shapes = mass_normalised(undamped, count).cast<Complex>();
     return modes;
   }
-  // Friction elements stick in the undamped start, as far as the lowest mode lets them.
-  const bool sliders = std::any_of(state.attachments.begin(), state.attachments.end(),
-                                   [](const Attachment& a) { return a.kind == Attachment::Kind::jenkins; });
-  const RealModes real = real_modes(state.stiffness, state.mass, 6.0 * highest);
-  std::vector<Complex> friction;
-  double omega = 2.0 * std::numbers::pi * highest_Hz / 3.0;
-  for (const Attachment& a : state.attachments)
-    if (a.kind == Attachment::Kind::jenkins) friction.push_back(a.stiffness);
-  StateModes modes = state_space(state, real, friction, omega);
-  if (sliders && modes.s.size() > 0) {
-    for (int pass = 0; pass < 2; ++pass) {
-      std::size_t k = 0;
-      for (const Attachment& a : state.attachments)
-        if (a.kind == Attachment::Kind::jenkins)
-          friction[k++] = dynamic_stiffness(a, modes.s[0], peak(state, modes.shapes.col(0), a.direction)).first;
-      omega = std::abs(modes.s[0]);
-      modes = state_space(state, real, friction, omega);
-      if (modes.s.size() == 0) return modes;
-    }
-  }
-  std::vector<std::pair<Complex, VectorXcd>> found;
-  for (Index i = 0; i < modes.s.size() && modes.frequency_Hz(i) <= 1.1 * highest_Hz; ++i) {
-    Complex s = modes.s[i];
-    VectorXcd phi = modes.shapes.col(i).normalized();
-    refine(state, s, phi);
-    if (!oscillates(s)) continue;
-    if (std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); }))
-      found.emplace_back(s, phi);
-  }
-  return normalised(state, found);
-}
-
-bool follow_state(const StructureState& state, const StateModes& neighbour, StateModes& modes) {
-  const Index n = state.stiffness.rows();
-  if (neighbour.shapes.rows() > n) return false;
-  std::vector<std::pair<Complex, VectorXcd>> found;
-  for (Index i = 0; i < neighbour.s.size(); ++i) {
-    Complex s = neighbour.s[i];
-    VectorXcd phi = VectorXcd::Zero(n);
-    phi.head(neighbour.shapes.rows()) = neighbour.shapes.col(i);
-    phi.normalize();
-    refine(state, s, phi);
-    if (!oscillates(s)) return false;
-    if (std::any_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); })) return false;
-    found.emplace_back(s, phi);
-  }
-  modes = normalised(state, found);
-  return true;
+  const ModalRoots roots(state, undamped);
+  if (neighbour != nullptr && roots.follow(*neighbour, modes)) return modes;
+  if (roots.solve(highest_Hz, modes)) return modes;
+  return solve_by_state_space(state, highest_Hz, undamped);
 }
 
 ModeDerivative differentiate(const StructureState& state, const StateModes& modes, Index mode,

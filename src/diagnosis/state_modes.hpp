@@ -4,6 +4,8 @@
 #include <complex>
 #include <vector>
 
+#include "diagnosis/undamped_modes.hpp"
+
 namespace twindeck::diagnosis {
 
 /// A one-dimensional element between the structure's motion b'u and the ground (or a second point that b includes).
@@ -42,14 +44,13 @@ struct StateModes {
 [[nodiscard]] std::complex<double> sliding_stiffness(double stiffness, double threshold_N, double damping, double omega,
                                                      double amplitude_m);
 
-/// Modes up to `highest_Hz`. Undamped states by a symmetric eigenproblem; damped ones by state space in the undamped modes, each
-/// then refined on the nonlinear problem T(s) phi = 0, T = s² M + K + sum d_k(s, X_k) b_k b_k', by residual inverse iteration,
-/// where X_k is the mode's own amplitude at the element.
-[[nodiscard]] StateModes solve_state(const StructureState& state, double highest_Hz);
-
-/// Modes of a changed state found from those of a neighbour, which may lack the last degrees of freedom. False where two of them end
-/// in one, or one is lost: then the state must be solved anew.
-[[nodiscard]] bool follow_state(const StructureState& state, const StateModes& neighbour, StateModes& modes);
+/// Modes up to `highest_Hz`. Undamped states by a symmetric eigenproblem; damped ones, T(s) phi = 0 with
+/// T = s² M + K + sum d_k(s, X_k) b_k b_k' and X_k the mode's own amplitude at the element, by Newton on their characteristic
+/// equation in the undamped modes. It starts from the roots of `neighbour` (same attachments, other matrices) where there is one, else
+/// from the eigenvalues of the low modes. Where two roots end in one, or one is lost: a larger state space, each root then refined.
+/// @param store  undamped modes known so far
+[[nodiscard]] StateModes solve_state(const StructureState& state, double highest_Hz, UndampedStore& store,
+                                     const StateModes* neighbour = nullptr);
 
 /// Derivatives of one mode with respect to changes dK_j, dM_j, from the bordered system (Nelson 1976; Lee, Kim and Jung 1999 for
 /// damped systems). Amplitudes at friction elements are held.

@@ -39,7 +39,7 @@ void grow(StructureState& state) {
 }  // namespace
 
 Predictor::Predictor(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, bool with_jacobian)
-    : map_(map), base_(base), causes_(causes), with_jacobian_(with_jacobian) {
+    : map_(map), base_(base), causes_(causes), with_jacobian_(with_jacobian), undamped_(&base.store->undamped) {
   read_channels();
 }
 
@@ -210,7 +210,7 @@ SolvedState& Predictor::solved(int c) {
   if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
   const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
   // What the state depends on: conditions and causes that agree in it share one solution.
-  bool temperature = false, amplitude = false, wind = false, sticks = false;
+  bool temperature = false, amplitude = false, wind = false, dampers_change = false;
   std::vector<double> acting;
   std::vector<int> columns;
   for (int k = 0; k < map_.model().common; ++k) columns.push_back(k);
@@ -224,8 +224,8 @@ SolvedState& Predictor::solved(int c) {
       const std::string key = named == action.text.end() ? "temperature_C" : named->second;
       temperature = temperature || (field && key == "temperature_C");
       amplitude = amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
-      sticks = sticks || action.kind == "damper.friction";
       wind = wind || (field && key == "wind_m_s");
+      dampers_change = dampers_change || action.kind.starts_with("damper.");
     }
     if (!any) continue;
     // The catalogue entry itself and its magnitudes name the cause.
@@ -237,10 +237,7 @@ SolvedState& Predictor::solved(int c) {
   }
   const auto dampers = map_.model().sets.find("dampers");
   if (dampers != map_.model().sets.end() && condition.dampers_on.value_or(false))
-    for (const ReducedPlace& damper : dampers->second) {
-      amplitude = amplitude || damper.attributes.contains("friction");
-      sticks = sticks || damper.attributes.contains("friction");
-    }
+    for (const ReducedPlace& damper : dampers->second) amplitude = amplitude || damper.attributes.contains("friction");
   const double unknown = -1e300;
   std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : unknown, condition.people.value_or(0.0)};
   key.push_back(temperature ? condition.temperature_C.value_or(unknown) : 0.0);
@@ -256,15 +253,15 @@ SolvedState& Predictor::solved(int c) {
     entry = std::make_shared<SolvedState>();
     columns_ = entry->columns = columns;
     entry->state = build_state(condition);
-    // Damped modes follow from those without the causes where nothing sticks or vibrates on its own.
-    const auto plain = states.find({{}, key});
-    const bool follows = !acting.empty() && !sticks && plain != states.end() && entry->state.damped() &&
-                         entry->state.stiffness.rows() == static_cast<Index>(columns.size());
-    if (!follows || !follow_state(entry->state, plain->second->modes, entry->modes))
-      entry->modes = solve_state(entry->state, map_.highest_Hz_);
     // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
-    if (acting.empty() || with_jacobian_ || causes_.size() > 1) states[{acting, key}] = entry;
-    else own_[{acting, key}] = entry;
+    const bool kept = acting.empty() || with_jacobian_;
+    // Damped modes follow from those without the causes where these leave the dampers alone and nothing vibrates on its own.
+    const auto plain = states.find({{}, key});
+    const bool follows = !acting.empty() && !dampers_change && plain != states.end() &&
+                         entry->state.stiffness.rows() == static_cast<Index>(columns.size());
+    entry->modes = solve_state(entry->state, map_.highest_Hz_, kept ? base_.store->undamped : undamped_,
+                               follows ? &plain->second->modes : nullptr);
+    (kept ? states : own_)[{acting, key}] = entry;
   }
   of_condition_[c] = entry.get();
   return *entry;

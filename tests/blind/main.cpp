@@ -1,14 +1,22 @@
-/// blind_trials N [first seed]: runs sealed cases, scores them, prints the table with 95 % intervals. Exit code 1 when an interval lies
-/// wholly on the wrong side of its target (DIAGNOSIS 5.4), 0 otherwise.
+/// blind_trials N [first seed]: runs sealed cases, scores them, prints the table with 95 % intervals. Exit code 1 when an
+/// interval lies wholly on the wrong side of its target, or one of the first sixty nulls is an alarm; 0 otherwise. A signal, or
+/// the seconds of TWINDECK_BLIND_SECONDS, ends the run with the table of what was done. blind_trials --nulls N: calibration of
+/// the residual test.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <optional>
 #include <random>
+#include <string>
+#include <tuple>
 
 #include "blind/trial.hpp"
 
@@ -37,33 +45,124 @@ struct Table {
     const auto [low, high] = wilson(k, n);
     const bool wrong = n > 0 && (at_least ? high < target : low > target);
     held = held && !wrong;
-    fmt::print("  {:<58} {:>4}/{:<4} {:>5.1f} %  [{:>5.1f}, {:>5.1f}]  target {} {:>3.0f} %  {}\n", what, k, n, n ? 100.0 * k / n : 0.0, 100.0 * low,
-               100.0 * high, at_least ? ">=" : "<=", 100.0 * target, n == 0 ? "no case" : wrong ? "MISSED" : "held");
+    fmt::print("  {:<58} {:>4}/{:<4} {:>5.1f} %  [{:>5.1f}, {:>5.1f}]  target {} {:>3.0f} %  {}\n", what, k, n,
+               n ? 100.0 * k / n : 0.0, 100.0 * low, 100.0 * high, at_least ? ">=" : "<=", 100.0 * target,
+               n == 0  ? "no case"
+               : wrong ? "MISSED"
+                       : "held");
   }
 };
+
+volatile std::sig_atomic_t stopped = 0;
+void stop(int) { stopped = 1; }
+
+double median(std::vector<double> v) {
+  if (v.empty()) return std::nan("");
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+std::string line_of(std::uint64_t seed, const Score& s) {
+  return fmt::format("{:>4} {:<9} D {:>7.1f} chi2/dof {:.2f} p {:.3g} s {:>5.1f} gain {:.2f} {:>5.2f} s | {} | found {}", seed,
+                     s.verdict, s.log_odds, s.chi_squared_ratio, s.p_value, s.sigma, s.held_out_ratio, s.seconds, s.seal,
+                     s.found.empty() ? "nothing" : s.found);
+}
+
+/// Runs `work(i)` for i < count on all threads, results printed in order as they come; stops early at a signal or when
+/// `seconds` have passed, and returns what was done without a gap.
+std::vector<Score> run_all(int count, double seconds, const std::function<Score(int)>& work,
+                           const std::function<std::string(int, const Score&)>& line) {
+  std::vector<std::optional<Score>> done(static_cast<std::size_t>(count));
+  std::size_t printed = 0;
+  const auto begin = std::chrono::steady_clock::now();
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < count; ++i) {
+    if (stopped || std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > seconds) continue;
+    Score score = work(i);
+#pragma omp critical
+    {
+      done[static_cast<std::size_t>(i)] = std::move(score);
+      for (; printed < done.size() && done[printed]; ++printed)
+        fmt::print("{}\n", line(static_cast<int>(printed), *done[printed]));
+      std::fflush(stdout);
+    }
+  }
+  std::vector<Score> scores;
+  for (const auto& s : done) {
+    if (!s) break;
+    scores.push_back(*s);
+  }
+  return scores;
+}
+
+/// Nulls alone: how often the residual test rejects, and what is named when the noise is understated.
+int null_calibration(const twindeck::blind::Bench& bench, int count, std::uint64_t first) {
+  std::vector<double> p(static_cast<std::size_t>(count), 1.0), ratio(p);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < count; ++i) {
+    const auto test = twindeck::blind::residual_test(bench, first + static_cast<std::uint64_t>(i));
+    p[static_cast<std::size_t>(i)] = test.p_value;
+    ratio[static_cast<std::size_t>(i)] = test.chi_squared / test.dof;
+  }
+  double mean = 0.0;
+  for (const double r : ratio) mean += r / count;
+  bool held = true;
+  for (const auto& [level, low, high] : {std::tuple{0.05, 0.025, 0.08}, std::tuple{0.01, 0.0, 0.025}}) {
+    const auto k = static_cast<int>(std::count_if(p.begin(), p.end(), [&, l = level](double v) { return v < l; }));
+    const auto [from, to] = wilson(k, count);
+    const bool wrong = to < low || from > high;
+    held = held && !wrong;
+    fmt::print("residual test at {:.0f} %: rejects {}/{} nulls = {:.1f} % [{:.1f}, {:.1f}], target {:.1f} to {:.1f} %  {}\n",
+               100.0 * level, k, count, 100.0 * k / count, 100.0 * from, 100.0 * to, 100.0 * low, 100.0 * high,
+               wrong ? "MISSED" : "held");
+  }
+  fmt::print("mean chi2/dof {:.3f}\n", mean);
+  const auto scores = run_all(
+      count, 1e9,
+      [&](int i) {
+        return twindeck::blind::run_case(bench,
+                                         twindeck::blind::make_case(bench, first + static_cast<std::uint64_t>(i), 1.3, true));
+      },
+      [&](int i, const Score& s) { return "noise x 1.3: " + line_of(first + static_cast<std::uint64_t>(i), s); });
+  const auto named =
+      static_cast<int>(std::count_if(scores.begin(), scores.end(), [](const Score& s) { return !s.found.empty(); }));
+  const auto [from, to] = wilson(named, static_cast<int>(scores.size()));
+  fmt::print("noise 30 % larger than declared: a cause named in {}/{} nulls = {:.1f} % [{:.1f}, {:.1f}]\n", named,
+             scores.size(), scores.empty() ? 0.0 : 100.0 * named / static_cast<double>(scores.size()), 100.0 * from,
+             100.0 * to);
+  return held && from <= 0.02 ? 0 : 1;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Eigen::setNbThreads(1);
-  const int count = argc > 1 ? std::atoi(argv[1]) : 60;
-  const auto first = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
+  std::signal(SIGTERM, stop);
+  std::signal(SIGINT, stop);
+  const bool nulls = argc > 1 && std::string(argv[1]) == "--nulls";
+  const int shift = nulls ? 1 : 0;
+  const int count = argc > 1 + shift ? std::atoi(argv[1 + shift]) : 60;
+  const auto first = static_cast<std::uint64_t>(argc > 2 + shift ? std::atoll(argv[2 + shift]) : nulls ? 100001 : 1);
+  const char* budget = std::getenv("TWINDECK_BLIND_SECONDS");
   const auto bench = twindeck::blind::make_bench();
-  fmt::print("{} rows, truth on {} dofs, diagnosis on {} dofs\n", bench.rows.rows.size(), bench.truth.model->loaded.system.size(),
-             bench.diagnosing.model->loaded.system.size());
-  std::vector<Score> scores;
-  std::map<std::string, std::array<int, 4>> families;
+  const auto catalogue = twindeck::blind::families_of(bench);
+  fmt::print(
+      "{} rows, truth on {} dofs, diagnosis on {} dofs, {} families have a place here; thresholds: at least 3 nats (analytic "
+      "tail at 1 %: {:.1f})\n",
+      bench.rows.rows.size(), bench.truth.model->loaded.system.size(), bench.diagnosing.model->loaded.system.size(),
+      catalogue.size(), twindeck::blind::threshold_of(bench));
+  if (nulls) return null_calibration(bench, count, first);
   const auto run = [&](std::uint64_t seed) {
-    const auto hidden = twindeck::blind::make_case(bench, seed);
-    const Score s = twindeck::blind::run_case(bench, hidden);
-    fmt::print("{:>4} {:<9} D {:>7.1f} chi2/dof {:.2f} p {:.3g} s {:>5.1f} {:>5.2f} s | {} | found {}\n", seed, s.verdict, s.log_odds, s.chi_squared_ratio,
-               s.p_value, s.sigma, s.seconds, s.seal, s.found.empty() ? "nothing" : s.found);
-    std::fflush(stdout);
-    return s;
+    return twindeck::blind::run_case(bench, twindeck::blind::make_case(bench, seed));
   };
-  for (int i = 0; i < count; ++i) {
-    scores.push_back(run(first + static_cast<std::uint64_t>(i)));
-    const Score& s = scores.back();
+  const auto scores = run_all(
+      count, budget ? std::atof(budget) : 1e9, [&](int i) { return run(first + static_cast<std::uint64_t>(i)); },
+      [&](int i, const Score& s) { return line_of(first + static_cast<std::uint64_t>(i), s); });
+  if (static_cast<int>(scores.size()) < count)
+    fmt::print("{} of {} trials ran in the time given: the first ones in order, none left out\n", scores.size(), count);
+  std::map<std::string, std::array<int, 4>> families;
+  for (const std::string& family : catalogue) families[family] = {};
+  for (const Score& s : scores) {
     auto& f = families[s.kind == "effect" ? s.family : "(" + s.kind + ")"];
     f[0] += 1;
     f[1] += s.detected;
@@ -77,31 +176,70 @@ int main(int argc, char** argv) {
   const auto found = [&](const Score& s) { return effect(s) && s.detected; };
   fmt::print("\nscore, 95 % intervals of Wilson\n");
   Table table;
-  table.line("false alarms on nulls (a name or unknown)", scores, null, [](const Score& s) { return s.detected; }, 0.02, false);
-  table.line("names given on nulls", scores, null, [](const Score& s) { return !s.found.empty(); }, 0.02, false);
-  table.line("gain claimed on nulls", scores, null, [](const Score& s) { return s.gain_claimed; }, 0.05, false);
-  table.line("detection, 6 sigma and above", scores, [&](const Score& s) { return effect(s) && s.sigma >= 6.0; }, [](const Score& s) { return s.detected; }, 0.97, true);
-  table.line("detection, 4 to 6 sigma", scores, [&](const Score& s) { return effect(s) && s.sigma >= 4.0 && s.sigma < 6.0; }, [](const Score& s) { return s.detected; }, 0.50, true);
-  table.line("family named, given detected", scores, found, [](const Score& s) { return s.family_named; }, 0.97, true);
-  table.line("exact entry, given detected and alone in its set", scores, [&](const Score& s) { return found(s) && s.set_size == 1; }, [](const Score& s) { return s.exact; }, 0.93, true);
-  table.line("truth in the reported set, given detected", scores, found, [](const Score& s) { return s.in_set; }, 0.97, true);
-  table.line("90 % interval covers the magnitude", scores, [](const Score& s) { return s.sized; }, [](const Score& s) { return s.covered; }, 0.85, true);
-  table.line("both of two causes named", scores, [](const Score& s) { return s.kind == "two"; }, [](const Score& s) { return s.both; }, 0.75, true);
-  table.line("outside the catalogue: no passing wrong name", scores, [](const Score& s) { return s.kind == "outside"; }, [](const Score& s) { return s.unknown; }, 0.90, true);
-  double sizes = 0.0, seconds = 0.0;
+  table.line(
+      "false alarms on nulls (a name or unknown)", scores, null, [](const Score& s) { return s.detected; }, 0.02, false);
+  table.line(
+      "names given on nulls", scores, null, [](const Score& s) { return !s.found.empty(); }, 0.02, false);
+  table.line(
+      "gain claimed on nulls", scores, null, [](const Score& s) { return s.gain_claimed; }, 0.05, false);
+  table.line(
+      "detection, 6 sigma and above", scores, [&](const Score& s) { return effect(s) && s.sigma >= 6.0; },
+      [](const Score& s) { return s.detected; }, 0.97, true);
+  table.line(
+      "detection, 4 to 6 sigma", scores, [&](const Score& s) { return effect(s) && s.sigma >= 4.0 && s.sigma < 6.0; },
+      [](const Score& s) { return s.detected; }, 0.50, true);
+  table.line(
+      "family named, given detected", scores, found, [](const Score& s) { return s.family_named; }, 0.97, true);
+  table.line(
+      "exact entry, given detected and alone in its set", scores, [&](const Score& s) { return found(s) && s.set_size == 1; },
+      [](const Score& s) { return s.exact; }, 0.93, true);
+  table.line(
+      "truth in the reported set, given detected", scores, found, [](const Score& s) { return s.in_set; }, 0.97, true);
+  table.line(
+      "90 % interval covers the magnitude", scores, [](const Score& s) { return s.sized; },
+      [](const Score& s) { return s.covered; }, 0.85, true);
+  table.line(
+      "both of two causes named", scores, [](const Score& s) { return s.kind == "two"; }, [](const Score& s) { return s.both; },
+      0.75, true);
+  table.line(
+      "outside the catalogue: no passing wrong name", scores, [](const Score& s) { return s.kind == "outside"; },
+      [](const Score& s) { return s.unknown; }, 0.90, true);
+  double sizes = 0.0, squares = 0.0, seconds = 0.0, slowest = 0.0;
   int sets = 0;
+  std::vector<double> ratios;
+  std::map<std::string, std::vector<double>> errors;
   for (const Score& s : scores) {
-    seconds = std::max(seconds, s.seconds);
+    seconds += s.seconds / static_cast<double>(scores.size());
+    slowest = std::max(slowest, s.seconds);
     if (found(s) && s.set_size > 0) {
       sizes += s.set_size;
+      squares += s.set_size * s.set_size;
       ++sets;
+      ratios.push_back(s.held_out_ratio);
     }
+    if (s.sized) errors[s.family].push_back(s.magnitude_error);
   }
-  fmt::print("  mean size of the reported set {:.2f} (target <= 1.5); slowest trial {:.2f} s (target <= 5 s)\n", sets ? sizes / sets : 0.0, seconds);
+  if (sets > 1) {
+    const double mean = sizes / sets, half = 1.96 * std::sqrt(std::max(squares / sets - mean * mean, 0.0) / (sets - 1));
+    const bool wrong = mean - half > 1.5;
+    table.held = table.held && !wrong;
+    fmt::print("  mean size of the reported set {:.2f} [{:.2f}, {:.2f}], target <= 1.5  {}\n", mean, mean - half, mean + half,
+               wrong ? "MISSED" : "held");
+    const double ratio = median(ratios);
+    fmt::print("  held-out RMS, after over before, median of {} accepted causes {:.2f}, target <= 0.8\n", ratios.size(), ratio);
+  }
+  fmt::print("  CPU seconds a trial: mean {:.2f}, largest {:.2f}, target <= 5\n", seconds, slowest);
+  fmt::print("median relative error of the magnitude, where the entry is exact:");
+  for (const auto& [family, values] : errors) fmt::print(" {} {:.1f} % ({})", family, 100.0 * median(values), values.size());
+  fmt::print("\n");
+  const auto alarms = std::count_if(scores.begin(), scores.end(), [&](const Score& s) { return null(s) && s.detected; });
+  if (first == 1 && count <= 60 && alarms > 0) {
+    table.held = false;
+    fmt::print("{} false alarm(s) among the fixed nulls\n", alarms);
+  }
   if (std::getenv("TWINDECK_FRESH") != nullptr) {
     const std::uint64_t seed = std::random_device{}();
-    fmt::print("\none trial with a fresh seed, {}:\n", seed);
-    run(seed);
+    fmt::print("\none trial with a fresh seed, {}:\n{}\n", seed, line_of(seed, run(seed)));
   }
   fmt::print("{}\n", table.held ? "targets held" : "a target is missed");
   return table.held ? 0 : 1;

@@ -46,9 +46,22 @@ struct Case {
   Sealed seal;
 };
 
-/// Case number `seed`: a quarter nulls, 15 % outside the catalogue, 5 % with two causes; family, place and magnitude from one
-/// stream.
-[[nodiscard]] Case make_case(const Bench& bench, std::uint64_t seed);
+/// Case number `seed`: of twenty five nulls, three outside the catalogue, one with two causes; families in turn, place and
+/// magnitude from one stream.
+/// @param noise_scale  of the errors against the declared deviations @param null  whatever the number says
+[[nodiscard]] Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale = 1.0, bool null = false);
+
+/// The residual test alone on a null.
+struct NullTest {
+  double chi_squared;
+  int dof;
+  double p_value;
+};
+[[nodiscard]] NullTest residual_test(const Bench& bench, std::uint64_t seed);
+/// The analytic threshold of this bench at 1 %.
+[[nodiscard]] double threshold_of(const Bench& bench);
+/// Families that have a place on this bench. Called once before threads: it prepares what all cases share.
+[[nodiscard]] std::vector<std::string> families_of(const Bench& bench);
 
 struct Score {
   std::string kind, family;
@@ -57,7 +70,7 @@ struct Score {
        gain_claimed = false;
   bool covered = false, sized = false;
   int set_size = 0;
-  double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, held_out_ratio = 1.0;
+  double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, held_out_ratio = 1.0, magnitude_error = 0.0;
   std::string verdict, found, seal;
 };
 

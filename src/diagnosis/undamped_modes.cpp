@@ -1,0 +1,44 @@
+#include "diagnosis/undamped_modes.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <limits>
+
+namespace twindeck::diagnosis {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+UndampedModes::UndampedModes(const MatrixXd& k, const MatrixXd& m) : stiffness(k), mass(m) {
+  Eigen::LLT<MatrixXd> factor(k);
+  if (factor.info() != Eigen::Success) {  // free as a rigid body
+    shift = 1e-7 * k.trace() / m.trace();
+    factor.compute(k + shift * m);
+  }
+  const MatrixXd half = factor.matrixL().solve(m);
+  MatrixXd a = factor.matrixL().solve(half.transpose());
+  a = (0.5 * (a + a.transpose())).eval();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(a);
+  mu = eigen.eigenvalues().reverse().cwiseMax(0.0);
+  shapes = factor.matrixU().solve(MatrixXd(eigen.eigenvectors().rowwise().reverse()));
+}
+
+double UndampedModes::eigenvalue(Index i) const {
+  return mu[i] > 0.0 ? std::max(1.0 / mu[i] - shift, 0.0) : std::numeric_limits<double>::infinity();
+}
+
+bool UndampedModes::belongs_to(const MatrixXd& k, const MatrixXd& m) const {
+  return k.rows() == stiffness.rows() && k == stiffness && m == mass;
+}
+
+const UndampedModes& UndampedStore::of(const MatrixXd& stiffness, const MatrixXd& mass) {
+  for (const UndampedStore* store : {shared_, static_cast<const UndampedStore*>(this)})
+    if (store != nullptr)
+      for (const auto& modes : store->known_)
+        if (modes->belongs_to(stiffness, mass)) return *modes;
+  known_.push_back(std::make_shared<const UndampedModes>(stiffness, mass));
+  return *known_.back();
+}
+
+}  // namespace twindeck::diagnosis
