@@ -15,8 +15,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// What misfit is left even with the best cause widens every likelihood (Birge 1932), so that a badly stated noise names nothing. Up
-/// to a factor: misfit beyond any honest mistake about the noise is a further cause, and must not hide the first.
+/// What misfit is left even with the best cause widens every likelihood (Birge 1932), so that a badly stated noise names
+/// nothing. Up to a factor: misfit beyond any honest mistake about the noise is a further cause, and must not hide the first.
 double birge(const Scored& best, int dof) { return std::clamp(best.remaining / std::max(1, dof), 1.0, 3.0); }
 
 double tempered(const Scored& scored, double ratio) {
@@ -58,7 +58,8 @@ std::string splitting_measurement(const Inference& inference, const Fit& base, c
   if (a.hypothesis->measurement || b.hypothesis->measurement) {
     std::string names;
     for (const Candidate* c : {&a, &b})
-      for (const int channel : c->channels) names += (names.empty() ? "" : ", ") + map.features().channels[static_cast<std::size_t>(channel)];
+      for (const int channel : c->channels)
+        names += (names.empty() ? "" : ", ") + map.features().channels[static_cast<std::size_t>(channel)];
     return "a repeated record with a second, calibrated sensor beside " + names;
   }
   const auto nodes = map.model().sets.find("nodes");
@@ -141,11 +142,14 @@ void check_backwards(const Inference& inference, Fit& current, std::vector<Effec
 
 }  // namespace
 
+double tempered_log_odds(const Scored& best, int dof) { return tempered(best, birge(best, dof)); }
+
 double analytic_threshold(const Inference& inference, double alpha) {
   const auto tail = [&](double d) {
     double sum = 0.0;
     for (const auto& candidate : inference.candidates())
-      sum += chi_squared_tail(2.0 * (d - candidate->log_prior), std::max<double>(1.0, static_cast<double>(candidate->low.size())));
+      sum +=
+          chi_squared_tail(2.0 * (d - candidate->log_prior), std::max<double>(1.0, static_cast<double>(candidate->low.size())));
     return sum;
   };
   double low = -10.0, high = 30.0;
@@ -231,14 +235,23 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     if (u < v.lower + 0.02 * range || u > v.upper - 0.02 * range) out.on_bounds.push_back(v.name);
   }
   const bool rejects = out.residual_p < options.residual_alpha;
-  const bool fits_but_does_not_predict = !out.effects.empty() && out.gain.rows > 0 && out.gain.high_pct < 0.0;
-  const bool ambiguous = std::any_of(out.effects.begin(), out.effects.end(), [](const Effect& e) { return e.cluster.size() > 1; });
-  if (rejects || fits_but_does_not_predict) out.verdict = "unknown";
-  else if (out.effects.empty()) out.verdict = "none";
-  else out.verdict = ambiguous ? "ambiguous" : "named";
-  if (out.verdict == "none") out.message = fmt::format("nothing found (largest log odds {:.1f}, threshold {:.1f})", out.log_odds, out.threshold);
+  // Held-out rows speak against a cause where they lose by more than chance, and by as many nats as a name must win.
+  const double loss = 0.5 * out.gain.rows * (out.gain.after * out.gain.after - out.gain.before * out.gain.before);
+  const bool fits_but_does_not_predict =
+      !out.effects.empty() && out.gain.rows > 0 && out.gain.high_pct < 0.0 && loss > options.least_log_odds;
+  const bool ambiguous =
+      std::any_of(out.effects.begin(), out.effects.end(), [](const Effect& e) { return e.cluster.size() > 1; });
+  if (rejects || fits_but_does_not_predict)
+    out.verdict = "unknown";
+  else if (out.effects.empty())
+    out.verdict = "none";
+  else
+    out.verdict = ambiguous ? "ambiguous" : "named";
+  if (out.verdict == "none")
+    out.message = fmt::format("nothing found (largest log odds {:.1f}, threshold {:.1f})", out.log_odds, out.threshold);
   if (out.verdict == "unknown") {
-    out.message = rejects ? "something is missing that no entry of the catalogue explains" : "the best cause fits but does not predict the held-out rows";
+    out.message = rejects ? "something is missing that no entry of the catalogue explains"
+                          : "the best cause fits but does not predict the held-out rows";
     if (!out.effects.empty()) out.message += "; it acts like " + out.effects.front().cluster.front();
   }
   if (out.verdict == "named" || out.verdict == "ambiguous") out.message = out.effects.front().sentence;

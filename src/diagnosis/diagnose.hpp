@@ -9,15 +9,15 @@
 namespace twindeck::diagnosis {
 
 struct DiagnoseOptions {
-  double alpha = 0.01;            ///< false alarms allowed by the threshold
-  double least_log_odds = 3.0;    ///< a name is given only above this, whatever the threshold of the nulls
-  double threshold = 3.0;         ///< of the largest log odds (from nulls, or the analytic tail)
-  double either_within = 3.0;     ///< nats: causes this near the best are not told apart
-  double same_direction = 0.95;   ///< |cos| of signatures above which causes within `same_within` are not told apart either
-  double same_within = 8.0;       ///< nats
+  double alpha = 0.01;           ///< false alarms allowed by the threshold
+  double least_log_odds = 3.0;   ///< a name is given only above this, whatever the threshold of the nulls
+  double threshold = 3.0;        ///< of the largest log odds (from nulls, or the analytic tail)
+  double either_within = 3.0;    ///< nats: causes this near the best are not told apart
+  double same_direction = 0.95;  ///< |cos| of signatures above which causes within `same_within` are not told apart either
+  double same_within = 8.0;      ///< nats
   double residual_alpha = 0.001;
   int most_causes = 4;
-  int bootstrap = 2000;           ///< resamples of held-out blocks
+  int bootstrap = 2000;  ///< resamples of held-out blocks
   SearchOptions search;
 };
 
@@ -29,7 +29,7 @@ struct EffectParameter {
 
 struct Effect {
   Cause cause;
-  std::vector<std::string> cluster;   ///< "fric@damper:C1", the best first
+  std::vector<std::string> cluster;  ///< "fric@damper:C1", the best first
   double log_odds = 0.0, probability = 0.0;
   std::string split_by, sentence, remedy;
   std::vector<EffectParameter> parameters;  ///< 90 % intervals
@@ -37,16 +37,19 @@ struct Effect {
 
 struct Gain {
   int rows = 0;
-  double before = 0.0, after = 0.0;   ///< RMS of standardised held-out residuals
+  double before = 0.0, after = 0.0;  ///< RMS of standardised held-out residuals
   double reduction_pct = 0.0, low_pct = 0.0, high_pct = 0.0;
   std::string held_out;
 };
 
-struct LocationScore { std::string location; double score; };
+struct LocationScore {
+  std::string location;
+  double score;
+};
 
 struct Diagnosis {
-  std::string verdict;                ///< none | named | ambiguous | unknown
-  std::string message;                ///< one line for people
+  std::string verdict;  ///< none | named | ambiguous | unknown
+  std::string message;  ///< one line for people
   double log_odds = 0.0, threshold = 0.0, alpha = 0.0;
   double residual_statistic = 0.0, residual_p = 1.0;
   int residual_dof = 0;
@@ -56,31 +59,39 @@ struct Diagnosis {
   Gain gain;
   std::vector<std::string> on_bounds;  ///< of the model without causes
   Fit before, after;
-  std::vector<Scored> ranking;         ///< of the first search
+  std::vector<Scored> ranking;  ///< of the first search
 };
 
-/// What is wrong, why, and what naming it gains (DIAGNOSIS section 4): forward steps with a backward check, clusters, the verdict,
-/// the gain on held-out rows. Deterministic: `seed` drives the resampling of held-out blocks.
+/// What is wrong, why, and what naming it gains (DIAGNOSIS section 4): forward steps with a backward check, clusters, the
+/// verdict, the gain on held-out rows. Deterministic: `seed` drives the resampling of held-out blocks.
 [[nodiscard]] Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
-/// Gain of `after` over `before` on the held-out rows, 90 % interval over resampled blocks (a mode or record of one condition each).
-[[nodiscard]] Gain held_out_gain(const Inference& inference, const Fit& before, const Fit& after, int bootstrap, std::uint64_t seed);
+/// Gain of `after` over `before` on the held-out rows, 90 % interval over resampled blocks (a mode or record of one condition
+/// each).
+[[nodiscard]] Gain held_out_gain(const Inference& inference, const Fit& before, const Fit& after, int bootstrap,
+                                 std::uint64_t seed);
 
-/// Standardised residuals of every row at a fit, e = (y - g)/sigma_id; the level of a record that was held out wholly is taken out.
+/// Standardised residuals of every row at a fit, e = (y - g)/sigma_id; the level of a record that was held out wholly is taken
+/// out.
 [[nodiscard]] Eigen::VectorXd standardised_residuals(const Inference& inference, const Fit& fit);
 
 /// 90 % intervals of the unknowns of one of the fit's causes, by the likelihood along each unknown with the others following.
 [[nodiscard]] std::vector<EffectParameter> effect_parameters(const Inference& inference, const Fit& fit, std::size_t which);
 
-/// Threshold of the largest log odds at false-alarm rate alpha by the union bound over candidates, chi² tails with the catalogue's
-/// priors: what serves until nulls have been run.
+/// Threshold of the largest log odds at false-alarm rate alpha by the union bound over candidates, chi² tails with the
+/// catalogue's priors: what serves until nulls have been run.
 [[nodiscard]] double analytic_threshold(const Inference& inference, double alpha);
 
-/// Largest log odds and residual statistic of `count` null data sets drawn from the prior (x ~ N(0, I) inside its bounds, errors
-/// from Sigma_id). @param progress may be empty
-struct NullResult { std::vector<double> log_odds, chi_squared; };
+/// ln odds of the best entry with its likelihood widened by what misfit it leaves, as thresholds are held against.
+[[nodiscard]] double tempered_log_odds(const Scored& best, int dof);
+
+/// Largest log odds and residual statistic of `count` null data sets drawn from the prior (x ~ N(0, I) inside its bounds,
+/// errors from Sigma_id). @param progress may be empty
+struct NullResult {
+  std::vector<double> log_odds, chi_squared;
+};
 [[nodiscard]] NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter,
-                                   const std::vector<Hypothesis>& catalogue, const SearchOptions& search, int count, std::uint64_t seed,
-                                   const std::function<void(int)>& progress);
+                                   const std::vector<Hypothesis>& catalogue, const SearchOptions& search, int count,
+                                   std::uint64_t seed, const std::function<void(int)>& progress);
 
 }  // namespace twindeck::diagnosis

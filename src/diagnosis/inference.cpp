@@ -180,12 +180,32 @@ VectorXd Inference::signature(const Fit& base, const Candidate& candidate, const
   return base.total_factor.triangularView<Eigen::Lower>().solve(pick(p.g - base.all.g, training_));
 }
 
-Scored Inference::screen(const Fit& base, const Candidate& candidate) const {
+ScreenTable Inference::screen_table(const Fit& base) const {
+  std::vector<std::vector<VectorXd>> changes(candidates_.size());
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    for (const VectorXd& a : candidates_[i]->starts) {
+      std::vector<Cause> causes = base.causes;
+      causes.push_back({candidates_[i].get(), a});
+      const Prediction p = map_.predict(base.base, causes, false);
+      changes[i].push_back(p.valid ? VectorXd(p.g - base.all.g) : VectorXd());
+    }
+  }
+  ScreenTable table;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) table.change[candidates_[i]->id()] = std::move(changes[i]);
+  return table;
+}
+
+Scored Inference::screen(const Fit& base, const Candidate& candidate, const std::vector<VectorXd>* from_table) const {
   Scored best;
   best.candidate = &candidate;
   best.screen = -1e300;
-  for (const VectorXd& a : candidate.starts) {
-    const VectorXd s = signature(base, candidate, a);
+  for (std::size_t i = 0; i < candidate.starts.size(); ++i) {
+    VectorXd s;
+    if (from_table == nullptr)
+      s = signature(base, candidate, candidate.starts[i]);
+    else if (i < from_table->size() && (*from_table)[i].size() > 0)
+      s = base.total_factor.triangularView<Eigen::Lower>().solve(pick((*from_table)[i], training_));
     if (s.size() == 0) continue;
     const double along = s.dot(base.whitened), norm = s.squaredNorm();
     if (!(norm > 1e-12)) continue;
@@ -193,11 +213,34 @@ Scored Inference::screen(const Fit& base, const Candidate& candidate) const {
     const double t = !candidate.low.size() || scale <= 0.0 || scale > 3.0 ? 2.0 * along - norm : along * along / norm;
     if (t > best.screen) {
       best.screen = t;
-      best.a = a;
+      best.a = candidate.starts[i];
       best.signature = s;
     }
   }
   return best;
+}
+
+/// Candidates that are worth a new signature: those that the table shows best, and the best few of every family.
+std::vector<const Candidate*> Inference::promising(const Fit& base, const SearchOptions& options) const {
+  std::vector<const Candidate*> all;
+  for (const auto& candidate : candidates_)
+    if (std::none_of(base.causes.begin(), base.causes.end(),
+                     [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); }))
+      all.push_back(candidate.get());
+  if (table_ == nullptr) return all;
+  std::vector<std::pair<double, const Candidate*>> ranked;
+  for (const Candidate* candidate : all) {
+    const auto known = table_->change.find(candidate->id());
+    const double t = known == table_->change.end() ? 1e300 : screen(base, *candidate, &known->second).screen;
+    ranked.emplace_back(0.5 * t + candidate->log_prior, candidate);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::map<std::string, int> of_family;
+  std::vector<const Candidate*> chosen;
+  for (std::size_t i = 0; i < ranked.size(); ++i)
+    if (of_family[ranked[i].second->hypothesis->id]++ < 1 || static_cast<int>(i) < options.tabled)
+      chosen.push_back(ranked[i].second);
+  return chosen;
 }
 
 void Inference::fit_linearised(const Fit& base, Scored& scored) const {
@@ -289,13 +332,10 @@ void Inference::refine(const Fit& base, Scored& scored) const {
 
 std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options) const {
   // Candidates are held against the base one by one: the number of threads changes nothing.
-  std::vector<Scored> all(candidates_.size());
+  const std::vector<const Candidate*> chosen = promising(base, options);
+  std::vector<Scored> all(chosen.size());
 #pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const bool there = std::any_of(base.causes.begin(), base.causes.end(),
-                                   [&](const Cause& cause) { return cause.candidate->id() == candidates_[i]->id(); });
-    if (!there) all[i] = screen(base, *candidates_[i]);
-  }
+  for (std::size_t i = 0; i < chosen.size(); ++i) all[i] = screen(base, *chosen[i], nullptr);
   std::vector<Scored> found;
   for (Scored& scored : all)
     if (scored.signature.size() > 0) found.push_back(std::move(scored));
@@ -326,6 +366,20 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
       Scored& scored = found[static_cast<std::size_t>(i)];
       if (scored.log_odds > best - std::max(options.refine_within, 0.1 * best)) refine(base, scored);
     }
+    std::stable_sort(found.begin(), found.end(), by_odds);
+    // A refitted entry stands above its neighbours that were weighed on the linearised base alone: the nearest of its family
+    // are refitted too, so that the place is chosen among equals.
+    int deepened = 0;
+    const Scored& first = found.front();
+    const double near = first.log_odds - std::max(options.refine_within, 0.3 * first.log_odds);
+    std::vector<Scored*> siblings;
+    for (Scored& scored : found)
+      if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
+          scored.candidate->hypothesis == first.candidate->hypothesis) {
+        siblings.push_back(&scored);
+        ++deepened;
+      }
+    for (Scored* sibling : siblings) refine(base, *sibling);
     std::stable_sort(found.begin(), found.end(), by_odds);
   }
   return found;

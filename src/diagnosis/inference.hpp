@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ namespace twindeck::diagnosis {
 
 /// Best account of the training rows with given causes in the model, linearised there.
 struct Fit {
-  std::vector<Cause> causes;       ///< at their best magnitudes
-  updating::JointMap map;          ///< of [x; coordinates of the causes], on the training rows
+  std::vector<Cause> causes;  ///< at their best magnitudes
+  updating::JointMap map;     ///< of [x; coordinates of the causes], on the training rows
   FeatureMap::Base base;
   Prediction all;                  ///< at the fit, every row
   Eigen::MatrixXd total_factor;    ///< L, L L' = Sigma_id + J P J' + free scales, causes not included
@@ -27,21 +28,31 @@ struct Fit {
 struct Scored {
   const Candidate* candidate = nullptr;
   Eigen::VectorXd a;
-  double screen = 0.0;              ///< 2 ln likelihood ratio of the screen
-  double log_odds = 0.0;            ///< ln posterior odds against nothing missing; only where fitted
+  double screen = 0.0;    ///< 2 ln likelihood ratio of the screen
+  double log_odds = 0.0;  ///< ln posterior odds against nothing missing; only where fitted
   double chi_squared = 0.0;
-  double remaining = 0.0;           ///< chi² that the best account with this cause leaves
-  int stage = 1;                    ///< 1 screened, 2 fitted on the linearised base, 3 with the base fitted again
-  Eigen::VectorXd signature;        ///< L^-1 (g(x, a) - g(x)) (n_train)
-  Eigen::MatrixXd a_covariance;     ///< of the coordinates (stage 2 on)
+  double remaining = 0.0;        ///< chi² that the best account with this cause leaves
+  int stage = 1;                 ///< 1 screened, 2 fitted on the linearised base, 3 with the base fitted again
+  Eigen::VectorXd signature;     ///< L^-1 (g(x, a) - g(x)) (n_train)
+  Eigen::MatrixXd a_covariance;  ///< of the coordinates (stage 2 on)
 };
 
 struct SearchOptions {
   int short_list = 6;
   int longest_list = 16;
-  double family_screen = 4.0;       ///< families whose best entry screens above this are fitted too
-  double refine_within = 6.0;       ///< nats of the best: these are fitted with the base
+  int tabled = 40;             ///< entries of the table that are computed anew, besides the best of each family
+  int deepened = 6;            ///< further entries of the best one's family that are fitted with the base
+  double family_screen = 4.0;  ///< families whose best entry screens above this are fitted too
+  double refine_within = 6.0;  ///< nats of the best: these are fitted with the base
   int most_refined = 3;
+};
+
+/// What every candidate does to the rows at each magnitude that the screen tries, g(x, a) - g(x) at one base: it changes little
+/// with x, so one table serves every data set of a model; the screen looks through it first, and computes anew what looks
+/// promising.
+struct ScreenTable {
+  std::map<std::string, std::vector<Eigen::VectorXd>>
+      change;  ///< by id of the candidate: (n_rows) each, size 0 where there is none
 };
 
 /// Fits, screens and weighs causes on the training rows of a feature map (DIAGNOSIS 2.2 to 2.6).
@@ -53,6 +64,9 @@ class Inference {
   [[nodiscard]] Fit fit(const std::vector<Cause>& causes, const Eigen::VectorXd& start) const;
   /// Candidates in descending order of odds against `base`; those already in it are left out.
   [[nodiscard]] std::vector<Scored> search(const Fit& base, const SearchOptions& options) const;
+  [[nodiscard]] ScreenTable screen_table(const Fit& base) const;
+  /// Lets the searches look through a table first; it must outlive them.
+  void use(const ScreenTable* table) { table_ = table; }
   /// Signature of a candidate at coordinates a, whitened; empty where it cannot be computed.
   [[nodiscard]] Eigen::VectorXd signature(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
 
@@ -63,7 +77,10 @@ class Inference {
   [[nodiscard]] const std::vector<std::unique_ptr<Candidate>>& candidates() const { return candidates_; }
 
  private:
-  [[nodiscard]] Scored screen(const Fit& base, const Candidate& candidate) const;
+  /// The best magnitude of the screen. @param from_table  signatures of the table instead of new ones
+  [[nodiscard]] Scored screen(const Fit& base, const Candidate& candidate,
+                              const std::vector<Eigen::VectorXd>* from_table) const;
+  [[nodiscard]] std::vector<const Candidate*> promising(const Fit& base, const SearchOptions& options) const;
   void fit_linearised(const Fit& base, Scored& scored) const;
   void refine(const Fit& base, Scored& scored) const;
   [[nodiscard]] Eigen::MatrixXd slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
@@ -75,6 +92,7 @@ class Inference {
   Eigen::VectorXd y_;
   Eigen::MatrixXd sigma_, sigma_factor_;
   int training_scales_ = 0;
+  const ScreenTable* table_ = nullptr;
 };
 
 /// P(chi²_dof > x).

@@ -15,7 +15,8 @@ class Normal {
  public:
   explicit Normal(std::uint64_t seed) : random_(seed) {}
   double operator()() {
-    const double u = (static_cast<double>(random_() >> 11) + 0.5) * 0x1.0p-53, v = static_cast<double>(random_() >> 11) * 0x1.0p-53;
+    const double u = (static_cast<double>(random_() >> 11) + 0.5) * 0x1.0p-53,
+                 v = static_cast<double>(random_() >> 11) * 0x1.0p-53;
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
   }
 
@@ -31,13 +32,17 @@ NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, cons
   const Instantiated entries = instantiate(catalogue, model, features);
   const FeatureMap original(model, features, scatter);
   const Eigen::MatrixXd factor = original.covariance().llt().matrixL();
+  const Inference nominal(original, entries.candidates);
+  const Fit as_measured = nominal.fit({}, {});
+  const ScreenTable table = as_measured.all.valid ? nominal.screen_table(as_measured) : ScreenTable{};
   NullResult result;
   result.log_odds.assign(static_cast<std::size_t>(count), 0.0);
   result.chi_squared.assign(static_cast<std::size_t>(count), 0.0);
   int done = 0;
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < count; ++i) {
-    Normal normal(seed * 1000003u + static_cast<std::uint64_t>(i));  // each its own stream: the number of threads changes nothing
+    Normal normal(seed * 1000003u +
+                  static_cast<std::uint64_t>(i));  // each its own stream: the number of threads changes nothing
     Eigen::VectorXd x(static_cast<Eigen::Index>(original.nuisances().size()));
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const Nuisance& v = original.nuisances()[static_cast<std::size_t>(j)];
@@ -50,11 +55,13 @@ NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, cons
       for (Eigen::Index r = 0; r < noise.size(); ++r) noise[r] = normal();
       FeatureMap drawn = original;
       drawn.set_values(truth.g + factor * noise);
-      const Inference inference(drawn, entries.candidates);
+      Inference inference(drawn, entries.candidates);
+      inference.use(&table);
       const Fit base = inference.fit({}, {});
       const auto ranking = inference.search(base, search);
       result.chi_squared[static_cast<std::size_t>(i)] = base.chi_squared;
-      result.log_odds[static_cast<std::size_t>(i)] = ranking.empty() ? -20.0 : ranking.front().log_odds;
+      result.log_odds[static_cast<std::size_t>(i)] =
+          ranking.empty() ? -20.0 : tempered_log_odds(ranking.front(), inference.dof());
     }
 #pragma omp critical
     if (progress) progress(++done);

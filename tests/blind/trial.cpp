@@ -52,6 +52,7 @@ struct Shared {
   std::unique_ptr<diagnosis::FeatureMap> nominal;
   std::unique_ptr<diagnosis::Inference> inference;
   diagnosis::Fit base;
+  diagnosis::ScreenTable table;
   std::map<std::string, std::vector<Twin>> families;
   Eigen::MatrixXd noise_factor;
 };
@@ -67,6 +68,7 @@ const Shared& shared_of(const Bench& bench) {
   shared->nominal = std::make_unique<diagnosis::FeatureMap>(*bench.diagnosing.reduced, bench.rows, bench.scatter);
   shared->inference = std::make_unique<diagnosis::Inference>(*shared->nominal, shared->diagnosing.candidates);
   shared->base = shared->inference->fit({}, {});
+  shared->table = shared->inference->screen_table(shared->base);
   shared->noise_factor = shared->nominal->covariance().llt().matrixL();
   for (std::size_t i = 0; i < shared->truth.candidates.size(); ++i) {
     const Candidate& c = *shared->truth.candidates[i];
@@ -104,6 +106,22 @@ bool draw_effect(const Shared& shared, const std::string& family, double target,
   return false;
 }
 
+/// Whether another family says the same in other words: a signature that runs along this one.
+bool said_by_others(const Shared& shared, const Candidate& truth, const VectorXd& a) {
+  const VectorXd s = shared.inference->signature(shared.base, truth, a);
+  if (s.size() == 0) return true;
+  for (const auto& candidate : shared.diagnosing.candidates) {
+    if (candidate->hypothesis == truth.hypothesis) continue;
+    for (const VectorXd& change : shared.table.change.at(candidate->id())) {
+      if (change.size() == 0) continue;
+      const VectorXd other =
+          shared.base.total_factor.triangularView<Eigen::Lower>().solve(VectorXd(change(shared.inference->training())));
+      if (other.norm() > 0.0 && std::abs(other.dot(s)) > 0.9 * other.norm() * s.norm()) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string Sealed::text() const {
@@ -136,8 +154,8 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
   std::vector<Cause> truth;
   const int wanted = kind == 'n' ? 0 : kind == 't' ? 2 : 1;
   while (static_cast<int>(truth.size()) < wanted) {
-    // Outside the catalogue only what no other family says in other words (a damper whose threshold is never reached is its
-    // mount, so friction is not among them).
+    // Outside the catalogue only what no other family says in other words (an oscillator tuned far above the measured modes is
+    // a mass; a damper whose threshold is never reached is its mount, so friction is not among them).
     static const std::vector<std::string> outside = {"tie", "osc", "joint", "brg", "freeze", "tempE", "cable"};
     std::string family;
     if (kind == 'o')
@@ -153,6 +171,7 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
     VectorXd a;
     double sigma = 0.0;
     if (!draw_effect(shared, family, target, random, twin, a, sigma) || sigma < 0.8 * least) continue;
+    if (kind == 'o' && said_by_others(shared, *twin.diagnosing, a)) continue;
     if (!truth.empty() && truth[0].candidate->hypothesis == twin.truth->hypothesis) continue;
     truth.push_back({twin.truth, a});
     if (truth.size() == 1)
@@ -202,7 +221,8 @@ Score run_case(const Bench& bench, const Case& hidden) {
   const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue, *bench.diagnosing.reduced, bench.rows);
   diagnosis::FeatureMap map = *shared.nominal;
   map.set_values(hidden.values);
-  const diagnosis::Inference inference(map, entries.candidates);
+  diagnosis::Inference inference(map, entries.candidates);
+  inference.use(&shared.table);
   const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
   score.seconds = static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec);
