@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -57,6 +58,35 @@ TEST(Simulation, FirstPointHasExactlyItsSpectrum) {
     EXPECT_NEAR(0.5 * amplitude * amplitude / simulator.spacing_Hz() / spectra(field, f)[0], 1.0, 1e-10);
   }
   EXPECT_NEAR(std::abs(spectrum[0]) / static_cast<double>(v.rows()), 0.0, 1e-12);
+}
+
+TEST(Simulation, EachWaveOfEachPointIsTheSumOfEq15) {
+  // sqrt(2 df) drift_j sum_m H_jm exp(i phi_ml), point by point: factors of whole rows, without the kernel's pieces and
+  // left-out entries. Waves at both ends of a piece, the first and the last.
+  for (const int anchors : {0, 3, 40}) {
+    FieldDefinition field = test::two_arcs(Component::vertical, 12);
+    field.frozen = true;
+    field.sigma_m_s[7] *= 1.5;  // another kind of turbulence on the way
+    const Simulator simulator(field, {.duration_s = 60.0, .cutoff_Hz = 7.9, .anchors = anchors});
+    const Eigen::MatrixXd v = simulator.sample(3);
+    signal::RealFft fft(v.rows());
+    for (const Index l : {Index{1}, Index{2}, Index{8}, Index{9}, Index{200}, simulator.n_waves()}) {
+      Eigen::VectorXcd wave(field.size());
+      for (Index m = 0; m < wave.size(); ++m) {
+        double real[kLanes], imaginary[kLanes];
+        random_waves(3, static_cast<std::uint64_t>(field.component) << 32 | static_cast<std::uint64_t>(m), l, false, real,
+                     imaginary);
+        wave[m] = {real[0], imaginary[0]};
+      }
+      const double f = simulator.spacing_Hz() * static_cast<double>(l);
+      const Eigen::VectorXcd expected =
+          std::sqrt(2.0 * simulator.spacing_Hz()) * drift(field, f).cwiseProduct(simulator.amplitude_factor(l) * wave);
+      for (Index j = 0; j < field.size(); ++j) {
+        const std::complex<double> found = 2.0 / static_cast<double>(v.rows()) * fft.forward(v.col(j))[l];
+        EXPECT_LT(std::abs(found - expected[j]), 1e-12) << anchors << " anchors, wave " << l << ", point " << j;
+      }
+    }
+  }
 }
 
 TEST(Simulation, InterpolatedFactorKeepsTheCoherence) {
