@@ -38,7 +38,7 @@ targets held
 
 
 def score_lines(text):
-    return [line for line in text.splitlines() if "target >=" in line or ("target <=" in line and "mean size" not in line)]
+    return [line for line in text.splitlines() if blind_score.SCORE.match(line)]
 
 
 def trials(text):
