@@ -57,7 +57,7 @@ endif
 
 # What a study has of its own, such as a campaign made of records that lie elsewhere.
 -include $(WORKFLOW)/study.mk
-OPTIONS_s9_diagnosis := $(if $(FEATURES),--features $(FEATURES))
+OPTIONS_s9_diagnosis += $(if $(FEATURES),--features $(FEATURES))
 
 # An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
 # NO_BUILD=1 takes the executables as they are.

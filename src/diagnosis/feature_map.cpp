@@ -14,6 +14,8 @@ namespace {
 
 using Eigen::Index;
 constexpr double kFree = std::numeric_limits<double>::infinity();
+/// Deviations beyond which no workmanship goes: a gain 140 of them off is a reversed sensor and must stay a misfit, or the fit hides it.
+constexpr double kWorst = 6.0;
 
 bool is_logarithmic(RowType type) { return type != RowType::shape && type != RowType::shape_imag; }
 
@@ -112,8 +114,8 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
 }
 
 void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
-  const auto add = [&](Nuisance::Kind kind, int index, const std::string& name, double mean, double deviation, double lower = -kFree,
-                       double upper = kFree) { nuisances_.push_back({kind, index, name, mean, deviation, lower, upper}); };
+  const auto add = [&](Nuisance::Kind kind, int index, const std::string& name, double mean, double deviation, double lower = -kWorst,
+                       double upper = kWorst) { nuisances_.push_back({kind, index, name, mean, deviation, lower, upper}); };
   for (std::size_t p = 0; p < model_.parameters.size(); ++p) {
     const fe::Parameter& parameter = model_.parameters[p];
     const double deviation = 0.25 * (parameter.upper - parameter.lower), mean = model_.theta[static_cast<Index>(p)];
@@ -155,10 +157,10 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
         scatter.fine * scatter.gain);
   // Structural damping is not computed by any model: ln zeta about 0.5 %, a factor e wide.
   for (std::size_t i = 0; i < damping_modes_.size(); ++i)
-    add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5), 1.0);
+    add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5), 1.0, -kFree, kFree);
   for (const auto& [level, used] : levels) {
     const Condition& condition = features_.conditions[static_cast<std::size_t>(level / 2)];
-    add(Nuisance::Kind::level, level, condition.name + (level % 2 ? " noise level" : " load level"), 0.0, 10.0);
+    add(Nuisance::Kind::level, level, condition.name + (level % 2 ? " noise level" : " load level"), 0.0, 10.0, -kFree, kFree);
   }
 }
 

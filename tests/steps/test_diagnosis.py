@@ -9,6 +9,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -170,6 +171,8 @@ class Diagnosis(unittest.TestCase):
         done, out = self.run_step("mirror")
         self.assertEqual(done.returncode, 0, done.stderr)
         result = json.loads((out / "diagnosis.json").read_text())
+        self.assertEqual(result["verdict"], "ambiguous", result["message"])
+        self.assertIn("To tell", result["measure_next"][0])
         for effect in result["effects"]:
             self.assertGreaterEqual(len(effect["cluster"]), 2)
             if "stiffness@group:g1" in effect["cluster"]:
@@ -198,6 +201,31 @@ class Diagnosis(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess(json.loads((out / "diagnosis.json").read_text())["gain"]["reduction_pct"], 25.0)
 
+    def test_a_fresh_reader_finds_every_answer_on_the_page(self):
+        # Oracle: the five questions of a reader who knows nothing of the run, and the numbers of diagnosis.json.
+        try:
+            sys.path.insert(0, str(ROOT / "paper"))
+            from twindeck_report.page import diagnosis, pieces
+            from twindeck_report.study import Study
+        except ImportError as missing:
+            self.skipTest(f"the report's Python packages are not installed: {missing}")
+        results = self.folder / "reader"
+        (results / "workflow").mkdir(parents=True)
+        (results / "workflow" / "study.toml").write_text('title = "chain"\nsteps = ["s9_diagnosis"]\n')
+        told, out = self.diagnose("read", stiffness={"g5": 0.6})
+        shutil.copytree(out, results / "s9_diagnosis")
+        study = Study("chain", results, results, results / "workflow")
+        page = pieces.render("parts/diagnosis.html.j2", diagnosis=diagnosis.diagnosis_data(study, {}), where=None)
+        effect, size = told["effects"][0], told["effects"][0]["parameters"][0]
+        self.assertIn(effect["sentence"].split(" ")[0], page)                                  # what
+        self.assertIn("group:g5", page)
+        self.assertIn("How sure", page)                                                        # how sure
+        self.assertIn(f"probability {effect['probability']:.2f}", page)
+        self.assertIn(f"{size['low']:.3g} … {size['high']:.3g} (90 %)", page)                  # how big
+        self.assertIn(f"{told['gain']['reduction_pct']:.0f} % less", page)                     # what it improves by
+        self.assertIn("What to measure next", page)                                            # what then
+        self.assertIn("no condition with dampers = on", page)
+
     def test_bytes_do_not_depend_on_threads(self):
         write_features(self.folder / "threads", stiffness={"g5": 0.6})
         texts = []
@@ -218,6 +246,17 @@ class Diagnosis(unittest.TestCase):
         self.assertIn("temperature_C", invisible["tempE"])
         gain = next(row for row in rows if row["cause"] == "gain" and row["location"] == "channel:c3")
         self.assertGreater(float(gain["sigma"]), 5.0)
+
+    def test_signatures_are_those_of_earlier_runs(self):
+        # Oracle: our own earlier numbers, 1 %, on a chain without scatter or noise.
+        write_features(self.folder / "signatures", scatter=0.0, noise=0.0)
+        done, out = self.run_step("signatures", "--plan")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(out / "plan.csv", newline="", encoding="utf-8") as stream:
+            sigma = {f"{row['cause']}@{row['location']}": float(row["sigma"]) for row in csv.DictReader(stream) if row["sigma"]}
+        for entry, earlier in {"gain@channel:c3": 29.635, "mass@node:3": 9.1121, "osc@node:4": 17.724, "pol@channel:c3": 75.435,
+                               "stiffness@group:g5": 17.033, "swap@channels:c2,c5": 70.166, "tie@nodes:3,6": 97.205}.items():
+            self.assertAlmostEqual(sigma[entry] / earlier, 1.0, delta=0.01, msg=entry)
 
     def test_bad_input_is_named(self):
         write_features(self.folder / "bad")
@@ -246,7 +285,25 @@ class Diagnosis(unittest.TestCase):
                             (source.replace("$factor", "$faktor"), ("faktor",))):
             (catalogue / "gain.toml").write_text(text)
             refuse(good, *words, catalogue=catalogue)
+        (catalogue / "gain.toml").write_text(source.replace('set = "channels"', 'set = ""'))
+        refuse(good, "gain.toml:", "set", "channels", catalogue=catalogue)
+        refuse(good, "held_out", "no row is left for the fit", arguments=("--set", 'hold_out=["calm"]'))
+        n = len(lines) - 1
+        covariance = 1e-4 * np.eye(n)
+        covariance[2, 3] = covariance[3, 2] = 1.0
+        np.save(self.folder / "bad" / "covariance.npy", covariance)
+        refuse(good, "covariance", "not positive definite")
+        np.save(self.folder / "bad" / "covariance.npy", covariance[:-1, :-1])
+        refuse(good, "covariance.npy", f"{n - 1} x {n - 1}", f"{n} rows")
 
+    def test_a_family_that_these_rows_cannot_see_is_reported(self):
+        result, out = self.diagnose("unseen")
+        self.assertTrue(any("fric" in words and "dampers" in words for words in result["measure_next"]), result["measure_next"])
+        with open(out / "hypotheses.csv", newline="", encoding="utf-8") as stream:
+            status = {row["cause"]: row["status"] for row in csv.DictReader(stream) if not row["location"]}
+        self.assertIn("not visible", status["fric"])
+        self.assertIn("dampers", status["fric"])
+        self.assertIn("no elements", status["joint"])  # a set that is empty in a model of matrices
 
 if __name__ == "__main__":
     unittest.main()

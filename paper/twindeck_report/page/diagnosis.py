@@ -28,7 +28,25 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
     where = places(study, settings, folder, told.get("localisation", []))
     return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
-            "gain_of": _kinds(study)}
+            "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity}
+
+
+def _sure(probability: float) -> str:
+    """A posterior probability in words, over the causes that the catalogue knows and none of them."""
+    for least, words in ((0.99, "practically certain among the causes that the catalogue knows"), (0.9, "very likely"),
+                         (0.5, "likelier than all others together, but not by much"), (0.0, "one of several that are about as likely")):
+        if probability >= least:
+            return words
+    return "unknown"
+
+
+def _quantity(parameter: dict) -> str:
+    """Name of an unknown without the unit that its name ends with."""
+    name = parameter["name"]
+    unit = parameter.get("unit", "").replace("/", "_").replace("^", "").replace(" ", "_")
+    if unit and unit != "-" and name.endswith("_" + unit):
+        name = name[:-len(unit) - 1]
+    return "times what is modelled" if name == "factor" else name.replace("_", " ")
 
 
 def _beyond(rows, side: str) -> int:

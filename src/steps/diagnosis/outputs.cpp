@@ -36,9 +36,33 @@ double sidak_limit(std::size_t n) {
   return high;
 }
 
+/// What would decide what is open, in words: between the members of a cluster, beyond one-sided limits, about what is left, and for
+/// families that these rows show nothing of.
+std::vector<std::string> measure_next(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible) {
+  std::vector<std::string> next;
+  for (const auto& effect : result.effects) {
+    if (effect.cluster.size() > 1 && !effect.split_by.empty())
+      next.push_back(fmt::format("To tell {} from {}: {}.", effect.cluster[0], effect.cluster[1], effect.split_by));
+    for (const auto& p : effect.parameters) {
+      if (p.at_low_bound == p.at_high_bound) continue;
+      next.push_back(fmt::format("{} of {} has only {} limit: a record in which it is reached would give its size.", p.name,
+                                 effect.cause.candidate->id(), p.at_high_bound ? "a lower" : "an upper"));
+    }
+  }
+  if (result.verdict == "unknown" && !result.localisation.empty())
+    next.push_back(fmt::format("What is left sits about {}: more points of the shapes there, and a second condition (amplitude, temperature), "
+                               "would show what it depends on.", result.localisation.front().location));
+  std::map<std::string, std::vector<std::string>> lacking;
+  for (const auto& none : invisible)
+    if (none.reason.find("this model") == std::string::npos) lacking[none.reason].push_back(none.hypothesis);
+  for (const auto& [reason, families] : lacking)
+    next.push_back(fmt::format("These rows can show nothing of {}: {}.", fmt::join(families, ", "), reason));
+  return next;
+}
+
 }  // namespace
 
-void write_diagnosis(const Diagnosis& result, double residual_alpha, double seconds, const std::string& threshold_from,
+void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible, double residual_alpha, double seconds, const std::string& threshold_from,
                      const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
@@ -87,6 +111,7 @@ void write_diagnosis(const Diagnosis& result, double residual_alpha, double seco
                   {"reduction_pct", result.gain.reduction_pct},
                   {"interval_pct", {result.gain.low_pct, result.gain.high_pct}},
                   {"level", 0.90}};
+  json["measure_next"] = measure_next(result, invisible);
   json["parameters_on_bounds"] = result.on_bounds;
   json["seconds"] = seconds;
   json["extended_model"] = "extended_model/";

@@ -7,8 +7,8 @@
 
 namespace twindeck::steps {
 
-/// diagnosis.json (DESIGN section 3).
-void write_diagnosis(const diagnosis::Diagnosis& result, double residual_alpha, double seconds,
+/// diagnosis.json, as docs/ describes it.
+void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible, double residual_alpha, double seconds,
                      const std::string& threshold_from, const std::filesystem::path& file);
 /// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
 /// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where

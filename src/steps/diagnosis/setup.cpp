@@ -7,9 +7,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "diagnosis/same_modes.hpp"
 #include "io/atomic.hpp"
 #include "io/manifest.hpp"
 #include "io/toml_value.hpp"
@@ -36,6 +38,32 @@ std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const Step
   for (const auto& folder : tried)
     if (std::filesystem::is_directory(folder)) return folder;
   return tried.front();
+}
+
+/// Rows that the configuration leaves out, and one name for a mode in all conditions.
+void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
+  if (config.names_alike) diagnosis::name_modes_alike(features);
+  for (const std::string& type : config.left_out) {
+    const auto& known = diagnosis::row_type_names();
+    if (std::find(known.begin(), known.end(), type) == known.end())
+      throw InputError({"", 0, "left_out"}, fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
+  }
+  std::set<std::pair<int, std::string>> high;
+  for (const diagnosis::Row& row : features.rows)
+    if (row.type == diagnosis::RowType::frequency && config.highest_Hz > 0.0 && row.value > config.highest_Hz)
+      high.insert({row.condition, row.mode});
+  std::vector<Eigen::Index> kept;
+  std::vector<diagnosis::Row> rows;
+  for (std::size_t r = 0; r < features.rows.size(); ++r) {
+    const diagnosis::Row& row = features.rows[r];
+    if (std::find(config.left_out.begin(), config.left_out.end(), name_of(row.type)) != config.left_out.end()) continue;
+    if (row.type != diagnosis::RowType::stay_frequency && high.contains({row.condition, row.mode})) continue;
+    kept.push_back(static_cast<Eigen::Index>(r));
+    rows.push_back(row);
+  }
+  if (rows.empty()) throw InputError({"", 0, "left_out"}, "no row is left", "leave fewer out");
+  features.rows = rows;
+  if (features.covariance.size() > 0) features.covariance = features.covariance(kept, kept).eval();
 }
 
 void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
@@ -98,6 +126,9 @@ io::FieldTable DiagnosisConfig::fields() {
   io::FieldTable t;
   t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
       .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
+      .texts("left_out", left_out, "types of rows that are not used, such as shape_imag")
+      .boolean("names_alike", names_alike, "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
+      .number("highest_frequency", highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
       .texts("hold_out", hold_out,
              "rows kept from the fit: \"condition\" or \"condition/mode\", \"none\"; empty: marks, else the rule")
       .number("alpha", alpha, "", {1e-6, 0.5}, "false alarms that the threshold allows")
@@ -140,6 +171,7 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   if (folder.empty()) throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
   context.input(folder);
   inputs.features = read_all_features(folder);
+  choose_rows(config, inputs.features);
   hold_out(config, inputs.features);
   const auto catalogue = catalogue_folder(config, context);
   inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
@@ -216,7 +248,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   write_unknowns(inference, result, context.out / "parameters.csv");
   write_extended_model(*inputs.model, inputs.places, result, context.out / "extended_model");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_diagnosis(result, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  write_diagnosis(result, entries.invisible, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
   context.say(fmt::format("{}: {}", result.verdict, result.message));
   for (const auto& effect : result.effects)
     context.say(fmt::format("  {} (log odds {:.1f}); either of {}", effect.cause.candidate->id(), effect.log_odds,

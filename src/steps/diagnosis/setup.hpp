@@ -15,6 +15,9 @@ namespace twindeck::steps {
 struct DiagnosisConfig {
   std::string catalogue;              ///< folder; empty: workflows/common/hypotheses or its installed copy
   std::vector<std::string> pairs;     ///< "7X-8N", where no shape was measured
+  std::vector<std::string> left_out;  ///< types of rows that are not used
+  bool names_alike = false;           ///< one name for a mode in all conditions, by likeness of shape
+  double highest_Hz = 0.0;            ///< modes above it are left out; 0: none
   std::vector<std::string> hold_out;  ///< "condition", "condition/mode": in place of marks and rule
   double alpha = 0.01, residual_alpha = 0.001, either_within = 3.0, least_log_odds = 3.0;
   long nulls = 0, most_causes = 4, modes = 30, zones = 24, nodes = 24;
