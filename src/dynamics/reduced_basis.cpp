@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -49,12 +50,16 @@ MatrixXd static_corrections(const linalg::Cholesky& factor, const linalg::Sparse
 
 MatrixXd krylov_shapes(const linalg::Cholesky& factor, const linalg::SparseMatrix& mass,
                        const Eigen::Ref<const MatrixXd>& patterns, Index generations) {
-  if (patterns.cols() == 0 || generations == 0) return MatrixXd(mass.rows(), 0);
-  MatrixXd out(mass.rows(), generations * patterns.cols());
-  MatrixXd load = patterns;
+  std::vector<Index> acting;  // a force on a support moves nothing
+  for (Index j = 0; j < patterns.cols(); ++j) {
+    if (patterns.col(j).squaredNorm() > 0.0) acting.push_back(j);
+  }
+  if (acting.empty() || generations == 0) return MatrixXd(mass.rows(), 0);
+  MatrixXd load = patterns(Eigen::all, acting);
+  MatrixXd out(mass.rows(), generations * load.cols());
   for (Index g = 0; g < generations; ++g) {
     const MatrixXd shape = factor.solve(load).colwise().normalized();
-    out.middleCols(g * patterns.cols(), patterns.cols()) = shape;
+    out.middleCols(g * load.cols(), load.cols()) = shape;
     load = times(mass, shape);
   }
   return out;

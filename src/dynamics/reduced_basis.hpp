@@ -29,7 +29,7 @@ struct ReducedBasis {
 /// K⁻¹ P, K⁻¹ M K⁻¹ P, …: `generations` blocks, each the static answer to the inertia of the one before. With patterns at the
 /// points that are asked for, the first makes their slow motion right under any load, each further one the next power of the
 /// frequency.
-/// @return (n × generations k), columns of unit length
+/// @return (n × generations k), columns of unit length; k without patterns that are zero (points held by supports)
 /// Reference: Wilson, Yuan and Dickens (1982), Earthq. Eng. Struct. Dyn. 10, 813-821 (load-dependent Ritz vectors).
 [[nodiscard]] Eigen::MatrixXd krylov_shapes(const linalg::Cholesky& factor, const linalg::SparseMatrix& mass,
                                             const Eigen::Ref<const Eigen::MatrixXd>& patterns, Eigen::Index generations);

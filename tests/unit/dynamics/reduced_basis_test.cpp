@@ -89,6 +89,14 @@ TEST(ReducedBasis, APointsOwnShapeMakesItsSlowMotionExactUnderEveryLoad) {
   EXPECT_NEAR(error(2, omega) / error(2, 0.5 * omega), 16.0, 2.0);
 }
 
+TEST(ReducedBasis, APointOnASupportHasNoShape) {
+  const Case c;
+  MatrixXd patterns = MatrixXd::Zero(60, 2);
+  EXPECT_EQ(twindeck::dynamics::krylov_shapes(c.factor, c.m, patterns, 2).cols(), 0);
+  patterns(20, 1) = 1.0;
+  EXPECT_EQ(twindeck::dynamics::krylov_shapes(c.factor, c.m, patterns, 2).cols(), 2);
+}
+
 TEST(ReducedBasis, DropsShapesThatAreThereAlready) {
   const Case c;
   MatrixXd shapes(60, 2);
