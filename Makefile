@@ -92,9 +92,9 @@ batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as i
 	@cmake --build $(BUILD) -j $(JOBS) --target blind_trials
 	@snakemake -s workflows/batch/Snakefile $(BATCH)
 
-bench: build ## ratios against peers: modes, derivatives, memory (results/bench/bench.csv)
-	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes
-	@workflows/python.sh tests/bench/modes.py $(BIN) $(BIN)/bench_modes results/bench
+bench: build ## ratios against peers: modes, derivatives, identification, wind (results/bench/*.csv)
+	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field
+	@workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write

@@ -55,13 +55,16 @@ struct Basis {
     mass_v.middleCols(size, block.q.cols()) = block.mass_q;
     size += block.q.cols();
   }
-  /// Makes `w` orthogonal to the basis, twice. @return what was taken off, (size × columns of w)
-  MatrixXd remove_from(MatrixXd& w) const {
+  /// Makes `w` orthogonal to the basis. The image of the last block has a part along the last two only, but for rounding: taken off
+  /// first, it leaves a remainder of which one pass over the whole basis takes the rest.
+  /// @param near  first column of the basis along which `w` has more than rounding (0: all of it)
+  /// @return what was taken off, (size × columns of w)
+  MatrixXd remove_from(MatrixXd& w, Index near) const {
     MatrixXd total = MatrixXd::Zero(size, w.cols());
-    for (int pass = 0; pass < 2; ++pass) {
-      const MatrixXd c = transposed_times(mass_v.leftCols(size), w);
-      subtract_product(v.leftCols(size), c, w);
-      total += c;
+    for (const Index first : {near, Index{0}}) {
+      const MatrixXd c = transposed_times(mass_v.middleCols(first, size - first), w);
+      subtract_product(v.middleCols(first, size - first), c, w);
+      total.bottomRows(size - first) += c;
     }
     return total;
   }
@@ -87,6 +90,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
   const MatrixXd mass_first = op.times_mass(first_block);
   OrthonormalBlock next = orthonormalise(first_block, mass_first, mass_norm(first_block, mass_first));
   int restarts = 0, draws = 0;
+  Index before = 0;  // first column of the block before the last; 0 also where the last is coupled to all (a restart)
   while (next.q.cols() > 0) {
     const Index first = basis.size, columns = next.q.cols();
     basis.append(next);
@@ -94,7 +98,8 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     // One step: T's new columns are what the image of the last block has in common with the basis.
     MatrixXd w = op.from_mass(next.mass_q);
     result.operations += static_cast<int>(columns);
-    const MatrixXd c = basis.remove_from(w);
+    const MatrixXd c = basis.remove_from(w, before);
+    before = first;
     basis.projected.block(0, first, basis.size, columns) = c;
     basis.projected.block(first, 0, columns, first) = c.topRows(first).transpose();
     const MatrixXd mass_w = op.times_mass(w);
@@ -107,7 +112,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     if (exhausted && basis.size < std::min(op.size, wanted + width)) {
       // An invariant subspace: what lies outside it (further copies of its eigenvalues, say) needs a new start.
       MatrixXd fresh = start(++draws);
-      const MatrixXd known = basis.remove_from(fresh);
+      const MatrixXd known = basis.remove_from(fresh, 0);
       const MatrixXd mass_fresh = op.times_mass(fresh);
       const double fresh_scale = std::hypot(std::sqrt(known.colwise().squaredNorm().maxCoeff()), mass_norm(fresh, mass_fresh));
       next = orthonormalise(std::move(fresh), mass_fresh, fresh_scale);
@@ -145,6 +150,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     basis.projected.setZero();
     basis.projected.diagonal().head(keep) = values.head(keep);
     basis.size = keep;
+    before = 0;
   }
   return result;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "linalg/one_thread.hpp"
+#include "linalg/supernodal_solve.hpp"
 
 namespace twindeck::linalg {
 
@@ -57,6 +58,44 @@ std::vector<double> pivots(const cholmod_factor& factor) {
   return pivot;
 }
 
+SupernodalFactor blocks_of(const cholmod_factor& factor) {
+  return {factor.n,
+          factor.nsuper,
+          static_cast<const int*>(factor.super),
+          static_cast<const int*>(factor.pi),
+          static_cast<const int*>(factor.px),
+          static_cast<const int*>(factor.s),
+          static_cast<const double*>(factor.x)};
+}
+
+/// P' L^-T L^-1 P of columns first … first + count - 1 of b, Width at a time; lanes without a column carry zeros.
+template <Eigen::Index Width>
+void solve_lanes(const cholmod_factor& factor, SupernodalSweep sweep, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                 Eigen::Index first, Eigen::Index count, std::vector<double>& y, Eigen::MatrixXd& x) {
+  const auto* order = static_cast<const int*>(factor.Perm);
+  const auto n = static_cast<Eigen::Index>(factor.n);
+  y.assign(static_cast<std::size_t>(Width * n), 0.0);
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (Eigen::Index c = 0; c < count; ++c) y[static_cast<std::size_t>(Width * k + c)] = b(order[k], first + c);
+  sweep(blocks_of(factor), y.data());
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (Eigen::Index c = 0; c < count; ++c) x(order[k], first + c) = y[static_cast<std::size_t>(Width * k + c)];
+}
+
+Eigen::MatrixXd solve_by_blocks(const cholmod_factor& factor, const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  const SupernodalSweeps& sweeps = supernodal_sweeps();
+  Eigen::MatrixXd x(b.rows(), b.cols());
+  std::vector<double> y;
+  Eigen::Index first = 0;
+  while (b.cols() - first > 4) {
+    const Eigen::Index count = std::min<Eigen::Index>(8, b.cols() - first);
+    solve_lanes<8>(factor, sweeps.eight, b, first, count, y, x);
+    first += count;
+  }
+  if (first < b.cols()) solve_lanes<4>(factor, sweeps.four, b, first, b.cols() - first, y, x);
+  return x;
+}
+
 /// Pattern of a lower triangle.
 struct Pattern {
   std::vector<int> outer, inner;
@@ -65,8 +104,10 @@ struct Pattern {
       : outer(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1),
         inner(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros()) {}
   bool is_of(const SparseMatrix& a) const {
-    return outer.size() == static_cast<std::size_t>(a.outerSize() + 1) && inner.size() == static_cast<std::size_t>(a.nonZeros()) &&
-           std::equal(outer.begin(), outer.end(), a.outerIndexPtr()) && std::equal(inner.begin(), inner.end(), a.innerIndexPtr());
+    return outer.size() == static_cast<std::size_t>(a.outerSize() + 1) &&
+           inner.size() == static_cast<std::size_t>(a.nonZeros()) &&
+           std::equal(outer.begin(), outer.end(), a.outerIndexPtr()) &&
+           std::equal(inner.begin(), inner.end(), a.innerIndexPtr());
   }
 };
 
@@ -181,10 +222,16 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
 
 Eigen::Index Cholesky::failed_column() const { return impl_->failed; }
 
+FactorSize Cholesky::size() const {
+  if (!impl_->symbolic) return {};
+  return {impl_->symbolic->common.lnz, impl_->symbolic->common.fl};
+}
+
 Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
   TWINDECK_ASSERT(impl_->factor != nullptr && impl_->failed < 0);
   TWINDECK_ASSERT(static_cast<std::size_t>(b.rows()) == impl_->factor->n);
   if (b.cols() == 0) return Eigen::MatrixXd(b.rows(), 0);
+  if (impl_->factor->is_super) return solve_by_blocks(*impl_->factor, b);
   cholmod_dense right{};
   right.nrow = static_cast<std::size_t>(b.rows());
   right.ncol = static_cast<std::size_t>(b.cols());

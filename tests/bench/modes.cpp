@@ -1,7 +1,12 @@
-/// Times of one process on the study's bridge, printed as `name value` lines; tests/bench/modes.py runs it several times, since
-/// a first solve is first once a process, and compares with peers.
+/// Times of one process, printed as `name value` lines; tests/bench/modes.py runs it several times, since a first solve is
+/// first once a process, and compares with peers.
+///
+///     bench_modes matrices FOLDER   15 modes of K.mtx and M.mtx, ordering included, as the peers have them
+///     bench_modes bridge [FILE]     the study's bridge: assembly, a solve after a change of parameters, derivatives
+///     bench_modes machine           the machine's bandwidth and arithmetic on one thread, for the bound
 #include <sys/resource.h>
 
+#include <Eigen/Dense>
 #include <cstdio>
 #include <ctime>
 #include <functional>
@@ -10,7 +15,12 @@
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
+#include "linalg/cholesky.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/generalized_eigen.hpp"
 #include "linalg/one_thread.hpp"
+#include "linalg/symmetric_product.hpp"
+#include "model_io/matrix_market.hpp"
 #include "ponte/generator.hpp"
 
 namespace {
@@ -31,32 +41,56 @@ double peak_MB() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-}  // namespace
+/// Largest residual of the pairs, |K⁻¹ M x - x / λ| λ in the norm of M.
+double residual(const linalg::SparseMatrix& stiffness, const linalg::SparseMatrix& mass, const Eigen::VectorXd& lambda,
+                const Eigen::MatrixXd& shapes) {
+  linalg::Cholesky factor;
+  if (!factor.factorize(stiffness).converged) return -1.0;
+  const linalg::SymmetricProduct product(mass);
+  const Eigen::MatrixXd r = factor.solve(product.times(shapes)) - shapes * lambda.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd norm = r.cwiseProduct(product.times(r)).colwise().sum().cwiseAbs().cwiseSqrt();
+  return norm.cwiseProduct(lambda).maxCoeff();
+}
 
-int main(int argc, char** argv) {
-  const std::string bridge = argc > 1 ? argv[1] : "data/ponte_del_mare/bridge.toml";
-  linalg::use_one_thread();
+int matrices(const std::string& folder) {
+  const linalg::SparseMatrix stiffness = model_io::read_matrix_market(folder + "/K.mtx");
+  const linalg::SparseMatrix mass = model_io::read_matrix_market(folder + "/M.mtx");
+  linalg::Cholesky factor;
+  linalg::EigenPairs pairs;
+  std::printf("first_solve_s %.6f\n",
+              seconds([&] { pairs = linalg::lowest_eigenpairs(stiffness, mass, kModes, 0.0, factor, Eigen::MatrixXd()); }));
+  if (!pairs.status.converged) return 1;
+  std::printf("peak_MB %.1f\n", peak_MB());
+  for (int i = 0; i < kModes; ++i)
+    std::printf("frequency_%d_Hz %.15g\n", i + 1, std::sqrt(pairs.values[i]) / 6.283185307179586);
+  std::printf("solves %d\n", pairs.operations);
+  std::printf("factorise_s %.6f\n", seconds([&] { static_cast<void>(factor.factorize(stiffness)); }));
+  const linalg::FactorSize size = factor.size();
+  std::printf("factor_entries %.0f\nfactor_flops %.0f\n", size.entries, size.flops);
+  std::printf("residual %.3e\n", residual(stiffness, mass, pairs.values, pairs.vectors));
+  return 0;
+}
+
+int bridge(const std::string& file) {
   fe::ParametricSystem system;
   std::printf("assemble_s %.6f\n", seconds([&] {
-                const fe::Structure structure(ponte::generate(bridge, "refined"));
+                const fe::Structure structure(ponte::generate(file, "preliminary"));
                 system = structure.system(structure.prestress(fe::initial_parameters(structure.model())));
               }));
   std::printf("degrees_of_freedom %ld\n", static_cast<long>(system.size()));
-
-  // The matrices are made before the clock runs, as they are for the peer.
   const Eigen::VectorXd theta = system.initial();
-  const auto stiffness = system.stiffness(theta), mass = system.mass(theta);
   dynamics::ModalSolver solver(system);
-  dynamics::EigenModes modes;
-  std::printf("first_solve_s %.6f\n", seconds([&] { modes = solver.solve(theta, kModes); }));
+  dynamics::EigenModes modes = solver.solve(theta, kModes);
   if (!modes.status.converged) return 1;
-  for (int i = 0; i < kModes; ++i) std::printf("frequency_%d_Hz %.15g\n", i + 1, modes.frequency_Hz[i]);
-  std::printf("peak_MB %.1f\n", peak_MB());
 
+  // A change of 1 % in every parameter, and back.
   Eigen::VectorXd changed = theta;
   for (Eigen::Index p = 0; p < changed.size(); ++p) changed[p] *= p % 2 == 0 ? 1.01 : 0.99;
-  std::printf("resolve_s %.6f\n", seconds([&] { static_cast<void>(solver.solve(changed, kModes)); }));
-  std::printf("resolve_again_s %.6f\n", seconds([&] { static_cast<void>(solver.solve(theta, kModes)); }));
+  dynamics::EigenModes again;
+  std::printf("resolve_s %.6f\n", seconds([&] { again = solver.solve(changed, kModes); }));
+  std::printf("resolve_residual %.3e\n",
+              residual(system.stiffness(changed), system.mass(changed), again.eigenvalue, again.shapes));
+  std::printf("resolve_again_s %.6f\n", seconds([&] { modes = solver.solve(theta, kModes); }));
 
   Eigen::MatrixXd exact, differences(kModes, theta.size());
   std::printf("jacobian_s %.6f\n", seconds([&] { exact = dynamics::frequency_jacobian(system, theta, modes); }));
@@ -68,7 +102,39 @@ int main(int argc, char** argv) {
                   differences.col(p) = (solver.solve(moved, kModes).frequency_Hz - modes.frequency_Hz) / step;
                 }
               }));
-  const Eigen::VectorXd scale = theta;
-  std::printf("jacobian_deviation %.3e\n", ((exact - differences) * scale.asDiagonal()).cwiseAbs().maxCoeff());
+  std::printf("jacobian_deviation %.3e\n", ((exact - differences) * theta.asDiagonal()).cwiseAbs().maxCoeff());
+  std::printf("parameters %ld\n", static_cast<long>(theta.size()));
+  std::printf("shape_jacobian_s %.6f\n", seconds([&] {
+                const dynamics::ShapeSensitivity shapes(system, theta, modes);
+                double sum = 0.0;
+                for (Eigen::Index p = 0; p < theta.size(); ++p) sum += shapes.derivative(static_cast<int>(p)).squaredNorm();
+                if (!(sum > 0.0)) std::printf("shape_jacobian_is_zero 1\n");
+              }));
   return 0;
+}
+
+int machine() {
+  constexpr Eigen::Index n = 32'000'000;  // three arrays of 256 MB: no cache holds them
+  Eigen::VectorXd a = Eigen::VectorXd::Ones(n), b = Eigen::VectorXd::Constant(n, 2.0), c = Eigen::VectorXd::Zero(n);
+  double best = 1e300;
+  for (int i = 0; i < 5; ++i) best = std::min(best, seconds([&] { c = a + 3.0 * b; }));
+  std::printf("bandwidth_B_s %.4g\n", 3.0 * 8.0 * static_cast<double>(n) / best);
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(1000, 1000);
+  Eigen::MatrixXd y;
+  best = 1e300;
+  for (int i = 0; i < 5; ++i) best = std::min(best, seconds([&] { y = linalg::product(x, x); }));
+  std::printf("arithmetic_flop_s %.4g\n", 2e9 / best);
+  return c.sum() + y.sum() != 0.0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string task = argc > 1 ? argv[1] : "";
+  linalg::use_one_thread();
+  if (task == "matrices" && argc > 2) return matrices(argv[2]);
+  if (task == "bridge") return bridge(argc > 2 ? argv[2] : "data/ponte_del_mare/bridge.toml");
+  if (task == "machine") return machine();
+  std::fprintf(stderr, "usage: bench_modes matrices FOLDER | bridge [FILE] | machine\n");
+  return 2;
 }

@@ -1,25 +1,25 @@
-"""Benchmarks of the modal solver against peers on the same matrices: ratios of medians, never a pass or a fail.
-
-    python3 tests/bench/modes.py BIN BENCH OUT [RUNS]
-
-BIN: folder of the executables; BENCH: the bench executable; OUT: folder for bench.csv. Each run of either side is a process of its
-own, so that nothing is warm that would not be; all on one thread, in processor time.
+"""Benchmarks of the finite elements and the modal solver, against SciPy on the same matrices and CalculiX on the same part of the
+bridge; tests/bench/run.py runs it. Each run of either side is a process of its own, so that nothing is warm that would not be.
 """
-import csv
-import os
 import pathlib
+import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
+import table
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "steps"))
+import exchange_models  # noqa: E402
+
+STUDY = "workflows/ponte_del_mare"
 PEER = """
 import resource, sys, time
 import scipy.io, scipy.sparse.linalg
 folder = sys.argv[1]
 k, m = (scipy.io.mmread(folder + "/" + name).tocsc() for name in ("K.mtx", "M.mtx"))
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 start = time.process_time()
 values = scipy.sparse.linalg.eigsh(k, 15, m, sigma=0.0, which="LM", return_eigenvectors=True)[0]
 print("first_solve_s", time.process_time() - start)
@@ -29,64 +29,84 @@ for i, value in enumerate(sorted(values)):
 """
 
 
-def measures(*command):
-    environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, env=environment)
-    if done.returncode:
-        raise SystemExit(f"bench: {command[0]} failed:\n{done.stderr}")
-    return {name: float(value) for name, value in (line.split() for line in done.stdout.splitlines())}
-
-
 def medians(runs):
     return {name: statistics.median(run[name] for run in runs) for name in runs[0]}
 
 
-def main():
-    binaries, bench, out = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
-    count = int(sys.argv[4]) if len(sys.argv) > 4 else 5
-    out.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder:
-        start = time.perf_counter()
-        subprocess.run([binaries / "s1_model", "--study", "workflows/ponte_del_mare", "--out", folder + "/s1_model", "--quiet",
-                        "--set", "variant=refined", "--set", "meshes=[]", "--export-matrices"], check=True)
-        export = time.perf_counter() - start
-        step = []
-        for _ in range(count):
-            start = time.perf_counter()
-            subprocess.run([binaries / "s1_model", "--study", "workflows/ponte_del_mare", "--out", folder + "/plain", "--quiet",
-                            "--set", "meshes=[]", "--threads", "2"], check=True)
-            step.append(time.perf_counter() - start)
-        ours, peers = [], []
-        for _ in range(count):  # by turns, so that both meet the same neighbours on the machine
-            ours.append(measures(bench))
-            peers.append(measures(sys.executable, "-c", PEER, folder + "/s1_model"))
-    us, peer = medians(ours), medians(peers)
+def median_child(command, runs, **how):
+    return [statistics.median(values) for values in zip(*(table.run_child(command, **how) for _ in range(runs)))]
+
+
+def step(binaries, out, *more):
+    return [binaries / "s1_model", "--out", out, "--quiet", *more]
+
+
+def of_the_study(binaries, out, *more):
+    return step(binaries, out, "--study", STUDY, "--set", "meshes=[]", "--threads", "2", *more)
+
+
+def whole_step(binaries, runs, folder):
+    part = "step 1, two threads: reading, dead load, pulls, modes, writing"
+    rows = []
+    for name, aim, more in (("linear dead load", "<= 5 s", []), ("large displacements", "<= 12 s", ["--set", "displacements=large"])):
+        wall, cpu, memory = median_child(of_the_study(binaries, folder / "step", *more), runs, cwd=ROOT, env=dict(table.os.environ))
+        rows.append(table.row(part, name + ", elapsed", wall, "s", aim=aim, beside=f"{cpu:.2f} s of processor time, {memory:.0f} MB"))
+    return rows
+
+
+def modes_of_the_bridge(binaries, runs, folder):
+    bench = binaries / "bench_modes"
+    table.run_child(of_the_study(binaries, folder / "s1_model", "--export-matrices"), cwd=ROOT)
+    ours, peers, bridges = [], [], []
+    for _ in range(runs):  # by turns, so that both meet the same neighbours on the machine
+        ours.append(table.measures(bench, "matrices", folder / "s1_model"))
+        peers.append(table.measures(sys.executable, "-c", PEER, folder / "s1_model"))
+        bridges.append(table.measures(bench, "bridge", ROOT / "data" / "ponte_del_mare" / "bridge.toml"))
+    us, peer, bridge = medians(ours), medians(peers), medians(bridges)
+    machine = table.measures(bench, "machine")
     apart = max(abs(us[f"frequency_{i}_Hz"] / peer[f"frequency_{i}_Hz"] - 1) for i in range(1, 16))
-    rows = [
-        ("degrees of freedom", us["degrees_of_freedom"], "-", ""),
-        ("whole s1_model, two threads", statistics.median(step), "s", "without the mesh study"),
-        ("s1_model with K.mtx and M.mtx", export, "s", "once"),
-        ("generate, assemble, prestress", us["assemble_s"], "s", ""),
-        ("15 modes, first solve", us["first_solve_s"], "s", "ordering, factorisation, eigenvectors"),
-        ("15 modes, SciPy eigsh (ARPACK, SuperLU)", peer["first_solve_s"], "s", "shift-invert, sigma = 0, same K and M"),
-        ("SciPy over ours", peer["first_solve_s"] / us["first_solve_s"], "-", "more is better; aim 2.5"),
-        ("largest difference of frequencies", apart, "-", "relative"),
-        ("solve after a 1 % change", us["resolve_s"], "s", ""),
-        ("solve after a change over first solve", us["resolve_s"] / us["first_solve_s"], "-", "less is better; aim 0.5"),
-        ("Jacobian, 15 frequencies by 15 parameters", us["jacobian_s"], "s", "exact"),
-        ("Jacobian over one solve", us["jacobian_s"] / us["first_solve_s"], "-", "less is better; aim 0.25"),
-        ("Jacobian by forward differences", us["jacobian_by_differences_s"], "s", ""),
-        ("differences over exact", us["jacobian_by_differences_s"] / us["jacobian_s"], "-", "more is better"),
-        ("peak memory, ours", us["peak_MB"], "MB", "assembly included"),
-        ("peak memory, SciPy", peer["peak_MB"], "MB", "reading included"),
-        ("peak memory, SciPy over ours", peer["peak_MB"] / us["peak_MB"], "-", "more is better"),
+    first = us["first_solve_s"]
+    arithmetic = us["factor_flops"] / machine["arithmetic_flop_s"]
+    # Every solve reads the factor forwards and backwards, once for the four vectors of a block.
+    traffic = us["solves"] / 4 * 2 * 8 * us["factor_entries"] / machine["bandwidth_B_s"]
+    part = f"modes: {bridge['degrees_of_freedom']:.0f} degrees of freedom, processor time of one thread"
+    return [
+        table.row(part, "15 modes, time", first, "s", peer["first_solve_s"], "SciPy eigsh (ARPACK, SuperLU), same K and M", aim=">= 2.5"),
+        table.row(part, "15 modes, peak memory", us["peak_MB"], "MB", peer["peak_MB"], "SciPy; both with reading the files", aim="> 1"),
+        table.row(part, "largest difference of frequencies", apart, "-", beside="relative, against SciPy", aim="<= 1e-5"),
+        table.row(part, "largest residual", us["residual"], "-", bridge["resolve_residual"], "after a change", ratio=""),
+        table.row(part, "after a 1 % change of all parameters", bridge["resolve_s"], "s", beside="ratio: over the first solve",
+                  ratio=bridge["resolve_s"] / first, aim="<= 0.5"),
+        table.row(part, "Jacobian, 15 frequencies", bridge["jacobian_s"], "s",
+                  beside=f"by {bridge['parameters']:.0f} parameters; ratio: over the first solve", ratio=bridge["jacobian_s"] / first, aim="<= 0.25"),
+        table.row(part, "the same by forward differences", bridge["jacobian_s"], "s", bridge["jacobian_by_differences_s"], "warm solves of ours"),
+        table.row(part, "Jacobian, 15 shapes too", bridge["shape_jacobian_s"], "s", beside="all degrees of freedom; ratio: over the first solve",
+                  ratio=bridge["shape_jacobian_s"] / first, aim="<= 2"),
+        table.row(part, "bound: arithmetic of a factorisation", arithmetic, "s", us["factorise_s"],
+                  f"peer: measured; {us['factor_flops'] / 1e9:.2f} Gflop at {machine['arithmetic_flop_s'] / 1e9:.0f} Gflop/s (dgemm)"),
+        table.row(part, "bound: memory traffic of the solves", traffic, "s", first - us["factorise_s"],
+                  f"peer: the rest of a solve; {us['solves']:.0f} solves by fours, {us['factor_entries'] * 8e-6:.0f} MB at "
+                  f"{machine['bandwidth_B_s'] / 1e9:.0f} GB/s"),
+        table.row(part, "bound: both", arithmetic + traffic, "s", first, "peer: measured; ratio: how far from the bound"),
+        table.row(part, "generate, assemble, prestress", bridge["assemble_s"], "s"),
     ]
-    with open(out / "bench.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["quantity", "median", "unit", "note"])
-        writer.writerows((name, f"{value:.6g}", unit, note) for name, value, unit, note in rows)
-    for name, value, unit, note in rows:
-        print(f"{name:44} {value:12.4g} {unit:3} {note}")
 
 
-main()
+def against_calculix(binaries, runs, folder):
+    ccx = shutil.which("ccx")
+    part = "a shell-and-solid part of the bridge, 10 modes, whole run of either program, one thread"
+    if ccx is None:
+        return [table.row(part, "CalculiX is not installed", None, "")]
+    exchange_models.bridge_part(folder / "part", folder / "s1_model" / "model")
+    table.run_child(step(binaries, folder / "shells", "--model", folder / "part", "--set", "n_modes=10", "--export-inp"), cwd=ROOT)
+    ours = median_child(step(binaries, folder / "again", "--model", folder / "part", "--set", "n_modes=10", "--threads", "1"), runs, cwd=ROOT)
+    theirs = median_child([ccx, "-i", "model"], runs, cwd=folder / "shells")
+    return [table.row(part, "elapsed", ours[0], "s", theirs[0], "CalculiX (it expands shells into solids)"),
+            table.row(part, "processor time", ours[1], "s", theirs[1], "CalculiX"),
+            table.row(part, "peak memory", ours[2], "MB", theirs[2], "CalculiX", aim="> 1")]
+
+
+def rows(binaries, runs):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        return (modes_of_the_bridge(binaries, runs, folder) + whole_step(binaries, runs, folder) + against_calculix(binaries, runs, folder))

@@ -1,7 +1,5 @@
 """Benchmark of the identification: CPU seconds and peak memory on the record of sysid_record.hpp, beside a NumPy SSI of the same work in
-the same run and the peers' published figures. Prints ratios; judges nothing.
-
-    python3 tests/bench/sysid.py [path of bench_sysid] [runs]
+the same run and the peers' published figures; tests/bench/run.py runs it.
 """
 import pathlib
 import resource
@@ -11,7 +9,6 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 # CPU seconds and MB on two cores, OpenBLAS, same kind of record (pyOMA2 1.4.2, KOMA).
 PEERS = {"covariance": ("pyOMA2 cov, correlations", 1.1, 212), "data": ("pyOMA2 data-driven", 20.0, 3096),
          "clustering": ("pyOMA2 hierarchical", 4.6, None), "deviations": ("pyOMA2 with uncertainty, 50 block rows", 257.0, 4390)}
@@ -42,31 +39,31 @@ def numpy_ssi(file, method):
     print(time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
-def main(executable, runs):
+def rows(binaries, runs):
+    import table
+    executable, out = binaries / "bench_sysid", []
+    part = "identification: 16 channels x 60,000 samples, 14 modes, 50 block rows, orders 2 to 60"
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "record.npy"
         subprocess.run([executable, "write", file], check=True)
-        print("identification: 16 channels x 60,000 samples, 14 modes, 50 block rows, orders to 60 in steps of 2; medians of", runs, "runs")
-        print(f"{'task':<12} {'CPU s':>7} {'MB':>6} {'modes':>6} {'spurious':>8}   {'target':>12}  beside")
         for task in ("covariance", "data", "clustering", "deviations"):
-            rows = [subprocess.run([executable, task, file], check=True, capture_output=True, text=True).stdout.split() for _ in range(runs)]
-            seconds = statistics.median(float(r[0]) for r in rows)
-            megabytes = statistics.median(float(r[1]) for r in rows)
-            beside = []
+            lines = [subprocess.run([executable, task, file], check=True, capture_output=True, text=True).stdout.split() for _ in range(runs)]
+            seconds = statistics.median(float(line[0]) for line in lines)
+            megabytes = statistics.median(float(line[1]) for line in lines)
+            found = f"{lines[0][2]} modes, {lines[0][3]} spurious"
+            target_s, target_MB = TARGETS[task]
             if task in ("covariance", "data"):
-                env = {"OPENBLAS_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"}
-                done = subprocess.run([sys.executable, __file__, "--numpy", file, task], check=True, capture_output=True, text=True, env=env)
-                numpy_s, numpy_mb = map(float, done.stdout.split())
-                beside.append(f"NumPy {numpy_s:.2f} s {numpy_mb:.0f} MB (ratio {numpy_s / max(seconds, 1e-3):.1f})")
-            name, peer_s, peer_mb = PEERS[task]
-            beside.append(f"{name} {peer_s:g} s" + (f" {peer_mb} MB" if peer_mb else "") + f" (ratio {peer_s / max(seconds, 1e-3):.0f})")
-            target_s, target_mb = TARGETS[task]
-            target = f"{target_s:g} s" + (f" {target_mb} MB" if target_mb else "")
-            print(f"{task:<12} {seconds:>7.3f} {megabytes:>6.0f} {rows[0][2]:>6} {rows[0][3]:>8}   {target:>12}  {'; '.join(beside)}", flush=True)
+                environment = {"OPENBLAS_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"}
+                done = subprocess.run([sys.executable, __file__, "--numpy", file, task], check=True, capture_output=True, text=True, env=environment)
+                numpy_s, numpy_MB = map(float, done.stdout.split())
+                out.append(table.row(part, f"{task}, time", seconds, "s", numpy_s, "NumPy, same run; " + found))
+                out.append(table.row(part, f"{task}, peak memory", megabytes, "MB", numpy_MB, "NumPy, same run"))
+            name, peer_s, peer_MB = PEERS[task]
+            out.append(table.row(part, f"{task}, time", seconds, "s", peer_s, name + ", published", aim=f"<= {target_s:g} s"))
+            if peer_MB:
+                out.append(table.row(part, f"{task}, peak memory", megabytes, "MB", peer_MB, name + ", published", aim=f"<= {target_MB:g} MB"))
+    return out
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--numpy"]:
-        numpy_ssi(sys.argv[2], sys.argv[3])
-    else:
-        main(sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build" / "bin" / "bench_sysid"), int(sys.argv[2]) if len(sys.argv) > 2 else 3)
+    numpy_ssi(sys.argv[2], sys.argv[3])

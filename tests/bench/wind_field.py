@@ -1,16 +1,12 @@
 """Wind field, 60 points x 3 components x 600 s at 16 Hz: ours against the direct cosine sum and against NumPy, same run, same work.
 
-    python3 tests/bench/wind_field.py [build/bin/bench_wind_field]
-
-Prints medians and ratios. The direct sum is measured on 2000 of its 26 million waves and scaled. NumPy does what is usual there:
+Run by tests/bench/run.py. The direct sum is measured on 2000 of its 26 million waves and scaled. NumPy does what is usual there:
 batched Cholesky factors and one inverse FFT a point, with a factor at every frequency and with factors interpolated from 40 anchors.
 Both sides run on one thread (set here); seconds are processor time.
 """
 import os
-import resource
 import statistics
 import subprocess
-import sys
 import time
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
@@ -18,8 +14,9 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 
 import numpy as np  # noqa: E402  (after the number of threads is set)
 
+import table  # noqa: E402
+
 N, RATE, SAMPLES, V = 60, 16.0, 9600, 19.1
-REPEATS = 5
 
 
 def points():
@@ -65,34 +62,27 @@ def numpy_field(anchors, generator):
     return out
 
 
-def ours(program, what):
-    lines = subprocess.run([program, what, str(REPEATS)], check=True, capture_output=True, text=True).stdout.split()
+def ours(program, what, runs):
+    lines = subprocess.run([program, what, str(runs)], check=True, capture_output=True, text=True).stdout.split()
     return statistics.median(float(line) for line in lines)
 
 
-def median_time(anchors):
+def numpy_median(anchors, runs):
     generator = np.random.default_rng(1)
     times = []
-    for _ in range(REPEATS):
+    for _ in range(runs):
         start = time.process_time()
         numpy_field(anchors, generator)
         times.append(time.process_time() - start)
     return statistics.median(times)
 
 
-def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else "build/bin/bench_wind_field"
-    one, each = ours(program, "interpolated"), ours(program, "every_frequency")
-    memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    direct = ours(program, "direct_cosine_sum")
-    every, interpolated = median_time(0), median_time(40)
-    print(f"wind field, {N} points x 3 components x 600 s at {RATE:g} Hz, one thread, processor time, medians of {REPEATS}, ours at most {memory:.0f} MB")
-    print(f"{'':36}{'seconds':>10}{'times ours':>12}")
-    for name, seconds in (("ours, interpolated factors", one), ("ours, a factor at every frequency", each),
-                          ("direct cosine sum, C++", direct), ("NumPy FFT, a factor at every frequency", every),
-                          ("NumPy FFT, interpolated factors", interpolated)):
-        print(f"{name:40}{seconds:10.3f}{seconds / one:12.1f}")
-
-
-if __name__ == "__main__":
-    main()
+def rows(binaries, runs):
+    program = binaries / "bench_wind_field"
+    part = f"wind field: {N} points x 3 components x 600 s at {RATE:g} Hz, one thread"
+    fast, each = ours(program, "interpolated", runs), ours(program, "every_frequency", runs)
+    direct = ours(program, "direct_cosine_sum", runs)
+    every, interpolated = numpy_median(0, runs), numpy_median(40, runs)
+    return [table.row(part, "factors at anchors, interpolated", fast, "s", interpolated, "NumPy FFT, the same 40 anchors"),
+            table.row(part, "a factor at every frequency", each, "s", every, "NumPy FFT, a factor at every frequency"),
+            table.row(part, "interpolated, against the direct sum", fast, "s", direct, "direct cosine sum in C++, 2000 waves scaled")]

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+namespace twindeck::linalg {
+
+/// A factor L (n × n, lower) whose neighbouring columns with the same pattern below them are stored together as dense blocks
+/// ("supernodes"), as CHOLMOD leaves it. Block s holds columns first_column[s] … first_column[s + 1] - 1 in the rows
+/// row[row_start[s]] … row[row_start[s + 1] - 1], ascending, of which the first are those of its own columns; its values lie
+/// column after column from value[value_start[s]].
+struct SupernodalFactor {
+  std::size_t n = 0, blocks = 0;
+  const int *first_column = nullptr, *row_start = nullptr, *value_start = nullptr, *row = nullptr;
+  const double* value = nullptr;
+};
+
+/// Solves L Lᵀ X = B in place for `Width` vectors, whose entries of one row lie side by side: y (Width × n).
+///
+/// CHOLMOD calls the BLAS for each block, thousands of times on blocks of some fifteen columns, and gathers and scatters
+/// between the calls. Here the entries of a few rows of all vectors stay in registers while a block passes by, and the vectors
+/// fill the machine's lanes whatever a block's size: two to three times faster at four and eight vectors. The sums run in one
+/// fixed order for each vector, so that a vector's solution does not depend on how many others are solved beside it.
+using SupernodalSweep = void (*)(const SupernodalFactor& factor, double* y);
+
+/// Sweeps for the widths that are there, in the instructions of this machine.
+struct SupernodalSweeps {
+  SupernodalSweep four, eight;
+};
+[[nodiscard]] const SupernodalSweeps& supernodal_sweeps();
+
+// The same for one instruction set each; call them through `supernodal_sweeps`, which knows what the machine has.
+[[nodiscard]] SupernodalSweeps plain_sweeps();
+[[nodiscard]] SupernodalSweeps avx2_sweeps();
+[[nodiscard]] SupernodalSweeps avx512_sweeps();
+
+}  // namespace twindeck::linalg
