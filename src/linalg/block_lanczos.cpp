@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "linalg/dense_product.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::linalg {
 
@@ -28,7 +28,7 @@ OrthonormalBlock orthonormalise(MatrixXd w, MatrixXd mass_w, double scale) {
   OrthonormalBlock out{std::move(w), std::move(mass_w), {}};
   out.r = MatrixXd::Identity(out.q.cols(), out.q.cols());
   for (int pass = 0; pass < 2 && out.q.cols() > 0; ++pass) {
-    MatrixXd gram = transposed_times(out.q, out.mass_q);
+    MatrixXd gram = product(out.q, out.mass_q, true);
     gram = 0.5 * (gram + gram.transpose()).eval();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
     const double floor = pass == 0 ? std::max(1e-22 * scale * scale, 1e-14 * eig.eigenvalues().maxCoeff()) : 0.25;
@@ -37,8 +37,8 @@ OrthonormalBlock orthonormalise(MatrixXd w, MatrixXd mass_w, double scale) {
     const VectorXd root = eig.eigenvalues().tail(keep).cwiseSqrt();
     const MatrixXd basis = eig.eigenvectors().rightCols(keep);
     const MatrixXd turn = basis * root.cwiseInverse().asDiagonal();
-    out.q = times(out.q, turn);
-    out.mass_q = times(out.mass_q, turn);
+    out.q = product(out.q, turn);
+    out.mass_q = product(out.mass_q, turn);
     out.r = root.asDiagonal() * basis.transpose() * out.r;
   }
   return out;
@@ -55,14 +55,14 @@ struct Basis {
     mass_v.middleCols(size, block.q.cols()) = block.mass_q;
     size += block.q.cols();
   }
-  /// Makes `w` orthogonal to the basis. The image of the last block has a part along the last two only, but for rounding: taken off
-  /// first, it leaves a remainder of which one pass over the whole basis takes the rest.
+  /// Makes `w` orthogonal to the basis. The image of the last block has a part along the last two only, but for rounding: taken
+  /// off first, it leaves a remainder of which one pass over the whole basis takes the rest.
   /// @param near  first column of the basis along which `w` has more than rounding (0: all of it)
   /// @return what was taken off, (size × columns of w)
   MatrixXd remove_from(MatrixXd& w, Index near) const {
     MatrixXd total = MatrixXd::Zero(size, w.cols());
     for (const Index first : {near, Index{0}}) {
-      const MatrixXd c = transposed_times(mass_v.middleCols(first, size - first), w);
+      const MatrixXd c = product(mass_v.middleCols(first, size - first), w, true);
       subtract_product(v.middleCols(first, size - first), c, w);
       total.bottomRows(size - first) += c;
     }
@@ -137,7 +137,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     if (converged == wanted || exhausted || out_of_patience) {
       result.converged = static_cast<int>(exhausted ? count : converged);
       result.values = values.head(count);
-      result.vectors = times(basis.v.leftCols(basis.size), s.leftCols(count));
+      result.vectors = product(basis.v.leftCols(basis.size), s.leftCols(count));
       return result;
     }
     if (!full) continue;
@@ -145,8 +145,8 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     // Thick restart: the best Ritz vectors stay; the coupling to the next block comes back with its own step.
     ++restarts;
     const Index keep = std::min(basis.size - width, wanted + std::max<Index>(width, wanted / 2));
-    basis.v.leftCols(keep) = times(basis.v.leftCols(basis.size), s.leftCols(keep));
-    basis.mass_v.leftCols(keep) = times(basis.mass_v.leftCols(basis.size), s.leftCols(keep));
+    basis.v.leftCols(keep) = product(basis.v.leftCols(basis.size), s.leftCols(keep));
+    basis.mass_v.leftCols(keep) = product(basis.mass_v.leftCols(basis.size), s.leftCols(keep));
     basis.projected.setZero();
     basis.projected.diagonal().head(keep) = values.head(keep);
     basis.size = keep;

@@ -8,6 +8,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <type_traits>
 #include <vector>
 
 #include "linalg/one_thread.hpp"
@@ -87,12 +88,14 @@ Eigen::MatrixXd solve_by_blocks(const cholmod_factor& factor, const Eigen::Ref<c
   Eigen::MatrixXd x(b.rows(), b.cols());
   std::vector<double> y;
   Eigen::Index first = 0;
-  while (b.cols() - first > 4) {
-    const Eigen::Index count = std::min<Eigen::Index>(8, b.cols() - first);
-    solve_lanes<8>(factor, sweeps.eight, b, first, count, y, x);
+  const auto take = [&](auto width, SupernodalSweep sweep) {
+    const Eigen::Index count = std::min<Eigen::Index>(width, b.cols() - first);
+    solve_lanes<width>(factor, sweep, b, first, count, y, x);
     first += count;
-  }
-  if (first < b.cols()) solve_lanes<4>(factor, sweeps.four, b, first, b.cols() - first, y, x);
+  };
+  while (b.cols() - first > 8) take(std::integral_constant<Eigen::Index, 16>(), sweeps.sixteen);
+  if (b.cols() - first > 4) take(std::integral_constant<Eigen::Index, 8>(), sweeps.eight);
+  if (b.cols() - first > 0) take(std::integral_constant<Eigen::Index, 4>(), sweeps.four);
   return x;
 }
 
@@ -155,7 +158,8 @@ struct Cholesky::Impl {
   cholmod_factor* factor = nullptr;
   std::shared_ptr<const Symbolic> symbolic;  // what `factor` started from, so that a changed pattern is noticed
   Eigen::Index failed = -1;
-  // Workspace of cholmod_solve2, kept between calls.
+  // Workspace of cholmod_solve2, kept between calls; one call at a time.
+  std::mutex solving;
   cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;
 
   Impl() {
@@ -240,6 +244,7 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) cons
   right.x = const_cast<double*>(b.data());
   right.xtype = CHOLMOD_REAL;
   right.dtype = CHOLMOD_DOUBLE;
+  const std::lock_guard lock(impl_->solving);
   const SerialScope serial;
   const int solved = cholmod_solve2(CHOLMOD_A, impl_->factor, &right, nullptr, &impl_->solution, nullptr, &impl_->y, &impl_->e,
                                     &impl_->common);

@@ -30,7 +30,7 @@ class Cholesky {
   [[nodiscard]] Eigen::Index failed_column() const;
   /// Of the last analysis.
   [[nodiscard]] FactorSize size() const;
-  /// Solves A X = B. @param b (n × m) @return (n × m)
+  /// Solves A X = B; may be called by several threads at once. @param b (n × m) @return (n × m)
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
 
  private:

@@ -7,13 +7,13 @@
 
 // The Fortran interface, which every BLAS and LAPACK has.
 extern "C" {
-void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha, const double* a, const int* lda,
-            const double* b, const int* ldb, const double* beta, double* c, const int* ldc);
-void dsyevr_(const char* jobz, const char* range, const char* uplo, const int* n, double* a, const int* lda, const double* vl, const double* vu,
-             const int* il, const int* iu, const double* abstol, int* m, double* w, double* z, const int* ldz, int* isuppz, double* work,
-             const int* lwork, int* iwork, const int* liwork, int* info);
-void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int* lda, double* s, double* u, const int* ldu, double* vt, const int* ldvt,
-             double* work, const int* lwork, int* iwork, int* info);
+void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha,
+            const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c, const int* ldc);
+void dsyevr_(const char* jobz, const char* range, const char* uplo, const int* n, double* a, const int* lda, const double* vl,
+             const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w, double* z, const int* ldz,
+             int* isuppz, double* work, const int* lwork, int* iwork, const int* liwork, int* info);
+void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int* lda, double* s, double* u, const int* ldu,
+             double* vt, const int* ldvt, double* work, const int* lwork, int* iwork, int* info);
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 }
 
@@ -27,7 +27,8 @@ int as_int(Index n) { return static_cast<int>(n); }
 
 }  // namespace
 
-Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b, bool transposed) {
+Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                        bool transposed) {
   use_one_thread();
   const int m = as_int(transposed ? a.cols() : a.rows()), n = as_int(b.cols()), k = as_int(b.rows());
   TWINDECK_ASSERT((transposed ? a.rows() : a.cols()) == b.rows());
@@ -37,6 +38,17 @@ Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen:
   const double one = 1.0, zero = 0.0;
   dgemm_(transposed ? "T" : "N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &m);
   return c;
+}
+
+void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                      Eigen::MatrixXd& c) {
+  use_one_thread();
+  const int m = as_int(a.rows()), n = as_int(b.cols()), k = as_int(b.rows());
+  TWINDECK_ASSERT(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols());
+  if (m == 0 || n == 0 || k == 0) return;
+  const int lda = as_int(a.outerStride()), ldb = as_int(b.outerStride());
+  const double minus_one = -1.0, one = 1.0;
+  dgemm_("N", "N", &m, &n, &k, &minus_one, a.data(), &lda, b.data(), &ldb, &one, c.data(), &m);
 }
 
 LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
@@ -50,8 +62,8 @@ LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
   int found = 0, info = 0, work_size = -1, int_work_size = -1, int_work_best = 0;
   double work_best = 0.0;
   const auto solve = [&](double* work, int* int_work) {
-    dsyevr_("V", "I", "L", &size, symmetric.data(), &size, &unused, &unused, &first, &last, &tolerance, &found, values.data(), vectors.data(), &size,
-            support.data(), work, &work_size, int_work, &int_work_size, &info);
+    dsyevr_("V", "I", "L", &size, symmetric.data(), &size, &unused, &unused, &first, &last, &tolerance, &found, values.data(),
+            vectors.data(), &size, support.data(), work, &work_size, int_work, &int_work_size, &info);
   };
   solve(&work_best, &int_work_best);
   work_size = static_cast<int>(work_best);
@@ -71,10 +83,12 @@ ThinSvd thin_svd(Eigen::MatrixXd a) {
   Eigen::VectorXi int_work(8 * k);
   int work_size = -1, info = 0;
   double work_best = 0.0;
-  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, &work_best, &work_size, int_work.data(), &info);
+  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, &work_best, &work_size,
+          int_work.data(), &info);
   work_size = static_cast<int>(work_best);
   Eigen::VectorXd work(work_size);
-  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, work.data(), &work_size, int_work.data(), &info);
+  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, work.data(), &work_size,
+          int_work.data(), &info);
   TWINDECK_ASSERT(info == 0);
   return svd;
 }

@@ -4,12 +4,15 @@
 
 namespace twindeck::linalg {
 
-/// Dense kernels of the system's BLAS and LAPACK (OpenBLAS), on one thread: several times faster than Eigen's own at sizes of some
-/// hundreds, because they choose the machine's instructions at run time. Results don't depend on the number of threads.
+/// Dense kernels of the system's BLAS and LAPACK (OpenBLAS), on one thread: several times faster than Eigen's own at sizes of
+/// some hundreds, because they choose the machine's instructions at run time. Results don't depend on the number of threads.
 
 /// @return a b, or aᵀ b if `transposed`
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
                                       bool transposed = false);
+/// c -= a b.
+void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                      Eigen::MatrixXd& c);
 
 /// Leading eigenpairs of a dense symmetric matrix.
 struct LeadingEigenpairs {
@@ -22,9 +25,9 @@ struct LeadingEigenpairs {
 
 /// Thin singular value decomposition A = U S Vᵀ.
 struct ThinSvd {
-  Eigen::MatrixXd u;        ///< (rows × k), k the smaller dimension
-  Eigen::VectorXd values;   ///< (k) descending
-  Eigen::MatrixXd vt;       ///< (k × columns)
+  Eigen::MatrixXd u;       ///< (rows × k), k the smaller dimension
+  Eigen::VectorXd values;  ///< (k) descending
+  Eigen::MatrixXd vt;      ///< (k × columns)
 };
 /// Reference: LAPACK's DGESDD (divide and conquer).
 [[nodiscard]] ThinSvd thin_svd(Eigen::MatrixXd a);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linalg/block_lanczos.hpp"
-#include "linalg/dense_product.hpp"
+#include "linalg/dense.hpp"
 #include "linalg/symmetric_product.hpp"
 
 namespace twindeck::linalg {
@@ -21,8 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Vectors of a block. Wider ones ask for more solves than they save by reading the factor once for all of their columns (8: 127
-/// solves for 91 at 29,000 degrees of freedom), whole sets of known modes as a block too.
+/// Vectors of a block. Wider ones ask for more solves than they save by reading the factor once for all of their columns (8:
+/// 127 solves for 91 at 29,000 degrees of freedom), whole sets of known modes as a block too.
 constexpr int kBlock = 4;
 
 /// Numbers in [-1, 1[ from a fixed sequence (splitmix64), the same on every machine; another sequence for each `draw`.
@@ -72,7 +72,8 @@ Candidates condensed(const SymmetricProduct& mass, const std::vector<Index>& dof
   return out;
 }
 
-Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor, const Eigen::Ref<const MatrixXd>& start) {
+Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor,
+                      const Eigen::Ref<const MatrixXd>& start) {
   SelfAdjointOperator op;
   op.size = mass.size();
   op.times_mass = [&](const MatrixXd& x) { return mass.times(x); };
@@ -119,20 +120,21 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
   }
   if (!out.status.converged) return out;
 
-  const SymmetricProduct product(mass);
-  const std::vector<Index> massive = product.rows_in_use();
+  const SymmetricProduct mass_matrix(mass);
+  const std::vector<Index> massive = mass_matrix.rows_in_use();
   if (massive.empty()) {
     out.status = {false, "no degree of freedom carries mass, so that there are no modes"};
     return out;
   }
   const bool few = static_cast<Index>(massive.size()) <= std::max<Index>(60, 3 * n_pairs);
-  const Candidates found = few ? condensed(product, massive, n_pairs, factor) : by_lanczos(product, n_pairs, factor, start);
+  const Candidates found =
+      few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor, start);
 
   // Purification, then Rayleigh and Ritz on the purified block y = A^-1 M x: y'Ay = y'Mx and y'My give lambda - sigma.
-  const MatrixXd mass_x = product.times(found.vectors);
+  const MatrixXd mass_x = mass_matrix.times(found.vectors);
   const MatrixXd y = factor.solve(mass_x);
-  const MatrixXd mass_y = product.times(y);
-  const MatrixXd a = transposed_times(y, mass_x), b = transposed_times(y, mass_y);
+  const MatrixXd mass_y = mass_matrix.times(y);
+  const MatrixXd a = product(y, mass_x, true), b = product(y, mass_y, true);
   out.operations = found.operations + static_cast<int>(found.vectors.cols());
   if (found.vectors.cols() > 0) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (a + a.transpose()), 0.5 * (b + b.transpose()));

@@ -6,10 +6,11 @@
 namespace twindeck::linalg {
 namespace avx2 {
 namespace {
+constexpr int kLanes = 4, kAtOnce = 8;
 #include "linalg/supernodal_kernels.hpp"
 }  // namespace
 }  // namespace avx2
-SupernodalSweeps avx2_sweeps() { return {avx2::sweep<4>, avx2::sweep<8>}; }
+SupernodalSweeps avx2_sweeps() { return {avx2::sweep<4>, avx2::sweep<8>, avx2::sweep<16>}; }
 }  // namespace twindeck::linalg
 #pragma GCC pop_options
 #else

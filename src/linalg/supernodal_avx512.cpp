@@ -6,10 +6,11 @@
 namespace twindeck::linalg {
 namespace avx512 {
 namespace {
+constexpr int kLanes = 8, kAtOnce = 24;
 #include "linalg/supernodal_kernels.hpp"
 }  // namespace
 }  // namespace avx512
-SupernodalSweeps avx512_sweeps() { return {avx512::sweep<4>, avx512::sweep<8>}; }
+SupernodalSweeps avx512_sweeps() { return {avx512::sweep<4>, avx512::sweep<8>, avx512::sweep<16>}; }
 }  // namespace twindeck::linalg
 #pragma GCC pop_options
 #else

@@ -33,7 +33,8 @@ enum class InpFlavour {
 /// Writes the model with a *FREQUENCY step of `n_modes`. Stays become trusses with the tangent modulus of their pull (Ernst).
 /// @param state  pulls of the stays; empty vectors mean none
 /// @return what the file does not carry, a sentence each (geometric stiffness, bending inertia ratios, friction …)
-/// @throws InputError  for what the flavour cannot say and leaving out would change the structure (end releases)
+/// @throws InputError  for what the file cannot say and leaving out would change the structure: end releases, tapered beams,
+///         elements given by matrices, lumped masses
 std::vector<std::string> write_inp(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour, int n_modes,
                                    const std::filesystem::path& file);
 

@@ -144,9 +144,6 @@ void InpWriter::point_mass(const std::string& group, int node, double mass_kg) {
 }
 
 void InpWriter::springs_and_masses() {
-  if (!model_.matrix_elements.empty()) note("elements given by their matrices are left out");
-  for (const fe::Element& element : model_.elements)
-    if (element.section2 >= 0) note("tapered beams have the section of their first end throughout");
   const auto direction_axes = [this](const Eigen::Vector3d& d) {
     // x' of the local system is the spring's direction
     const Eigen::Vector3d other = std::abs(d.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
@@ -203,8 +200,33 @@ std::string InpWriter::text() const {
   return heading_ + comments + "*NODE, NSET=NALL\n" + nodes_ + materials_ + elements_ + equations_ + supports_ + step_;
 }
 
+namespace {
+
+/// What no card that we write can say and leaving out would make another structure.
+void refuse_what_cannot_be_said(const fe::Model& model) {
+  const auto refuse = [&](const std::string& what, const std::string& problem, const std::string& mend) {
+    throw InputError({model.source, 0, what}, problem, mend);
+  };
+  for (const fe::Element& element : model.elements) {
+    if (element.section2 < 0) continue;
+    refuse(fmt::format("element {}", element.id), "is a tapered beam, for which an .inp file of ours has no section",
+           "divide it into uniform beams, or use --export-matrices");
+  }
+  if (!model.matrix_elements.empty()) {
+    refuse(fmt::format("matrix element '{}'", model.matrix_elements.front().name),
+           "is given by its matrices, which an .inp file cannot hold", "leave it out, or use --export-matrices");
+  }
+  if (model.formulation.lumped_mass) {
+    refuse("formulation.lumped_mass", "is true, but the elements of an .inp file have consistent masses",
+           "set it to false, or use --export-matrices");
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> write_inp(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour, int n_modes,
                                    const std::filesystem::path& file) {
+  refuse_what_cannot_be_said(model);
   InpWriter writer(model, state, flavour);
   writer.heading();
   writer.beams_and_bars();

@@ -221,20 +221,39 @@ void write_square_matrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const 
       file, fmt::format("%%MatrixMarket matrix coordinate real general\n{0} {0} {1}\n", matrix.rows(), count) + body);
 }
 
-void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file) {
-  TWINDECK_ASSERT(lower.rows() == lower.cols());
+namespace {
+
+void write_entries(const linalg::SparseMatrix& matrix, const char* symmetry, const std::filesystem::path& file) {
   std::string body;
   long count = 0;
-  for (int column = 0; column < lower.outerSize(); ++column) {
-    for (linalg::SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
-      TWINDECK_ASSERT(entry.row() >= entry.col());
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (linalg::SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
       if (entry.value() == 0.0) continue;
       fmt::format_to(std::back_inserter(body), "{} {} {:.17g}\n", entry.row() + 1, entry.col() + 1, entry.value());
       ++count;
     }
   }
   io::write_file_atomically(
-      file, fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{0} {0} {1}\n", lower.rows(), count) + body);
+      file, fmt::format("%%MatrixMarket matrix coordinate real {0}\n{1} {1} {2}\n", symmetry, matrix.rows(), count) + body);
+}
+
+}  // namespace
+
+void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file) {
+  TWINDECK_ASSERT(lower.rows() == lower.cols());
+  for (int column = 0; column < lower.outerSize(); ++column)
+    for (linalg::SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) TWINDECK_ASSERT(entry.row() >= entry.col());
+  write_entries(lower, "symmetric", file);
+}
+
+void write_full_matrix_market(const linalg::SparseMatrix& full, const std::filesystem::path& file) {
+  TWINDECK_ASSERT(full.rows() == full.cols());
+  const linalg::SparseMatrix transposed = full.transpose();
+  if (linalg::SparseMatrix(full - transposed).coeffs().isZero(0.0)) {
+    write_entries(full.triangularView<Eigen::Lower>(), "symmetric", file);
+  } else {
+    write_entries(full, "general", file);
+  }
 }
 
 }  // namespace twindeck::model_io

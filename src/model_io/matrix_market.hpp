@@ -20,6 +20,10 @@ namespace twindeck::model_io {
 /// @param lower  lower triangle (n × n)
 void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file);
 
+/// Writes a matrix of which both triangles are stored: as its lower triangle where it is symmetric to the last bit, else
+/// `general`. 17 digits, no zeros.
+void write_full_matrix_market(const linalg::SparseMatrix& full, const std::filesystem::path& file);
+
 /// A small square matrix that need not be symmetric, for an element given by its matrices. Reads the same kinds; a symmetric
 /// file is completed.
 /// @return (n × n)

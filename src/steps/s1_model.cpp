@@ -43,7 +43,10 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   const bool is_bridge = !context.model && steps::read_study(context.study).model_generator == "ponte";
   steps::write_summary(model, loaded.system, is_bridge ? steps::PartOf(ponte::part_of) : steps::PartOf(), context.out);
   steps::save_model(loaded, loaded.theta, context.out / "model");
-  if (context.has_flag("export-matrices")) model_io::write_matrices(loaded.system, loaded.theta, context.out);
+  if (context.has_flag("export-matrices")) {
+    model_io::write_matrices(loaded.system, loaded.theta, context.out);
+    if (model != nullptr) model_io::write_damping(*model, loaded.system, loaded.theta, context.out);
+  }
   if (context.has_flag("export-inp")) steps::export_inp(loaded, static_cast<int>(config.n_modes), context);
 
   // 4. The same modes on other meshes: how far this one is from converged.
@@ -65,8 +68,10 @@ int main(int argc, char** argv) {
                    "s1_model --model my_bridge --out results/my_bridge/s1_model --export-matrices",
                    "s1_model --model frame.inp --out results/frame/s1_model --export-inp"};
   step.fields = config.fields();
-  step.flags = {{"export-matrices", false, "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv"},
-                {"export-inp", false, "also write the model for CalculiX (model.inp) and Abaqus (model_abaqus.inp)"}};
+  step.flags = {
+      {"export-matrices", false,
+       "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv, and C.mtx where there are dampers"},
+      {"export-inp", false, "also write the model for CalculiX (model.inp) and Abaqus (model_abaqus.inp)"}};
   step.run = [&config](steps::StepContext& context) { return run(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

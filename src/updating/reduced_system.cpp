@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "linalg/dense_product.hpp"
+#include "linalg/dense.hpp"
 #include "linalg/symmetric_product.hpp"
 
 namespace twindeck::updating {
@@ -39,7 +39,7 @@ MatrixXd project(const linalg::SparseMatrix& pattern, const std::vector<int>& co
   linalg::SparseMatrix small(std::ssize(rows), std::ssize(rows));
   small.setFromTriplets(entries.begin(), entries.end());
   const MatrixXd part = basis(rows, Eigen::all);
-  const MatrixXd projected = linalg::transposed_times(part, linalg::SymmetricProduct(small).times(part));
+  const MatrixXd projected = linalg::product(part, linalg::SymmetricProduct(small).times(part), true);
   return 0.5 * (projected + projected.transpose());
 }
 
@@ -126,14 +126,14 @@ MatrixXd orthonormal_basis(const MatrixXd& vectors, const linalg::SparseMatrix& 
   const linalg::SymmetricProduct mass(mass_lower);
   MatrixXd basis = vectors;
   for (int pass = 0; pass < 2; ++pass) {  // the second one takes away what rounding left of the first
-    MatrixXd gram = linalg::transposed_times(basis, mass.times(basis));
+    MatrixXd gram = linalg::product(basis, mass.times(basis), true);
     gram = 0.5 * (gram + gram.transpose()).eval();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
     const double floor = pass == 0 ? loss * loss * eig.eigenvalues().maxCoeff() : 0.0;
     const Index keep = (eig.eigenvalues().array() > floor).count();
     const MatrixXd turn =
         eig.eigenvectors().rightCols(keep) * eig.eigenvalues().tail(keep).cwiseSqrt().cwiseInverse().asDiagonal();
-    basis = linalg::times(basis, turn);
+    basis = linalg::product(basis, turn);
   }
   return basis;
 }

@@ -140,6 +140,41 @@ class RoundTrip(Folder):
             self.assertAlmostEqual(g / f, 1.0, delta=1e-9)
 
 
+class RefusedExport(Folder):
+    """What no card of the file can say and leaving out would make another structure: one line, exit 2, nothing written."""
+
+    def refused(self, *fragments):
+        done = run(self.folder / "block", self.folder / "s1", "--set", "n_modes=2", "--export-inp")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertFalse((self.folder / "s1").exists())
+        for fragment in fragments:
+            self.assertIn(fragment, done.stderr)
+
+    def test_lumped_masses(self):
+        models.block_alone(self.folder / "block")
+        with open(self.folder / "block" / "model.toml", "a") as file:
+            file.write("[formulation]\nlumped_mass = true\n")
+        self.refused("formulation.lumped_mass", "consistent masses", "--export-matrices")
+
+    def test_tapered_beam(self):
+        models.space_frame(self.folder / "block", pieces=1)
+        elements = models.read_csv(self.folder / "block" / "elements.csv")
+        models.write_csv(self.folder / "block" / "elements.csv", [*elements[0], "section2"],
+                         [[*row.values(), "girder" if row is elements[0] else ""] for row in elements])
+        self.refused("element 1", "tapered beam")
+
+    def test_element_given_by_matrices(self):
+        models.block_alone(self.folder / "block")
+        matrices = self.folder / "block" / "matrices"
+        matrices.mkdir()
+        (matrices / "k.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 1e6\n")
+        end = next(row["node"] for row in models.read_csv(self.folder / "block" / "nodes.csv") if float(row["x_m"]) == 4.0)
+        with open(self.folder / "block" / "model.toml", "a") as file:
+            file.write(f'[[matrix_element]]\nname = "wind"\ngroup = "wind"\ndofs = ["{end}:x"]\nstiffness = "matrices/k.mtx"\n')
+        self.refused("matrix element 'wind'", "given by its matrices")
+
+
 CANTILEVER = """*Heading
 A mast, as another program writes it
 ** a comment

@@ -1,6 +1,6 @@
 /// Geometric stiffness: sagging stays, Euler columns; observed orders of convergence of the linear elements.
-#include "fe/hanging_chain.hpp"
 #include "fe/large_displacement.hpp"
+#include "hanging_chain.hpp"
 #include "verification_models.hpp"
 
 namespace twindeck::fe::verification {

@@ -1,5 +1,6 @@
 /// Oracle: NAFEMS' standard problems of free vibration (Abbassian, Dawswell and Knowles 1987, "Selected Benchmarks for Natural
-/// Frequency Analysis"; targets as printed, each thin one also a closed form). E = 200 GPa, ν = 0.3, 8000 kg/m³ throughout.
+/// Frequency Analysis", R0015; the Standard NAFEMS Benchmarks, TNSB Rev. 3, 1990; targets compared with what the verification
+/// manuals of OptiStruct, SolidWorks, CATIA, Fusion and Code_Aster print of them). E = 200 GPa, ν = 0.3, 8000 kg/m³ throughout.
 /// Tolerances: 1 % where the mesh is fine against the mode, more where the note says why.
 #include "verification_models.hpp"
 
@@ -116,7 +117,7 @@ TEST(NafemsVibration, FV22ClampedThickRhombicPlateOfSolids) {
   for (int k = 0; k <= 2; ++k)
     for (int i = 0; i <= n; ++i)
       for (const int node : {i, n * (n + 1) + i, i * (n + 1), i * (n + 1) + n}) fix(model, k * layer + node, {0, 1, 2});
-  compare("FV22 clamped thick rhombic plate (solids)", frequencies_Hz(model, 4), 1, {133.95, 201.41, 265.81, 282.74}, 0.04);
+  compare("FV22 clamped thick rhombic plate (solids)", frequencies_Hz(model, 4), 1, {133.95, 201.41, 265.81, 283.68}, 0.04);
 }
 
 // Plane stress in its plane: depth 5 m at the clamp to 1 m at the tip, 10 m long.
@@ -130,8 +131,9 @@ TEST(NafemsVibration, FV32CantileveredTaperedMembrane) {
           0.01);
 }
 
-// 10 × 10 × 1 m, held in z along the lower edges alone: three rigid modes, then plate modes with shear and one of extension. 4
-// %: the bending targets are those of a thick plate held at its middle plane; held at a lower edge a solid is softer.
+// 10 × 10 × 1 m, held in z along the lower edges alone: three rigid modes, then four plate modes with shear and, eighth to
+// tenth, three in the plane. 4 %: the bending targets are closed forms of a thick plate held at its middle plane; held at a
+// lower edge a solid is softer (44.76 Hz with the benchmark's own bricks of 20 nodes).
 TEST(NafemsVibration, FV52SimplySupportedSolidPlate) {
   const int n = 16;
   Model model = steel();
@@ -139,7 +141,7 @@ TEST(NafemsVibration, FV52SimplySupportedSolidPlate) {
   for (int i = 0; i <= n; ++i)
     for (const int node : {i, n * (n + 1) + i, i * (n + 1), i * (n + 1) + n}) fix(model, node, {2});
   compare("FV52 simply supported solid plate", frequencies_Hz(model, 10), 4,
-          {45.897, 109.44, 109.44, 167.89, 193.59, 206.64, 206.64}, 0.04);
+          {45.897, 109.44, 109.44, 167.89, 193.59, 206.19, 206.19}, 0.04);
 }
 
 }  // namespace

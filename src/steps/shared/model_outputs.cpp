@@ -43,7 +43,8 @@ modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSyste
 }
 
 void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder) {
-  io::CsvWriter stays({"stay", "group", "length_m", "pull_N", "site_pull_N", "stress_Pa", "equivalent_modulus_Pa"});
+  io::CsvWriter stays({"stay", "group", "length_m", "pull_N", "site_pull_N", "stress_Pa", "equivalent_modulus_Pa",
+                       "deviation_from_site_pct"});
   for (std::size_t i = 0; model != nullptr && i < model->elements.size(); ++i) {
     const fe::Element& e = model->elements[i];
     if (e.type != fe::ElementType::stay) continue;
@@ -56,8 +57,9 @@ void write_stays(const fe::Model* model, const fe::PrestressState& state, const 
     const fe::Dischinger law{material.density_kg_m3 * model->gravity_m_s2, chord.head<2>().norm(), stress};
     // Without pull the model leaves the sag out too, and the stay acts with the modulus of its material.
     const double modulus = stress > 0.0 ? law.modulus(material.youngs_modulus_Pa) : material.youngs_modulus_Pa;
-    stays.row({stay_name(e), e.group, chord.norm(), pull, e.pull_N > 0.0 ? std::optional<double>(e.pull_N) : std::nullopt,
-               stress, modulus});
+    const auto where_measured = [&](double value) { return e.pull_N > 0.0 ? std::optional<double>(value) : std::nullopt; };
+    stays.row({stay_name(e), e.group, chord.norm(), pull, where_measured(e.pull_N), stress, modulus,
+               where_measured(100.0 * (pull / e.pull_N - 1.0))});
   }
   stays.save(folder / "stays.csv");
 }
