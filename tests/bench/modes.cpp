@@ -4,9 +4,12 @@
 ///     bench_modes matrices FOLDER   15 modes of K.mtx and M.mtx, ordering included, as the peers have them
 ///     bench_modes bridge [FILE]     the study's bridge: assembly, a solve after a change of parameters, derivatives
 ///     bench_modes machine           the machine's bandwidth and arithmetic on one thread, for the bound
+#include <omp.h>
 #include <sys/resource.h>
 
 #include <Eigen/Dense>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <functional>
@@ -104,10 +107,16 @@ int bridge(const std::string& file) {
               }));
   std::printf("jacobian_deviation %.3e\n", ((exact - differences) * theta.asDiagonal()).cwiseAbs().maxCoeff());
   std::printf("parameters %ld\n", static_cast<long>(theta.size()));
-  std::printf("shape_jacobian_s %.6f\n", seconds([&] {
-                const auto all = dynamics::ShapeSensitivity(system, theta, modes).derivatives();
-                if (std::ssize(all) != theta.size()) std::printf("shape_jacobian_is_missing 1\n");
-              }));
+  const auto shape_jacobian = [&] {
+    const auto all = dynamics::ShapeSensitivity(system, theta, modes).derivatives();
+    if (std::ssize(all) != theta.size()) std::printf("shape_jacobian_is_missing 1\n");
+  };
+  std::printf("shape_jacobian_s %.6f\n", seconds(shape_jacobian));
+  omp_set_num_threads(2);
+  const auto begin = std::chrono::steady_clock::now();
+  shape_jacobian();
+  std::printf("shape_jacobian_two_threads_s %.6f\n",
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   return 0;
 }
 

@@ -111,6 +111,41 @@ TEST(ShapeDerivative, HoldsForCloseModes) {
   expect_shape_derivative(system, static_cast<int>(system.parameters.size()) - 1, 6, 4e-5, 1e-4);
 }
 
+// Oracle: Nelson's method itself, one bordered system a mode,
+//   [K - lambda M, M phi; phi' M, 0] [dphi; -dlambda] = [-(dK - lambda dM) phi; -1/2 phi' dM phi],
+// by a dense LU, for every parameter. All parameters at once must be the same to the last bit as one after the other.
+TEST(ShapeDerivative, EqualsNelsonsBorderedSystems) {
+  auto system = SpringChain{.n = 80}.system();
+  SpringChain::add_ground_spring(system, 23, 2.0);
+  const Eigen::VectorXd theta = system.initial();
+  ModalSolver solver(system);
+  const EigenModes modes = solver.solve(theta, 9);
+  const twindeck::dynamics::ShapeSensitivity sensitivity(system, theta, modes);
+  const std::vector<Eigen::MatrixXd> all = sensitivity.derivatives();
+  ASSERT_EQ(all.size(), system.parameters.size());
+  const Eigen::MatrixXd stiffness = Eigen::MatrixXd(system.stiffness(theta)).selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd mass = Eigen::MatrixXd(system.mass(theta)).selfadjointView<Eigen::Lower>();
+  const Eigen::Index n = mass.rows();
+  for (int p = 0; p < std::ssize(all); ++p) {
+    const Eigen::MatrixXd& found = all[static_cast<std::size_t>(p)];
+    EXPECT_EQ((found - sensitivity.derivative(p)).cwiseAbs().maxCoeff(), 0.0);
+    const Eigen::MatrixXd dk = system.stiffness_derivative_times(theta, p, modes.shapes);
+    const Eigen::MatrixXd dm = system.mass_derivative_times(theta, p, modes.shapes);
+    for (Eigen::Index i = 0; i < 9; ++i) {
+      const Eigen::VectorXd phi = modes.shapes.col(i);
+      Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 1, n + 1);
+      bordered.topLeftCorner(n, n) = stiffness - modes.eigenvalue[i] * mass;
+      bordered.col(n).head(n) = mass * phi;
+      bordered.row(n).head(n) = bordered.col(n).head(n).transpose();
+      Eigen::VectorXd right(n + 1);
+      right << modes.eigenvalue[i] * dm.col(i) - dk.col(i), -0.5 * phi.dot(dm.col(i));
+      const Eigen::VectorXd nelson = bordered.fullPivLu().solve(right).head(n);
+      EXPECT_LT((found.col(i) - nelson).norm(), 1e-6 * nelson.norm() + 1e-9 * phi.norm())
+          << "parameter " << p << ", mode " << i + 1;
+    }
+  }
+}
+
 // Oracle: closed form. With m the shape keeps its form and its norm falls as 1/sqrt(m): dphi = -phi/(2m).
 TEST(ShapeDerivative, FollowsTheNormalisation) {
   const SpringChain chain{.n = 90};
