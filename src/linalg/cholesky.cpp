@@ -226,11 +226,6 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
 
 Eigen::Index Cholesky::failed_column() const { return impl_->failed; }
 
-FactorSize Cholesky::size() const {
-  if (!impl_->symbolic) return {};
-  return {impl_->symbolic->common.lnz, impl_->symbolic->common.fl};
-}
-
 Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
   TWINDECK_ASSERT(impl_->factor != nullptr && impl_->failed < 0);
   TWINDECK_ASSERT(static_cast<std::size_t>(b.rows()) == impl_->factor->n);

@@ -8,11 +8,6 @@
 
 namespace twindeck::linalg {
 
-/// What a factorisation costs: entries of the factor and multiplications and additions to find them.
-struct FactorSize {
-  double entries = 0.0, flops = 0.0;
-};
-
 /// Sparse LDL'/Cholesky of a symmetric matrix (CHOLMOD, supernodal where it pays; one thread so that results do not depend on
 /// the number of threads). One symbolic factorisation per pattern: `factorize` may be called again with new values.
 class Cholesky {
@@ -28,9 +23,7 @@ class Cholesky {
   /// `failed_column()` gives the row of the matrix at which it broke down (a mechanism lies there).
   Status factorize(const SparseMatrix& lower);
   [[nodiscard]] Eigen::Index failed_column() const;
-  /// Of the last analysis.
-  [[nodiscard]] FactorSize size() const;
-  /// Solves A X = B; may be called by several threads at once. @param b (n × m) @return (n × m)
+  /// Solves A X = B. @param b (n × m) @return (n × m)
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
 
  private:

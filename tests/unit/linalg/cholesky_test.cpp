@@ -62,7 +62,6 @@ TEST(Cholesky, SolvesAnyNumberOfColumnsAlike) {
   const SparseMatrix a = cube(14);
   Cholesky factor;
   ASSERT_TRUE(factor.factorize(a).converged);
-  ASSERT_GT(factor.size().flops, 40.0 * factor.size().entries);  // CHOLMOD's rule for keeping blocks
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(a.rows(), 37);
   const Eigen::MatrixXd all = factor.solve(b);
   EXPECT_LT((a.selfadjointView<Eigen::Lower>() * all - b).norm(), 1e-12 * b.norm());
