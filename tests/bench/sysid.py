@@ -47,14 +47,14 @@ def rows(binaries, runs):
         file = pathlib.Path(folder) / "record.npy"
         subprocess.run([executable, "write", file], check=True)
         for task in ("covariance", "data", "clustering", "deviations"):
-            lines = [subprocess.run([executable, task, file], check=True, capture_output=True, text=True).stdout.split() for _ in range(runs)]
+            lines = [subprocess.run(table.launched(executable, task, file), check=True, capture_output=True, text=True).stdout.split() for _ in range(runs)]
             seconds = statistics.median(float(line[0]) for line in lines)
             megabytes = statistics.median(float(line[1]) for line in lines)
             found = f"{lines[0][2]} modes, {lines[0][3]} spurious"
             target_s, target_MB = TARGETS[task]
             if task in ("covariance", "data"):
                 environment = {"OPENBLAS_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"}
-                done = subprocess.run([sys.executable, __file__, "--numpy", file, task], check=True, capture_output=True, text=True, env=environment)
+                done = subprocess.run(table.launched(sys.executable, __file__, "--numpy", file, task), check=True, capture_output=True, text=True, env=environment)
                 numpy_s, numpy_MB = map(float, done.stdout.split())
                 out.append(table.row(part, f"{task}, time", seconds, "s", numpy_s, "NumPy, same run; " + found))
                 out.append(table.row(part, f"{task}, peak memory", megabytes, "MB", numpy_MB, "NumPy, same run"))

@@ -1,7 +1,6 @@
 """What the benchmarks print and write: one row a comparison, the ratio first, never a pass or a fail."""
 import csv
 import os
-import resource
 import subprocess
 import sys
 
@@ -40,6 +39,14 @@ def show(rows):
 
 
 ONE_THREAD = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+
+
+def launched(*command):
+    """The command as a child of a shell: Linux counts what the process that forks holds into the peak memory of what it starts, and a shell
+    holds next to nothing."""
+    return ["/bin/sh", "-c", '"$@"; exit $?', "sh", *map(str, command)]
+
+
 # Runs a command as the only child of a process of its own, so that the children's peak memory and time are the command's.
 CHILD = """
 import resource, subprocess, sys, time
@@ -54,7 +61,7 @@ print(time.perf_counter() - start, used.ru_utime + used.ru_stime, used.ru_maxrss
 
 def run_child(command, cwd=None, env=None):
     """@return wall seconds, processor seconds, peak memory [MB] of a command."""
-    done = subprocess.run([sys.executable, "-c", CHILD, *map(str, command)], cwd=cwd, env=env or ONE_THREAD, capture_output=True, text=True)
+    done = subprocess.run(launched(sys.executable, "-c", CHILD, *command), cwd=cwd, env=env or ONE_THREAD, capture_output=True, text=True)
     if done.returncode:
         raise SystemExit(f"bench: {command[0]} failed:\n{done.stderr}")
     return tuple(map(float, done.stdout.split()))
@@ -62,11 +69,7 @@ def run_child(command, cwd=None, env=None):
 
 def measures(*command):
     """`name value` lines that a command prints."""
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, env=ONE_THREAD)
+    done = subprocess.run(launched(*command), capture_output=True, text=True, env=ONE_THREAD)
     if done.returncode:
         raise SystemExit(f"bench: {command[0]} failed:\n{done.stderr}")
     return {name: float(value) for name, value in (line.split() for line in done.stdout.splitlines())}
-
-
-def own_children_MB():
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
