@@ -144,7 +144,7 @@ class RefusedExport(Folder):
     """What no card of the file can say and leaving out would make another structure: one line, exit 2, nothing written."""
 
     def refused(self, *fragments):
-        done = run(self.folder / "block", self.folder / "s1", "--set", "n_modes=2", "--export-inp")
+        done = run(self.folder / "block", self.folder / "s1", "--set", "n_modes=2", "--export-inp", "--quiet")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertFalse((self.folder / "s1").exists())
@@ -173,6 +173,31 @@ class RefusedExport(Folder):
         with open(self.folder / "block" / "model.toml", "a") as file:
             file.write(f'[[matrix_element]]\nname = "wind"\ngroup = "wind"\ndofs = ["{end}:x"]\nstiffness = "matrices/k.mtx"\n')
         self.refused("matrix element 'wind'", "given by its matrices")
+
+
+class DampingMatrix(Folder):
+    def test_dashpots_and_their_own_unknowns(self):
+        """A dashpot to the ground along z, and one in series with a spring: c stands where dofs.csv says, and in the row of the dashpot's own
+        unknown z, with k (u - z) = c dz/dt; nothing else in C."""
+        models.space_frame(self.folder / "frame", pieces=1)
+        top = [row["node"] for row in models.read_csv(self.folder / "frame" / "nodes.csv") if float(row["z_m"]) == 6.5][:2]
+        header = ["spring", "group", "node", "direction_x", "direction_y", "direction_z", "stiffness_N_m", "damping_N_s_m", "arrangement"]
+        models.write_csv(self.folder / "frame" / "springs.csv", header, [["P", "damper", top[0], 0, 0, 1, 0, 5000, "parallel"],
+                                                                         ["S", "damper", top[1], 1, 0, 0, 2e6, 700, "series"]])
+        done = run(self.folder / "frame", self.folder / "out", "--set", "n_modes=2", "--export-matrices", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        dofs = models.read_csv(self.folder / "out" / "dofs_damped.csv")
+        row = {(r["node"], r["direction"]): int(r["dof"]) for r in dofs}
+
+        def entries(name):
+            lines = (self.folder / "out" / name).read_text().splitlines()[2:]
+            return {(int(i), int(j)): float(v) for i, j, v in map(str.split, lines)}
+
+        own = row["S", "own"]
+        self.assertEqual(entries("C.mtx"), {(row[top[0], "z"], row[top[0], "z"]): 5000.0, (own, own): 700.0})
+        stiffness = entries("K_damped.mtx")
+        self.assertEqual(stiffness[own, own], 2e6)
+        self.assertEqual(stiffness[own, row[top[1], "x"]], -2e6)
 
 
 CANTILEVER = """*Heading
