@@ -235,11 +235,15 @@ std::vector<const Candidate*> Inference::promising(const Fit& base, const Search
     ranked.emplace_back(0.5 * t + candidate->log_prior, candidate);
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::map<std::string, int> of_family;
+  std::map<std::string, std::size_t> of_family, starts;
+  for (const Candidate* candidate : all) starts[candidate->hypothesis->id] += candidate->starts.size();
   std::vector<const Candidate*> chosen;
-  for (std::size_t i = 0; i < ranked.size(); ++i)
-    if (of_family[ranked[i].second->hypothesis->id]++ < 1 || static_cast<int>(i) < options.tabled)
-      chosen.push_back(ranked[i].second);
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    const Hypothesis& family = *ranked[i].second->hypothesis;
+    // Families of few magnitudes, and those that leave the structure alone, cost little to compute anew.
+    const bool cheap = family.measurement || starts[family.id] <= 32;
+    if (of_family[family.id]++ < 2 || static_cast<int>(i) < options.tabled || cheap) chosen.push_back(ranked[i].second);
+  }
   return chosen;
 }
 
@@ -346,7 +350,7 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   std::vector<Scored*> list;
   for (Scored& scored : found) {
     const bool new_family = !families.contains(scored.candidate->hypothesis->id);
-    const bool near = promise(scored) > promise(found.front()) - 12.0;
+    const bool near = promise(scored) > promise(found.front()) - std::max(12.0, 0.3 * promise(found.front()));
     if (fitted < options.short_list || (near && fitted < options.longest_list) ||
         (new_family && scored.screen > options.family_screen)) {
       list.push_back(&scored);
