@@ -103,7 +103,12 @@ std::map<std::string, int> bound_modes(const std::vector<std::string>& pairs) {
 std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference) {
   std::ostringstream key;
   key.precision(8);
-  key << "1|" << config.alpha << '|' << config.nulls << '|';
+  key << "2|" << config.alpha << '|' << config.nulls << '|';
+  const diagnosis::ScatterOptions& scatter = config.scatter;
+  for (const double v : {scatter.element_stiffness, scatter.element_mass, scatter.node_mass, scatter.stay_stiffness,
+                         scatter.stay_pull, scatter.gain, scatter.frequency_floor, scatter.damping_floor, scatter.shape_floor,
+                         scatter.load_model, scatter.fine, scatter.noise})
+    key << v << ',';
   for (const auto& p : inputs.reduced->parameters) key << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial << '|';
   key << inputs.reduced->frequency_Hz.head(std::min<Eigen::Index>(5, inputs.reduced->frequency_Hz.size())).transpose() << '|';
   for (const auto& row : inputs.features.rows)
