@@ -8,6 +8,7 @@ STEP = "s3_identification"
 WITHOUT, WITH = "without_dampers", "with_dampers"
 NEAR = 0.03  # relative: a found mode further from a printed frequency is not that row
 LEAST_MAC = 0.3
+EQUALLY = 0.1  # MAC within which two modes count as equally like a row
 
 
 def folder_of(condition: str) -> str:
@@ -46,10 +47,22 @@ def without_dampers(study: Study) -> dict:
 
 
 def with_dampers(study: Study) -> dict:
-    """{row of Table 4: found mode}: the one whose shape is most like the row's shape without dampers."""
+    """{row of Table 4: found mode}: the one whose shape is most like the row's shape without dampers. A deck's motion that two modes share,
+    one of them mostly a stay's, has nearly the same shape in both: of modes equally like it the one that moves the channels more."""
     rows = without_dampers(study)
     before, after = shapes_of(study, WITHOUT), shapes_of(study, WITH)
-    distance = {(row, mode): 1.0 - mac(before[name], after[mode]) for row, name in rows.items() for mode in after.columns}
+    levels = study.step_csv(f"{STEP}/amplitude.csv", ["source", "condition", "mode", "amplitude"])
+    levels = levels[(levels["source"] == "ambient") & (levels["condition"] == WITH)]
+    amplitude = {int(mode): float(a) for mode, a in zip(levels["mode"], levels["amplitude"])}
+    distance = {}
+    for row, name in rows.items():
+        likeness = {mode: mac(before[name], after[mode]) for mode in after.columns}
+        most = max(likeness.values(), default=0.0)
+        alike = [mode for mode, value in likeness.items() if value >= most - EQUALLY]
+        largest = max((amplitude.get(int(mode), 0.0) for mode in alike), default=0.0)
+        for mode, value in likeness.items():
+            weaker = mode in alike and amplitude.get(int(mode), 0.0) < largest
+            distance[row, mode] = 1.0 - value + (EQUALLY if weaker else 0.0)
     return _assign(distance, 1.0 - LEAST_MAC)
 
 

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "io/npy.hpp"
@@ -13,7 +15,8 @@ namespace {
 
 std::string beginning(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file)) throw InputError({file.string(), 0, ""}, "cannot be read", "check its name and your permissions");
+  if (!in || fs::is_directory(file))
+    throw InputError({file.string(), 0, ""}, "cannot be read", "check its name and your permissions");
   std::string text(4096, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
@@ -61,24 +64,55 @@ RecordInfo scan(const fs::path& file, const Visitor& visit) {
   return scan_text(file, visit);
 }
 
+namespace {
+
+/// Samples as they come, part by part.
+class Gathered {
+ public:
+  void add(Index row, Index column, const Eigen::MatrixXd& block) {
+    const Index rows = row + block.rows(), columns = column + block.cols();
+    if (rows > all_.rows() || columns > all_.cols()) {
+      // Half as much again, so that a long text file is not copied at every part.
+      const Index old_rows = all_.rows(), old_columns = all_.cols(),
+                  room = rows > old_rows ? std::max(rows, old_rows + old_rows / 2) : old_rows;
+      all_.conservativeResize(room, std::max(columns, old_columns));
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      all_.bottomRows(room - old_rows).setConstant(nan);
+      all_.topRows(old_rows).rightCols(all_.cols() - old_columns).setConstant(nan);
+    }
+    all_.block(row, column, block.rows(), block.cols()) = block;
+    used_ = std::max(used_, rows);
+  }
+  Eigen::MatrixXd take() {
+    all_.conservativeResize(used_, Eigen::NoChange);
+    return std::move(all_);
+  }
+
+ private:
+  Eigen::MatrixXd all_;
+  Index used_ = 0;
+};
+
+}  // namespace
+
 Record read(const fs::path& file) {
   Record record;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  Index used = 0;
+  Gathered gathered;
+  record.info = scan(file, [&](Index row, Index column, const Eigen::MatrixXd& block) { gathered.add(row, column, block); });
+  record.samples = gathered.take();
+  return record;
+}
+
+Record read(const fs::path& file, const std::vector<Index>& columns) {
+  Record record;
+  Gathered gathered;
   record.info = scan(file, [&](Index row, Index column, const Eigen::MatrixXd& block) {
-    const Index rows = row + block.rows(), columns = column + block.cols();
-    Eigen::MatrixXd& all = record.samples;
-    if (rows > all.rows() || columns > all.cols()) {
-      // Doubling, so that a long text file is not copied at every part.
-      const Index old_rows = all.rows(), old_columns = all.cols(), room = rows > old_rows ? std::max(rows, 2 * old_rows) : old_rows;
-      all.conservativeResize(room, std::max(columns, old_columns));
-      all.bottomRows(room - old_rows).setConstant(nan);
-      all.topRows(old_rows).rightCols(all.cols() - old_columns).setConstant(nan);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const Index at = columns[k] - column;
+      if (at >= 0 && at < block.cols()) gathered.add(row, static_cast<Index>(k), block.col(at));
     }
-    all.block(row, column, block.rows(), block.cols()) = block;
-    used = std::max(used, rows);
   });
-  record.samples.conservativeResize(used, Eigen::NoChange);
+  record.samples = gathered.take();
   return record;
 }
 

@@ -8,26 +8,27 @@
 #include <string>
 #include <vector>
 
-/// Records of vibration in the formats that loggers and analysis programs write. The format is told from the content, not from the name.
+/// Records of vibration in the formats that loggers and analysis programs write. The format is told from the content, not from
+/// the name.
 namespace twindeck::records {
 
 /// What a file says of a channel; empty or 0 where it says nothing.
 struct ChannelInfo {
   std::string name;
-  std::string unit;          ///< as written there
-  std::string point;         ///< node of a universal file
-  std::string direction;     ///< "+x" … of a universal file
-  double rate_Hz = 0.0;      ///< where it may differ between channels
+  std::string unit;       ///< as written there
+  std::string point;      ///< node of a universal file
+  std::string direction;  ///< "+x" … of a universal file
+  double rate_Hz = 0.0;   ///< where it may differ between channels
   Eigen::Index samples = 0;
 };
 
 /// Everything but the samples.
 struct RecordInfo {
-  std::string format;                 ///< for people: "CSV, separated by ';', decimal comma, latin-1"
+  std::string format;  ///< for people: "CSV, separated by ';', decimal comma, latin-1"
   std::vector<ChannelInfo> channels;
-  double rate_Hz = 0.0;               ///< 0 where it is not known or not one
-  std::string rate_source;            ///< where the rate comes from
-  std::vector<std::string> notes;     ///< what was odd and how it was read; what is missing
+  double rate_Hz = 0.0;            ///< 0 where it is not known or not one
+  std::string rate_source;         ///< where the rate comes from
+  std::vector<std::string> notes;  ///< what was odd and how it was read; what is missing
 };
 
 /// Called with parts of the record in the order of the file: first sample, first channel, values (samples × channels).
@@ -42,9 +43,14 @@ RecordInfo scan(const std::filesystem::path& file, const Visitor& visit);
 /// A whole record.
 struct Record {
   RecordInfo info;
-  Eigen::MatrixXd samples;            ///< (n_samples × n_channels); NaN beyond the end of shorter channels
+  Eigen::MatrixXd samples;  ///< (n_samples × n_channels); NaN beyond the end of shorter channels
 };
 [[nodiscard]] Record read(const std::filesystem::path& file);
+
+/// Some columns of it. Memory: samples × chosen columns, however wide the file.
+/// @param columns  positions in the file, ascending or not @return samples (n_samples × n_chosen) in the order asked for;
+/// `info` of all
+[[nodiscard]] Record read(const std::filesystem::path& file, const std::vector<Eigen::Index>& columns);
 
 // The formats, each with the same contract as `scan`.
 RecordInfo scan_text(const std::filesystem::path& file, const Visitor& visit);

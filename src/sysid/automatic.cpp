@@ -26,7 +26,8 @@ namespace {
 using Members = std::vector<std::size_t>;
 
 double distance(const Pole& p, const Pole& q) {
-  return std::abs(p.frequency_Hz - q.frequency_Hz) / std::max(p.frequency_Hz, q.frequency_Hz) + 1.0 - std::norm(p.shape.dot(q.shape));
+  return std::abs(p.frequency_Hz - q.frequency_Hz) / std::max(p.frequency_Hz, q.frequency_Hz) + 1.0 -
+         std::norm(p.shape.dot(q.shape));
 }
 
 /// The shape as all channels would show it if they measured one quantity, in phase.
@@ -43,7 +44,8 @@ std::vector<double> distances_to_smaller_order(const std::vector<DiagramPole>& d
   std::vector<double> nearest(diagram.size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 1; k < orders.size(); ++k) {
     for (const std::size_t i : of_order[orders[k]]) {
-      for (const std::size_t j : of_order[orders[k - 1]]) nearest[i] = std::min(nearest[i], distance(diagram[i].pole, diagram[j].pole));
+      for (const std::size_t j : of_order[orders[k - 1]])
+        nearest[i] = std::min(nearest[i], distance(diagram[i].pole, diagram[j].pole));
     }
   }
   return nearest;
@@ -100,7 +102,8 @@ std::vector<Members> agglomerate(const std::vector<DiagramPole>& diagram, const 
   Eigen::MatrixXd d = Eigen::MatrixXd::Constant(n, n, std::numeric_limits<double>::infinity());
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < i; ++j) {
-      d(i, j) = distance(diagram[set[static_cast<std::size_t>(i)]].pole, diagram[set[static_cast<std::size_t>(j)]].pole);
+      const Pole &p = diagram[set[static_cast<std::size_t>(i)]].pole, &q = diagram[set[static_cast<std::size_t>(j)]].pole;
+      if (p.order != q.order) d(i, j) = distance(p, q);
     }
   }
   std::vector<Members> clusters;
@@ -139,19 +142,23 @@ Members with_neighbours(const std::vector<DiagramPole>& diagram, const Members& 
   for (const std::size_t i : group) present.insert(diagram[i].pole.order);
   Members members = group;
   for (std::size_t i = 0; i < diagram.size(); ++i) {
-    if (!claimed[i] && !present.contains(diagram[i].pole.order) && distance(diagram[i].pole, diagram[middle].pole) < reach) members.push_back(i);
+    if (!claimed[i] && !present.contains(diagram[i].pole.order) && distance(diagram[i].pole, diagram[middle].pole) < reach)
+      members.push_back(i);
   }
   return members;
 }
 
 }  // namespace
 
-std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const AutomaticRule& rule) {
+std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
+                                        const AutomaticRule& rule) {
   const std::vector<double> nearest = distances_to_smaller_order(diagram, orders);
   Members candidates;
   std::vector<double> logs;
   for (std::size_t i = 0; i < diagram.size(); ++i) {
-    if (!std::isfinite(nearest[i]) || phase_collinearity(one_quantity(diagram[i].pole.shape, rule.derivatives)) < rule.collinearity) continue;
+    if (!std::isfinite(nearest[i]) ||
+        phase_collinearity(one_quantity(diagram[i].pole.shape, rule.derivatives)) < rule.collinearity)
+      continue;
     candidates.push_back(i);
     logs.push_back(std::log(std::max(nearest[i], 1e-12)));
   }
@@ -194,7 +201,8 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
   for (Cluster& cluster : clusters) {
     const bool again = std::any_of(distinct.begin(), distinct.end(), [&](const Cluster& larger) {
       const double half_bandwidth = larger.damping_ratio * larger.frequency_Hz;
-      return std::abs(cluster.frequency_Hz - larger.frequency_Hz) < half_bandwidth && std::norm(cluster.shape.dot(larger.shape)) > 0.8;
+      return std::abs(cluster.frequency_Hz - larger.frequency_Hz) < half_bandwidth &&
+             std::norm(cluster.shape.dot(larger.shape)) > 0.8;
     });
     if (!again) distinct.push_back(std::move(cluster));
   }

@@ -15,20 +15,39 @@ namespace {
 
 bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const IdentifyOptions& options, double seconds) {
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6);
-  if (options.largest_deviation > 0.0 && deviation.frequency_Hz > options.largest_deviation * f) return false;
-  if (options.selection == Selection::paper) return true;
-  if (seconds <= 0.0) return options.largest_bandwidth_share <= 0.0 || deviation.frequency_Hz <= options.largest_bandwidth_share * zeta * f;
+  if (options.selection == Selection::paper)
+    return options.largest_deviation <= 0.0 || deviation.frequency_Hz <= options.largest_deviation * f;
+  if (seconds <= 0.0)
+    return options.largest_bandwidth_share <= 0.0 || deviation.frequency_Hz <= options.largest_bandwidth_share * zeta * f;
   const double law = f * std::sqrt(zeta / (2.0 * std::numbers::pi * f * seconds));
   return options.largest_law_ratio <= 0.0 || deviation.frequency_Hz <= options.largest_law_ratio * law;
+}
+
+/// Another mode, better settled, that this one can't be told from.
+bool is_shadow(const Identification& found, const std::vector<bool>& kept, std::size_t m) {
+  for (std::size_t k = 0; k < found.modes.size(); ++k) {
+    if (!kept[k] || found.deviations[k].frequency_Hz >= found.deviations[m].frequency_Hz) continue;
+    const double apart = std::abs(found.modes[k].frequency_Hz - found.modes[m].frequency_Hz);
+    const double deviation = std::hypot(found.deviations[k].frequency_Hz, found.deviations[m].frequency_Hz);
+    if (apart <= 3.0 * deviation && std::norm(found.modes[k].shape.dot(found.modes[m].shape)) > 0.8) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
-  std::vector<int> renumbered(result.modes.size(), -1);
+  const std::size_t n = result.modes.size();
+  std::vector<bool> settled(n), stays(n);
+  for (std::size_t m = 0; m < n; ++m)
+    settled[m] = stays[m] = is_settled(result.modes[m], result.deviations[m], options, seconds);
+  if (options.selection == Selection::automatic) {
+    for (std::size_t m = 0; m < n; ++m) stays[m] = settled[m] && !is_shadow(result, settled, m);
+  }
+  std::vector<int> renumbered(n, -1);
   std::size_t kept = 0;
-  for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    if (!is_settled(result.modes[m], result.deviations[m], options, seconds)) continue;
+  for (std::size_t m = 0; m < n; ++m) {
+    if (!stays[m]) continue;
     renumbered[m] = static_cast<int>(kept);
     if (kept != m) {
       result.modes[kept] = result.modes[m];
@@ -54,9 +73,27 @@ Identification select(const ShiftModels& models, const IdentifyOptions& options)
   return result;
 }
 
-void add_deviations(Identification& result, const Observability& observability, const ShiftModels& models, const Changes& changes,
-                    const IdentifyOptions& options, double seconds) {
+/// Orders at which a pole has split in two know either half badly. Those known worse than twice the lower quartile do not speak
+/// for the mode.
+void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors) {
+  for (Cluster& mode : result.modes) {
+    std::vector<double> deviations;
+    for (const std::size_t i : mode.members) deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
+    std::vector<double> sorted = deviations;
+    std::sort(sorted.begin(), sorted.end());
+    const double most = 2.0 * sorted[sorted.size() / 4];
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k < deviations.size(); ++k) {
+      if (deviations[k] <= most) kept.push_back(mode.members[k]);
+    }
+    mode = summarise(result.diagram, std::move(kept));
+  }
+}
+
+void add_deviations(Identification& result, const Observability& observability, const ShiftModels& models,
+                    const Changes& changes, const IdentifyOptions& options, double seconds) {
   const PoleFactors factors = pole_factors(observability, models, changes);
+  if (options.selection == Selection::automatic) keep_well_known(result, models, factors);
   std::vector<std::vector<Pole>> members;
   for (const Cluster& mode : result.modes) {
     members.emplace_back();
@@ -96,18 +133,19 @@ Identification identify_from_data(const std::vector<Eigen::MatrixXd>& records, c
     grams.push_back(hankel_gram(record, references, options.block_rows));
     samples += static_cast<double>(record.rows() - 2 * options.block_rows + 1);
   }
-  const DataDriven found = ssi_data(grams, samples, static_cast<Eigen::Index>(references.size()), records.front().cols(), options.block_rows,
-                                    orders.back());
+  const DataDriven found = ssi_data(grams, samples, static_cast<Eigen::Index>(references.size()), records.front().cols(),
+                                    options.block_rows, orders.back());
   grams.clear();
   const ShiftModels models = shift_models(found.observability, orders, rate_Hz);
   Identification result = select(models, options);
   if (blocks.n_blocks() < 2) return result;
-  add_deviations(result, found.observability, models, data_changes(blocks, references, options.block_rows, found, models), options,
-                 samples / rate_Hz);
+  add_deviations(result, found.observability, models, data_changes(blocks, references, options.block_rows, found, models),
+                 options, samples / rate_Hz);
   return result;
 }
 
-Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, const IdentifyOptions& options, std::uint64_t seed) {
+Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, const IdentifyOptions& options,
+                               std::uint64_t seed) {
   const FreeDecay found = era(decays, options.block_rows, options.orders(), rate_Hz, seed);
   Identification result = select(found.models, options);
   add_deviations(result, found.observability, found.models, found.changes, options, 0.0);

@@ -23,12 +23,14 @@ struct IdentifyOptions {
   Selection selection = Selection::automatic;
   CleaningRule cleaning;
   AutomaticRule automatic;
-  /// A cluster whose frequency has a relative standard deviation above this is dropped: such a pole is settled by the model orders
-  /// but not by the data. 0 keeps all (the paper's rule).
+  /// The paper's selection: a cluster whose frequency has a relative standard deviation above this is dropped: such a pole is
+  /// settled by the model orders but not by the data. 0 keeps all (the rule as printed).
   double largest_deviation = 0.01;
-  /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many times
+  /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many
+  /// times
   ///     f sqrt(zeta / (2 pi N_c)),   N_c the cycles in the record,
-  /// the least that a record of this length allows (Au 2014): its pole recurs, but the motion hardly has a part in it. 0 keeps all.
+  /// the least that a record of this length allows (Au 2014): its pole recurs, but the motion hardly has a part in it. 0 keeps
+  /// all.
   double largest_law_ratio = 10.0;
   /// Automatic selection of free decays: dropped if it exceeds this share of the half bandwidth zeta f. 0 keeps all.
   double largest_bandwidth_share = 0.5;
@@ -42,21 +44,25 @@ struct Identification {
   std::vector<ModeDeviation> deviations;  ///< one a mode; empty where the covariance is not known (a single block)
 };
 
-/// Covariance-driven identification of output-only records: correlations to subspace to poles of all orders, stabilisation diagram,
-/// selection, clusters, standard deviations.
+/// Covariance-driven identification of output-only records: correlations to subspace to poles of all orders, stabilisation
+/// diagram, selection, clusters, standard deviations.
 /// @param blocks  correlations of lags 0 … 2 block_rows - 1 of the conditioned records @param rate_Hz  their sampling rate
 /// @throws InputError  if the block rows can't carry the largest order
 [[nodiscard]] Identification identify(const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options);
 
 /// The same, data-driven. @param records conditioned, one rate @param blocks  of the same records, for the standard deviations
-[[nodiscard]] Identification identify_from_data(const std::vector<Eigen::MatrixXd>& records, const std::vector<Eigen::Index>& references,
-                                                const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options);
+[[nodiscard]] Identification identify_from_data(const std::vector<Eigen::MatrixXd>& records,
+                                                const std::vector<Eigen::Index>& references,
+                                                const signal::BlockCorrelations& blocks, double rate_Hz,
+                                                const IdentifyOptions& options);
 
 /// The same, of free decays by ERA. @param decays (n_samples × n_outputs) of one length, from the release on
-[[nodiscard]] Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, const IdentifyOptions& options,
-                                             std::uint64_t seed);
+[[nodiscard]] Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz,
+                                             const IdentifyOptions& options, std::uint64_t seed);
 
-/// Drops the modes that the data don't settle, by the rules of the options. Each mode has its deviation.
+/// Drops the modes that the data don't settle, by the rules of the options. With the automatic selection also the less settled
+/// of two that the data can't tell apart: frequencies within three standard deviations of their difference, MAC above 0.8. Each
+/// mode has its deviation.
 /// @param seconds  length of the ambient records; 0: free decays
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds);
 

@@ -21,20 +21,42 @@ struct Candidate {
   std::size_t setup, mode;
 };
 
-/// Components of the shape at the channels that both have.
-double common_mac(const SetupModes& a, const Cluster& p, const SetupModes& b, const Cluster& q) {
-  std::vector<std::complex<double>> x, y;
+/// Two setups' shapes at the channels that both have.
+struct Comparison {
+  double mac = 1.0;
+  double noise = 0.0;  ///< 1 - MAC that the deviations of both lead one to expect of one and the same shape
+};
+Comparison compare(const SetupModes& a, std::size_t p, const SetupModes& b, std::size_t q) {
+  const Cluster &first = a.modes[p], &second = b.modes[q];
+  std::complex<double> product = 0.0;
+  double aa = 0.0, bb = 0.0, va = 0.0, vb = 0.0;
+  int common = 0;
+  const auto variance = [](const ModeDeviation& d, Index i) {
+    return std::pow(d.shape_real[i], 2) + std::pow(d.shape_imag[i], 2);
+  };
   for (std::size_t i = 0; i < a.channels.size(); ++i) {
     for (std::size_t j = 0; j < b.channels.size(); ++j) {
       if (a.channels[i] != b.channels[j]) continue;
-      x.push_back(p.shape[static_cast<Index>(i)]);
-      y.push_back(q.shape[static_cast<Index>(j)]);
+      const auto at = static_cast<Index>(i), bt = static_cast<Index>(j);
+      product += std::conj(first.shape[at]) * second.shape[bt];
+      aa += std::norm(first.shape[at]);
+      bb += std::norm(second.shape[bt]);
+      va += variance(a.deviations[p], at);
+      vb += variance(b.deviations[q], bt);
+      ++common;
     }
   }
-  if (x.size() < 2) return 1.0;
-  const Eigen::Map<const Eigen::VectorXcd> u(x.data(), static_cast<Index>(x.size())), v(y.data(), static_cast<Index>(y.size()));
-  const double norms = u.squaredNorm() * v.squaredNorm();
-  return norms > 0.0 ? std::norm(u.dot(v)) / norms : 0.0;
+  if (common < 2) return {};
+  if (!(aa > 0.0 && bb > 0.0)) return {0.0, 0.0};
+  return {std::norm(product) / (aa * bb), va / aa + vb / bb};
+}
+
+/// Alike by the rule, or as far as the deviations can tell: a mode that hardly moves the common channels has no shape there to
+/// speak of.
+bool may_be_one(const Comparison& shapes, double df_Hz, double deviation_Hz, double df, const MergingRule& rule) {
+  if (df >= rule.frequency) return false;
+  if (shapes.mac >= rule.mac) return true;
+  return df_Hz <= 3.0 * deviation_Hz && 1.0 - shapes.mac <= rule.noise * shapes.noise;
 }
 
 /// Groups of modes of different setups, nearest pairs first.
@@ -52,10 +74,13 @@ std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups
     for (std::size_t b = a + 1; b < all.size(); ++b) {
       if (all[a].setup == all[b].setup) continue;
       const Cluster &p = setups[all[a].setup].modes[all[a].mode], &q = setups[all[b].setup].modes[all[b].mode];
-      const double df = std::abs(p.frequency_Hz - q.frequency_Hz) / std::max(p.frequency_Hz, q.frequency_Hz);
-      if (df >= rule.frequency) continue;
-      const double mac = common_mac(setups[all[a].setup], p, setups[all[b].setup], q);
-      if (mac >= rule.mac) pairs.push_back({df + 0.1 * rule.frequency * (1.0 - mac), a, b});
+      const double df_Hz = std::abs(p.frequency_Hz - q.frequency_Hz), df = df_Hz / std::max(p.frequency_Hz, q.frequency_Hz);
+      const SetupModes &first = setups[all[a].setup], &second = setups[all[b].setup];
+      const Comparison shapes = compare(first, all[a].mode, second, all[b].mode);
+      const double deviation_Hz =
+          std::hypot(first.deviations[all[a].mode].frequency_Hz, second.deviations[all[b].mode].frequency_Hz);
+      if (may_be_one(shapes, df_Hz, deviation_Hz, df, rule))
+        pairs.push_back({df + 0.1 * rule.frequency * (1.0 - shapes.mac), a, b});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
@@ -65,7 +90,8 @@ std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups
   for (std::size_t i = 0; i < all.size(); ++i) present[i].insert(all[i].setup);
   for (const Pair& pair : pairs) {
     const std::size_t a = std::min(group[pair.a], group[pair.b]), b = std::max(group[pair.a], group[pair.b]);
-    if (a == b || std::any_of(present[b].begin(), present[b].end(), [&](std::size_t s) { return present[a].contains(s); })) continue;
+    if (a == b || std::any_of(present[b].begin(), present[b].end(), [&](std::size_t s) { return present[a].contains(s); }))
+      continue;
     std::replace(group.begin(), group.end(), b, a);
     present[a].merge(present[b]);
   }
@@ -105,8 +131,8 @@ Index position(const SetupModes& setup, Index channel) {
   return at == setup.channels.end() ? -1 : static_cast<Index>(at - setup.channels.begin());
 }
 
-/// Variance of an entry as a weight: to a power of two. From a few blocks it is not known better, and the last digits of a deviation,
-/// which hang on those of the record, must not move a shape.
+/// Variance of an entry as a weight: to a power of two. From a few blocks it is not known better, and the last digits of a
+/// deviation, which hang on those of the record, must not move a shape.
 double entry_variance(const ModeDeviation& deviation, Index i) {
   const double variance = deviation.shape_real[i] * deviation.shape_real[i] + deviation.shape_imag[i] * deviation.shape_imag[i];
   return variance > 0.0 ? std::exp2(std::round(std::log2(variance))) : 0.0;
@@ -140,8 +166,8 @@ std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, 
   return factors;
 }
 
-void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candidate>& members, const std::vector<std::complex<double>>& factors,
-                  Index n_channels, MergedMode& merged) {
+void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candidate>& members,
+                  const std::vector<std::complex<double>>& factors, Index n_channels, MergedMode& merged) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(n_channels);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(n_channels), real = weight, imag = weight;
@@ -149,7 +175,8 @@ void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candi
     const SetupModes& setup = setups[members[k].setup];
     const Cluster& mode = setup.modes[members[k].mode];
     const ModeDeviation& deviation = setup.deviations[members[k].mode];
-    const double size = std::abs(factors[k]), c = factors[k].real() / std::max(size, 1e-300), s = factors[k].imag() / std::max(size, 1e-300);
+    const double size = std::abs(factors[k]), c = factors[k].real() / std::max(size, 1e-300),
+                 s = factors[k].imag() / std::max(size, 1e-300);
     for (std::size_t i = 0; i < setup.channels.size(); ++i) {
       const auto at = static_cast<Index>(i), channel = setup.channels[i];
       const double w = 1.0 / std::max(size * size * entry_variance(deviation, at), 1e-12);
@@ -175,8 +202,8 @@ void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candi
 
 }  // namespace
 
-std::vector<MergedMode> merge_poser(const std::vector<SetupModes>& setups, Index n_channels, const std::vector<Index>& references,
-                                    const MergingRule& rule) {
+std::vector<MergedMode> merge_poser(const std::vector<SetupModes>& setups, Index n_channels,
+                                    const std::vector<Index>& references, const MergingRule& rule) {
   for (const SetupModes& setup : setups) {
     TWINDECK_ASSERT(setup.modes.size() == setup.deviations.size());
     if (setups.size() > 1 && references.empty()) {
@@ -215,7 +242,8 @@ std::vector<MergedMode> merge_poser(const std::vector<SetupModes>& setups, Index
     merge_shapes(setups, members, scales(setups, members, references), n_channels, merged);
     result.push_back(std::move(merged));
   }
-  std::sort(result.begin(), result.end(), [](const MergedMode& a, const MergedMode& b) { return a.frequency_Hz < b.frequency_Hz; });
+  std::sort(result.begin(), result.end(),
+            [](const MergedMode& a, const MergedMode& b) { return a.frequency_Hz < b.frequency_Hz; });
   return result;
 }
 

@@ -32,20 +32,40 @@ double first_frequency_ratio(double lambda_squared) {
   return 0.5 * (low + high);
 }
 
+double frequency_ratio(int number, double lambda_squared) {
+  TWINDECK_ASSERT(number >= 1 && lambda_squared >= 0.0);
+  if (number % 2 == 0 || lambda_squared == 0.0) return 1.0;
+  if (number == 1) return first_frequency_ratio(lambda_squared);
+  // lambda²(h) = 4 h³/(h - tan h), h = pi/2 times f_n/c, grows from 0 at h = n pi/2 on: bisection to the asymptote tan h = h.
+  const double start = 0.5 * pi * number;
+  double low = start, high = start + 0.5 * pi;
+  for (int i = 0; i < 200 && high - low > 1e-15 * start; ++i) {
+    const double middle = 0.5 * (low + high), tangent = std::tan(middle);
+    const bool below = middle > tangent && 4.0 * std::pow(middle, 3) / (middle - tangent) < lambda_squared;
+    (below ? low : high) = middle;
+  }
+  return 0.5 * (low + high) / start;
+}
+
 namespace {
+
+constexpr double kGravity_m_s2 = 9.81;
 
 void check(const std::vector<Harmonic>& harmonics) {
   std::set<int> numbers;
   for (const Harmonic& h : harmonics) {
     if (h.number < 1 || !(h.frequency_Hz > 0.0) || !(h.deviation_Hz > 0.0)) {
-      throw InputError({"", 0, "stay"}, fmt::format("harmonic {} has {} Hz with a standard deviation of {}, expected positive numbers", h.number,
-                                                    h.frequency_Hz, h.deviation_Hz),
+      throw InputError({"", 0, "stay"},
+                       fmt::format("harmonic {} has {} Hz with a standard deviation of {}, expected positive numbers", h.number,
+                                   h.frequency_Hz, h.deviation_Hz),
                        "give each harmonic a number from 1, a frequency and its standard deviation");
     }
-    if (!numbers.insert(h.number).second) throw InputError({"", 0, "stay"}, fmt::format("has harmonic {} twice", h.number), "keep one of them");
+    if (!numbers.insert(h.number).second)
+      throw InputError({"", 0, "stay"}, fmt::format("has harmonic {} twice", h.number), "keep one of them");
   }
   if (harmonics.size() < 2 || *numbers.rbegin() < 2) {
-    throw InputError({"", 0, "stay"}, fmt::format("has {} harmonics, expected at least two, one of them above the first", harmonics.size()),
+    throw InputError({"", 0, "stay"},
+                     fmt::format("has {} harmonics, expected at least two, one of them above the first", harmonics.size()),
                      "identify higher modes of the stay");
   }
 }
@@ -104,9 +124,9 @@ Bounded symmetric(double value, double half) { return {value, value - half, valu
 
 }  // namespace
 
-StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double quantile, bool with_bending) {
-  check(harmonics);
-  if (!(length_m > 0.0)) throw InputError({"", 0, "length_m"}, fmt::format("is {}, expected a length above 0", length_m), "give the stay's length");
+namespace {
+
+StayFit fit_straightened(const std::vector<Harmonic>& harmonics, double length_m, double quantile, bool with_bending) {
   StayFit fit;
   fit.harmonics = static_cast<int>(harmonics.size());
   const Line line = taut_string(harmonics);
@@ -123,6 +143,8 @@ StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double
       c_deviation = stiff.c_deviation;
     }
   }
+  const double weight = kGravity_m_s2 / (4.0 * length_m * c * c);  // g L/(T/m)
+  c_deviation = std::hypot(c_deviation, c * weight * weight / 24.0);
   fit.c_Hz = symmetric(c, quantile * c_deviation);
   const auto tension = [&](double string_Hz) { return std::pow(2.0 * length_m * string_Hz, 2); };
   fit.tension_per_mass = {tension(c), tension(std::max(0.0, fit.c_Hz.low)), tension(fit.c_Hz.high)};
@@ -138,8 +160,27 @@ StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double
   return fit;
 }
 
-std::vector<std::pair<std::size_t, int>> number_harmonics(const std::vector<double>& frequencies_Hz, double lowest_Hz, double highest_Hz,
-                                                          double tolerance) {
+}  // namespace
+
+StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double quantile, StayModel model) {
+  check(harmonics);
+  if (!(length_m > 0.0))
+    throw InputError({"", 0, "length_m"}, fmt::format("is {}, expected a length above 0", length_m), "give the stay's length");
+  StayFit fit = fit_straightened(harmonics, length_m, quantile, model.bending);
+  if (!model.sag_of_higher) return fit;
+  // Each turn changes c by less than a hundredth of what the last one did: a third harmonic hardly feels lambda².
+  for (int turn = 0; turn < 10; ++turn) {
+    std::vector<Harmonic> straightened = harmonics;
+    for (Harmonic& h : straightened) {
+      if (h.number >= 2) h.frequency_Hz /= frequency_ratio(h.number, fit.lambda_squared.value);
+    }
+    fit = fit_straightened(straightened, length_m, quantile, model.bending);
+  }
+  return fit;
+}
+
+std::vector<std::pair<std::size_t, int>> number_harmonics(const std::vector<double>& frequencies_Hz, double lowest_Hz,
+                                                          double highest_Hz, double tolerance) {
   const auto numbered = [&](double c) {
     std::map<int, std::size_t> best;
     for (std::size_t i = 0; i < frequencies_Hz.size(); ++i) {

@@ -7,9 +7,9 @@ namespace twindeck::sysid {
 
 /// A stay's harmonic, measured.
 struct Harmonic {
-  int number = 0;               ///< n, from 1
+  int number = 0;  ///< n, from 1
   double frequency_Hz = 0.0;
-  double deviation_Hz = 0.0;    ///< standard deviation, > 0
+  double deviation_Hz = 0.0;  ///< standard deviation, > 0
 };
 
 /// A quantity with the bounds of its interval of the level asked for.
@@ -19,9 +19,9 @@ struct Bounded {
 
 /// Force and sag of a stay.
 struct StayFit {
-  Bounded c_Hz;               ///< frequency of the taut string
-  Bounded tension_per_mass;   ///< T/m = (2 L c)² [m²/s²]
-  Bounded lambda_squared;     ///< Irvine's parameter (m g L cos/T)² E A L/(T L_e) [-]
+  Bounded c_Hz;                                   ///< frequency of the taut string
+  Bounded tension_per_mass;                       ///< T/m = (2 L c)² [m²/s²]
+  Bounded lambda_squared;                         ///< Irvine's parameter (m g L cos/T)² E A L/(T L_e) [-]
   double bending = 0.0, bending_deviation = 0.0;  ///< b of f_n² = n² c² (1 + b n²), b = pi² EI/(T L²); 0 where not asked for
   bool bending_seen = false;  ///< the data support it: b exceeds three deviations; otherwise the fit is that of the string
   double residual = 0.0;      ///< RMS of the normalised residuals of n >= 2
@@ -38,21 +38,33 @@ struct StayFit {
 /// Its inverse; 0 for ratios of at most 1. @param ratio f_1/c < 3
 [[nodiscard]] double lambda_squared_of(double ratio);
 
-/// Irvine's reading of a stay's harmonics: c from n >= 2 by weighted least squares of f_n = c n (even modes have no first-order
-/// sag effect, odd ones from the third on hardly any), lambda² from f_1/c. Intervals by first-order propagation to c and f_1/c, whose
-/// bounds are mapped (lambda² is curved, and 0 at the least). With at least five harmonics above the first, the bending
-/// term is tried and kept if the data support it.
+/// Ratio f_n/(n c) of the n-th in-plane mode for odd n, the n-th half-wave's root of the same equation; 1 for even n, which sag
+/// does not touch. At lambda² = 2.6 the third is raised by 0.13 %. @param number >= 1
+[[nodiscard]] double frequency_ratio(int number, double lambda_squared);
+
+/// What a reading takes into account.
+struct StayModel {
+  bool bending = true;        ///< try the bending term
+  bool sag_of_higher = true;  ///< the sag's small effect on the third and further odd harmonics; false: f_n = c n for n >= 2
+};
+
+/// Irvine's reading of a stay's harmonics: c from n >= 2 by weighted least squares of f_n = c n r_n(lambda²), lambda² from
+/// f_1/c, in turn until both stand still. Intervals by first-order propagation to c and f_1/c, whose bounds are mapped (lambda²
+/// is curved, and 0 at the least); in the deviation of c also what the parabola neglects, the arc's excess length (g
+/// L/(T/m))²/24 over the chord. With at least five harmonics above the first, the bending term is tried and kept if the data
+/// support it.
 /// @param harmonics  at least two, one of them with n >= 2 @param length_m  L
 /// @param quantile   of the normal law: 1.96 for 95 %
-/// @param with_bending  try the bending term
 /// @throws InputError  without two harmonics, with a harmonic twice, or a frequency or deviation that isn't positive
-[[nodiscard]] StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double quantile = 1.96, bool with_bending = true);
+[[nodiscard]] StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double quantile = 1.96,
+                               StayModel model = {});
 
-/// Numbers identified frequencies as harmonics of one stay: the spacing c for which the most frequencies lie within `tolerance` c
-/// of a multiple of it (the first from its own to 0.5 c above, as sag only raises it), the largest such c.
+/// Numbers identified frequencies as harmonics of one stay: the spacing c for which the most frequencies lie within `tolerance`
+/// c of a multiple of it (the first from its own to 0.5 c above, as sag only raises it), the largest such c.
 /// @param frequencies_Hz ascending @param lowest_Hz, highest_Hz  range of c
 /// @return (position in frequencies, harmonic), at most one a harmonic
-[[nodiscard]] std::vector<std::pair<std::size_t, int>> number_harmonics(const std::vector<double>& frequencies_Hz, double lowest_Hz, double highest_Hz,
+[[nodiscard]] std::vector<std::pair<std::size_t, int>> number_harmonics(const std::vector<double>& frequencies_Hz,
+                                                                        double lowest_Hz, double highest_Hz,
                                                                         double tolerance = 0.08);
 
 }  // namespace twindeck::sysid

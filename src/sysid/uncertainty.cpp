@@ -22,7 +22,8 @@ PoleFactors pole_factors(const Observability& observability, const ShiftModels& 
     for (std::size_t order = 0; order < models.orders.size(); ++order) {
       const auto poles = pole_changes(observability, models, order, changes[b]);
       for (std::size_t i = 0; i < poles.size(); ++i) {
-        factors.of[order][i].col(static_cast<Index>(b)) << poles[i].frequency_Hz, poles[i].damping_ratio, poles[i].shape.real(), poles[i].shape.imag();
+        factors.of[order][i].col(static_cast<Index>(b)) << poles[i].frequency_Hz, poles[i].damping_ratio, poles[i].shape.real(),
+            poles[i].shape.imag();
       }
     }
   }
@@ -37,13 +38,21 @@ double median(Eigen::VectorXd values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-/// The factor of a pole of the models, its shape turned towards the reference.
-Eigen::MatrixXd turned_factor(const ShiftModels& models, const PoleFactors& factors, const Pole& pole, const Eigen::VectorXcd& reference) {
-  const auto model = std::find_if(models.orders.begin(), models.orders.end(), [&](const OrderModel& m) { return m.order == pole.order; });
+const Eigen::MatrixXd& factor_of(const ShiftModels& models, const PoleFactors& factors, const Pole& pole) {
+  const auto model =
+      std::find_if(models.orders.begin(), models.orders.end(), [&](const OrderModel& m) { return m.order == pole.order; });
   TWINDECK_ASSERT(model != models.orders.end());
-  const auto at = std::find_if(model->poles.begin(), model->poles.end(), [&](const Pole& p) { return p.eigenvalue == pole.eigenvalue; });
+  const auto at =
+      std::find_if(model->poles.begin(), model->poles.end(), [&](const Pole& p) { return p.eigenvalue == pole.eigenvalue; });
   TWINDECK_ASSERT(at != model->poles.end());
-  Eigen::MatrixXd factor = factors.of[static_cast<std::size_t>(model - models.orders.begin())][static_cast<std::size_t>(at - model->poles.begin())];
+  return factors
+      .of[static_cast<std::size_t>(model - models.orders.begin())][static_cast<std::size_t>(at - model->poles.begin())];
+}
+
+/// The factor of a pole of the models, its shape turned towards the reference.
+Eigen::MatrixXd turned_factor(const ShiftModels& models, const PoleFactors& factors, const Pole& pole,
+                              const Eigen::VectorXcd& reference) {
+  Eigen::MatrixXd factor = factor_of(models, factors, pole);
   const Index l = pole.shape.size();
   const double angle = std::arg(pole.shape.dot(reference)), c = std::cos(angle), s = std::sin(angle);
   const Eigen::MatrixXd real = factor.middleRows(2, l), imag = factor.bottomRows(l);
@@ -54,7 +63,12 @@ Eigen::MatrixXd turned_factor(const ShiftModels& models, const PoleFactors& fact
 
 }  // namespace
 
-std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const PoleFactors& factors, const std::vector<std::vector<Pole>>& modes) {
+double frequency_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole) {
+  return factor_of(models, factors, pole).row(0).norm();
+}
+
+std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const PoleFactors& factors,
+                                           const std::vector<std::vector<Pole>>& modes) {
   std::vector<ModeDeviation> deviations;
   for (const std::vector<Pole>& mode : modes) {
     std::vector<Eigen::MatrixXd> members;
@@ -79,7 +93,8 @@ std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const Pole
   return deviations;
 }
 
-std::vector<Eigen::MatrixXd> lag_change(const signal::BlockCorrelations& blocks, const std::vector<Eigen::MatrixXd>& mean, Index block) {
+std::vector<Eigen::MatrixXd> lag_change(const signal::BlockCorrelations& blocks, const std::vector<Eigen::MatrixXd>& mean,
+                                        Index block) {
   const Index l = blocks.n_outputs, r = blocks.n_references;
   const auto n_b = static_cast<double>(blocks.n_blocks());
   std::vector<Eigen::MatrixXd> change;
@@ -91,7 +106,8 @@ std::vector<Eigen::MatrixXd> lag_change(const signal::BlockCorrelations& blocks,
   return change;
 }
 
-Changes covariance_changes(const signal::BlockCorrelations& blocks, Index block_rows, const Observability& observability, const ShiftModels& models) {
+Changes covariance_changes(const signal::BlockCorrelations& blocks, Index block_rows, const Observability& observability,
+                           const ShiftModels& models) {
   TWINDECK_ASSERT(blocks.n_blocks() >= 2);
   const std::vector<Eigen::MatrixXd> mean = blocks.mean();
   Changes changes;

@@ -14,8 +14,8 @@ struct ModeDeviation {
   double frequency_Hz = 0.0;
   double damping_ratio = 0.0;
   Eigen::VectorXd shape_real, shape_imag;  ///< (n_outputs) of the entries of the unit-norm shape
-  /// (2 + 2 n_outputs × n_changes) frequency [Hz], damping ratio, real and imaginary parts of the shape: F with covariance F Fᵀ, of
-  /// this mode's features among themselves and, side by side, with another mode's of the same record.
+  /// (2 + 2 n_outputs × n_changes) frequency [Hz], damping ratio, real and imaginary parts of the shape: F with covariance F
+  /// Fᵀ, of this mode's features among themselves and, side by side, with another mode's of the same record.
   Eigen::MatrixXd factor;
 };
 
@@ -28,21 +28,25 @@ struct PoleFactors {
 };
 [[nodiscard]] PoleFactors pole_factors(const Observability& observability, const ShiftModels& models, const Changes& changes);
 
-/// The deviations of modes reported as the median over model orders of frequency, damping and each entry of the shape: per change, the
-/// median of the members' changes.
+/// Standard deviation of a pole's frequency [Hz]. @param pole  of the models
+[[nodiscard]] double frequency_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole);
+
+/// The deviations of modes reported as the median over model orders of frequency, damping and each entry of the shape: per
+/// change, the median of the members' changes.
 /// @param modes  for each mode its poles, each of the model of its own order
 [[nodiscard]] std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const PoleFactors& factors,
                                                          const std::vector<std::vector<Pole>>& modes);
 
-/// Covariance of the correlations from the scatter between blocks, as changes of the lags: with w_b the share of block b's products in
-/// the mean of all,  dR_b = w_b sqrt(n_b/(n_b - 1)) (R_b - R),  so that  cov(R) = sum over b of vec(dR_b) vec(dR_b)'. Blocks must be
-/// longer than the correlations last (1/(zeta omega) of the lowest mode); then they count as independent.
+/// Covariance of the correlations from the scatter between blocks, as changes of the lags: with w_b the share of block b's
+/// products in the mean of all,  dR_b = w_b sqrt(n_b/(n_b - 1)) (R_b - R),  so that  cov(R) = sum over b of vec(dR_b)
+/// vec(dR_b)'. Blocks must be longer than the correlations last (1/(zeta omega) of the lowest mode); then they count as
+/// independent.
 /// @return lags 0 … n_lags - 1, each (n_outputs × n_references)
-[[nodiscard]] std::vector<Eigen::MatrixXd> lag_change(const signal::BlockCorrelations& blocks, const std::vector<Eigen::MatrixXd>& mean,
-                                                      Eigen::Index block);
+[[nodiscard]] std::vector<Eigen::MatrixXd> lag_change(const signal::BlockCorrelations& blocks,
+                                                      const std::vector<Eigen::MatrixXd>& mean, Eigen::Index block);
 
 /// Changes of the block Toeplitz matrix of ssi_cov from those of the correlations.
-[[nodiscard]] Changes covariance_changes(const signal::BlockCorrelations& blocks, Eigen::Index block_rows, const Observability& observability,
-                                         const ShiftModels& models);
+[[nodiscard]] Changes covariance_changes(const signal::BlockCorrelations& blocks, Eigen::Index block_rows,
+                                         const Observability& observability, const ShiftModels& models);
 
 }  // namespace twindeck::sysid

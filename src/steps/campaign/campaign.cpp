@@ -111,11 +111,13 @@ void check_record(const Campaign& campaign, const CampaignRecord& record, const 
   }
 }
 
-/// Placed by name where the file names its channels so, by position where it names none of them.
-Eigen::MatrixXd in_order(const CampaignRecord& record, records::Record file) {
+void check_rate(const Campaign& campaign, const CampaignRecord& record, const records::RecordInfo& info);
+
+/// Columns of the record's channels: by name where the file names its channels so, by position where it names none of them.
+std::vector<Index> columns_in_file(const CampaignRecord& record, const records::RecordInfo& info) {
   std::vector<Index> columns;
   std::vector<std::string> known;
-  for (const records::ChannelInfo& channel : file.info.channels) known.push_back(channel.name);
+  for (const records::ChannelInfo& channel : info.channels) known.push_back(channel.name);
   std::string missing;
   for (const std::string& name : record.channels) {
     const auto at = std::find(known.begin(), known.end(), name);
@@ -130,14 +132,29 @@ Eigen::MatrixXd in_order(const CampaignRecord& record, records::Record file) {
                      fmt::format("is no channel of the file{}", did_you_mean(missing, known)),
                      "correct `channels` in campaign.toml; the file has " + fmt::format("{}", fmt::join(known, ", ")));
   }
-  if (!columns.empty()) return file.samples(Eigen::all, columns);
-  if (file.samples.cols() != static_cast<Index>(record.channels.size())) {
-    throw InputError(
-        {record.file.string(), 0, ""},
-        fmt::format("has {} columns, but campaign.toml names {} channels", file.samples.cols(), record.channels.size()),
-        "an array of samples x channels is expected");
+  if (!columns.empty()) return columns;
+  if (known.size() != record.channels.size()) {
+    throw InputError({record.file.string(), 0, ""},
+                     fmt::format("has {} columns, but campaign.toml names {} channels", known.size(), record.channels.size()),
+                     "an array of samples x channels is expected");
   }
-  return std::move(file.samples);
+  for (Index c = 0; c < std::ssize(known); ++c) columns.push_back(c);
+  return columns;
+}
+
+/// The record's channels and no others. What the file's columns are called is known at its end only: a large file is walked
+/// through twice, so that columns that nobody asked for never lie in memory.
+Eigen::MatrixXd in_order(const Campaign& campaign, const CampaignRecord& record) {
+  constexpr std::uintmax_t kLarge = std::uintmax_t{64} << 20U;
+  if (fs::exists(record.file) && fs::file_size(record.file) > kLarge) {
+    const records::RecordInfo info = records::scan(record.file, [](Index, Index, const Eigen::MatrixXd&) {});
+    check_rate(campaign, record, info);
+    return records::read(record.file, columns_in_file(record, info)).samples;
+  }
+  records::Record file = records::read(record.file);
+  check_rate(campaign, record, file.info);
+  const std::vector<Index> columns = columns_in_file(record, file.info);
+  return file.samples(Eigen::all, columns);
 }
 
 void check_rate(const Campaign& campaign, const CampaignRecord& record, const records::RecordInfo& info) {
@@ -266,9 +283,7 @@ std::vector<std::vector<RecordGroup>> by_condition(const std::vector<RecordGroup
 }
 
 Eigen::MatrixXd read_record(const Campaign& campaign, const CampaignRecord& record) {
-  records::Record file = records::read(record.file);
-  check_rate(campaign, record, file.info);
-  Eigen::MatrixXd data = in_order(record, std::move(file));
+  Eigen::MatrixXd data = in_order(campaign, record);
   for (Index c = 0; c < data.cols(); ++c) data.col(c) *= campaign.channel(record.channels[static_cast<std::size_t>(c)]).gain;
   return data;
 }

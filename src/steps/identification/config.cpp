@@ -62,7 +62,7 @@ io::FieldTable IdentificationConfig::fields() {
       .number("cleaning.share", cleaning.share, "", {0.0, 1.0},
               "share of the orders that a mode is found at, from its first; 0: paper's rule")
       .number("cleaning.deviation", largest_deviation, "", io::non_negative(),
-              "largest relative standard deviation of a mode's frequency; 0: paper's rule, nothing is dropped for it")
+              "with the paper's rule: largest relative standard deviation of a mode's frequency; 0: the rule as printed")
       .number("automatic.collinearity", automatic.collinearity, "", {0.0, 1.0},
               "automatic rule: smallest modal phase collinearity")
       .number("automatic.share", automatic.share, "", {0.0, 1.0},

@@ -93,8 +93,18 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
     conditioned.inputs.push_back(campaign.channel(input_names.back()));
   }
   choose_references(conditioned, config.references);
-  const auto ready = [&](const Eigen::MatrixXd& data) {
-    return signal::detrended(signal::decimated(signal::detrended(data), decimation));
+  // Channel by channel, so that beside the record one channel more lies in memory.
+  const auto ready = [&](const Eigen::MatrixXd& raw, const std::vector<Index>& chosen, const std::vector<std::string>& called,
+                         const std::string& file) {
+    Eigen::MatrixXd out;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      Eigen::MatrixXd channel = raw.col(chosen[k]);
+      fill_gaps(channel, {called[k]}, config.longest_gap, file);
+      channel = signal::detrended(signal::decimated(signal::detrended(channel), decimation));
+      if (k == 0) out.resize(channel.rows(), static_cast<Index>(chosen.size()));
+      out.col(static_cast<Index>(k)) = channel;
+    }
+    return out;
   };
   for (const CampaignRecord& record : group.records) {
     const Eigen::MatrixXd raw = read_record(campaign, record);
@@ -103,13 +113,8 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
     refuse_dead(quality, conditioned.channels);
     refuse_dead(quality, conditioned.inputs);
-    Eigen::MatrixXd data = raw(Eigen::all, columns);
-    fill_gaps(data, names, config.longest_gap, record.file.string());
-    conditioned.records.push_back(ready(data));
-    if (input_columns.empty()) continue;
-    Eigen::MatrixXd excitation = raw(Eigen::all, input_columns);
-    fill_gaps(excitation, input_names, config.longest_gap, record.file.string());
-    conditioned.excitation.push_back(ready(excitation));
+    conditioned.records.push_back(ready(raw, columns, names, record.file.string()));
+    if (!input_columns.empty()) conditioned.excitation.push_back(ready(raw, input_columns, input_names, record.file.string()));
   }
   return conditioned;
 }
