@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "linalg/dense.hpp"
 #include "sysid/leading_svd.hpp"
 
@@ -17,27 +18,6 @@ using Eigen::Index;
 
 namespace {
 
-/// White Gaussian noise of unit variance: SplitMix64 (Steele, Lea and Flood 2014) and Box-Muller, the same on every machine.
-class Noise {
- public:
-  explicit Noise(std::uint64_t seed) : state_(seed) {}
-  double operator()() {
-    const double u = uniform(), v = uniform();
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
-  }
-
- private:
-  double uniform() {
-    state_ += 0x9E3779B97F4A7C15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    z ^= z >> 31;
-    return (static_cast<double>(z >> 11) + 0.5) * 0x1.0p-53;
-  }
-  std::uint64_t state_;
-};
-
 Index columns_of(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, Index block_columns) {
   return std::min(block_columns, decays.front().rows() - block_rows + 1);
 }
@@ -46,7 +26,8 @@ Index columns_of(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, I
 
 Eigen::MatrixXd block_hankel(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, Index block_columns) {
   TWINDECK_ASSERT(!decays.empty());
-  const Index l = decays.front().cols(), n = static_cast<Index>(decays.size()), q = columns_of(decays, block_rows, block_columns);
+  const Index l = decays.front().cols(), n = static_cast<Index>(decays.size()),
+              q = columns_of(decays, block_rows, block_columns);
   Eigen::MatrixXd hankel(l * block_rows, n * q);
   for (Index d = 0; d < n; ++d) {
     const Eigen::MatrixXd& y = decays[static_cast<std::size_t>(d)];
@@ -58,15 +39,16 @@ Eigen::MatrixXd block_hankel(const std::vector<Eigen::MatrixXd>& decays, Index b
   return hankel;
 }
 
-FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, const std::vector<int>& orders, double rate_Hz, std::uint64_t seed,
-              int n_draws) {
+FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, const std::vector<int>& orders, double rate_Hz,
+              std::uint64_t seed, int n_draws) {
   TWINDECK_ASSERT(!decays.empty() && !orders.empty());
   const Index l = decays.front().cols(), samples = decays.front().rows(), n_max = orders.back();
   const Index q = columns_of(decays, block_rows, samples);
   const Index most = samples < 2 * block_rows ? 0 : std::min((block_rows - 1) * l, q * static_cast<Index>(decays.size()));
   if (n_max > most) {
     throw InputError({"", 0, "maximum_order"},
-                     fmt::format("is {}, but free decays of {} samples with {} block rows carry at most {}", n_max, samples, block_rows, most),
+                     fmt::format("is {}, but free decays of {} samples with {} block rows carry at most {}", n_max, samples,
+                                 block_rows, most),
                      "give longer decays, fewer block rows, or a lower order");
   }
   const Eigen::MatrixXd hankel = block_hankel(decays, block_rows, q);
@@ -78,14 +60,16 @@ FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, cons
   const double entries = static_cast<double>(hankel.rows() - n_max) * static_cast<double>(hankel.cols() - n_max);
   found.noise = entries > 0.0 ? std::sqrt(left / entries) : 0.0;
 
-  Noise noise(seed);
+  std::uint64_t drawn = 0;
   for (int draw = 0; draw < n_draws; ++draw) {
     std::vector<Eigen::MatrixXd> disturbance(decays.size(), Eigen::MatrixXd(samples, l));
     for (Eigen::MatrixXd& d : disturbance) {
-      for (double& value : d.reshaped()) value = noise() * found.noise / std::sqrt(static_cast<double>(n_draws));
+      for (double& value : d.reshaped())
+        value = normal_number(seed, 0, drawn++) * found.noise / std::sqrt(static_cast<double>(n_draws));
     }
     const Eigen::MatrixXd change = block_hankel(disturbance, block_rows, q);
-    found.changes.push_back(subspace_change(found.observability, found.models, linalg::product(change, found.observability.right)));
+    found.changes.push_back(
+        subspace_change(found.observability, found.models, linalg::product(change, found.observability.right)));
   }
   return found;
 }

@@ -185,6 +185,37 @@ class Identification(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("16000000", done.stdout)
 
+    def test_of_a_gigabyte_only_the_channels_asked_for_lie_in_memory(self):
+        """A file of 32 columns of which campaign.toml names two, under a limit of memory that the whole would break; that both are constant
+        is then what is wrong with it."""
+        folder = self.folder / "wide"
+        columns = ["column 3", "column 7"]
+        write_campaign(folder, np.zeros((1, 1)), "".join(f"{c},P{i},{i},0,0,0,0,1,acceleration,m/s^2,1,,response\n" for i, c in enumerate(columns, 1)),
+                       (f'[[record]]\nsetup = "ST1"\nfile = "records/ST1/record.npy"\nsampling_rate_Hz = 100.0\nchannels = {columns}\n'
+                        'condition = "low_no_dampers"\n').replace("'", '"'))
+        file = folder / "records" / "ST1" / "record.npy"
+        header = b"\x93NUMPY\x01\x00" + (118).to_bytes(2, "little") + b"{'descr': '<f8', 'fortran_order': False, 'shape': (4000000, 32), }".ljust(117) + b"\n"
+        with open(file, "wb") as f:
+            f.write(header)
+            f.truncate(len(header) + 4000000 * 32 * 8)
+        done = subprocess.run(["sh", "-c", f"ulimit -v 700000; exec '{STEP}' --campaign '{folder}' --out '{folder}_out' --threads 1"], cwd=ROOT,
+                              capture_output=True, text=True, timeout=300)
+        file.unlink()
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("column 3: is constant (0) over 4000000 samples", done.stderr)
+
+    def test_utf_16_is_refused_with_what_to_do(self):
+        folder = self.folder / "utf16"
+        write_campaign(folder, self.data[:2000])
+        toml = folder / "campaign.toml"
+        toml.write_text(toml.read_text().replace("record.npy", "record.csv"))
+        lines = [",".join(["time_s", *CHANNELS])] + [",".join(f"{v:.6g}" for v in (t / RATE, *row)) for t, row in enumerate(self.data[:2000])]
+        (folder / "records" / "ST1" / "record.csv").write_bytes("\n".join(lines).encode("utf-16"))
+        done = identify(folder, self.folder / "utf16_out")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("is UTF-16, expected UTF-8 or latin-1", done.stderr)
+
     def test_a_lag_of_a_logger_shows_in_the_phases(self):
         folder, data = self.folder / "lag", self.data.copy()
         data[:, 3] = np.roll(data[:, 3], 2)  # the fourth channel's clock is 20 ms late

@@ -89,6 +89,14 @@ TEST(NpyRecord, ComesBack) {
   EXPECT_EQ(inspect(scratch.file("a.npy")).channels.size(), 3U);
 }
 
+TEST(NpyRecord, ChosenColumnsInTheOrderAskedFor) {
+  const Scratch scratch;
+  io::write_npy(samples(), scratch.file("a.npy"));
+  const Record some = read(scratch.file("a.npy"), {2, 0});
+  EXPECT_EQ(some.info.channels.size(), 3U);
+  EXPECT_EQ(some.samples, samples()(Eigen::all, std::vector<Eigen::Index>{2, 0}));
+}
+
 TEST(ArrayRecord, DamagedFilesAreRefused) {
   const Scratch scratch;
   EXPECT_THROW(static_cast<void>(read(scratch.write("a.mat", "MATLAB 5.0 MAT-file, nothing follows"))), InputError);

@@ -8,28 +8,11 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
+#include "../signal/noise.hpp"
+
 namespace twindeck::sysid::test {
 
-/// White Gaussian noise of unit variance: SplitMix64 and Box-Muller, the same on every machine.
-class Noise {
- public:
-  explicit Noise(std::uint64_t seed) : state_(seed) {}
-  double operator()() {
-    const double u = uniform(), v = uniform();
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
-  }
-
- private:
-  double uniform() {
-    state_ += 0x9E3779B97F4A7C15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    z ^= z >> 31;
-    return (static_cast<double>(z >> 11) + 0.5) * 0x1.0p-53;
-  }
-  std::uint64_t state_;
-};
+using signal::test::Noise;
 
 /// n equal masses between two walls, n + 1 equal springs, the same damping ratio in each mode. Closed form:
 ///   omega_r = 2 omega_0 sin(r pi / (2 (n + 1))),   phi_r(j) = sin(r j pi / (n + 1)).
@@ -39,15 +22,17 @@ class Chain {
   Chain(int n, double omega_0, double zeta, double rate_Hz) : n_(n), rate_(rate_Hz), omega_(n), shapes_(n, n), zeta_(zeta) {
     for (int r = 1; r <= n; ++r) {
       omega_[r - 1] = 2.0 * omega_0 * std::sin(r * std::numbers::pi / (2.0 * (n + 1)));
-      for (int j = 1; j <= n; ++j) shapes_(j - 1, r - 1) = std::sqrt(2.0 / (n + 1)) * std::sin(r * j * std::numbers::pi / (n + 1));
+      for (int j = 1; j <= n; ++j)
+        shapes_(j - 1, r - 1) = std::sqrt(2.0 / (n + 1)) * std::sin(r * j * std::numbers::pi / (n + 1));
     }
   }
   double frequency_Hz(int r) const { return omega_[r] / (2.0 * std::numbers::pi); }
   Eigen::VectorXd shape(int r) const { return shapes_.col(r); }
   int size() const { return n_; }
 
-  /// Exact discrete state space, mode by mode: continuous white modal force of intensity 1 gives the state noise covariance Q by
-  /// Van Loan's formula. @return (n_samples × n) displacements scaled to unit mean deviation, with noise of the share `noise`
+  /// Exact discrete state space, mode by mode: continuous white modal force of intensity 1 gives the state noise covariance Q
+  /// by Van Loan's formula. @return (n_samples × n) displacements scaled to unit mean deviation, with noise of the share
+  /// `noise`
   Eigen::MatrixXd simulate(Eigen::Index n_samples, std::uint64_t seed, double noise) const {
     Noise random(seed);
     Eigen::MatrixXd modal(n_samples, n_);
@@ -75,7 +60,8 @@ class Chain {
       for (int r = 0; r < n_; ++r) {
         const double w = omega_[r], wd = w * std::sqrt(1.0 - zeta_ * zeta_), t = k / rate_;
         // Autocorrelation of an oscillator under unit white noise: 1/(4 zeta w³) e^(-zeta w t)(cos wd t + zeta w/wd sin wd t).
-        modal[r] = std::exp(-zeta_ * w * t) * (std::cos(wd * t) + zeta_ * w / wd * std::sin(wd * t)) / (4.0 * zeta_ * w * w * w);
+        modal[r] =
+            std::exp(-zeta_ * w * t) * (std::cos(wd * t) + zeta_ * w / wd * std::sin(wd * t)) / (4.0 * zeta_ * w * w * w);
       }
       lags.emplace_back(shapes_ * modal.asDiagonal() * shapes_.transpose());
     }

@@ -1,7 +1,7 @@
 // Oracles: free decays of known modes; the spread over seeds for the standard deviations.
 #include <gtest/gtest.h>
 
-#include "chain.hpp"
+#include "calibration.hpp"
 #include "core/error.hpp"
 #include "sysid/era.hpp"
 #include "sysid/identify.hpp"
@@ -10,14 +10,16 @@ namespace twindeck::sysid {
 namespace {
 
 /// Sum of decaying cosines of the chain's modes.
-Eigen::MatrixXd decay(const test::Chain& chain, double zeta, double rate, Eigen::Index samples, double noise, std::uint64_t seed) {
+Eigen::MatrixXd decay(const test::Chain& chain, double zeta, double rate, Eigen::Index samples, double noise,
+                      std::uint64_t seed) {
   test::Noise random(seed);
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(samples, chain.size());
   for (int r = 0; r < chain.size(); ++r) {
     const double w = 2.0 * std::numbers::pi * chain.frequency_Hz(r);
     for (Eigen::Index t = 0; t < samples; ++t) {
       const double s = static_cast<double>(t) / rate;
-      y.row(t) += std::exp(-zeta * w * s) * std::cos(w * std::sqrt(1.0 - zeta * zeta) * s) * chain.shape(r).transpose() / (r + 1.0);
+      y.row(t) +=
+          std::exp(-zeta * w * s) * std::cos(w * std::sqrt(1.0 - zeta * zeta) * s) * chain.shape(r).transpose() / (r + 1.0);
     }
   }
   for (double& value : y.reshaped()) value += noise * random();
@@ -42,24 +44,16 @@ TEST(Era, DeviationsAreCalibratedForNoisyDecays) {
   options.block_rows = 40;
   options.minimum_order = 4;
   options.maximum_order = 16;
-  double frequency = 0.0, damping = 0.0;
-  int count = 0;
+  test::NormalisedErrors errors;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    const std::vector<Eigen::MatrixXd> decays = {decay(chain, zeta, rate, 240, 0.02, seed), decay(chain, zeta, rate, 240, 0.02, 100 + seed)};
+    const std::vector<Eigen::MatrixXd> decays = {decay(chain, zeta, rate, 240, 0.02, seed),
+                                                 decay(chain, zeta, rate, 240, 0.02, 100 + seed)};
     const Identification found = identify_decays(decays, rate, options, seed);
     ASSERT_EQ(found.modes.size(), 3U) << "seed " << seed;
-    for (int r = 0; r < 3; ++r, ++count) {
-      const auto m = static_cast<std::size_t>(r);
-      frequency += std::pow((found.modes[m].frequency_Hz - chain.frequency_Hz(r)) / found.deviations[m].frequency_Hz, 2);
-      damping += std::pow((found.modes[m].damping_ratio - zeta) / found.deviations[m].damping_ratio, 2);
-    }
+    errors.add(found, chain, zeta);
   }
-  std::printf("normalised deviation: frequency %.3f, damping %.3f\n", std::sqrt(frequency / count), std::sqrt(damping / count));
   // 90 values: 7.5 % scatter, and 7 % from 100 draws.
-  EXPECT_GT(std::sqrt(frequency / count), 0.75);
-  EXPECT_LT(std::sqrt(frequency / count), 1.3);
-  EXPECT_GT(std::sqrt(damping / count), 0.75);
-  EXPECT_LT(std::sqrt(damping / count), 1.3);
+  errors.expect_between(0.75, 1.3);
 }
 
 TEST(Era, TooShortADecayIsRefused) {

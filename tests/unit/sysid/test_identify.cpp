@@ -1,8 +1,8 @@
-// Oracle: closed-form modes of a chain of masses under white noise; the spread over seeds for the standard deviations, together with
-// Au's closed-form law cov f = sqrt(zeta / (2 pi N_c)).
+// Oracle: closed-form modes of a chain of masses under white noise; the spread over seeds for the standard deviations, together
+// with Au's closed-form law cov f = sqrt(zeta / (2 pi N_c)).
 #include <gtest/gtest.h>
 
-#include "chain.hpp"
+#include "calibration.hpp"
 #include "modal/mac.hpp"
 #include "signal/condition.hpp"
 #include "sysid/identify.hpp"
@@ -36,14 +36,16 @@ TEST(Identify, ChainUnderWhiteNoise) {
     EXPECT_LT(std::abs(mode.frequency_Hz - chain.frequency_Hz(r)), 4.0 * deviation.frequency_Hz);
     EXPECT_LT(std::abs(mode.damping_ratio - zeta), 4.0 * deviation.damping_ratio);
     EXPECT_EQ(deviation.shape_real.size(), 4);
-    // Au's law is the least a long record allows; the two strongest modes reach it within the scatter of 20 blocks' sigma (16 %).
-    const double cycles = 3000.0 * chain.frequency_Hz(r), law = chain.frequency_Hz(r) * std::sqrt(zeta / (2.0 * std::numbers::pi * cycles));
+    // Au's law is the least a long record allows; the two strongest modes reach it within the scatter of 20 blocks' sigma (16
+    // %).
+    const double cycles = 3000.0 * chain.frequency_Hz(r),
+                 law = chain.frequency_Hz(r) * std::sqrt(zeta / (2.0 * std::numbers::pi * cycles));
     EXPECT_GT(deviation.frequency_Hz, 0.5 * law);
     if (r < 2) {
       EXPECT_LT(deviation.frequency_Hz, 1.6 * law);
     }
-    std::printf("mode %d: %.4f Hz, closed form %.4f, sigma %.4f; damping %.3f %%, sigma %.3f %%\n", r + 1, mode.frequency_Hz, chain.frequency_Hz(r),
-                deviation.frequency_Hz, 100.0 * mode.damping_ratio, 100.0 * deviation.damping_ratio);
+    std::printf("mode %d: %.4f Hz, closed form %.4f, sigma %.4f; damping %.3f %%, sigma %.3f %%\n", r + 1, mode.frequency_Hz,
+                chain.frequency_Hz(r), deviation.frequency_Hz, 100.0 * mode.damping_ratio, 100.0 * deviation.damping_ratio);
   }
 }
 
@@ -90,7 +92,8 @@ TEST(Identify, OrderAndUnitOfTheChannelsDoNotMatter) {
   const test::Chain chain(3, 20.0, 0.01, rate);
   const Eigen::MatrixXd data = chain.simulate(20000, 8, 0.02);
   const std::vector<Eigen::Index> order = {2, 0, 1};
-  const Identification plain = identified(data, rate, {0, 1, 2}), turned = identified(1000.0 * data(Eigen::all, order), rate, {0, 1, 2});
+  const Identification plain = identified(data, rate, {0, 1, 2}),
+                       turned = identified(1000.0 * data(Eigen::all, order), rate, {0, 1, 2});
   ASSERT_EQ(plain.modes.size(), turned.modes.size());
   for (std::size_t m = 0; m < plain.modes.size(); ++m) {
     EXPECT_NEAR(plain.modes[m].frequency_Hz, turned.modes[m].frequency_Hz, 1e-9);
@@ -101,26 +104,18 @@ TEST(Identify, OrderAndUnitOfTheChannelsDoNotMatter) {
 }
 
 TEST(Identify, DeviationsAreCalibrated) {
-  // Normalised errors of 30 seeds and three modes, pooled: 90 values of unit deviation scatter by 7.5 %, and a sigma from 20 blocks
-  // (19 degrees of freedom) raises their deviation by sqrt(19/17) = 1.06. Calibrated means 0.8 to 1.25.
+  // Normalised errors of 30 seeds and three modes, pooled: 90 values of unit deviation scatter by 7.5 %, and a sigma from 20
+  // blocks (19 degrees of freedom) raises their deviation by sqrt(19/17) = 1.06. Calibrated means 0.8 to 1.25.
   const double rate = 20.0, zeta = 0.01;
   const test::Chain chain(3, 20.0, zeta, rate);
-  double frequency = 0.0, damping = 0.0;
-  int count = 0;
+  test::NormalisedErrors errors;
   for (std::uint64_t seed = 100; seed < 130; ++seed) {
     const Identification found = identified(chain.simulate(30000, seed, 0.05), rate, {0, 1, 2});
-    ASSERT_EQ(found.modes.size(), 3U) << "seed " << seed << " " << found.modes.back().frequency_Hz << " " << found.modes.back().members.size();
-    for (int r = 0; r < 3; ++r, ++count) {
-      const auto m = static_cast<std::size_t>(r);
-      frequency += std::pow((found.modes[m].frequency_Hz - chain.frequency_Hz(r)) / found.deviations[m].frequency_Hz, 2);
-      damping += std::pow((found.modes[m].damping_ratio - zeta) / found.deviations[m].damping_ratio, 2);
-    }
+    ASSERT_EQ(found.modes.size(), 3U) << "seed " << seed << " " << found.modes.back().frequency_Hz << " "
+                                      << found.modes.back().members.size();
+    errors.add(found, chain, zeta);
   }
-  std::printf("normalised deviation: frequency %.3f, damping %.3f\n", std::sqrt(frequency / count), std::sqrt(damping / count));
-  EXPECT_GT(std::sqrt(frequency / count), 0.8);
-  EXPECT_LT(std::sqrt(frequency / count), 1.25);
-  EXPECT_GT(std::sqrt(damping / count), 0.8);
-  EXPECT_LT(std::sqrt(damping / count), 1.25);
+  errors.expect_between(0.8, 1.25);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-// Oracles: the Hankel matrix written out, an orthogonal (Householder) LQ decomposition of it, closed-form modes, the spread over seeds.
+// Oracles: the Hankel matrix written out, an orthogonal (Householder) LQ decomposition of it, closed-form modes, the spread
+// over seeds.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
 
-#include "chain.hpp"
+#include "calibration.hpp"
 #include "core/error.hpp"
 #include "signal/condition.hpp"
 #include "sysid/identify.hpp"
@@ -49,7 +50,8 @@ TEST(SsiData, PolesEqualThoseOfAnOrthogonalDecomposition) {
   const auto poles = poles_of_orders(found.observability, orders, rate);
   for (std::size_t k = 0; k < orders.size(); ++k) {
     ASSERT_EQ(poles[k].size(), direct[k].size());
-    for (std::size_t i = 0; i < poles[k].size(); ++i) EXPECT_NEAR(std::abs(poles[k][i].eigenvalue - direct[k][i].eigenvalue), 0.0, 1e-7);
+    for (std::size_t i = 0; i < poles[k].size(); ++i)
+      EXPECT_NEAR(std::abs(poles[k][i].eigenvalue - direct[k][i].eigenvalue), 0.0, 1e-7);
   }
 }
 
@@ -61,23 +63,15 @@ TEST(SsiData, IdentifiesTheChainWithCalibratedDeviations) {
   IdentifyOptions options;
   options.block_rows = 20;
   options.maximum_order = 30;
-  double frequency = 0.0, damping = 0.0;
-  int count = 0;
+  test::NormalisedErrors errors;
   for (std::uint64_t seed = 300; seed < 312; ++seed) {
     const Eigen::MatrixXd data = signal::detrended(chain.simulate(30000, seed, 0.05));
-    const Identification found = identify_from_data({data}, references, signal::correlations(data, references, 40, 20), rate, options);
+    const Identification found =
+        identify_from_data({data}, references, signal::correlations(data, references, 40, 20), rate, options);
     ASSERT_EQ(found.modes.size(), 3U) << "seed " << seed;
-    for (int r = 0; r < 3; ++r, ++count) {
-      const auto m = static_cast<std::size_t>(r);
-      frequency += std::pow((found.modes[m].frequency_Hz - chain.frequency_Hz(r)) / found.deviations[m].frequency_Hz, 2);
-      damping += std::pow((found.modes[m].damping_ratio - zeta) / found.deviations[m].damping_ratio, 2);
-    }
+    errors.add(found, chain, zeta);
   }
-  std::printf("normalised deviation: frequency %.3f, damping %.3f\n", std::sqrt(frequency / count), std::sqrt(damping / count));
-  EXPECT_GT(std::sqrt(frequency / count), 0.7);
-  EXPECT_LT(std::sqrt(frequency / count), 1.4);
-  EXPECT_GT(std::sqrt(damping / count), 0.7);
-  EXPECT_LT(std::sqrt(damping / count), 1.4);
+  errors.expect_between(0.7, 1.4);
 }
 
 TEST(SsiData, ShortRecordIsRefused) {
