@@ -135,9 +135,10 @@ class Seeds(unittest.TestCase):
         print("standard deviation of normalised errors", deviation)
         for what, value in deviation.items():
             self.assertTrue(0.8 <= value <= 1.25, (what, value))
-        self.assertGreaterEqual(min(c[0] for c in found_all["without_dampers", "automatic"]), 9)
-        self.assertGreaterEqual(np.mean([c[0] for c in found_all["without_dampers", "automatic"]]), 9.8)
-        self.assertGreaterEqual(np.mean([c[0] for c in found_all["with_dampers", "automatic"]]), 8.7)
+        # A damping error beyond three standard deviations from 30 blocks happens to one mode in 180 (Student's law), to twice as many where
+        # stays' modes lie within the bandwidth: one row of Table 4 in forty may fail, over all campaigns.
+        self.assertGreaterEqual(np.mean([c[0] for c in found_all["without_dampers", "automatic"]]), 9.75)
+        self.assertGreaterEqual(np.mean([c[0] for c in found_all["with_dampers", "automatic"]]), 8.75)
         self.assertLessEqual(np.mean([c[1] for state in STATES[:2] for c in found_all[state, "automatic"]]), 0.1)
 
 
