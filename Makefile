@@ -81,10 +81,10 @@ smoke: build ## the whole chain, small, under results/smoke
 N ?= 400
 TIER ?= features
 SEED ?= 1
-blind-trials: build ## make blind-trials N=400 TIER=features: hidden effects looked for on another mesh, scored with intervals
-	@[ "$(TIER)" = features ] || { echo "blind-trials: TIER=$(TIER): only the tier of features is there" >&2; exit 2; }
-	@cmake --build $(BUILD) -j $(JOBS) --target blind_trials
-	@$(BUILD)/bin/blind_trials $(N) $(SEED)
+BLIND = $(if $(filter features,$(TIER)),blind_trials,blind_records)
+blind-trials: build ## make blind-trials N=400 TIER=features|records|time: hidden effects looked for on another mesh, scored with intervals
+	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
+	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(filter-out features,$(TIER))
 
 BATCH ?= -j$(JOBS)
 batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as independent jobs of Snakemake (docs/batch.md)

@@ -131,17 +131,20 @@ std::string Sealed::text() const {
   return out;
 }
 
-Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool null) {
+namespace {
+
+Hidden hide(const Bench& bench, std::uint64_t seed, Stream& random, const HideOptions& options, bool null) {
   const Shared& shared = shared_of(bench);
-  Stream random(seed);
-  Case hidden;
+  Hidden hidden;
   hidden.seal.seed = seed;
   // 1. What kind of case, in turn: of twenty, five nulls, three outside the catalogue, one with two causes, eleven with one.
   static const std::string turn = "neeoeneeoenetenoeene";  // the place in it is seed mod 20; every fourth a null
-  const char kind = null || seed % 4 == 0 ? 'n' : turn[seed % 20] == 'n' ? 'e' : turn[seed % 20];
+  const char by_seed = null || seed % 4 == 0 ? 'n' : turn[seed % 20] == 'n' ? 'e' : turn[seed % 20];
+  const char kind = options.kind != 0 ? options.kind : by_seed;
   hidden.seal.kind = kind == 'n' ? "null" : kind == 'o' ? "outside" : kind == 't' ? "two" : "effect";
   std::vector<std::string> names;
-  for (const auto& [family, twins] : shared.families) names.push_back(family);
+  for (const auto& [family, twins] : shared.families)
+    if (options.only.empty() || options.only.contains(family)) names.push_back(family);
   // Families in turn, so that each has its share of the cases with one cause; place and size by chance.
   std::uint64_t effects_before = 0;
   for (std::uint64_t s = 1; s < seed % 20; ++s) effects_before += s % 4 != 0 && turn[s] != 'o' && turn[s] != 't' ? 1 : 0;
@@ -151,7 +154,8 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
     return count;
   }();
   std::size_t next = static_cast<std::size_t>((seed / 20 * effects_in_turn + effects_before) % names.size());
-  std::vector<Cause> truth;
+  if (options.family >= 0) next = static_cast<std::size_t>(options.family);
+  std::vector<Cause>& truth = hidden.causes;
   const int wanted = kind == 'n' ? 0 : kind == 't' ? 2 : 1;
   while (static_cast<int>(truth.size()) < wanted) {
     // Outside the catalogue only what no other family says in other words (an oscillator tuned far above the measured modes is
@@ -164,9 +168,9 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
       family = names[random.below(names.size())];
     else
       family = names[next++ % names.size()];  // the next one where these data hardly show a family anywhere
-    if (!shared.families.contains(family)) continue;
-    const double least = kind == 'o' ? 10.0 : kind == 't' ? 7.0 : 3.0;
-    const double target = least * std::pow(kind == 'e' ? 5.0 : 3.0, random.uniform());
+    if (std::find(names.begin(), names.end(), family) == names.end()) continue;
+    const double least = kind == 'o' ? 10.0 : kind == 't' ? 7.0 : options.least_sigma;
+    const double target = least * std::pow(kind == 'e' ? 15.0 / options.least_sigma : 3.0, random.uniform());
     Twin twin{};
     VectorXd a;
     double sigma = 0.0;
@@ -185,6 +189,24 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
     hidden.seal.magnitudes.push_back(magnitude);
   }
   if (hidden.seal.kind == "outside") hidden.removed = hidden.seal.families[0];
+  return hidden;
+}
+
+}  // namespace
+
+Hidden hide(const Bench& bench, std::uint64_t seed, const HideOptions& options) {
+  Stream random(seed);
+  return hide(bench, seed, random, options, false);
+}
+
+Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool null) {
+  const Shared& shared = shared_of(bench);
+  Stream random(seed);
+  const Hidden drawn = hide(bench, seed, random, {}, null);
+  Case hidden;
+  hidden.seal = drawn.seal;
+  hidden.removed = drawn.removed;
+  const std::vector<Cause>& truth = drawn.causes;
   // 2. Parameters and workmanship of this bridge, then what is measured on it.
   const diagnosis::FeatureMap map(*bench.truth.reduced, bench.rows, bench.scatter);
   for (;;) {
@@ -208,11 +230,6 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
 
 Score run_case(const Bench& bench, const Case& hidden) {
   const Shared& shared = shared_of(bench);
-  Score score;
-  score.kind = hidden.seal.kind;
-  score.family = hidden.seal.families.empty() ? "" : hidden.seal.families[0];
-  score.sigma = hidden.seal.sigma;
-  score.seal = hidden.seal.text();
   timespec begin{}, end{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
   std::vector<diagnosis::Hypothesis> catalogue;
@@ -225,7 +242,16 @@ Score run_case(const Bench& bench, const Case& hidden) {
   inference.use(&shared.table);
   const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
-  score.seconds = static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec);
+  return score_of(hidden.seal, result, static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec));
+}
+
+Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double seconds) {
+  Score score;
+  score.kind = seal.kind;
+  score.family = seal.families.empty() ? "" : seal.families[0];
+  score.sigma = seal.sigma;
+  score.seal = seal.text();
+  score.seconds = seconds;
   score.verdict = result.verdict;
   score.log_odds = result.log_odds;
   score.detected = !result.effects.empty() || result.verdict == "unknown";
@@ -234,24 +260,24 @@ Score run_case(const Bench& bench, const Case& hidden) {
   score.gain_claimed = !result.effects.empty() && result.gain.low_pct > 0.0;
   score.held_out_ratio = result.gain.before > 0.0 ? result.gain.after / result.gain.before : 1.0;
   score.unknown = result.verdict == "unknown" || result.verdict == "none";
-  std::vector<bool> named(hidden.seal.families.size(), false);
+  std::vector<bool> named(seal.families.size(), false);
   for (const auto& effect : result.effects) {
     score.found += (score.found.empty() ? "" : " + ") + effect.cluster.front();
     for (std::size_t m = 1; m < effect.cluster.size() && m < 5; ++m) score.found += " or " + effect.cluster[m];
     for (std::size_t i = 0; i < named.size(); ++i)
-      named[i] = named[i] || effect.cause.candidate->hypothesis->id == hidden.seal.families[i];
+      named[i] = named[i] || effect.cause.candidate->hypothesis->id == seal.families[i];
   }
   score.both = std::all_of(named.begin(), named.end(), [](bool n) { return n; });
-  if (!result.effects.empty() && !hidden.seal.families.empty()) {
+  if (!result.effects.empty() && !seal.families.empty()) {
     const auto& first = result.effects.front();
-    const std::string truth = hidden.seal.families[0] + "@" + hidden.seal.locations[0];
-    score.family_named = family_of(first.cluster.front()) == hidden.seal.families[0] || (hidden.seal.kind == "two" && named[0]);
+    const std::string truth = seal.families[0] + "@" + seal.locations[0];
+    score.family_named = family_of(first.cluster.front()) == seal.families[0] || (seal.kind == "two" && named[0]);
     score.exact = first.cause.candidate->id() == truth;
     score.in_set = std::find(first.cluster.begin(), first.cluster.end(), truth) != first.cluster.end();
     score.set_size = static_cast<int>(first.cluster.size());
     if (score.exact && !first.parameters.empty()) {
       score.sized = true;
-      const double value = hidden.seal.magnitudes[0][0];
+      const double value = seal.magnitudes[0][0];
       const auto [low, high] = std::minmax(first.parameters[0].low, first.parameters[0].high);
       score.covered = value >= low && value <= high;
       score.magnitude_error = std::abs(first.parameters[0].value - value) / std::max(std::abs(value), 1e-12);

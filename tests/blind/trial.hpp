@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,24 @@ struct Sealed {
   [[nodiscard]] std::string text() const;
 };
 
+/// A hidden truth before anything is measured on it: causes on the truth's side of the bench, and the family that the diagnosing
+/// catalogue lacks ("" for none).
+struct Hidden {
+  Sealed seal;
+  std::vector<diagnosis::Cause> causes;
+  std::string removed;
+};
+
+struct HideOptions {
+  std::set<std::string> only;  ///< families that are drawn from; empty: all
+  double least_sigma = 3.0;    ///< smallest single effect, up to fifteen
+  char kind = 0;               ///< 'n' null, 'e' one cause, 't' two, 'o' outside the catalogue; 0: by the number
+  int family = -1;             ///< place among `only` of the family whose turn it is; -1: by the number
+};
+
+/// What case number `seed` hides, by the shares of make_case.
+[[nodiscard]] Hidden hide(const Bench& bench, std::uint64_t seed, const HideOptions& options);
+
 struct Case {
   Eigen::VectorXd values;  ///< transformed rows
   std::string removed;     ///< family that the diagnosing catalogue lacks, "" for none
@@ -74,6 +93,7 @@ struct Score {
   std::string verdict, found, seal;
 };
 
+[[nodiscard]] Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double seconds);
 [[nodiscard]] Score run_case(const Bench& bench, const Case& hidden);
 
 }  // namespace twindeck::blind

@@ -1,0 +1,108 @@
+// Places and the reduced model. Oracles: parts add up to the whole; a reduced structure that is not reduced has the full one's
+// modes; the bridge's changed frequencies by a full solve.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "chain.hpp"
+#include "dynamics/eigenmodes.hpp"
+#include "ponte/generator.hpp"
+#include "steps/diagnosis/model.hpp"
+
+namespace twindeck::tests {
+namespace {
+
+TEST(Places, OfAMatrixModelAreItsGroupsAndNodes) {
+  const Chain chain({.masses = 6, .modes = 4});
+  const auto& sets = chain.places().sets;
+  EXPECT_EQ(sets.at("groups").size(), 7u);
+  EXPECT_EQ(sets.at("nodes").size(), 6u);
+  EXPECT_EQ(sets.at("groups")[2].id, "group:g2");
+  EXPECT_DOUBLE_EQ(chain.places().total_mass_kg, 6.0 * Chain::kMass);
+  // The groups are all there is of the stiffness, the nodes all there is of the mass.
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6, 6), m = k;
+  for (const auto& place : sets.at("groups")) k += Eigen::MatrixXd(place.stiffness);
+  for (const auto& place : sets.at("nodes")) m += Eigen::MatrixXd(place.mass);
+  EXPECT_LT((k - chain.stiffness(chain.as_modelled())).norm(), 1e-6);
+  EXPECT_LT((m - Chain::kMass * Eigen::MatrixXd::Identity(6, 6)).norm(), 1e-9);
+}
+
+TEST(Places, NearestIsTheNearest) {
+  const std::vector<Eigen::Vector3d> centres = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}};
+  EXPECT_EQ(diagnosis::nearest(centres, {7, 1, 0}), 1);
+  EXPECT_EQ(diagnosis::nearest(centres, {1, 8, 3}), 2);
+}
+
+TEST(ReducedModel, DriveStiffnessIsThatOfAUnitForce) {
+  // Oracle: two springs in series on either side of a mass in a chain of n: k (1/(i+1) + 1/(n-i)).
+  const Chain chain({.masses = 6, .modes = 4});
+  const auto& nodes = chain.reduced().sets.at("nodes");
+  for (int i = 0; i < 6; ++i)
+    EXPECT_NEAR(
+        nodes[static_cast<std::size_t>(i)].attributes.at("k_drive") / (Chain::kSpring * (1.0 / (i + 1) + 1.0 / (6 - i))), 1.0,
+        1e-9);
+}
+
+TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
+  // The refined bridge on a coarse mesh: a place's changed frequencies in the reduced basis against a full solve, within 0.1 %.
+  const fe::Model model = ponte::generate(std::string(TWINDECK_SOURCE_DIR) + "/data/ponte_del_mare/bridge.toml", "refined");
+  steps::Channel channel;
+  channel.name = channel.point = "M3";
+  channel.x_m = model.nodes[static_cast<std::size_t>(model.monitoring_points.at("M3"))].x_m;
+  channel.direction = Eigen::Vector3d::UnitZ();
+  const auto prepared = steps::prepare_model(steps::from_model(model), {channel}, 0.6);
+  const auto structure = prepared->structure();
+  const auto places =
+      diagnosis::find_places(structure, {.max_zones = 8, .max_nodes = 4, .zone_centres = {}, .node_positions = {}});
+  diagnosis::ReductionOptions options;
+  options.modes = 24;
+  const diagnosis::ReducedModel reduced(structure, places, options);
+  const auto solve = [&](const Eigen::MatrixXd& change) {
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(reduced.size(), reduced.size()), m = k;
+    for (const auto& term : reduced.stiffness) k += term.coefficient.value(reduced.theta) * term.matrix;
+    for (const auto& term : reduced.mass) m += term.coefficient.value(reduced.theta) * term.matrix;
+    if (change.size() > 0) k += change;
+    // Vectors of one place and those that all share: those of other places may hold the same motion once more.
+    std::vector<int> columns(static_cast<std::size_t>(reduced.common));
+    std::iota(columns.begin(), columns.end(), 0);
+    const auto& own = reduced.sets.at("stays")[3].columns;
+    columns.insert(columns.end(), own.begin(), own.end());
+    k = k(columns, columns).eval();
+    m = m(columns, columns).eval();
+    // M phi = 1/omega² K phi, for static corrections hardly have a mass.
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m, k, Eigen::EigenvaluesOnly);
+    return Eigen::VectorXd(eigen.eigenvalues().tail(8).reverse().cwiseSqrt().cwiseInverse() / (2.0 * std::numbers::pi));
+  };
+  const Eigen::VectorXd plain = solve({});
+  for (Eigen::Index i = 0; i < 8; ++i) EXPECT_NEAR(plain[i] / reduced.frequency_Hz[i], 1.0, 1e-5) << i;
+  // A stay at half its stiffness, in the full model: an area halved would halve its mass too, so the modulus is halved by a
+  // term.
+  const auto& stay = places.sets.at("stays")[3];
+  const auto& stay_reduced = reduced.sets.at("stays")[3];
+  fe::ParametricSystem system = *structure.system;
+  fe::Term term;
+  term.coefficient.base = -0.5;
+  const int* outer = system.pattern.outerIndexPtr();
+  const int* inner = system.pattern.innerIndexPtr();
+  for (int c = 0; c < stay.stiffness.outerSize(); ++c)
+    for (diagnosis::Symmetric::InnerIterator entry(stay.stiffness, c); entry; ++entry) {
+      if (entry.row() < entry.col()) continue;
+      const int* at = std::lower_bound(inner + outer[c], inner + outer[c + 1], static_cast<int>(entry.row()));
+      ASSERT_TRUE(at != inner + outer[c + 1] && *at == entry.row());
+      term.position.push_back(static_cast<int>(at - inner));
+      term.value.push_back(entry.value());
+    }
+  system.stiffness_terms.push_back(term);
+  dynamics::ModalSolver solver(system);
+  const auto full = solver.solve(structure.theta, 8);
+  const Eigen::VectorXd changed = solve(-0.5 * stay_reduced.stiffness);
+  double moved = 0.0;
+  for (Eigen::Index i = 0; i < 8; ++i) {
+    EXPECT_NEAR(changed[i] / full.frequency_Hz[i], 1.0, 1e-3) << i;
+    moved = std::max(moved, std::abs(changed[i] / plain[i] - 1.0));
+  }
+  EXPECT_GT(moved, 2e-3);  // a change that could have been missed
+}
+
+}  // namespace
+}  // namespace twindeck::tests
