@@ -113,11 +113,11 @@ void Predictor::pair(int condition) {
         }
     }
     each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-      // The shape under this label belongs to the next mode, and the next one's to it.
+      // The shape under this label belongs to the next mode of the list, and the next one's to it. Not the next in frequency:
+      // close modes change places there from one data set to another.
       std::vector<const MeasuredMode*> same;
       for (const MeasuredMode& other : map_.modes_)
         if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
-      std::sort(same.begin(), same.end(), [](auto* a, auto* b) { return a->frequency_Hz < b->frequency_Hz; });
       for (std::size_t k = 0; k + 1 < same.size(); ++k) {
         if (same[k]->label != c.mode) continue;
         if (shaped == same[k]) shaped = same[k + 1];
@@ -308,8 +308,6 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
     std::vector<std::size_t> same;
     for (std::size_t m = 0; m < map_.modes_.size(); ++m)
       if (map_.modes_[m].condition == measured.condition && map_.modes_[m].real_rows.size() >= 2) same.push_back(m);
-    std::sort(same.begin(), same.end(),
-              [&](std::size_t a, std::size_t b) { return map_.modes_[a].frequency_Hz < map_.modes_[b].frequency_Hz; });
     for (std::size_t k = 0; k + 1 < same.size(); ++k) {
       if (map_.modes_[same[k]].label != c.mode) continue;
       if (position == same[k]) shape_of = out_.paired[same[k + 1]];

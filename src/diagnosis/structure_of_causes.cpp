@@ -124,9 +124,11 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
     const double v = variable(action, condition);
     if (std::isfinite(v)) state.stiffness += value("rate") * (v - value("reference")) * sliced(place.stiffness, columns_, n);
   } else if (kind == "step.stiffness") {
-    if (variable(action, condition) < value("below")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
+    if (variable(action, condition) < value("below"))
+      state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
   } else if (kind == "slip.stiffness") {
-    if (variable(action, condition) > value("above")) state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
+    if (variable(action, condition) > value("above"))
+      state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
   } else if (kind == "mass.add") {
     for (Index d = 0; d < place.directions.cols(); ++d) {
       const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, n);
@@ -196,7 +198,8 @@ StructureState Predictor::build_state(const Condition& condition) const {
     const auto& channels = map_.features().channels;
     const auto at = std::find(channels.begin(), channels.end(), condition.amplitude_channel);
     if (at != channels.end()) {
-      state.amplitude_row = sliced(VectorXd(map_.model().sensors.row(4 * (at - channels.begin())).transpose()), columns_, n).transpose();
+      state.amplitude_row =
+          sliced(VectorXd(map_.model().sensors.row(4 * (at - channels.begin())).transpose()), columns_, n).transpose();
       state.amplitude_m = *condition.amplitude_m;
     }
   }
@@ -210,12 +213,13 @@ SolvedState& Predictor::solved(int c) {
   if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
   const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
   // What the state depends on: conditions and causes that agree in it share one solution.
-  bool temperature = false, amplitude = false, wind = false, dampers_change = false;
-  std::vector<double> acting;
+  bool temperature = false, amplitude = false, wind = false;
+  std::vector<double> acting, before_last;  // the causes that act here; without the last of them
+  bool follows = false;                     // the last one leaves dampers alone and adds no motion of its own
   std::vector<int> columns;
   for (int k = 0; k < map_.model().common; ++k) columns.push_back(k);
   for (const Cause& cause : causes_) {
-    bool any = false;
+    bool any = false, alone = false;
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
       if (!acts(cause, action, condition)) continue;
       any = true;
@@ -225,9 +229,12 @@ SolvedState& Predictor::solved(int c) {
       temperature = temperature || (field && key == "temperature_C");
       amplitude = amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
       wind = wind || (field && key == "wind_m_s");
-      dampers_change = dampers_change || action.kind.starts_with("damper.");
+      alone =
+          alone || action.kind.starts_with("damper.") || action.kind == "element.oscillator" || action.kind == "element.string";
     }
     if (!any) continue;
+    before_last = acting;
+    follows = !alone;
     // The catalogue entry itself and its magnitudes name the cause.
     acting.push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(cause.candidate)));
     for (Index i = 0; i < cause.a.size(); ++i) acting.push_back(cause.a[i]);
@@ -239,11 +246,14 @@ SolvedState& Predictor::solved(int c) {
   if (dampers != map_.model().sets.end() && condition.dampers_on.value_or(false))
     for (const ReducedPlace& damper : dampers->second) amplitude = amplitude || damper.attributes.contains("friction");
   const double unknown = -1e300;
-  std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : unknown, condition.people.value_or(0.0)};
+  std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : unknown,
+                             condition.people.value_or(0.0)};
   key.push_back(temperature ? condition.temperature_C.value_or(unknown) : 0.0);
   key.push_back(amplitude ? condition.amplitude_m.value_or(unknown) : 0.0);
   const auto& channels = map_.features().channels;
-  key.push_back(amplitude ? static_cast<double>(std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin()) : 0.0);
+  key.push_back(amplitude ? static_cast<double>(std::find(channels.begin(), channels.end(), condition.amplitude_channel) -
+                                                channels.begin())
+                          : 0.0);
   key.push_back(wind ? condition.wind_m_s.value_or(unknown) : 0.0);
   auto& states = base_.store->states;
   const auto known = states.find({acting, key});
@@ -255,12 +265,19 @@ SolvedState& Predictor::solved(int c) {
     entry->state = build_state(condition);
     // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
     const bool kept = acting.empty() || with_jacobian_;
-    // Damped modes follow from those without the causes where these leave the dampers alone and nothing vibrates on its own.
-    const auto plain = states.find({{}, key});
-    const bool follows = !acting.empty() && !dampers_change && plain != states.end() &&
-                         entry->state.stiffness.rows() == static_cast<Index>(columns.size());
+    // Damped modes follow from those without the last cause.
+    const auto neighbour = follows ? states.find({before_last, key}) : states.end();
+    StateModes from;
+    if (neighbour != states.end() && entry->state.damped()) {
+      const SolvedState& near = *neighbour->second;
+      const auto shared = static_cast<Index>(near.columns.size()), own = near.modes.shapes.rows() - shared;
+      from.s = near.modes.s;
+      from.shapes = Eigen::MatrixXcd::Zero(entry->state.stiffness.rows(), near.modes.s.size());
+      from.shapes.topRows(shared) = near.modes.shapes.topRows(shared);
+      from.shapes.bottomRows(own) = near.modes.shapes.bottomRows(own);
+    }
     entry->modes = solve_state(entry->state, map_.highest_Hz_, kept ? base_.store->undamped : undamped_,
-                               follows ? &plain->second->modes : nullptr);
+                               from.s.size() > 0 ? &from : nullptr);
     (kept ? states : own_)[{acting, key}] = entry;
   }
   of_condition_[c] = entry.get();
@@ -274,12 +291,16 @@ const StateStore::Changes& Predictor::changes(const std::vector<int>& columns) c
   const ReducedModel& model = map_.model();
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
     const Nuisance& v = map_.nuisances()[j];
-    const auto place = [&](const char* set) -> const ReducedPlace& { return model.sets.at(set)[static_cast<std::size_t>(v.index)]; };
+    const auto place = [&](const char* set) -> const ReducedPlace& {
+      return model.sets.at(set)[static_cast<std::size_t>(v.index)];
+    };
     MatrixXd dk, dm;
     const auto add = [&](MatrixXd& to, double a, const MatrixXd& from) {
       const MatrixXd part = a * from(columns, columns);
-      if (to.size() == 0) to = part;
-      else to += part;
+      if (to.size() == 0)
+        to = part;
+      else
+        to += part;
     };
     if (v.kind == Nuisance::Kind::parameter) {
       for (const auto& term : model.stiffness)
@@ -310,7 +331,8 @@ const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
   const StateStore::Changes& change = changes(solved.columns);
   const Index n = solved.state.stiffness.rows();
   if (n == static_cast<Index>(solved.columns.size()))
-    return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, change.stiffness, change.mass)).first->second;
+    return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, change.stiffness, change.mass))
+        .first->second;
   // Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
   std::vector<MatrixXd> dk = change.stiffness, dm = change.mass;
   for (auto* list : {&dk, &dm})
