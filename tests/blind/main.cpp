@@ -24,12 +24,23 @@ namespace {
 
 using twindeck::blind::Score;
 
-/// Wilson's 95 % interval of a proportion.
-std::pair<double, double> wilson(int k, int n) {
-  if (n == 0) return {0.0, 1.0};
-  const double z = 1.959964, p = static_cast<double>(k) / n, d = 1.0 + z * z / n;
-  const double centre = (p + z * z / (2.0 * n)) / d, half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / d;
-  return {centre - half, centre + half};
+/// P(K >= k) of n trials at p.
+double upper_tail(int k, int n, double p) {
+  double sum = 0.0;
+  for (int i = k; i <= n; ++i)
+    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) +
+                    (n - i) * std::log1p(-p));
+  return sum;
+}
+
+/// The exact 95 % interval of a proportion (Clopper and Pearson 1934): right for few trials too.
+std::pair<double, double> exact_interval(int k, int n) {
+  const auto solve = [&](int from, double level) {  // p at which P(K >= from) = level
+    double low = 1e-12, high = 1.0 - 1e-12;
+    for (int i = 0; i < 60; ++i) (upper_tail(from, n, 0.5 * (low + high)) < level ? low : high) = 0.5 * (low + high);
+    return 0.5 * (low + high);
+  };
+  return {k == 0 ? 0.0 : solve(k, 0.025), k == n ? 1.0 : solve(k + 1, 0.975)};
 }
 
 struct Table {
@@ -42,7 +53,7 @@ struct Table {
         ++n;
         k += hit(s) ? 1 : 0;
       }
-    const auto [low, high] = wilson(k, n);
+    const auto [low, high] = exact_interval(k, n);
     const bool wrong = n > 0 && (at_least ? high < target : low > target);
     held = held && !wrong;
     fmt::print("  {:<58} {:>4}/{:<4} {:>5.1f} %  [{:>5.1f}, {:>5.1f}]  target {} {:>3.0f} %  {}\n", what, k, n,
@@ -109,7 +120,7 @@ int null_calibration(const twindeck::blind::Bench& bench, int count, std::uint64
   bool held = true;
   for (const auto& [level, low, high] : {std::tuple{0.05, 0.025, 0.08}, std::tuple{0.01, 0.0, 0.025}}) {
     const auto k = static_cast<int>(std::count_if(p.begin(), p.end(), [&, l = level](double v) { return v < l; }));
-    const auto [from, to] = wilson(k, count);
+    const auto [from, to] = exact_interval(k, count);
     const bool wrong = to < low || from > high;
     held = held && !wrong;
     fmt::print("residual test at {:.0f} %: rejects {}/{} nulls = {:.1f} % [{:.1f}, {:.1f}], target {:.1f} to {:.1f} %  {}\n",
@@ -126,7 +137,7 @@ int null_calibration(const twindeck::blind::Bench& bench, int count, std::uint64
       [&](int i, const Score& s) { return "noise x 1.3: " + line_of(first + static_cast<std::uint64_t>(i), s); });
   const auto named =
       static_cast<int>(std::count_if(scores.begin(), scores.end(), [](const Score& s) { return !s.found.empty(); }));
-  const auto [from, to] = wilson(named, static_cast<int>(scores.size()));
+  const auto [from, to] = exact_interval(named, static_cast<int>(scores.size()));
   fmt::print("noise 30 % larger than declared: a cause named in {}/{} nulls = {:.1f} % [{:.1f}, {:.1f}]\n", named,
              scores.size(), scores.empty() ? 0.0 : 100.0 * named / static_cast<double>(scores.size()), 100.0 * from,
              100.0 * to);
@@ -174,7 +185,7 @@ int main(int argc, char** argv) {
   const auto effect = [](const Score& s) { return s.kind == "effect"; };
   const auto null = [](const Score& s) { return s.kind == "null"; };
   const auto found = [&](const Score& s) { return effect(s) && s.detected; };
-  fmt::print("\nscore, 95 % intervals of Wilson\n");
+  fmt::print("\nscore, exact 95 % intervals\n");
   Table table;
   table.line(
       "false alarms on nulls (a name or unknown)", scores, null, [](const Score& s) { return s.detected; }, 0.02, false);
