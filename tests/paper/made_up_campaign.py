@@ -44,6 +44,8 @@ def write_identification(write_rows, read_rows, paper, folder):
                     for order in (20, 22, 24) for i, (f, z) in enumerate(modes)])
         write_rows(at / "psd.csv", ["channel", "frequency_Hz", "psd_m2_s3", "setup", "condition"],
                    [[f"{p}z", f, 1e-6 / (1e-3 + (f - 1.5) ** 2), "ST1", condition] for p, *_ in CHANNELS for f in np.linspace(0.1, 3.0, 30)])
+    write_rows(folder / "amplitude.csv", ["source", "condition", "mode", "amplitude"],
+               [["ambient", "with_dampers", i + 1, 0.01] for i in range(len(read_rows(paper / "table_04.csv")))])
     write_rows(folder / "features/channels.csv", ["channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz"],
                [[f"{p}z", p, x, y, 10.0, 0, 0, 1] for p, x, y in CHANNELS])
     write_rows(folder / "stays.csv", ["stay", "condition", "harmonic", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"],

@@ -71,17 +71,18 @@ class RealStudies(unittest.TestCase):
             found = [float(r["frequency_Hz"]) for r in rows if r["condition"] == condition]
             weak[condition] = min(found, key=lambda f: abs(f - peak))
             self.assertLess(abs(weak[condition] - peak), 0.15, condition)
-        for (
-            condition
-        ) in STRONG:  # of the modes known to a tenth of a hertz or, in twenty seconds of strong motion, a third of one
+        fallen = []
+        for condition in STRONG:  # of the modes known to a tenth of a hertz or, in twenty seconds of strong motion, a third of one
             found = [
                 r
                 for r in rows
                 if r["condition"] == condition and 2.0 < float(r["frequency_Hz"]) < 3.5 and float(r["frequency_std_Hz"]) < 0.35
             ]
             lowest = min(float(r["frequency_Hz"]) for r in found)
-            self.assertLess(lowest, 0.85 * min(weak.values()), f"{condition}: less than 72 % of the stiffness is left")
+            self.assertLess(lowest, 0.97 * min(weak.values()), f"{condition}: softer than in every weak shaking")
+            fallen.append(lowest / min(weak.values()))
             print(f"{condition}: {lowest:.2f} Hz, weak shaking {min(weak.values()):.2f} to {max(weak.values()):.2f} Hz")
+        self.assertLess(min(fallen), 0.85, "less than 72 % of the stiffness is left in the strongest shaking")
 
     @at_hand("gt_pedestrian_bridge")
     @unittest.skipUnless(os.environ.get("TWINDECK_SLOW"), "half a minute: set TWINDECK_SLOW=1")

@@ -10,13 +10,15 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
 import numpy as np
 
-import campaign_score
-from campaign_score import rows
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import campaign_score  # noqa: E402
+from campaign_score import rows  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
