@@ -82,7 +82,7 @@ N ?= 400
 TIER ?= features
 SEED ?= 1
 BLIND = $(if $(filter features,$(TIER)),blind_trials,blind_records)
-blind-trials: build ## make blind-trials N=400 TIER=features|records|time: hidden effects looked for on another mesh, scored with intervals
+blind-trials: build ## make blind-trials N=400 TIER=features, records or time: hidden effects looked for on another mesh, scored with intervals
 	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
 	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(filter-out features,$(TIER))
 

@@ -62,7 +62,7 @@ struct Diagnosis {
   std::vector<Scored> ranking;  ///< of the first search
 };
 
-/// What is wrong, why, and what naming it gains (DIAGNOSIS section 4): forward steps with a backward check, clusters, the
+/// What is wrong, why, and what naming it gains (docs/diagnosis.md): forward steps with a backward check, clusters, the
 /// verdict, the gain on held-out rows. Deterministic: `seed` drives the resampling of held-out blocks.
 [[nodiscard]] Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-/// Measured features as the diagnosis takes them: every row of rows.csv with its condition (DESIGN section 3), nothing computed.
+/// Measured features as the diagnosis takes them: every row of rows.csv with its condition (docs/my_records.md), nothing
+/// computed.
 namespace twindeck::diagnosis {
 
 enum class RowType { frequency, damping, shape, shape_imag, stay_frequency, rms, psd_floor, static_displacement };

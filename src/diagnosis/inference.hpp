@@ -55,7 +55,7 @@ struct ScreenTable {
       change;  ///< by id of the candidate: (n_rows) each, size 0 where there is none
 };
 
-/// Fits, screens and weighs causes on the training rows of a feature map (DIAGNOSIS 2.2 to 2.6).
+/// Fits, screens and weighs causes on the training rows of a feature map (docs/diagnosis.md).
 class Inference {
  public:
   Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Candidate>>& candidates);

@@ -19,7 +19,7 @@ struct PrestressState {
 /// @throws InputError that names the source, the part, what was expected and how to mend it
 void validate(const Model& model);
 
-/// Stay pulls and the axial forces that balance them (FE.md section 1; prestress rule of the model). Linear statics, or, where
+/// Stay pulls and the axial forces that balance them (prestress rule of the model). Linear statics, or, where
 /// the model asks for large displacements, equilibrium in the deformed geometry under pulls that run along the stays as they
 /// then lie; shape finding then corrects its pulls until the displacements of that state are at their best. Without
 /// equilibrium the status says at which part of the load and why.

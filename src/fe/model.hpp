@@ -9,7 +9,7 @@
 
 namespace twindeck::fe {
 
-/// A finite element model as data: what a model folder holds (DESIGN section 3), nothing computed. SI units throughout.
+/// A finite element model as data: what a model folder holds (docs/my_model.md), nothing computed. SI units throughout.
 /// References between parts are positions in the vectors below (0-based), -1 = none.
 
 struct Node {

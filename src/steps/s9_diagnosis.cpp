@@ -1,5 +1,5 @@
 /// Step 9: what the best admissible model still gets wrong, the cause out of the catalogue, the model extended by it, and the
-/// gain on rows that were held out (DIAGNOSIS section 4).
+/// gain on rows that were held out (docs/diagnosis.md).
 #include "steps/diagnosis/setup.hpp"
 
 int main(int argc, char** argv) {

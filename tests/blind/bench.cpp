@@ -77,7 +77,7 @@ std::vector<steps::Channel> sixteen_channels(const fe::Model& model) {
   return channels;
 }
 
-/// The campaign: states, amplitudes, temperatures, a crowd; deviations as ten-minute records give them (DIAGNOSIS 3.1).
+/// The campaign: states, amplitudes, temperatures, a crowd; deviations as ten-minute records give them.
 FeatureSet campaign(const Bench& bench) {
   FeatureSet f;
   for (const steps::Channel& channel : bench.channels) {

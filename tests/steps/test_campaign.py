@@ -1,7 +1,7 @@
 """s0_campaign and s2_sensors on small settings: contract of the campaign folder, the truth that is imposed, loggers, refusals; and that
 nothing but a scorer reads the truth.
 
-Oracles: Table 4 as printed (the ten named frequencies within 0.2 %, damping as imposed), the file contract of DESIGN section 3, whole
+Oracles: Table 4 as printed (the ten named frequencies within 0.2 %, damping as imposed), the file contract of docs/my_records.md, whole
 converter steps, Eq. (1) worked out here, the words of each refusal.
 """
 import csv

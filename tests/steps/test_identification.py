@@ -1,7 +1,7 @@
 """s3_identification on a campaign made up here: a chain of four masses between walls under white noise, recorded by four channels.
 
-Oracle: closed-form modes of the chain, omega_r = 2 omega_0 sin(r pi/10), phi_r(j) = sin(r j pi/5); the file contract of DESIGN
-section 3; the words of each refusal.
+Oracle: closed-form modes of the chain, omega_r = 2 omega_0 sin(r pi/10), phi_r(j) = sin(r j pi/5); the file contract
+of docs/my_records.md; the words of each refusal.
 """
 import csv
 import math

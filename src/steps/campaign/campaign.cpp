@@ -186,7 +186,7 @@ Campaign read_campaign(const fs::path& folder) {
   const fs::path file = folder / "campaign.toml";
   if (!fs::exists(file)) {
     throw InputError({file.string(), 0, ""}, "is not there, expected one table [[record]] for each record",
-                     "write it (DESIGN, campaign folder)");
+                     "write it as docs/my_records.md says");
   }
   campaign.channels = read_channels(folder / "channels.csv");
   campaign.conditions = condition_names(folder / "conditions.toml");

@@ -8,7 +8,7 @@
 
 namespace twindeck::steps {
 
-/// A row of a campaign's channels.csv (DESIGN section 3).
+/// A row of a campaign's channels.csv (docs/my_records.md).
 struct CampaignChannel {
   std::string name, point;
   Eigen::Vector3d position_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN where not given

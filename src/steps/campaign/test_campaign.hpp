@@ -8,7 +8,7 @@ namespace twindeck::steps {
 /// s0_campaign: simulates the test campaign on the virtual bridge and writes what its loggers wrote,
 ///
 ///     records/<setup>/<condition>_<kind><n>.npy   samples × channels, single precision, m/s²
-///     campaign.toml, channels.csv, conditions.toml   as DESIGN section 3 has them
+///     campaign.toml, channels.csv, conditions.toml   as docs/my_records.md has them
 ///
 /// and what is true, for scorers alone: truth/modes.csv (`condition,mode,frequency_Hz,damping_ratio_pct,stay_share` and a
 /// column `participation_<setup>` a setup of the condition; modes below 3 Hz, `mode` empty for those that Table 4 does not

@@ -14,7 +14,7 @@ namespace twindeck::steps {
 /// set
 [[nodiscard]] std::vector<diagnosis::Hypothesis> read_catalogue(const std::filesystem::path& folder);
 
-/// All rows of a features folder (DESIGN section 3) with their conditions and channels, quality.csv and covariance.npy where
+/// All rows of a features folder (docs/my_records.md) with their conditions and channels, quality.csv and covariance.npy where
 /// they are there. Rows of static displacements are left out: no condition says under which load they were measured.
 /// @throws InputError  with file, line, column: an unknown type, condition or channel, a row without a standard deviation
 [[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder);

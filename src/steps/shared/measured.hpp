@@ -27,7 +27,7 @@ struct Measured {
   std::string source;               ///< folder, for messages
 };
 
-/// Reads the modes of one condition out of a features folder (DESIGN section 3): rows.csv, conditions.toml and, where there are
+/// Reads the modes of one condition out of a features folder (docs/my_records.md): rows.csv, conditions.toml and, where there are
 /// shapes, channels.csv. Modes come in ascending frequency; rows that are held out stay out.
 /// @param condition  a table of conditions.toml; "" means the only one, or the only one with dampers = "off"
 /// @throws InputError  with file, line, column: an unknown type, condition or channel, a row without a standard deviation, a

@@ -61,7 +61,7 @@ struct Step {
   std::function<Status(StepContext&)> run;
 };
 
-/// The command line contract (DESIGN section 2): --study --out --results --threads --set --seed --quiet --model --campaign
+/// The command line contract of every step: --study --out --results --threads --set --seed --quiet --model --campaign
 /// --modes --features --accept-unconverged --help --version --print-config --describe [key]. Reads <study>/<token>.toml when
 /// there is one, runs, writes manifest.json last and renames. Exit codes: 0 done, 1 not converged (written to
 /// <out>.unconverged), 2 bad input, 3 our own mistake; each failure is one line on stderr.

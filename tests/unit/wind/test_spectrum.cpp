@@ -45,7 +45,7 @@ TEST(Spectrum, HasAFiniteValueAtZero) {
 }
 
 TEST(Profile, GivesThePrintedSpeedAndItsInverse) {
-  // Paper: u* = 1.76 m/s and 40.4 m/s; z = 14.5 m then needs z0 = 0.0015 m (BRIDGE_FACTS 1.7).
+  // Paper: u* = 1.76 m/s and 40.4 m/s; z = 14.5 m then needs z0 = 0.0015 m.
   EXPECT_NEAR(mean_speed(1.76, 14.5, 0.0015), 40.4, 0.05);
   EXPECT_NEAR(mean_speed(1.76, 14.5, roughness_for(1.76, 14.5, 40.4)), 40.4, 1e-12);
   EXPECT_THROW((void)mean_speed(1.76, 0.001, 0.01), InputError);
