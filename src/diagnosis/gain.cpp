@@ -165,12 +165,14 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
     const UnknownSpec& spec = candidate.hypothesis->unknowns[static_cast<std::size_t>(i)];
     EffectParameter parameter{spec.name, spec.unit, candidate.physical(cause.a, i), 0.0, 0.0, false, false};
     VectorXd end = cause.a;
-    end[i] = quantile(0.05);
+    // An end that the data do not see is the prior's: the other one is a limit.
+    const double lower = quantile(0.05), upper = quantile(0.95);
+    parameter.at_low_bound = lower < low + 0.06 * (high - low);
+    parameter.at_high_bound = upper > high - 0.06 * (high - low);
+    end[i] = parameter.at_low_bound ? low : lower;
     parameter.low = candidate.physical(end, i);
-    parameter.at_low_bound = end[i] < low + 0.06 * (high - low);
-    end[i] = quantile(0.95);
+    end[i] = parameter.at_high_bound ? high : upper;
     parameter.high = candidate.physical(end, i);
-    parameter.at_high_bound = end[i] > high - 0.06 * (high - low);
     out.push_back(parameter);
   }
   return out;

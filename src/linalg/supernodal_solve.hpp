@@ -18,9 +18,9 @@ struct SupernodalFactor {
 ///
 /// CHOLMOD calls the BLAS for each block, thousands of times on blocks of some fifteen columns, and gathers and scatters
 /// between the calls. Here the entries of a few rows of all vectors stay in registers while a block passes by, and the vectors
-/// fill the machine's lanes whatever a block's size: twice as fast at
-/// four and eight vectors. Most of the time goes into reading the factor, so the more vectors at once the better. The sums run
-/// in one fixed order for each vector, so that a vector's solution does not depend on how many others are solved beside it.
+/// fill the machine's lanes whatever a block's size: twice as fast at four and eight vectors. Most of the time goes into reading
+/// the factor, so the more vectors at once the better. The sums run in one fixed order for each vector, so that a vector's
+/// solution does not depend on how many others are solved beside it.
 using SupernodalSweep = void (*)(const SupernodalFactor& factor, double* y);
 
 /// Sweeps for the widths that are there, in the instructions of this machine.

@@ -18,51 +18,12 @@
 #include <string>
 #include <tuple>
 
+#include "blind/score_table.hpp"
 #include "blind/trial.hpp"
 
 namespace {
 
 using twindeck::blind::Score;
-
-/// P(K >= k) of n trials at p.
-double upper_tail(int k, int n, double p) {
-  double sum = 0.0;
-  for (int i = k; i <= n; ++i)
-    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) +
-                    (n - i) * std::log1p(-p));
-  return sum;
-}
-
-/// The exact 95 % interval of a proportion (Clopper and Pearson 1934): right for few trials too.
-std::pair<double, double> exact_interval(int k, int n) {
-  const auto solve = [&](int from, double level) {  // p at which P(K >= from) = level
-    double low = 1e-12, high = 1.0 - 1e-12;
-    for (int i = 0; i < 60; ++i) (upper_tail(from, n, 0.5 * (low + high)) < level ? low : high) = 0.5 * (low + high);
-    return 0.5 * (low + high);
-  };
-  return {k == 0 ? 0.0 : solve(k, 0.025), k == n ? 1.0 : solve(k + 1, 0.975)};
-}
-
-struct Table {
-  bool held = true;
-  void line(const std::string& what, const std::vector<Score>& all, const std::function<bool(const Score&)>& of,
-            const std::function<bool(const Score&)>& hit, double target, bool at_least) {
-    int n = 0, k = 0;
-    for (const Score& s : all)
-      if (of(s)) {
-        ++n;
-        k += hit(s) ? 1 : 0;
-      }
-    const auto [low, high] = exact_interval(k, n);
-    const bool wrong = n > 0 && (at_least ? high < target : low > target);
-    held = held && !wrong;
-    fmt::print("  {:<58} {:>4}/{:<4} {:>5.1f} %  [{:>5.1f}, {:>5.1f}]  target {} {:>3.0f} %  {}\n", what, k, n,
-               n ? 100.0 * k / n : 0.0, 100.0 * low, 100.0 * high, at_least ? ">=" : "<=", 100.0 * target,
-               n == 0  ? "no case"
-               : wrong ? "MISSED"
-                       : "held");
-  }
-};
 
 volatile std::sig_atomic_t stopped = 0;
 void stop(int) { stopped = 1; }
@@ -120,7 +81,7 @@ int null_calibration(const twindeck::blind::Bench& bench, int count, std::uint64
   bool held = true;
   for (const auto& [level, low, high] : {std::tuple{0.05, 0.025, 0.08}, std::tuple{0.01, 0.0, 0.025}}) {
     const auto k = static_cast<int>(std::count_if(p.begin(), p.end(), [&, l = level](double v) { return v < l; }));
-    const auto [from, to] = exact_interval(k, count);
+    const auto [from, to] = twindeck::blind::exact_interval(k, count);
     const bool wrong = to < low || from > high;
     held = held && !wrong;
     fmt::print("residual test at {:.0f} %: rejects {}/{} nulls = {:.1f} % [{:.1f}, {:.1f}], target {:.1f} to {:.1f} %  {}\n",
@@ -137,7 +98,7 @@ int null_calibration(const twindeck::blind::Bench& bench, int count, std::uint64
       [&](int i, const Score& s) { return "noise x 1.3: " + line_of(first + static_cast<std::uint64_t>(i), s); });
   const auto named =
       static_cast<int>(std::count_if(scores.begin(), scores.end(), [](const Score& s) { return !s.found.empty(); }));
-  const auto [from, to] = exact_interval(named, static_cast<int>(scores.size()));
+  const auto [from, to] = twindeck::blind::exact_interval(named, static_cast<int>(scores.size()));
   fmt::print("noise 30 % larger than declared: a cause named in {}/{} nulls = {:.1f} % [{:.1f}, {:.1f}]\n", named,
              scores.size(), scores.empty() ? 0.0 : 100.0 * named / static_cast<double>(scores.size()), 100.0 * from,
              100.0 * to);
@@ -186,35 +147,7 @@ int main(int argc, char** argv) {
   const auto null = [](const Score& s) { return s.kind == "null"; };
   const auto found = [&](const Score& s) { return effect(s) && s.detected; };
   fmt::print("\nscore, exact 95 % intervals\n");
-  Table table;
-  table.line(
-      "false alarms on nulls (a name or unknown)", scores, null, [](const Score& s) { return s.detected; }, 0.02, false);
-  table.line(
-      "names given on nulls", scores, null, [](const Score& s) { return !s.found.empty(); }, 0.02, false);
-  table.line(
-      "gain claimed on nulls", scores, null, [](const Score& s) { return s.gain_claimed; }, 0.05, false);
-  table.line(
-      "detection, 6 sigma and above", scores, [&](const Score& s) { return effect(s) && s.sigma >= 6.0; },
-      [](const Score& s) { return s.detected; }, 0.97, true);
-  table.line(
-      "detection, 4 to 6 sigma", scores, [&](const Score& s) { return effect(s) && s.sigma >= 4.0 && s.sigma < 6.0; },
-      [](const Score& s) { return s.detected; }, 0.50, true);
-  table.line(
-      "family named, given detected", scores, found, [](const Score& s) { return s.family_named; }, 0.97, true);
-  table.line(
-      "exact entry, given detected and alone in its set", scores, [&](const Score& s) { return found(s) && s.set_size == 1; },
-      [](const Score& s) { return s.exact; }, 0.93, true);
-  table.line(
-      "truth in the reported set, given detected", scores, found, [](const Score& s) { return s.in_set; }, 0.97, true);
-  table.line(
-      "90 % interval covers the magnitude", scores, [](const Score& s) { return s.sized; },
-      [](const Score& s) { return s.covered; }, 0.85, true);
-  table.line(
-      "both of two causes named", scores, [](const Score& s) { return s.kind == "two"; }, [](const Score& s) { return s.both; },
-      0.75, true);
-  table.line(
-      "outside the catalogue: no passing wrong name", scores, [](const Score& s) { return s.kind == "outside"; },
-      [](const Score& s) { return s.unknown; }, 0.90, true);
+  bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores);
   double sizes = 0.0, squares = 0.0, seconds = 0.0, slowest = 0.0;
   int sets = 0;
   std::vector<double> ratios;
@@ -233,7 +166,7 @@ int main(int argc, char** argv) {
   if (sets > 1) {
     const double mean = sizes / sets, half = 1.96 * std::sqrt(std::max(squares / sets - mean * mean, 0.0) / (sets - 1));
     const bool wrong = mean - half > 1.5;
-    table.held = table.held && !wrong;
+    held = held && !wrong;
     fmt::print("  mean size of the reported set {:.2f} [{:.2f}, {:.2f}], target <= 1.5  {}\n", mean, mean - half, mean + half,
                wrong ? "MISSED" : "held");
     const double ratio = median(ratios);
@@ -245,13 +178,13 @@ int main(int argc, char** argv) {
   fmt::print("\n");
   const auto alarms = std::count_if(scores.begin(), scores.end(), [&](const Score& s) { return null(s) && s.detected; });
   if (first == 1 && count <= 60 && alarms > 0) {
-    table.held = false;
+    held = false;
     fmt::print("{} false alarm(s) among the fixed nulls\n", alarms);
   }
   if (std::getenv("TWINDECK_FRESH") != nullptr) {
     const std::uint64_t seed = std::random_device{}();
     fmt::print("\none trial with a fresh seed, {}:\n{}\n", seed, line_of(seed, run(seed)));
   }
-  fmt::print("{}\n", table.held ? "targets held" : "a target is missed");
-  return table.held ? 0 : 1;
+  fmt::print("{}\n", held ? "targets held" : "a target is missed");
+  return held ? 0 : 1;
 }

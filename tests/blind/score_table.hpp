@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -10,13 +9,8 @@
 
 namespace twindeck::blind {
 
-/// Wilson's 95 % interval of a proportion.
-[[nodiscard]] inline std::pair<double, double> proportion_interval(int k, int n) {
-  if (n == 0) return {0.0, 1.0};
-  const double z = 1.959964, p = static_cast<double>(k) / n, d = 1.0 + z * z / n;
-  const double centre = (p + z * z / (2.0 * n)) / d, half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / d;
-  return {centre - half, centre + half};
-}
+/// The exact 95 % interval of a proportion (Clopper and Pearson 1934): right for few trials too.
+[[nodiscard]] std::pair<double, double> exact_interval(int k, int n);
 
 /// A line of the score: of which cases, what counts as a hit, what is asked for.
 struct ScoreLine {
@@ -25,6 +19,9 @@ struct ScoreLine {
   double target;
   bool at_least;
 };
+
+/// What is asked of the tier of features; `eased` by so much for tiers that see less.
+[[nodiscard]] std::vector<ScoreLine> score_lines(double eased);
 
 /// Prints the lines with intervals. @return false when an interval lies wholly on the wrong side of its target
 [[nodiscard]] bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>& scores);

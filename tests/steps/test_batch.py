@@ -28,9 +28,9 @@ by family: cases, detected, family named, truth in the reported set
   (null)          1    0    0    0
   dampk           1    1    1    1
 
-score, 95 % intervals of Wilson
-  false alarms on nulls (a name or unknown)                     0/1      0.0 %  [  0.0,  79.3]  target <=   2 %  held
-  detection, 6 sigma and above                                  1/1    100.0 %  [ 20.7, 100.0]  target >=  97 %  held
+score, exact 95 % intervals
+  false alarms on nulls (a name or unknown)                     0/1      0.0 %  [  0.0,  97.5]  target <=   2 %  held
+  detection, 6 sigma and above                                  1/1    100.0 %  [  2.5, 100.0]  target >=  97 %  held
   both of two causes named                                      0/0      0.0 %  [  0.0, 100.0]  target >=  75 %  no case
   mean size of the reported set 2.00 (target <= 1.5); slowest trial 1.56 s (target <= 5 s)
 targets held
@@ -65,15 +65,15 @@ class Scores(unittest.TestCase):
             self.assertIn(line, told.splitlines())
 
     def test_chunks_add(self):
-        """1 of 1 and 0 of 1 are 1 of 2; Wilson's interval of 1 of 2 is 9.5 to 90.5 %, wholly below a target of 97 %."""
+        """1 of 1 and 0 of 4 are 1 of 5; the exact interval of 1 of 5 is 0.5 to 71.6 %, wholly below a target of 97 %."""
         other = (
             CHUNK.replace("   7 named", "   9 none ")
             .replace("   8 none", "  10 none")
-            .replace("1/1    100.0 %  [ 20.7, 100.0]", "0/1      0.0 %  [  0.0,  79.3]")
+            .replace("1/1    100.0 %  [  2.5, 100.0]", "0/4      0.0 %  [  0.0,  60.2]")
         )
         told = added_up(other, CHUNK)
         self.assertIn(
-            "detection, 6 sigma and above                                  1/2     50.0 %  [  9.5,  90.5]  target >=  97 %  MISSED",
+            "detection, 6 sigma and above                                  1/5     20.0 %  [  0.5,  71.6]  target >=  97 %  MISSED",
             told,
         )
         self.assertEqual(

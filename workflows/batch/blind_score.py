@@ -1,7 +1,7 @@
 """Adds up the scores of blind trials that ran in several jobs: blind_score.py CHUNK.txt … prints what one run of all would.
 
 Each chunk is what `blind_trials N SEED` prints. Trials, cases by family and hits over cases (k/n) add; the proportions' 95 % intervals are
-Wilson's, of the sums. What does not add, such as a mean, is left out.
+exact (Clopper and Pearson 1934), of the sums. What does not add, such as a mean, is left out.
 """
 import math
 import re
@@ -12,14 +12,18 @@ FAMILY = re.compile(r"^  (\S+|\(.*\)) +(\d+) +(\d+) +(\d+) +(\d+)$")
 SCORE = re.compile(r"^  (.+?) +(\d+)/(\d+) .*target (>=|<=) +(\d+) %")
 
 
-def wilson(k, n):
-    """Wilson's 95 % interval of a proportion."""
-    if n == 0:
-        return 0.0, 1.0
-    z, p = 1.959964, k / n
-    centre, divisor = p + z * z / (2 * n), 1 + z * z / n
-    half = z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    return (centre - half) / divisor, (centre + half) / divisor
+def exact_interval(k, n):
+    """The exact 95 % interval of a proportion."""
+
+    def solve(least, level):  # p at which P(K >= least) = level
+        low, high = 1e-12, 1.0 - 1e-12
+        for _ in range(60):
+            p = 0.5 * (low + high)
+            tail = sum(math.comb(n, i) * p**i * (1.0 - p) ** (n - i) for i in range(least, n + 1))
+            low, high = (p, high) if tail < level else (low, p)
+        return 0.5 * (low + high)
+
+    return (0.0 if k == 0 else solve(k, 0.025)), (1.0 if k == n else solve(k + 1, 0.975))
 
 
 def added(texts):
@@ -49,10 +53,10 @@ def main(files):
     print("\nby family: cases, detected, family named, truth in the reported set")
     for family, counts in sorted(families.items()):
         print(f"  {family:<12}" + "".join(f" {c:>4}" for c in counts))
-    print("\nscore, 95 % intervals of Wilson")
+    print("\nscore, exact 95 % intervals")
     missed = False
     for name, (k, n, sense, target) in scores.items():
-        low, high = wilson(k, n)
+        low, high = exact_interval(k, n)
         wrong = n > 0 and (100 * high < target if sense == ">=" else 100 * low > target)
         missed = missed or wrong
         print(
