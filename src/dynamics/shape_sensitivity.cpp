@@ -1,10 +1,9 @@
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/random.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
-#include "dynamics/free_structure.hpp"
+#include "dynamics/modal_forces.hpp"
 #include "linalg/block_lanczos.hpp"
 #include "linalg/dense.hpp"
 
@@ -39,13 +38,7 @@ ShapeSensitivity::ShapeSensitivity(const fe::ParametricSystem& system, VectorXd 
     : system_(system), theta_(std::move(theta)), modes_(std::move(modes)), cluster_gap_(cluster_gap) {
   linalg::SparseMatrix stiffness = system.stiffness(theta_);
   const linalg::SparseMatrix mass = system.mass(theta_);
-  if (!factor_.factorize(stiffness).converged) {
-    shift_ = free_structure_shift(stiffness, mass);
-    stiffness = stiffness - shift_ * mass;
-    stiffness.makeCompressed();
-    const Status status = factor_.factorize(stiffness);
-    TWINDECK_ASSERT(status.converged);  // the modes were solved for with this very matrix
-  }
+  shift_ = factorize_shifted(stiffness, mass, factor_);
   mass_ = std::make_unique<linalg::SymmetricProduct>(mass);
   mass_shapes_ = mass_->times(modes_.shapes);
   find_further_modes(stiffness);
@@ -149,22 +142,8 @@ MatrixXd ShapeSensitivity::solve_outside_modes(MatrixXd residual) const {
 }
 
 MatrixXd ShapeSensitivity::derivative(int parameter) const {
-  const MatrixXd& phi = modes_.shapes;
-  const VectorXd& lambda = modes_.eigenvalue;
-  const MatrixXd d_mass_phi = system_.mass_derivative_times(theta_, parameter, phi);
-  // -(dK - lambda_i dM) phi_i; the term of dlambda_i lies along M phi_i and is projected off.
-  const MatrixXd force = d_mass_phi * lambda.asDiagonal() - system_.stiffness_derivative_times(theta_, parameter, phi);
-  const MatrixXd modal_force = phi.transpose() * force, modal_mass = phi.transpose() * d_mass_phi;
-
-  MatrixXd c(phi.cols(), phi.cols());  // parts along the modes: column i of the derivative of mode i
-  for (Index i = 0; i < phi.cols(); ++i) {
-    for (Index j = 0; j < phi.cols(); ++j) {
-      const double gap = lambda[j] - lambda[i];
-      const bool together = i == j || std::abs(gap) <= cluster_gap_ * std::max(std::abs(lambda[i]), std::abs(lambda[j]));
-      c(j, i) = together ? -0.5 * modal_mass(j, i) : modal_force(j, i) / gap;
-    }
-  }
-  return phi * c + solve_outside_modes(force);
+  const ModalForces forces = modal_forces(system_, theta_, modes_, parameter, cluster_gap_);
+  return product(modes_.shapes, forces.along) + solve_outside_modes(forces.force);
 }
 
 std::vector<MatrixXd> ShapeSensitivity::derivatives() const {

@@ -48,11 +48,15 @@ void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a
 Eigen::MatrixXd derivative_times(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms,
                                  const Eigen::VectorXd& theta, int parameter, const Eigen::Ref<const Eigen::MatrixXd>& x) {
   TWINDECK_ASSERT(x.rows() == pattern.rows());
+  std::vector<double> slope(terms.size());
+  std::transform(terms.begin(), terms.end(), slope.begin(),
+                 [&](const Term& term) { return term.coefficient.derivative(theta, parameter); });
+  if (std::all_of(slope.begin(), slope.end(), [](double a) { return a == 0.0; }))
+    return Eigen::MatrixXd::Zero(x.rows(), x.cols());
   const Eigen::MatrixXd xt = x.transpose();
   Eigen::MatrixXd yt = Eigen::MatrixXd::Zero(x.cols(), x.rows());
-  for (const Term& term : terms) {
-    const double a = term.coefficient.derivative(theta, parameter);
-    if (a != 0.0) add_product(pattern, term, a, xt, yt);
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (slope[t] != 0.0) add_product(pattern, terms[t], slope[t], xt, yt);
   }
   return yt.transpose();
 }

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/orthonormal_block.hpp"
 
 namespace twindeck::linalg {
 
@@ -15,34 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// A block W = Q R with Q M-orthonormal; Q has fewer columns than W where W is rank-deficient.
-struct OrthonormalBlock {
-  MatrixXd q, mass_q, r;
-};
-
-/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding. `mass_w` = M w
-/// undergoes the same combinations as w, so that one product with M serves all. `scale`: the norm of the columns before they
-/// were made orthogonal to the basis, below 1e-11 of which nothing but rounding is left.
-OrthonormalBlock orthonormalise(MatrixXd w, MatrixXd mass_w, double scale) {
-  OrthonormalBlock out{std::move(w), std::move(mass_w), {}};
-  out.r = MatrixXd::Identity(out.q.cols(), out.q.cols());
-  for (int pass = 0; pass < 2 && out.q.cols() > 0; ++pass) {
-    MatrixXd gram = product(out.q, out.mass_q, true);
-    gram = 0.5 * (gram + gram.transpose()).eval();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
-    const double floor = pass == 0 ? std::max(1e-22 * scale * scale, 1e-14 * eig.eigenvalues().maxCoeff()) : 0.25;
-    Index keep = 0;
-    while (keep < gram.cols() && eig.eigenvalues()[gram.cols() - 1 - keep] > floor) ++keep;
-    const VectorXd root = eig.eigenvalues().tail(keep).cwiseSqrt();
-    const MatrixXd basis = eig.eigenvectors().rightCols(keep);
-    const MatrixXd turn = basis * root.cwiseInverse().asDiagonal();
-    out.q = product(out.q, turn);
-    out.mass_q = product(out.mass_q, turn);
-    out.r = root.asDiagonal() * basis.transpose() * out.r;
-  }
-  return out;
-}
 
 /// The Lanczos basis with its projected operator.
 struct Basis {
@@ -69,11 +42,6 @@ struct Basis {
     return total;
   }
 };
-
-/// Largest M-norm of the columns.
-double mass_norm(const MatrixXd& w, const MatrixXd& mass_w) {
-  return std::sqrt(std::max(0.0, w.cwiseProduct(mass_w).colwise().sum().maxCoeff()));
-}
 
 }  // namespace
 

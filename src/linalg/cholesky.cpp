@@ -75,9 +75,12 @@ void solve_lanes(const cholmod_factor& factor, SupernodalSweep sweep, const Eige
                  Eigen::Index first, Eigen::Index count, std::vector<double>& y, Eigen::MatrixXd& x) {
   const auto* order = static_cast<const int*>(factor.Perm);
   const auto n = static_cast<Eigen::Index>(factor.n);
-  y.assign(static_cast<std::size_t>(Width * n), 0.0);
-  for (Eigen::Index k = 0; k < n; ++k)
-    for (Eigen::Index c = 0; c < count; ++c) y[static_cast<std::size_t>(Width * k + c)] = b(order[k], first + c);
+  if (y.size() < static_cast<std::size_t>(Width * n)) y.resize(static_cast<std::size_t>(Width * n));
+  for (Eigen::Index k = 0; k < n; ++k) {
+    double* entries = y.data() + Width * k;
+    for (Eigen::Index c = 0; c < count; ++c) entries[c] = b(order[k], first + c);
+    for (Eigen::Index c = count; c < Width; ++c) entries[c] = 0.0;
+  }
   sweep(blocks_of(factor), y.data());
   for (Eigen::Index k = 0; k < n; ++k)
     for (Eigen::Index c = 0; c < count; ++c) x(order[k], first + c) = y[static_cast<std::size_t>(Width * k + c)];
@@ -86,7 +89,7 @@ void solve_lanes(const cholmod_factor& factor, SupernodalSweep sweep, const Eige
 Eigen::MatrixXd solve_by_blocks(const cholmod_factor& factor, const Eigen::Ref<const Eigen::MatrixXd>& b) {
   const SupernodalSweeps& sweeps = supernodal_sweeps();
   Eigen::MatrixXd x(b.rows(), b.cols());
-  std::vector<double> y;
+  thread_local std::vector<double> y;  // kept: fresh pages for each solve cost as much as a tenth of it
   Eigen::Index first = 0;
   const auto take = [&](auto width, SupernodalSweep sweep) {
     const Eigen::Index count = std::min<Eigen::Index>(width, b.cols() - first);

@@ -130,6 +130,22 @@ int bridge(const std::string& file) {
               }));
   std::printf("jacobian_deviation %.3e\n", ((exact - differences) * theta.asDiagonal()).cwiseAbs().maxCoeff());
   std::printf("parameters %ld\n", static_cast<long>(theta.size()));
+  // Sixteen measured directions, spread over the degrees of freedom.
+  constexpr Eigen::Index n_channels = 16;
+  Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(system.size(), n_channels);
+  for (Eigen::Index c = 0; c < n_channels; ++c) channels((2 * c + 1) * system.size() / (2 * n_channels), c) = 1.0;
+  std::vector<Eigen::MatrixXd> measured;
+  std::printf("channel_jacobian_s %.6f\n",
+              seconds([&] { measured = dynamics::channel_shape_derivatives(system, theta, modes, channels); }));
+  double apart = 0.0;
+  const dynamics::ShapeSensitivity whole(system, theta, modes);
+  for (int p = 0; p < std::ssize(measured); ++p) {
+    const Eigen::MatrixXd& found = measured[static_cast<std::size_t>(p)];
+    const Eigen::MatrixXd expected = channels.transpose() * whole.derivative(p);
+    for (Eigen::Index i = 0; i < kModes; ++i)
+      apart = std::max(apart, (found.col(i) - expected.col(i)).norm() / std::max(1e-300, expected.col(i).norm()));
+  }
+  std::printf("channel_jacobian_deviation %.3e\n", apart);
   const auto shape_jacobian = [&] {
     const auto all = dynamics::ShapeSensitivity(system, theta, modes).derivatives();
     if (std::ssize(all) != theta.size()) std::printf("shape_jacobian_is_missing 1\n");

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <vector>
+
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
@@ -12,6 +14,7 @@ struct Result {
   Eigen::VectorXd pulls;
   twindeck::dynamics::EigenModes modes;
   Eigen::MatrixXd jacobian;
+  std::vector<Eigen::MatrixXd> at_channels;
 };
 
 Result with_threads(int threads) {
@@ -22,8 +25,11 @@ Result with_threads(int threads) {
   const auto state = twindeck::fe::find_prestress(model, theta);
   const auto system = twindeck::fe::assemble(model, state);
   twindeck::dynamics::ModalSolver solver(system);
-  Result result{state.stay_pull_N, solver.solve(theta, 10), {}};
+  Result result{state.stay_pull_N, solver.solve(theta, 10), {}, {}};
   result.jacobian = twindeck::dynamics::frequency_jacobian(system, theta, result.modes);
+  Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(system.size(), 3);
+  for (Eigen::Index c = 0; c < 3; ++c) channels((c + 1) * system.size() / 4, c) = 1.0;
+  result.at_channels = twindeck::dynamics::channel_shape_derivatives(system, theta, result.modes, channels);
   return result;
 }
 
@@ -38,6 +44,7 @@ TEST(ThreadsLaw, ResultsHaveTheSameBits) {
   EXPECT_TRUE(one.modes.eigenvalue == three.modes.eigenvalue);
   EXPECT_TRUE(one.modes.shapes == three.modes.shapes);
   EXPECT_TRUE(one.jacobian == three.jacobian);
+  EXPECT_TRUE(one.at_channels == three.at_channels);
 }
 
 }  // namespace

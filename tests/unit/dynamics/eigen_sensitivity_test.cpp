@@ -8,6 +8,7 @@
 
 namespace {
 
+using twindeck::dynamics::channel_shape_derivatives;
 using twindeck::dynamics::EigenModes;
 using twindeck::dynamics::frequency_jacobian;
 using twindeck::dynamics::ModalSolver;
@@ -145,6 +146,43 @@ TEST(ShapeDerivative, EqualsNelsonsBorderedSystems) {
       EXPECT_LT((found.col(i) - nelson).norm(), 1e-6 * nelson.norm() + 1e-9 * phi.norm())
           << "parameter " << p << ", mode " << i + 1;
     }
+  }
+}
+
+// Oracle: the whole shapes' derivatives (held against Nelson's bordered systems above), read at the channels. One channel is a
+// difference of two masses, one stands twice, so that the adjoint vectors depend on each other.
+TEST(ChannelShapeDerivatives, AreTheShapesDerivativesAtTheChannels) {
+  auto system = SpringChain{.n = 80}.system();
+  SpringChain::add_ground_spring(system, 23, 2.0);
+  const Eigen::VectorXd theta = system.initial();
+  const EigenModes modes = solve(system, theta, 9);
+  Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(system.size(), 5);
+  channels(3, 0) = channels(22, 1) = channels(22, 2) = channels(60, 3) = 1.0;
+  channels(40, 4) = 1.0, channels(41, 4) = -1.0;
+  const std::vector<Eigen::MatrixXd> found = channel_shape_derivatives(system, theta, modes, channels);
+  ASSERT_EQ(found.size(), system.parameters.size());
+  const twindeck::dynamics::ShapeSensitivity sensitivity(system, theta, modes);
+  for (int p = 0; p < std::ssize(found); ++p) {
+    const Eigen::MatrixXd whole = channels.transpose() * sensitivity.derivative(p);
+    EXPECT_LT((found[static_cast<std::size_t>(p)] - whole).cwiseAbs().maxCoeff(), 1e-6 * whole.cwiseAbs().maxCoeff()) << p;
+  }
+}
+
+// Oracle: the same, for two equal chains whose pairs of modes are exactly repeated: derivatives of the subspace. Those of the
+// shapes with the parameters that scale a chain are zero, so that the bound goes by the shapes themselves.
+TEST(ChannelShapeDerivatives, HoldForRepeatedModes) {
+  auto system = SpringChain{.n = 70, .copies = 2}.system();
+  SpringChain::add_ground_spring(system, 23, 0.0);
+  const Eigen::VectorXd theta = system.initial();
+  const EigenModes modes = solve(system, theta, 6);
+  Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(system.size(), 2);
+  channels(11, 0) = channels(97, 1) = 1.0;
+  const auto found = channel_shape_derivatives(system, theta, modes, channels, 1e-6);
+  const twindeck::dynamics::ShapeSensitivity sensitivity(system, theta, modes, 1e-6);
+  for (int p = 0; p < std::ssize(found); ++p) {
+    const Eigen::MatrixXd whole = channels.transpose() * sensitivity.derivative(p);
+    const double size = std::max(whole.cwiseAbs().maxCoeff(), 1e-3 * modes.shapes.cwiseAbs().maxCoeff());
+    EXPECT_LT((found[static_cast<std::size_t>(p)] - whole).cwiseAbs().maxCoeff(), 1e-6 * size) << p;
   }
 }
 

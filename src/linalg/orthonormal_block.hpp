@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace twindeck::linalg {
+
+/// A block W = Q R with Q M-orthonormal; Q has fewer columns than W where W is rank-deficient.
+struct OrthonormalBlock {
+  Eigen::MatrixXd q, mass_q, r;
+};
+
+/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding.
+/// @param mass_w  M w; undergoes the same combinations as w, so that one product with M serves all
+/// @param scale   the norm of the columns before they were made orthogonal to a basis, below 1e-11 of which nothing but
+/// rounding
+///                is left
+[[nodiscard]] OrthonormalBlock orthonormalise(Eigen::MatrixXd w, Eigen::MatrixXd mass_w, double scale);
+
+/// Largest M-norm of the columns.
+[[nodiscard]] double mass_norm(const Eigen::MatrixXd& w, const Eigen::MatrixXd& mass_w);
+
+}  // namespace twindeck::linalg
