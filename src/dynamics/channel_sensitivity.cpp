@@ -44,9 +44,10 @@ std::vector<Index> rows_in_use(const MatrixXd& force) {
 class AdjointSpace {
  public:
   AdjointSpace(const fe::ParametricSystem& system, const VectorXd& theta, const EigenModes& modes)
-      : modes_(modes), mass_(system.mass(theta)) {
-    linalg::SparseMatrix stiffness = system.stiffness(theta);
-    shift_ = factorize_shifted(stiffness, system.mass(theta), factor_);
+      : AdjointSpace(system.stiffness(theta), system.mass(theta), modes) {}
+  AdjointSpace(linalg::SparseMatrix stiffness, const linalg::SparseMatrix& mass, const EigenModes& modes)
+      : modes_(modes), mass_(mass) {
+    shift_ = factorize_shifted(stiffness, mass, factor_);
     mass_shapes_ = mass_.times(modes.shapes);
   }
 
@@ -139,9 +140,16 @@ std::vector<MatrixXd> channel_shape_derivatives(const fe::ParametricSystem& syst
   for (int p = 0; p < count; ++p) {
     const ModalForces forces = modal_forces(system, theta, modes, p, cluster_gap);
     const std::vector<Index> rows = rows_in_use(forces.force);
-    const MatrixXd force = forces.force(rows, Eigen::all);
-    MatrixXd derivative = measured * forces.along + product(adjoint.statics(rows, Eigen::all), force, true);
-    const MatrixXd share = product(adjoint.basis(rows, Eigen::all), force, true);
+    MatrixXd derivative, share;
+    if (std::ssize(rows) < forces.force.rows() / 4) {
+      const MatrixXd force = forces.force(rows, Eigen::all);
+      derivative = product(adjoint.statics(rows, Eigen::all), force, true);
+      share = product(adjoint.basis(rows, Eigen::all), force, true);
+    } else {  // taking rows out of the basis would cost more than the zeros
+      derivative = product(adjoint.statics, forces.force, true);
+      share = product(adjoint.basis, forces.force, true);
+    }
+    derivative += measured * forces.along;
     for (Index i = 0; i < derivative.cols(); ++i)
       derivative.col(i) += adjoint.z[static_cast<std::size_t>(i)].transpose() * share.col(i);
     all[static_cast<std::size_t>(p)] = std::move(derivative);

@@ -14,7 +14,8 @@ ModalForces modal_forces(const fe::ParametricSystem& system, const Eigen::Vector
   const Eigen::VectorXd& lambda = modes.eigenvalue;
   const Eigen::MatrixXd d_mass_phi = system.mass_derivative_times(theta, parameter, phi);
   ModalForces out;
-  out.force = d_mass_phi * lambda.asDiagonal() - system.stiffness_derivative_times(theta, parameter, phi);
+  out.force = -system.stiffness_derivative_times(theta, parameter, phi);
+  out.force.noalias() += d_mass_phi * lambda.asDiagonal();
   const Eigen::MatrixXd modal_force = linalg::product(phi, out.force, true),
                         modal_mass = linalg::product(phi, d_mass_phi, true);
   out.along.resize(phi.cols(), phi.cols());

@@ -45,14 +45,34 @@ void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a
   }
 }
 
+/// The same for a term of few entries, without turning the vectors over: y += a · (symmetric matrix of the term) x, (n × m).
+void add_small_product(const linalg::SparseMatrix& pattern, const Term& term, double a,
+                       const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& y) {
+  const int* outer = pattern.outerIndexPtr();
+  for (std::size_t i = 0; i < term.position.size(); ++i) {
+    const int position = term.position[i], row = pattern.innerIndexPtr()[position];
+    const auto column = std::upper_bound(outer, outer + pattern.outerSize() + 1, position) - outer - 1;
+    const double v = a * term.value[i];
+    y.row(row) += v * x.row(column);
+    if (row != column) y.row(column) += v * x.row(row);
+  }
+}
+
 Eigen::MatrixXd derivative_times(const linalg::SparseMatrix& pattern, const std::vector<Term>& terms,
                                  const Eigen::VectorXd& theta, int parameter, const Eigen::Ref<const Eigen::MatrixXd>& x) {
   TWINDECK_ASSERT(x.rows() == pattern.rows());
   std::vector<double> slope(terms.size());
   std::transform(terms.begin(), terms.end(), slope.begin(),
                  [&](const Term& term) { return term.coefficient.derivative(theta, parameter); });
-  if (std::all_of(slope.begin(), slope.end(), [](double a) { return a == 0.0; }))
-    return Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  std::size_t entries = 0;
+  for (std::size_t t = 0; t < terms.size(); ++t) entries += slope[t] != 0.0 ? terms[t].position.size() : 0;
+  if (entries < static_cast<std::size_t>(x.rows()) / 10) {  // a spring, a few bars, nothing at all
+    Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+    for (std::size_t t = 0; t < terms.size(); ++t) {
+      if (slope[t] != 0.0) add_small_product(pattern, terms[t], slope[t], x, y);
+    }
+    return y;
+  }
   const Eigen::MatrixXd xt = x.transpose();
   Eigen::MatrixXd yt = Eigen::MatrixXd::Zero(x.cols(), x.rows());
   for (std::size_t t = 0; t < terms.size(); ++t) {
