@@ -105,6 +105,13 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
         add("nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5)).places = {&nodes[i], &other};
       }
     }
+  } else if (h.set == "damper_types") {
+    for (const ReducedPlace& type : model.sets.contains(h.set) ? model.sets.at(h.set) : std::vector<ReducedPlace>{}) {
+      Candidate& all = add(type.id);
+      for (const ReducedPlace& damper : model.sets.at("dampers"))
+        if (damper.attributes.contains("type") && damper.attributes.at("type") == type.attributes.at("type"))
+          all.places.push_back(&damper);
+    }
   } else if (const auto at = model.sets.find(h.set); at != model.sets.end()) {
     for (const ReducedPlace& place : at->second) add(place.id).places = {&place};
   }
@@ -127,7 +134,7 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
 /// A number of the place; nothing where it has none of this name.
 std::optional<double> attribute_if(const Candidate& candidate, const Expression& e) {
   static const std::set<std::string> known = {"damping", "stiffness", "series",     "k_drive",    "cable_mass", "length",
-                                              "pull",    "f_cable",   "deck_mass", "total_mass", "always_on",  "friction",
+                                              "pull",    "f_cable",   "deck_mass", "total_mass", "always_on",  "friction", "type",
                                               "f_low",   "f_soft",    "f_stiff", "f_high"};
   for (const ReducedPlace* place : candidate.places) {
     const auto at = place->attributes.find(e.name);

@@ -45,7 +45,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
 }
 
 const std::vector<std::string>& location_sets() {
-  static const std::vector<std::string> sets = {"elements", "nodes",  "stays",    "dampers", "supports",
+  static const std::vector<std::string> sets = {"elements", "nodes",  "stays",    "dampers", "damper_types", "supports",
                                                 "foundations", "groups", "all_stays", "channels", "modes",
                                                 "global", "pairs(channels)", "pairs(nodes)"};
   return sets;

@@ -162,6 +162,7 @@ void ElementPlaces::add_springs(Places& places) const {
   std::vector<std::string> order;
   std::map<std::string, std::array<Sum, 2>> grounded;  // translations, rotations
   std::map<std::string, Eigen::Vector3d> where;
+  std::vector<std::string> types;
   for (const fe::Spring& spring : model_.springs) {
     const bool damper = spring.damping > 0.0 || spring.friction_N > 0.0;
     const Eigen::Vector3d x = model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
@@ -184,6 +185,11 @@ void ElementPlaces::add_springs(Places& places) const {
       place.attributes["series"] = spring.series ? 1.0 : 0.0;
       place.attributes["always_on"] = spring.active ? 1.0 : 0.0;
       if (spring.friction_N > 0.0) place.attributes["friction"] = spring.friction_N;
+      if (!spring.group.empty()) {  // dampers of one make are wrong in the same way
+        const auto at = std::find(types.begin(), types.end(), spring.group);
+        place.attributes["type"] = static_cast<double>(at - types.begin());
+        if (at == types.end()) types.push_back(spring.group);
+      }
       places.sets["dampers"].push_back(std::move(place));
       continue;
     }
@@ -195,6 +201,21 @@ void ElementPlaces::add_springs(Places& places) const {
       where[name] = x;
     }
     grounded.at(name)[spring.rotation ? 1 : 0].add(fe::spring_stiffness(spring));
+  }
+  for (std::size_t type = 0; type < types.size(); ++type) {  // "dampers:C1,C2": all of a make together
+    Place all{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
+    double members = 0.0;
+    for (const Place& damper : places.sets["dampers"]) {
+      const auto at = damper.attributes.find("type");
+      if (at == damper.attributes.end() || at->second != static_cast<double>(type)) continue;
+      all.id += (members > 0.0 ? "," : "") + damper.id.substr(damper.id.find(':') + 1);
+      all.x_m += damper.x_m;
+      members += 1.0;
+    }
+    if (members < 2.0) continue;
+    all.x_m /= members;
+    all.attributes["type"] = static_cast<double>(type);
+    places.sets["damper_types"].push_back(std::move(all));
   }
   for (const std::string& name : order) {
     for (const bool rotation : {false, true}) {

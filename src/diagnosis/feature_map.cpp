@@ -86,6 +86,10 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
     covariance_(r, r) = std::max(covariance_(r, r), floor * floor);
     if (type == RowType::rms) covariance_(r, r) += scatter.load_model * scatter.load_model;
   }
+  for (const MeasuredMode& a : modes_)
+    for (const MeasuredMode& b : modes_)
+      if (a.frequency >= 0 && b.frequency >= 0 && a.label == b.label)
+        covariance_(a.frequency, b.frequency) += scatter.model_form * scatter.model_form;
   for (const MeasuredMode& mode : modes_) {
     double largest = 0.0;
     for (const int r : mode.real_rows) largest = std::max(largest, std::abs(values_[r]));

@@ -18,6 +18,7 @@ struct ScatterOptions {
   double element_stiffness = 0.03, element_mass = 0.02, node_mass = 0.02, stay_stiffness = 0.03, stay_pull = 0.10, gain = 0.01;
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
   double load_model = 0.10;  ///< of RMS values, on ln: what a simple load model leaves open
+  double model_form = 0.0;   ///< of a frequency, on ln, the same in all conditions of a mode: what a model that is known to be off leaves open
   double fine = 1.0;         ///< common factor of the first line (estimated by marginal likelihood)
   double noise = 1.0;        ///< common factor of identification errors (likewise)
 };

@@ -28,9 +28,10 @@ class Normal {
 
 NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter,
                      const std::vector<Hypothesis>& catalogue, const SearchOptions& search, int count, std::uint64_t seed,
-                     const std::function<void(int)>& progress) {
+                     const std::function<void(int)>& progress, const std::map<std::string, int>& bound) {
   const Instantiated entries = instantiate(catalogue, model, features);
-  const FeatureMap original(model, features, scatter);
+  FeatureMap original(model, features, scatter);
+  original.bind_modes(bound);
   const Eigen::MatrixXd factor = original.covariance().llt().matrixL();
   const Inference nominal(original, entries.candidates);
   const Fit as_measured = nominal.fit({}, {});

@@ -42,7 +42,8 @@ struct Place {
   std::vector<int> elements;                 ///< positions of the elements that belong to it
 };
 
-/// The places of a structure by set: elements, nodes, stays, dampers, supports, foundations, groups, global. An element stands for
+/// The places of a structure by set: elements, nodes, stays, dampers, damper_types ("dampers:C1,C2", all of a make), supports,
+/// foundations, groups, global. An element stands for
 /// its neighbourhood where there are more than `max_zones` of them: the structure is cut into that many zones round elements that lie
 /// far from each other, so that every element belongs to the nearest one.
 struct Places {

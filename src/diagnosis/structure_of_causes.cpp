@@ -80,7 +80,8 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
     double c = number("damping"), k = number("stiffness"), threshold = number("friction");
     bool series = number("series") != 0.0, absent = false, sliding = threshold > 0.0;
     for (const Cause& cause : causes_) {
-      if (cause.candidate->places.empty() || cause.candidate->places[0] != &damper) continue;
+      const auto& places = cause.candidate->places;
+      if (std::find(places.begin(), places.end(), &damper) == places.end()) continue;
       for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
         const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
         if (action.kind == "damper.absent") absent = true;

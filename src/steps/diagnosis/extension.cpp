@@ -137,12 +137,13 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
     return true;
   }
   if (action.kind.starts_with("damper.")) {
+    const auto acts_on = [&](const fe::Spring& s) { return ("," + name + ",").find("," + s.name + ",") != std::string::npos; };
     if (action.kind == "damper.absent") {
-      std::erase_if(model.springs, [&](const fe::Spring& s) { return s.name == name; });
+      std::erase_if(model.springs, acts_on);
       return true;
     }
     for (fe::Spring& spring : model.springs) {
-      if (spring.name != name) continue;
+      if (!acts_on(spring)) continue;
       if (action.kind == "damper.damping") spring.damping *= value("factor");
       if (action.kind == "damper.series" || action.kind == "damper.friction") {
         spring.stiffness = value("stiffness");

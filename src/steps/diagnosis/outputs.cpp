@@ -62,7 +62,7 @@ std::vector<std::string> measure_next(const Diagnosis& result, const std::vector
 
 }  // namespace
 
-void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible, double residual_alpha, double seconds, const std::string& threshold_from,
+void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const std::vector<diagnosis::Invisible>& invisible, double residual_alpha, double seconds, const std::string& threshold_from,
                      const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
@@ -77,6 +77,13 @@ void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Invis
                            {"p_value", result.residual_p},
                            {"alpha", residual_alpha},
                            {"stage", result.after_extension ? "after extension" : "before"}};
+  json["account"] = nlohmann::ordered_json::array();
+  for (const Finding& finding : account)
+    json["account"].push_back({{"kind", finding.kind},
+                               {"text", finding.text},
+                               {"names", finding.names},
+                               {"candidates", finding.candidates},
+                               {"split_by", finding.split_by}});
   json["effects"] = nlohmann::ordered_json::array();
   for (const auto& effect : result.effects) {
     nlohmann::ordered_json one;

@@ -109,6 +109,7 @@ std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& 
                          scatter.stay_pull, scatter.gain, scatter.frequency_floor, scatter.damping_floor, scatter.shape_floor,
                          scatter.load_model, scatter.fine, scatter.noise})
     key << v << ',';
+  if (scatter.model_form > 0.0) key << "form " << scatter.model_form << ',';
   for (const auto& p : inputs.reduced->parameters) key << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial << '|';
   key << inputs.reduced->frequency_Hz.head(std::min<Eigen::Index>(5, inputs.reduced->frequency_Hz.size())).transpose() << '|';
   for (const auto& row : inputs.features.rows)
@@ -130,6 +131,7 @@ std::string hash_of(const std::string& text) {  // FNV-1a, 64 bits: a name, not 
 io::FieldTable DiagnosisConfig::fields() {
   io::FieldTable t;
   t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
+      .text("further_causes", further_causes, "folder of causes beside the catalogue: a study's own, or a family at other places")
       .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
       .texts("left_out", left_out, "types of rows that are not used, such as shape_imag")
       .boolean("names_alike", names_alike, "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
@@ -162,7 +164,9 @@ io::FieldTable DiagnosisConfig::fields() {
       .number("scatter.shape_floor", scatter.shape_floor, "", io::non_negative(),
               "least deviation of a shape, of its largest value")
       .number("scatter.load_model", scatter.load_model, "", io::non_negative(),
-              "of RMS values, for what a simple load model leaves open");
+              "of RMS values, for what a simple load model leaves open")
+      .number("scatter.model_form", scatter.model_form, "", io::non_negative(),
+              "of a frequency, alike in all conditions of a mode: what a model that is known to be off leaves open");
   return t;
 }
 
@@ -180,6 +184,14 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   hold_out(config, inputs.features);
   const auto catalogue = catalogue_folder(config, context);
   inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
+  if (!config.further_causes.empty())
+    for (diagnosis::Hypothesis& h : read_catalogue(context.input(config.further_causes))) {
+      const auto same = [&](const diagnosis::Hypothesis& other) { return other.id == h.id && other.set == h.set; };
+      if (std::any_of(inputs.catalogue.begin(), inputs.catalogue.end(), same))
+        throw InputError({h.file, 1, "id"}, fmt::format("'{}' stands at {} in the catalogue already", h.id, h.set),
+                         "give it another set of places, or another id");
+      inputs.catalogue.push_back(std::move(h));
+    }
   std::vector<Channel> channels;
   if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
   const auto updated = context.results / "s6_updating" / "model";
@@ -191,6 +203,7 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
   const diagnosis::Structure structure = inputs.model->structure();
   inputs.places = diagnosis::find_places(structure, {static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}});
+  inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
@@ -210,7 +223,7 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   if (config.nulls <= 0) return {diagnosis::analytic_threshold(inference, config.alpha), "analytic tail"};
   const auto nulls = diagnosis::run_nulls(
       *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, {}, static_cast<int>(config.nulls), context.seed + 17,
-      [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); });
+      [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); }, bound_modes(config.pairs));
   std::vector<double> sorted = nulls.log_odds;
   std::sort(sorted.begin(), sorted.end());
   const auto at = static_cast<std::size_t>(std::ceil((1.0 - config.alpha) * static_cast<double>(sorted.size()))) - 1;
@@ -253,7 +266,8 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   write_unknowns(inference, result, context.out / "parameters.csv");
   write_extended_model(*inputs.model, inputs.places, result, context.out / "extended_model");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_diagnosis(result, entries.invisible, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  write_diagnosis(result, inputs.account, entries.invisible, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  for (const Finding& finding : inputs.account) context.say(finding.text);
   context.say(fmt::format("{}: {}", result.verdict, result.message));
   for (const auto& effect : result.effects)
     context.say(fmt::format("  {} (log odds {:.1f}); either of {}", effect.cause.candidate->id(), effect.log_odds,

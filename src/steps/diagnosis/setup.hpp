@@ -6,6 +6,7 @@
 
 #include "diagnosis/diagnose.hpp"
 #include "io/config.hpp"
+#include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/model.hpp"
 #include "steps/shared/run_step.hpp"
 
@@ -14,6 +15,7 @@ namespace twindeck::steps {
 /// Configuration of s9_diagnosis.
 struct DiagnosisConfig {
   std::string catalogue;              ///< folder; empty: workflows/common/hypotheses or its installed copy
+  std::string further_causes;         ///< folder of causes beside it, which may put a family at another set of places
   std::vector<std::string> pairs;     ///< "7X-8N", where no shape was measured
   std::vector<std::string> left_out;  ///< types of rows that are not used
   bool names_alike = false;           ///< one name for a mode in all conditions, by likeness of shape
@@ -35,6 +37,7 @@ struct DiagnosisInputs {
   std::unique_ptr<diagnosis::ReducedModel> reduced;
   diagnosis::FeatureSet features;
   std::vector<diagnosis::Hypothesis> catalogue;
+  std::vector<Finding> account;  ///< what claims and rows say before any odds
 };
 
 [[nodiscard]] DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext& context);
