@@ -98,6 +98,7 @@ void Predictor::pair(int condition) {
   const Index n = state.modes.s.size();
   if (n == 0) return;
   Eigen::MatrixXd gain(static_cast<Index>(here.size()), n);
+  VectorXd own_norm;  // (n) phi' M phi, where modes are followed by it
   // Shapes are known from this condition, or from another in which the label was measured with one.
   for (std::size_t i = 0; i < here.size(); ++i) {
     const MeasuredMode& measured = map_.modes_[here[i]];
@@ -137,6 +138,14 @@ void Predictor::pair(int condition) {
       }
     }
     const auto bound = map_.bound_modes_.find(measured.label);
+    const bool followed = !usable && bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols();
+    VectorXd reference, mass_reference;
+    if (followed) {
+      reference = map_.model().mode_coordinates.col(bound->second);
+      mass_reference = base_.mass * reference;
+    }
+    const double reference_norm = followed ? reference.dot(mass_reference) : 1.0;
+    if (followed) mass_reference = sliced(mass_reference, state.columns, state.modes.shapes.rows());
     for (Index j = 0; j < n; ++j) {
       const double f = state.modes.frequency_Hz(j);
       double cost = 0.0;
@@ -147,13 +156,17 @@ void Predictor::pair(int condition) {
       const VectorXcd phi = state.modes.shapes.col(j);
       if (usable) {
         cost += weight * (1.0 - mac(shape_at(shaped->real_channels, state, j), y));
-      } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
+      } else if (followed) {
         // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
-        const VectorXd reference = map_.model().mode_coordinates.col(bound->second);
-        const Eigen::VectorXd mass_reference = sliced(VectorXd(base_.mass * reference), state.columns, phi.size());
+        if (own_norm.size() == 0) {
+          own_norm.resize(n);
+          for (Index k = 0; k < n; ++k) {
+            const VectorXcd shape = state.modes.shapes.col(k);
+            own_norm[k] = shape.real().dot(state.state.mass * shape.real()) + shape.imag().dot(state.state.mass * shape.imag());
+          }
+        }
         const Complex overlap = mass_reference.cast<Complex>().dot(phi);
-        const double norms = reference.dot(base_.mass * reference) *
-                             (phi.real().dot(state.state.mass * phi.real()) + phi.imag().dot(state.state.mass * phi.imag()));
+        const double norms = reference_norm * own_norm[j];
         cost += 6.0 * (1.0 - std::min(1.0, std::norm(overlap) / norms));
       }
       gain(static_cast<Index>(i), j) = -cost;

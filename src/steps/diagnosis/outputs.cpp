@@ -193,6 +193,18 @@ void write_unknowns(const Inference& inference, const Diagnosis& result, const s
   csv.save(file);
 }
 
+void write_pairs(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"mode", "condition", "measured_Hz", "before_Hz", "after_Hz", "mac_before", "mac_after"});
+  const auto& map = inference.map();
+  const auto known = [](double mac) { return std::isfinite(mac) ? std::optional<double>(mac) : std::nullopt; };
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
+    csv.row({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz,
+             result.before.all.frequency_Hz[m], result.after.all.frequency_Hz[m], known(result.before.all.mac[m]), known(result.after.all.mac[m])});
+  }
+  csv.save(file);
+}
+
 void write_misfit(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"by", "name", "rows", "mean_square_before", "mean_square_after"});
   const auto& features = inference.map().features();

@@ -25,6 +25,9 @@ void write_gain(const diagnosis::Inference& inference, const diagnosis::Diagnosi
 /// parameters.csv: `unknown,before,after,shrinkage,bound`: in units of the prior deviation; shrinkage 1 - posterior variance.
 void write_unknowns(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
                     const std::filesystem::path& file);
+/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after`: each measured mode with the model's that it is
+/// compared with, without and with the causes; MAC over the channels of that mode.
+void write_pairs(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);
 /// misfit.csv: `by,name,rows,mean_square_before,mean_square_after`: of standardised residuals by type, condition, mode,
 /// channel.
 void write_misfit(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -40,11 +41,26 @@ std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const Step
   return tried.front();
 }
 
+void keep(diagnosis::FeatureSet& features, const std::vector<Eigen::Index>& kept) {
+  std::vector<diagnosis::Row> rows;
+  for (const Eigen::Index r : kept) rows.push_back(features.rows[static_cast<std::size_t>(r)]);
+  features.rows = rows;
+  if (features.covariance.size() > 0) features.covariance = features.covariance(kept, kept).eval();
+}
+
 /// Rows that the configuration leaves out, and one name for a mode in all conditions.
 void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
   if (config.names_alike) diagnosis::name_modes_alike(features);
+  const auto left_out = [&](const std::string& what) {
+    return std::find(config.left_out.begin(), config.left_out.end(), what) != config.left_out.end();
+  };
   for (const std::string& type : config.left_out) {
     const auto& known = diagnosis::row_type_names();
+    if (type.starts_with("mode:")) {
+      if (std::none_of(features.rows.begin(), features.rows.end(), [&](const auto& row) { return row.mode == type.substr(5); }))
+        throw InputError({"", 0, "left_out"}, fmt::format("no row has the mode of '{}'", type), "");
+      continue;
+    }
     if (std::find(known.begin(), known.end(), type) == known.end())
       throw InputError({"", 0, "left_out"}, fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
   }
@@ -53,17 +69,57 @@ void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features)
     if (row.type == diagnosis::RowType::frequency && config.highest_Hz > 0.0 && row.value > config.highest_Hz)
       high.insert({row.condition, row.mode});
   std::vector<Eigen::Index> kept;
-  std::vector<diagnosis::Row> rows;
   for (std::size_t r = 0; r < features.rows.size(); ++r) {
     const diagnosis::Row& row = features.rows[r];
-    if (std::find(config.left_out.begin(), config.left_out.end(), name_of(row.type)) != config.left_out.end()) continue;
+    if (left_out(name_of(row.type))) continue;
+    if (row.type != diagnosis::RowType::stay_frequency && left_out("mode:" + row.mode)) continue;
     if (row.type != diagnosis::RowType::stay_frequency && high.contains({row.condition, row.mode})) continue;
     kept.push_back(static_cast<Eigen::Index>(r));
-    rows.push_back(row);
   }
-  if (rows.empty()) throw InputError({"", 0, "left_out"}, "no row is left", "leave fewer out");
-  features.rows = rows;
-  if (features.covariance.size() > 0) features.covariance = features.covariance(kept, kept).eval();
+  if (kept.empty()) throw InputError({"", 0, "left_out"}, "no row is left", "leave fewer out");
+  keep(features, kept);
+}
+
+/// Leaves out the modes of which the model has none with a MAC of `least_mac`: what it has no mode for, such as a stay that
+/// swings by itself where stays are bars, cannot be a residual of it.
+std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model,
+                                          diagnosis::FeatureSet& features) {
+  if (!(config.least_mac > 0.0)) return std::nullopt;
+  const diagnosis::FeatureMap map(model, features, config.scatter);
+  const auto base = map.base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(map.nuisances().size())));
+  const diagnosis::Prediction prediction = map.predict(base, {}, false);
+  std::set<std::pair<int, std::string>> unpaired;
+  Finding found{"unpaired", "", {}, {}, ""};
+  const auto stays = model.sets.find("stays");
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
+    const bool other = prediction.paired[m] < 0 || prediction.mac[m] < config.least_mac;
+    if (mode.real_rows.size() < 2 || !other) continue;
+    unpaired.insert({mode.condition, mode.label});
+    std::string name = fmt::format("{} of {} ({:.3f} Hz", mode.label,
+                                   features.conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz);
+    if (stays != model.sets.end())
+      for (const diagnosis::ReducedPlace& stay : stays->second)
+        for (int harmonic = 1; harmonic <= 2 && stay.attributes.contains("f_cable"); ++harmonic)
+          if (std::abs(harmonic * stay.attributes.at("f_cable") / mode.frequency_Hz - 1.0) < 0.03)
+            name += fmt::format(", {}x{}", harmonic, stay.id);
+    found.names.push_back(name + ")");
+  }
+  std::vector<Eigen::Index> kept;
+  for (std::size_t r = 0; r < features.rows.size(); ++r)
+    if (!unpaired.contains({features.rows[r].condition, features.rows[r].mode}) ||
+        features.rows[r].type == diagnosis::RowType::stay_frequency)
+      kept.push_back(static_cast<Eigen::Index>(r));
+  if (unpaired.empty()) return std::nullopt;
+  if (kept.empty())
+    throw InputError({"", 0, "least_mac"}, fmt::format("no measured mode has a MAC of {} with the model's", config.least_mac),
+                     "");
+  keep(features, kept);
+  found.text = fmt::format(
+      "{} of {} measured modes are like no mode of the model (MAC below {}) and are left out: {}. Stays whose own frequency "
+      "this is are named; the model's stays do not vibrate",
+      unpaired.size(), map.measured_modes().size(), config.least_mac, fmt::join(found.names, "; "));
+  return found;
 }
 
 void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
@@ -131,10 +187,14 @@ std::string hash_of(const std::string& text) {  // FNV-1a, 64 bits: a name, not 
 io::FieldTable DiagnosisConfig::fields() {
   io::FieldTable t;
   t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
-      .text("further_causes", further_causes, "folder of causes beside the catalogue: a study's own, or a family at other places")
+      .text("further_causes", further_causes,
+            "folder of causes beside the catalogue: a study's own, or a family at other places")
       .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
-      .texts("left_out", left_out, "types of rows that are not used, such as shape_imag")
-      .boolean("names_alike", names_alike, "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
+      .texts("left_out", left_out, "types of rows that are not used, such as shape_imag, or modes, \"mode:8\"")
+      .number("least_mac", least_mac, "", {0.0, 1.0},
+              "modes of which the model has none this alike are left out, and reported; 0: none is")
+      .boolean("names_alike", names_alike,
+               "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
       .number("highest_frequency", highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
       .texts("hold_out", hold_out,
              "rows kept from the fit: \"condition\" or \"condition/mode\", \"none\"; empty: marks, else the rule")
@@ -181,7 +241,6 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   context.input(folder);
   inputs.features = read_all_features(folder);
   choose_rows(config, inputs.features);
-  hold_out(config, inputs.features);
   const auto catalogue = catalogue_folder(config, context);
   inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
   if (!config.further_causes.empty())
@@ -207,6 +266,8 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
+  if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, inputs.features)) inputs.account.push_back(*unpaired);
+  hold_out(config, inputs.features);
   return inputs;
 }
 
@@ -223,7 +284,8 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   if (config.nulls <= 0) return {diagnosis::analytic_threshold(inference, config.alpha), "analytic tail"};
   const auto nulls = diagnosis::run_nulls(
       *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, {}, static_cast<int>(config.nulls), context.seed + 17,
-      [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); }, bound_modes(config.pairs));
+      [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); },
+      bound_modes(config.pairs));
   std::vector<double> sorted = nulls.log_odds;
   std::sort(sorted.begin(), sorted.end());
   const auto at = static_cast<std::size_t>(std::ceil((1.0 - config.alpha) * static_cast<double>(sorted.size()))) - 1;
@@ -262,11 +324,13 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   write_residuals(inference, result, context.out / "residuals.csv");
   write_hypotheses(result, entries.invisible, context.out / "hypotheses.csv");
   write_gain(inference, result, context.out / "gain.csv");
+  write_pairs(inference, result, context.out / "pairs.csv");
   write_misfit(inference, result, context.out / "misfit.csv");
   write_unknowns(inference, result, context.out / "parameters.csv");
   write_extended_model(*inputs.model, inputs.places, result, context.out / "extended_model");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_diagnosis(result, inputs.account, entries.invisible, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  write_diagnosis(result, inputs.account, entries.invisible, config.residual_alpha, seconds, threshold.from,
+                  context.out / "diagnosis.json");
   for (const Finding& finding : inputs.account) context.say(finding.text);
   context.say(fmt::format("{}: {}", result.verdict, result.message));
   for (const auto& effect : result.effects)

@@ -17,7 +17,8 @@ struct DiagnosisConfig {
   std::string catalogue;              ///< folder; empty: workflows/common/hypotheses or its installed copy
   std::string further_causes;         ///< folder of causes beside it, which may put a family at another set of places
   std::vector<std::string> pairs;     ///< "7X-8N", where no shape was measured
-  std::vector<std::string> left_out;  ///< types of rows that are not used
+  std::vector<std::string> left_out;  ///< types of rows, or "mode:8", that are not used
+  double least_mac = 0.0;             ///< modes of which the model has none this alike are left out, and reported
   bool names_alike = false;           ///< one name for a mode in all conditions, by likeness of shape
   double highest_Hz = 0.0;            ///< modes above it are left out; 0: none
   std::vector<std::string> hold_out;  ///< "condition", "condition/mode": in place of marks and rule
