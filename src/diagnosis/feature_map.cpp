@@ -22,7 +22,7 @@ bool is_logarithmic(RowType type) { return type != RowType::shape && type != Row
 }  // namespace
 
 FeatureMap::FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter)
-    : model_(model), features_(features) {
+    : model_(model), features_(features), damping_by_state_(scatter.damping_by_state) {
   collect_modes();
   transform(scatter);
   list_nuisances(scatter);
@@ -152,9 +152,9 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     if (row.channel >= 0 && row.type != RowType::psd_floor) channels[row.channel] = true;
     if (row.type == RowType::rms || row.type == RowType::psd_floor)
       levels[2 * row.condition + (row.type == RowType::psd_floor ? 1 : 0)] = true;
-    if (row.type == RowType::damping &&
-        std::find(damping_modes_.begin(), damping_modes_.end(), row.mode) == damping_modes_.end())
-      damping_modes_.push_back(row.mode);
+    const std::string own = damping_name(row.mode, row.condition);
+    if (row.type == RowType::damping && std::find(damping_modes_.begin(), damping_modes_.end(), own) == damping_modes_.end())
+      damping_modes_.push_back(own);
   }
   for (const auto& [channel, used] : channels)
     add(Nuisance::Kind::gain, channel, "channel:" + features_.channels[static_cast<std::size_t>(channel)] + " gain", 0.0,
@@ -166,6 +166,11 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     const Condition& condition = features_.conditions[static_cast<std::size_t>(level / 2)];
     add(Nuisance::Kind::level, level, condition.name + (level % 2 ? " noise level" : " load level"), 0.0, 10.0, -kFree, kFree);
   }
+}
+
+std::string FeatureMap::damping_name(const std::string& label, int condition) const {
+  const bool on = features_.conditions[static_cast<std::size_t>(condition)].dampers_on.value_or(false);
+  return damping_by_state_ && on ? label + " with dampers" : label;
 }
 
 void FeatureMap::set_values(const Eigen::VectorXd& values) {

@@ -19,6 +19,7 @@ struct ScatterOptions {
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
   double load_model = 0.10;  ///< of RMS values, on ln: what a simple load model leaves open
   double model_form = 0.0;   ///< of a frequency, on ln, the same in all conditions of a mode: what a model that is known to be off leaves open
+  bool damping_by_state = false;  ///< structural damping is another unknown where dampers are on: stuck ones rub in ways no model has
   double fine = 1.0;         ///< common factor of the first line (estimated by marginal likelihood)
   double noise = 1.0;        ///< common factor of identification errors (likewise)
 };
@@ -89,6 +90,8 @@ class FeatureMap {
 
  private:
   friend class Predictor;
+  /// What a mode's structural damping goes by: its label, and the dampers' state where that counts.
+  [[nodiscard]] std::string damping_name(const std::string& label, int condition) const;
   void collect_modes();
   void list_nuisances(const ScatterOptions& scatter);
   void transform(const ScatterOptions& scatter);
@@ -98,6 +101,7 @@ class FeatureMap {
   std::vector<MeasuredMode> modes_;
   std::vector<Nuisance> nuisances_;
   std::vector<std::string> damping_modes_;
+  bool damping_by_state_ = false;
   std::map<std::string, int> bound_modes_;
   Eigen::VectorXd values_;
   Eigen::MatrixXd covariance_;

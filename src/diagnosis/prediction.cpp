@@ -294,7 +294,8 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
   });
   out_.frequency_Hz[position] = state.modes.frequency_Hz(chosen) * std::exp(shift);
   if (measured.frequency >= 0) out_.g[measured.frequency] = std::log(out_.frequency_Hz[position]);
-  const double own = structural_damping(measured.label);
+  const std::string damping_name = map_.damping_name(measured.label, measured.condition);
+  const double own = structural_damping(damping_name);
   const double total = std::max(own + 100.0 * state.modes.damping(chosen) + added_pct, 1e-3 * own);
   if (measured.damping >= 0) out_.g[measured.damping] = std::log(total);
   if (with_jacobian_ && (measured.frequency >= 0 || measured.damping >= 0)) {
@@ -310,7 +311,7 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
     if (measured.damping >= 0) {
       for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
         const Nuisance& v = map_.nuisances_[j];
-        if (v.kind == Nuisance::Kind::mode_damping && map_.damping_modes_[static_cast<std::size_t>(v.index)] == measured.label)
+        if (v.kind == Nuisance::Kind::mode_damping && map_.damping_modes_[static_cast<std::size_t>(v.index)] == damping_name)
           out_.jacobian(measured.damping, static_cast<Index>(j)) = v.deviation * own / total;
       }
     }
@@ -349,7 +350,7 @@ void Predictor::predict_load(int c) {
       for (std::size_t m = 0; m < map_.modes_.size(); ++m)
         if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) && of_condition_.at(map_.modes_[m].condition) == state)
           label = map_.modes_[m].label;
-      double zeta_pct = (label.empty() ? 0.5 : structural_damping(label)) + 100.0 * state->modes.damping(i);
+      double zeta_pct = (label.empty() ? 0.5 : structural_damping(map_.damping_name(label, c))) + 100.0 * state->modes.damping(i);
       each_action("wind.damping", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
         zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
       });

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.hpp"
 
 namespace twindeck::modal {
@@ -40,6 +43,31 @@ Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n, const Eigen
 
 Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXd>& phi_n, const Eigen::Ref<const Eigen::MatrixXd>& phi_x) {
   return mac_of(phi_n, phi_x);
+}
+
+std::vector<Eigen::Index> measured_rows(const Eigen::Ref<const Eigen::VectorXcd>& shape) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < shape.size(); ++i)
+    if (std::isfinite(shape[i].real()) && std::isfinite(shape[i].imag())) rows.push_back(i);
+  return rows;
+}
+
+Eigen::MatrixXd mac_where_measured(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n, const Eigen::Ref<const Eigen::MatrixXcd>& phi_x) {
+  if (phi_x.allFinite()) return mac_of(phi_n, phi_x);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(phi_n.cols(), phi_x.cols());
+  for (Eigen::Index i = 0; i < phi_x.cols(); ++i) {
+    const std::vector<Eigen::Index> rows = measured_rows(phi_x.col(i));
+    const Eigen::MatrixXcd x = phi_x(rows, Eigen::seqN(i, 1));
+    const double norm = x.squaredNorm();
+    if (!(norm > 0.0))
+      throw InputError({}, fmt::format("experimental shape {} is zero or not measured at any channel", i + 1), "leave the mode out");
+    for (Eigen::Index j = 0; j < phi_n.cols(); ++j) {
+      const Eigen::MatrixXcd n = phi_n(rows, Eigen::seqN(j, 1));
+      const double own = n.squaredNorm();
+      if (own > 0.0) out(j, i) = std::min(1.0, std::norm((n.adjoint() * x)(0, 0)) / (own * norm));
+    }
+  }
+  return out;
 }
 
 Eigen::MatrixXd mass_weighted_mac(const Eigen::Ref<const Eigen::MatrixXd>& mass_phi_a,

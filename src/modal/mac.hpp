@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace twindeck::modal {
 
@@ -14,6 +15,14 @@ namespace twindeck::modal {
                                   const Eigen::Ref<const Eigen::MatrixXcd>& phi_x);
 [[nodiscard]] Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXd>& phi_n,
                                   const Eigen::Ref<const Eigen::MatrixXd>& phi_x);
+
+/// The same where each experimental mode was measured at channels of its own: NaN in a column of phi_x is a channel that the mode lacks,
+/// and both shapes are compared over the others. A numerical mode that stands still there has MAC 0.
+/// @throws InputError  if a mode was measured nowhere
+[[nodiscard]] Eigen::MatrixXd mac_where_measured(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n,
+                                                 const Eigen::Ref<const Eigen::MatrixXcd>& phi_x);
+/// Rows of a column that hold numbers.
+[[nodiscard]] std::vector<Eigen::Index> measured_rows(const Eigen::Ref<const Eigen::VectorXcd>& shape);
 
 /// Mass-weighted MAC of two sets of full shapes: squared cosines in the M inner product (1 = the same mode).
 /// @param mass_phi_a  M phi_a (n × n_a), so that the product with M is made once

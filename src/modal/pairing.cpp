@@ -34,11 +34,11 @@ std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, doubl
   return runs;
 }
 
-/// Share of each column of `x` that lies in the span of the columns of `basis`.
-Eigen::VectorXd subspace_mac(const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& x) {
+/// Share of `x` that lies in the span of the columns of `basis`.
+double subspace_mac(const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& x) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> qr(basis);
   const Eigen::MatrixXcd q = qr.householderQ() * Eigen::MatrixXcd::Identity(basis.rows(), qr.rank());
-  return ((q.adjoint() * x).colwise().squaredNorm().array() / x.colwise().squaredNorm().array()).min(1.0).matrix();
+  return std::min(1.0, (q.adjoint() * x).squaredNorm() / x.squaredNorm());
 }
 
 }  // namespace
@@ -59,17 +59,18 @@ std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eige
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered =
       Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(n_x, n_n, false);
   if (shapes) {
-    value = mac(phi_n, phi_x).transpose();
+    value = mac_where_measured(phi_n, phi_x).transpose();
     gain = value;
     for (const std::vector<Index>& run : clusters(frequency_n, options.cluster_gap)) {
       // Where there are no more sensors than close modes any shape lies in their span, which then says nothing.
-      if (static_cast<Index>(run.size()) >= phi_x.rows()) continue;
-      const Eigen::VectorXd share = subspace_mac(phi_n(Eigen::all, run), phi_x);
       for (Index i = 0; i < n_x; ++i) {
+        const std::vector<Index> rows = measured_rows(phi_x.col(i));
+        if (run.size() >= rows.size()) continue;
+        const double share = subspace_mac(phi_n(rows, run), phi_x(rows, Eigen::seqN(i, 1)));
         for (const Index j : run) {
-          if (share[i] < options.cluster_mac || value(i, j) >= options.cluster_mac) continue;
-          gain(i, j) = share[i] + 1e-3 * value(i, j);  // within the cluster the nearer shape first
-          value(i, j) = share[i];
+          if (share < options.cluster_mac || value(i, j) >= options.cluster_mac) continue;
+          gain(i, j) = share + 1e-3 * value(i, j);  // within the cluster the nearer shape first
+          value(i, j) = share;
           clustered(i, j) = true;
         }
       }

@@ -29,7 +29,7 @@ struct PairingOptions {
 /// Without sensors (no rows) the pairing is by frequency alone, and MAC is NaN.
 /// @return pairs in the order of the experimental modes
 /// @param frequency_x, frequency_n [Hz]
-/// @param phi_x (n_sensors × n_X), phi_n (n_sensors × n_N)
+/// @param phi_x (n_sensors × n_X), NaN where a mode was not measured; phi_n (n_sensors × n_N)
 /// Reference: Kuhn (1955), Naval Research Logistics Quarterly 2, 83-97.
 [[nodiscard]] std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
                                                 const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,

@@ -130,17 +130,32 @@ void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
   for (diagnosis::Row& row : features.rows) row.held_out = false;
   for (const std::string& rule : config.hold_out) {
     if (rule == "none") continue;
-    const auto slash = rule.find('/');
+    const auto slash = rule.find('/'), second = slash == std::string::npos ? slash : rule.find('/', slash + 1);
     bool any = false;
+    std::set<std::string> second_modes;  // "condition/every_second": those at even places in ascending frequency
+    if (rule.ends_with("/every_second")) {
+      std::map<double, std::string> ascending;
+      for (const diagnosis::Row& row : features.rows)
+        if (row.type == diagnosis::RowType::frequency &&
+            features.conditions[static_cast<std::size_t>(row.condition)].name == rule.substr(0, slash))
+          ascending[row.value] = row.mode;
+      bool even = false;
+      for (const auto& [frequency, mode] : ascending) {
+        if (even) second_modes.insert(mode);
+        even = !even;
+      }
+    }
     for (diagnosis::Row& row : features.rows) {
       const bool hit = features.conditions[static_cast<std::size_t>(row.condition)].name == rule.substr(0, slash) &&
-                       (slash == std::string::npos || row.mode == rule.substr(slash + 1));
+                       (slash == std::string::npos || row.mode == rule.substr(slash + 1, second - slash - 1) ||
+                        second_modes.contains(row.mode)) &&
+                       (second == std::string::npos || name_of(row.type) == rule.substr(second + 1));
       row.held_out = row.held_out || hit;
       any = any || hit;
     }
     if (!any)
       throw InputError({"", 0, "hold_out"}, fmt::format("'{}' matches no row", rule),
-                       "write \"condition\" or \"condition/mode\"");
+                       "write \"condition\", \"condition/mode\", \"condition/mode/type\" or \"condition/every_second\"");
   }
 }
 
@@ -166,6 +181,7 @@ std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& 
                          scatter.load_model, scatter.fine, scatter.noise})
     key << v << ',';
   if (scatter.model_form > 0.0) key << "form " << scatter.model_form << ',';
+  if (scatter.damping_by_state) key << "damping by state,";
   for (const auto& p : inputs.reduced->parameters) key << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial << '|';
   key << inputs.reduced->frequency_Hz.head(std::min<Eigen::Index>(5, inputs.reduced->frequency_Hz.size())).transpose() << '|';
   for (const auto& row : inputs.features.rows)
@@ -197,7 +213,8 @@ io::FieldTable DiagnosisConfig::fields() {
                "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
       .number("highest_frequency", highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
       .texts("hold_out", hold_out,
-             "rows kept from the fit: \"condition\" or \"condition/mode\", \"none\"; empty: marks, else the rule")
+             "rows kept from the fit: \"condition\", \"condition/mode\", \"condition/mode/type\" or "
+             "\"condition/every_second\", \"none\"; empty: marks, else the rule")
       .number("alpha", alpha, "", {1e-6, 0.5}, "false alarms that the threshold allows")
       .number("residual_alpha", residual_alpha, "", {1e-9, 0.5}, "level at which the residual test says that something is left")
       .number("either_within", either_within, "", io::positive(), "nats within which two causes are not told apart")
@@ -225,6 +242,8 @@ io::FieldTable DiagnosisConfig::fields() {
               "least deviation of a shape, of its largest value")
       .number("scatter.load_model", scatter.load_model, "", io::non_negative(),
               "of RMS values, for what a simple load model leaves open")
+      .boolean("scatter.damping_by_state", scatter.damping_by_state,
+               "structural damping is another unknown where dampers are on (stuck ones rub)")
       .number("scatter.model_form", scatter.model_form, "", io::non_negative(),
               "of a frequency, alike in all conditions of a mode: what a model that is known to be off leaves open");
   return t;

@@ -84,7 +84,7 @@ Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, cons
   pairing.mac = Eigen::MatrixXd::Zero(phi_n.cols(), measured.modes.size());
   const Eigen::MatrixXcd phi_moving = phi_n(Eigen::all, moving);
   const Eigen::VectorXd frequency_moving = modes.frequency_Hz(moving);
-  pairing.mac(moving, Eigen::all) = modal::mac(phi_moving, measured.modes.shapes);
+  pairing.mac(moving, Eigen::all) = modal::mac_where_measured(phi_moving, measured.modes.shapes);
   pairing.pairs = modal::pair_by_mac(measured.modes.frequency_Hz, measured.modes.shapes, frequency_moving, phi_moving, options);
   for (modal::ModePair& pair : pairing.pairs) pair.numerical = moving[static_cast<std::size_t>(pair.numerical)];
   return pairing;

@@ -92,14 +92,12 @@ Measured assemble_measured(const io::CsvTable& table, const std::vector<std::str
     modes.frequency_std_Hz[i] = mode.frequency_std;
     modes.damping_ratio[i] = mode.damping;
     modes.damping_ratio_std[i] = mode.damping_std;
+    if (!used.empty() && mode.shape.empty())
+      table.fail(mode.row, "mode", fmt::format("mode {} has no shape, which other modes have", name), "give its shape at some channels");
     for (std::size_t c = 0; c < used.size(); ++c) {
       const auto at = mode.shape.find(used[c]->name);
-      if (at == mode.shape.end()) {
-        table.fail(mode.row, "mode",
-                   fmt::format("mode {} has no shape at channel {}, which another mode has", name, used[c]->name),
-                   "give every mode the same channels");
-      }
-      modes.shapes(static_cast<Index>(c), i) = at->second;
+      // A channel that this mode lacks is missing, not zero: MACs leave it out.
+      modes.shapes(static_cast<Index>(c), i) = at == mode.shape.end() ? std::complex<double>(kUnknown, 0.0) : at->second;
     }
   }
   measured.channels = std::move(channels);

@@ -32,7 +32,7 @@ struct Measured {
 /// @param condition  a table of conditions.toml; "" means the only one, or the only one with dampers = "off"
 /// @throws InputError  with file, line, column: an unknown type, condition or channel, a row without a standard deviation, a
 /// mode
-///                     without a frequency, a shape with gaps
+///                     without a frequency, a mode without a shape where others have one. Channels that one mode lacks are NaN there
 [[nodiscard]] Measured read_measured_features(const std::filesystem::path& folder, const std::string& condition);
 
 /// Reads modes.csv, and shapes.csv and channels.csv where they are there, from a folder (`--modes DIR`).
