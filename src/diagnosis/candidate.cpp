@@ -105,6 +105,15 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
         add("nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5)).places = {&nodes[i], &other};
       }
     }
+  } else if (h.set == "damper_moves") {
+    for (const ReducedPlace& moved : model.sets.contains(h.set) ? model.sets.at(h.set) : std::vector<ReducedPlace>{}) {
+      Candidate& candidate = add(moved.id);  // the dampers in the order of the moved forces, then where they go
+      std::string names = moved.id.substr(8, moved.id.find('@') - 8) + ",";
+      for (std::size_t comma = names.find(','); comma != std::string::npos; names.erase(0, comma + 1), comma = names.find(','))
+        candidate.places.push_back(model.place("dampers", "damper:" + names.substr(0, comma)));
+      candidate.places.push_back(&moved);
+      if (std::find(candidate.places.begin(), candidate.places.end(), nullptr) != candidate.places.end()) found.pop_back();
+    }
   } else if (h.set == "damper_types") {
     for (const ReducedPlace& type : model.sets.contains(h.set) ? model.sets.at(h.set) : std::vector<ReducedPlace>{}) {
       Candidate& all = add(type.id);

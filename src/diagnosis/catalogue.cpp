@@ -19,6 +19,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
       {"damper.damping", {"factor"}},
       {"damper.series", {"stiffness"}},                                   // a spring in series with the dashpot
       {"damper.absent", {}},
+      {"damper.move", {}},                                                // to where the study says that it might stand
       {"frequency.amplitude", {"curvature"}},                             // f (1 + curvature A²)
       {"damping.add", {"ratio"}},                                         // of critical
       {"stay.frequency", {"factor"}},                                     // of a stay's own frequencies
@@ -45,7 +46,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
 }
 
 const std::vector<std::string>& location_sets() {
-  static const std::vector<std::string> sets = {"elements", "nodes",  "stays",    "dampers", "damper_types", "supports",
+  static const std::vector<std::string> sets = {"elements", "nodes",  "stays",    "dampers", "damper_types", "damper_moves", "supports",
                                                 "foundations", "groups", "all_stays", "channels", "modes",
                                                 "global", "pairs(channels)", "pairs(nodes)"};
   return sets;

@@ -17,7 +17,8 @@ using Eigen::Index;
 fe::ElementMatrix element_stiffness(const fe::Model& model, const fe::Element& element) {
   switch (element.type) {
     case fe::ElementType::beam:
-      return {fe::six_per_node(element), fe::beam_stiffness(fe::beam_geometry(model, element), fe::beam_properties(model, element))};
+      return {fe::six_per_node(element),
+              fe::beam_stiffness(fe::beam_geometry(model, element), fe::beam_properties(model, element))};
     case fe::ElementType::shell: {
       const auto geometry = fe::shell_geometry(model, element);
       const auto properties = fe::shell_properties(model, element);
@@ -29,12 +30,13 @@ fe::ElementMatrix element_stiffness(const fe::Model& model, const fe::Element& e
     }
     case fe::ElementType::solid: {
       const fe::Material& m = fe::material_of(model, element);
-      return {fe::three_per_node(element), fe::solid_stiffness(fe::solid_geometry(model, element), {m.youngs_modulus_Pa, m.poisson_ratio})};
+      return {fe::three_per_node(element),
+              fe::solid_stiffness(fe::solid_geometry(model, element), {m.youngs_modulus_Pa, m.poisson_ratio})};
     }
     default:
-      return {fe::three_per_node(element), fe::bar_stiffness(fe::end_nodes(model, element),
-                                                             fe::material_of(model, element).youngs_modulus_Pa,
-                                                             fe::section_of(model, element).area_m2)};
+      return {fe::three_per_node(element),
+              fe::bar_stiffness(fe::end_nodes(model, element), fe::material_of(model, element).youngs_modulus_Pa,
+                                fe::section_of(model, element).area_m2)};
   }
 }
 
@@ -91,7 +93,8 @@ std::vector<int> ElementPlaces::measured_nodes() const {
   const std::set<std::string> names(structure_.sensor_nodes.begin(), structure_.sensor_nodes.end());
   std::vector<int> measured;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (names.contains(std::to_string(model_.nodes[static_cast<std::size_t>(nodes_[i])].id))) measured.push_back(static_cast<int>(i));
+    if (names.contains(std::to_string(model_.nodes[static_cast<std::size_t>(nodes_[i])].id)))
+      measured.push_back(static_cast<int>(i));
   return measured;
 }
 
@@ -104,7 +107,8 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
     for (Sum& sum : *sums) sum.size = expansion_.rows();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     // With a zone an element, an element is its own zone even where two have one middle.
-    const std::size_t zone = centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
+    const std::size_t zone =
+        centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
     const fe::Element& element = model_.elements[static_cast<std::size_t>(candidates_[i])];
     members[zone].push_back(candidates_[i]);
     stiffness[zone].add(element_stiffness(model_, element));
@@ -126,7 +130,8 @@ void ElementPlaces::add_stays(Places& places) const {
     const double area = fe::section_of(model_, element).area_m2;
     const double density = fe::material_of(model_, element).density_kg_m3;
     const double pull = structure_.state != nullptr && structure_.state->stay_pull_N.size() > 0
-                            ? structure_.state->stay_pull_N[static_cast<Index>(e)] : element.pull_N;
+                            ? structure_.state->stay_pull_N[static_cast<Index>(e)]
+                            : element.pull_N;
     double modulus = fe::material_of(model_, element).youngs_modulus_Pa;
     if (pull > 0.0) {
       const Eigen::Vector3d chord = ends[1] - ends[0];
@@ -135,12 +140,18 @@ void ElementPlaces::add_stays(Places& places) const {
     Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
     stiffness.add({fe::three_per_node(element), fe::bar_stiffness(ends, modulus, area)});
     mass.add(fe::element_mass(model_, element));
-    Place place{"stay:" + (element.name.empty() ? std::to_string(element.id) : element.name), 0.5 * (ends[0] + ends[1]),
-                free(stiffness), free(mass), {}, {}, {static_cast<int>(e)}};
+    Place place{"stay:" + (element.name.empty() ? std::to_string(element.id) : element.name),
+                0.5 * (ends[0] + ends[1]),
+                free(stiffness),
+                free(mass),
+                {},
+                {},
+                {static_cast<int>(e)}};
     // A cable's own mode shakes its anchorages across the chord: directions are the two transverse ones of the lower end.
     const int low = ends[0].z() <= ends[1].z() ? element.nodes[0] : element.nodes[1];
     const Eigen::Vector3d along = (ends[1] - ends[0]).normalized();
-    const Eigen::Vector3d side = along.cross(std::abs(along.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX()).normalized();
+    const Eigen::Vector3d side =
+        along.cross(std::abs(along.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX()).normalized();
     const Eigen::Vector3d up = side.cross(along);
     std::vector<Eigen::Triplet<double>> entries;
     for (int d = 0; d < 3; ++d) {
@@ -176,7 +187,8 @@ void ElementPlaces::add_springs(Places& places) const {
       Index largest = 0;
       k.matrix.diagonal().maxCoeff(&largest);
       for (std::size_t i = 0; i < k.dofs.size(); ++i)
-        entries.emplace_back(k.dofs[i], 0, sign * k.matrix(static_cast<Index>(i), largest) / std::sqrt(k.matrix(largest, largest)));
+        entries.emplace_back(k.dofs[i], 0,
+                             sign * k.matrix(static_cast<Index>(i), largest) / std::sqrt(k.matrix(largest, largest)));
       Eigen::SparseMatrix<double> direction(expansion_.rows(), 1);
       direction.setFromTriplets(entries.begin(), entries.end());
       Place place{"damper:" + spring.name, x, {}, {}, Eigen::SparseMatrix<double>(expansion_.transpose() * direction), {}, {}};
@@ -234,6 +246,33 @@ void ElementPlaces::add_springs(Places& places) const {
   }
 }
 
+void ElementPlaces::add_moves(const std::vector<DamperMove>& moves, Places& places) const {
+  std::vector<Eigen::Vector3d> nodes;
+  for (const fe::Node& node : model_.nodes) nodes.push_back(node.x_m);
+  for (const DamperMove& move : moves) {
+    Place place{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t i = 0; i < move.dampers.size(); ++i) {
+      const auto spring = std::find_if(model_.springs.begin(), model_.springs.end(),
+                                       [&](const fe::Spring& s) { return s.name == move.dampers[i]; });
+      if (spring == model_.springs.end() || spring->rotation || spring->node2 >= 0)
+        throw InputError({model_.source, 0, move.dampers[i]}, "is no damper between a node and the ground",
+                         "name one of springs.csv");
+      const int node = nearest(nodes, move.x_m[i]);
+      for (int d = 0; d < 3; ++d)
+        if (spring->direction[d] != 0.0) entries.emplace_back(6 * node + d, static_cast<int>(i), spring->direction[d]);
+      place.id += (i > 0 ? "," : "") + move.dampers[i];
+      place.x_m += nodes[static_cast<std::size_t>(node)] / static_cast<double>(move.dampers.size());
+      place.attributes["node_" + std::to_string(i)] = node;
+    }
+    place.id += "@" + move.name;
+    Eigen::SparseMatrix<double> directions(expansion_.rows(), static_cast<Index>(move.dampers.size()));
+    directions.setFromTriplets(entries.begin(), entries.end());
+    place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);
+    places.sets["damper_moves"].push_back(std::move(place));
+  }
+}
+
 void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) const {
   for (const int c : chosen) {
     const int node = nodes_[static_cast<std::size_t>(c)];
@@ -242,8 +281,13 @@ void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) co
     Eigen::SparseMatrix<double> directions(expansion_.rows(), 3);
     directions.setFromTriplets(entries.begin(), entries.end());
     const fe::Node& at = model_.nodes[static_cast<std::size_t>(node)];
-    places.sets["nodes"].push_back({"node:" + std::to_string(at.id), at.x_m, {}, {},
-                                    Eigen::SparseMatrix<double>(expansion_.transpose() * directions), {}, {}});
+    places.sets["nodes"].push_back({"node:" + std::to_string(at.id),
+                                    at.x_m,
+                                    {},
+                                    {},
+                                    Eigen::SparseMatrix<double>(expansion_.transpose() * directions),
+                                    {},
+                                    {}});
   }
 }
 

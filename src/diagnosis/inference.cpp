@@ -377,8 +377,13 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
     const Scored& first = found.front();
     const double near = first.log_odds - std::max(options.refine_within, 0.3 * first.log_odds);
     std::vector<Scored*> siblings;
+    const auto rivals_at_a_damper = [&](const Scored& other) {  // what a damper can have wrong shows alike
+      const std::string& set = first.candidate->hypothesis->set;
+      return set.starts_with("damper") && other.stage == 2 && other.log_odds > -1e299 && other.candidate->location == first.candidate->location;
+    };
     for (Scored& scored : found)
-      if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
+      if (rivals_at_a_damper(scored)) siblings.push_back(&scored);
+      else if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
           scored.candidate->hypothesis == first.candidate->hypothesis) {
         siblings.push_back(&scored);
         ++deepened;

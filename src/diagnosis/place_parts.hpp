@@ -18,9 +18,11 @@ class ElementPlaces {
 
   /// Set elements. @param points  what elements are near to; the middles of `centres` where empty
   void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
-  void add_stays(Places& places) const;                                        ///< set stays
-  void add_springs(Places& places) const;                                      ///< sets supports, foundations, dampers
-  void add_nodes(const std::vector<int>& chosen, Places& places) const;        ///< set nodes
+  void add_stays(Places& places) const;    ///< set stays
+  void add_springs(Places& places) const;  ///< sets supports, foundations, dampers, damper_types
+  /// Dampers at other nodes: their unit forces there, and the nodes as attributes node_0 …
+  void add_moves(const std::vector<DamperMove>& moves, Places& places) const;
+  void add_nodes(const std::vector<int>& chosen, Places& places) const;  ///< set nodes
   void fill_global(Place& global) const;  ///< stiffness of all but stays; mass of the deck (shells, else all elements)
 
  private:

@@ -51,9 +51,17 @@ struct Places {
   double total_mass_kg = 0.0;
 };
 
+/// Dampers of a model where they might stand instead.
+struct DamperMove {
+  std::string name;                   ///< of the alternative, "foot_57m"
+  std::vector<std::string> dampers;   ///< names as in springs.csv
+  std::vector<Eigen::Vector3d> x_m;   ///< (n_dampers) each goes to the nearest node
+};
+
 struct PlaceOptions {
   int max_zones = 24;  ///< of elements
   int max_nodes = 24;  ///< those of channels first, then nodes far from each other
+  std::vector<DamperMove> moves;  ///< set "damper_moves": "dampers:C1,C2@foot_57m"
   std::vector<Eigen::Vector3d> zone_centres, node_positions;  ///< where they are laid down: zones and nodes of another mesh
 };
 

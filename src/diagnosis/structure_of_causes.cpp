@@ -78,13 +78,16 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
     };
     if (!condition.dampers_on.value_or(number("always_on") != 0.0)) continue;
     double c = number("damping"), k = number("stiffness"), threshold = number("friction");
+    VectorXd direction = damper.directions.col(0);
     bool series = number("series") != 0.0, absent = false, sliding = threshold > 0.0;
     for (const Cause& cause : causes_) {
       const auto& places = cause.candidate->places;
-      if (std::find(places.begin(), places.end(), &damper) == places.end()) continue;
+      const auto here = std::find(places.begin(), places.end(), &damper);
+      if (here == places.end()) continue;
       for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
         const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
         if (action.kind == "damper.absent") absent = true;
+        if (action.kind == "damper.move") direction = places.back()->directions.col(here - places.begin());
         if (action.kind == "damper.damping") c *= value("factor");
         if (action.kind == "damper.series") {
           k = value("stiffness");
@@ -98,7 +101,7 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
       }
     }
     if (absent) continue;
-    const VectorXd b = sliced(VectorXd(damper.directions.col(0)), columns_, n);
+    const VectorXd b = sliced(direction, columns_, n);
     if (sliding) {
       state.attachments.push_back({Attachment::Kind::jenkins, b, k, c, threshold});
     } else if (series && k > 0.0) {

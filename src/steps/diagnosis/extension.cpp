@@ -138,6 +138,14 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
   }
   if (action.kind.starts_with("damper.")) {
     const auto acts_on = [&](const fe::Spring& s) { return ("," + name + ",").find("," + s.name + ",") != std::string::npos; };
+    if (action.kind == "damper.move") {
+      const Place* place = place_of(places, c.hypothesis->set, c.location);
+      TWINDECK_ASSERT(place != nullptr);
+      for (std::size_t i = 0; i + 1 < c.places.size(); ++i)
+        for (fe::Spring& spring : model.springs)
+          if ("damper:" + spring.name == c.places[i]->id) spring.node = static_cast<int>(place->attributes.at("node_" + std::to_string(i)));
+      return true;
+    }
     if (action.kind == "damper.absent") {
       std::erase_if(model.springs, acts_on);
       return true;

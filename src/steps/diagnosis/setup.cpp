@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "diagnosis/same_modes.hpp"
 #include "io/atomic.hpp"
+#include "io/csv.hpp"
 #include "io/manifest.hpp"
 #include "io/toml_value.hpp"
 #include "steps/diagnosis/catalogue.hpp"
@@ -159,6 +160,18 @@ void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
   }
 }
 
+std::vector<diagnosis::DamperMove> read_damper_places(const std::filesystem::path& file) {
+  const auto table = io::CsvTable::read(file, {"alternative", "damper", "x_m", "y_m", "z_m"}, {});
+  std::vector<diagnosis::DamperMove> moves;
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    const std::string name = table.text(r, "alternative");
+    if (moves.empty() || moves.back().name != name) moves.push_back({name, {}, {}});
+    moves.back().dampers.push_back(table.text(r, "damper"));
+    moves.back().x_m.emplace_back(table.number(r, "x_m"), table.number(r, "y_m"), table.number(r, "z_m"));
+  }
+  return moves;
+}
+
 std::map<std::string, int> bound_modes(const std::vector<std::string>& pairs) {
   std::map<std::string, int> bound;
   for (const std::string& pair : pairs) {
@@ -203,6 +216,7 @@ std::string hash_of(const std::string& text) {  // FNV-1a, 64 bits: a name, not 
 io::FieldTable DiagnosisConfig::fields() {
   io::FieldTable t;
   t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
+      .text("damper_places", damper_places, "CSV of places where dampers might stand instead: alternative, damper, x_m, y_m, z_m")
       .text("further_causes", further_causes,
             "folder of causes beside the catalogue: a study's own, or a family at other places")
       .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
@@ -280,7 +294,9 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
   inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
   const diagnosis::Structure structure = inputs.model->structure();
-  inputs.places = diagnosis::find_places(structure, {static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}});
+  diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
+  if (!config.damper_places.empty()) place_options.moves = read_damper_places(context.input(config.damper_places));
+  inputs.places = diagnosis::find_places(structure, place_options);
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);

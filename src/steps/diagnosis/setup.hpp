@@ -15,6 +15,7 @@ namespace twindeck::steps {
 /// Configuration of s9_diagnosis.
 struct DiagnosisConfig {
   std::string catalogue;              ///< folder; empty: workflows/common/hypotheses or its installed copy
+  std::string damper_places;          ///< file of places where dampers might stand instead
   std::string further_causes;         ///< folder of causes beside it, which may put a family at another set of places
   std::vector<std::string> pairs;     ///< "7X-8N", where no shape was measured
   std::vector<std::string> left_out;  ///< types of rows, or "mode:8", that are not used
