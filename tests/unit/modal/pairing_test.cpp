@@ -27,6 +27,25 @@ TEST(PairByMac, FindsModesThatChangedOrder) {
   EXPECT_FALSE(pairs[0].clustered);
 }
 
+// Oracle: by construction. Each measured mode lacks other sensors; over those that it has it is a computed mode in another order.
+TEST(PairByMac, ComparesEachModeOverItsOwnSensors) {
+  const Eigen::Vector2d f(1.0, 1.2);
+  Eigen::MatrixXcd phi_n(4, 2);
+  phi_n << 1, 1, 2, -1, 3, 2, 4, -3;
+  Eigen::MatrixXcd phi_x(4, 2);
+  phi_x << -2.0 * phi_n.col(1), 0.5 * phi_n.col(0);
+  phi_x(0, 0) = std::nan("");
+  phi_x(3, 1) = std::nan("");
+  const std::vector<ModePair> pairs = pair_by_mac(f, phi_x, f, phi_n);
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].numerical, 1);
+  EXPECT_EQ(pairs[1].numerical, 0);
+  EXPECT_NEAR(pairs[0].mac, 1.0, 1e-12);
+  EXPECT_NEAR(pairs[1].mac, 1.0, 1e-12);
+  // With zeros in place of what is missing neither would be whole.
+  EXPECT_LT(pair_by_mac(f, phi_x.array().isNaN().select(0.0, phi_x.array()).matrix(), f, phi_n)[0].mac, 0.99);
+}
+
 // Oracle: the contract. Too far in frequency, or too unlike: no pair.
 TEST(PairByMac, LeavesOutWhatIsNotAdmissible) {
   const Eigen::MatrixXcd phi = shapes(1);
