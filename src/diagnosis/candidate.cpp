@@ -106,7 +106,9 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
       }
     }
   } else if (h.set == "damper_moves") {
-    for (const ReducedPlace& moved : model.sets.contains(h.set) ? model.sets.at(h.set) : std::vector<ReducedPlace>{}) {
+    const auto alternatives = model.sets.find(h.set);
+    if (alternatives == model.sets.end()) return found;
+    for (const ReducedPlace& moved : alternatives->second) {
       Candidate& candidate = add(moved.id);  // the dampers in the order of the moved forces, then where they go
       std::string names = moved.id.substr(8, moved.id.find('@') - 8) + ",";
       for (std::size_t comma = names.find(','); comma != std::string::npos; names.erase(0, comma + 1), comma = names.find(','))
@@ -115,7 +117,9 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
       if (std::find(candidate.places.begin(), candidate.places.end(), nullptr) != candidate.places.end()) found.pop_back();
     }
   } else if (h.set == "damper_types") {
-    for (const ReducedPlace& type : model.sets.contains(h.set) ? model.sets.at(h.set) : std::vector<ReducedPlace>{}) {
+    const auto types = model.sets.find(h.set);
+    if (types == model.sets.end()) return found;
+    for (const ReducedPlace& type : types->second) {
       Candidate& all = add(type.id);
       for (const ReducedPlace& damper : model.sets.at("dampers"))
         if (damper.attributes.contains("type") && damper.attributes.at("type") == type.attributes.at("type"))

@@ -53,7 +53,7 @@ TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
   const auto prepared = steps::prepare_model(steps::from_model(model), {channel}, 0.6);
   const auto structure = prepared->structure();
   const auto places =
-      diagnosis::find_places(structure, {.max_zones = 8, .max_nodes = 4, .zone_centres = {}, .node_positions = {}});
+      diagnosis::find_places(structure, {.max_zones = 8, .max_nodes = 4, .moves = {}, .zone_centres = {}, .node_positions = {}});
   diagnosis::ReductionOptions options;
   options.modes = 24;
   const diagnosis::ReducedModel reduced(structure, places, options);
