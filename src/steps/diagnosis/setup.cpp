@@ -194,6 +194,7 @@ std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& 
                          scatter.load_model, scatter.fine, scatter.noise})
     key << v << ',';
   if (scatter.model_form > 0.0) key << "form " << scatter.model_form << ',';
+  if (config.most_refined != 3) key << "refined " << config.most_refined << ' ' << config.search.refine_within << ',';
   if (scatter.damping_by_state) key << "damping by state,";
   for (const auto& p : inputs.reduced->parameters) key << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial << '|';
   key << inputs.reduced->frequency_Hz.head(std::min<Eigen::Index>(5, inputs.reduced->frequency_Hz.size())).transpose() << '|';
@@ -234,6 +235,8 @@ io::FieldTable DiagnosisConfig::fields() {
       .number("either_within", either_within, "", io::positive(), "nats within which two causes are not told apart")
       .number("least_log_odds", least_log_odds, "", io::non_negative(), "log odds below which nothing is named")
       .integer("nulls", nulls, {0, 100000}, "null data sets run for the threshold where none is cached; 0: the analytic tail")
+      .integer("most_refined", most_refined, {1, 50}, "entries of a search that are fitted together with all other unknowns")
+      .number("refine_within", search.refine_within, "", io::positive(), "nats of the best, as weighed before, within which they are")
       .integer("most_causes", most_causes, {0, 8}, "causes put into the model one after another")
       .integer("modes", modes, {4, 200}, "modes in the reduced basis")
       .integer("zones", zones, {2, 200}, "zones that the elements are gathered in")
@@ -317,8 +320,10 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
         return {*entry.value.as<double>(), "nulls cached in " + file.filename().string()};
   }
   if (config.nulls <= 0) return {diagnosis::analytic_threshold(inference, config.alpha), "analytic tail"};
+  diagnosis::SearchOptions search = config.search;
+  search.most_refined = static_cast<int>(config.most_refined);
   const auto nulls = diagnosis::run_nulls(
-      *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, {}, static_cast<int>(config.nulls), context.seed + 17,
+      *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, search, static_cast<int>(config.nulls), context.seed + 17,
       [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); },
       bound_modes(config.pairs));
   std::vector<double> sorted = nulls.log_odds;
@@ -353,6 +358,8 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   options.least_log_odds = config.least_log_odds;
   options.either_within = config.either_within;
   options.residual_alpha = config.residual_alpha;
+  options.search = config.search;
+  options.search.most_refined = static_cast<int>(config.most_refined);
   options.most_causes = static_cast<int>(config.most_causes);
   const diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
