@@ -379,7 +379,7 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
     std::vector<Scored*> siblings;
     const auto rivals_at_a_damper = [&](const Scored& other) {  // what a damper can have wrong shows alike
       const std::string& set = first.candidate->hypothesis->set;
-      return set.starts_with("damper") && other.stage == 2 && other.log_odds > -1e299 && other.candidate->location == first.candidate->location;
+      return set.starts_with("damper") && other.stage < 3 && other.candidate->location == first.candidate->location;
     };
     for (Scored& scored : found)
       if (rivals_at_a_damper(scored)) siblings.push_back(&scored);
@@ -388,7 +388,10 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
         siblings.push_back(&scored);
         ++deepened;
       }
-    for (Scored* sibling : siblings) refine(base, *sibling);
+    for (Scored* sibling : siblings) {
+      if (sibling->stage == 1) fit_linearised(base, *sibling);
+      refine(base, *sibling);
+    }
     std::stable_sort(found.begin(), found.end(), by_odds);
   }
   return found;
