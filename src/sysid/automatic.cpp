@@ -148,6 +148,38 @@ Members with_neighbours(const std::vector<DiagramPole>& diagram, const Members& 
   return members;
 }
 
+int first_order(const std::vector<DiagramPole>& diagram, const Cluster& cluster) {
+  return diagram[cluster.members.front()].pole.order;
+}
+
+/// The pole of the cluster's last order is found again at the next one, as the first of the other cluster.
+bool goes_on(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const Cluster& cluster,
+             const Cluster& other, double cut) {
+  const DiagramPole& last = diagram[cluster.members.back()];
+  const auto next = std::upper_bound(orders.begin(), orders.end(), last.pole.order);
+  if (next == orders.end() || first_order(diagram, other) != *next) return false;
+  const auto to_last = [&](std::size_t i) { return distance(diagram[i].pole, last.pole); };
+  const std::size_t first = other.members.front();
+  for (std::size_t i = 0; i < diagram.size(); ++i) {
+    if (diagram[i].pole.order == *next && to_last(i) < to_last(first)) return false;
+  }
+  return to_last(first) < cut;
+}
+
+/// Without the clusters that go on as another: one mode, which at the smaller orders still holds a share of a neighbour that these
+/// orders have no pole for. The higher orders speak for it.
+std::vector<Cluster> whole_chains(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
+                                  const std::vector<Cluster>& clusters, double cut) {
+  std::vector<Cluster> whole;
+  for (const Cluster& cluster : clusters) {
+    const bool unfinished = std::any_of(clusters.begin(), clusters.end(), [&](const Cluster& other) {
+      return &other != &cluster && goes_on(diagram, orders, cluster, other, cut);
+    });
+    if (!unfinished) whole.push_back(cluster);
+  }
+  return whole;
+}
+
 }  // namespace
 
 std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
@@ -206,6 +238,7 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
     });
     if (!again) distinct.push_back(std::move(cluster));
   }
+  distinct = whole_chains(diagram, orders, distinct, cut);
   number_clusters(diagram, distinct);
   return distinct;
 }

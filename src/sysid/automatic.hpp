@@ -32,7 +32,8 @@ struct AutomaticRule {
 /// by 2-means of ln d; the cut of the agglomerative clustering (average linkage, never two poles of one order) is the 95 %
 /// quantile of the physical ones' distances. Orders that a cluster lacks then give it their nearest pole within twice the cut
 /// of its centre; clusters found at too few orders are dropped, and of two clusters nearer than half a bandwidth with a MAC
-/// above 0.8 the smaller.
+/// above 0.8 the smaller. A cluster whose pole is found again at the next order, within the cut and nearest of all, as the first
+/// of another cluster is the same mode at orders that do not yet part it from a neighbour: it is dropped for the other.
 /// @param orders  ascending @return ascending in frequency; marks `mode` in the diagram
 /// Reference: Reynders, Houbrechts and De Roeck (2012), Mechanical Systems and Signal Processing 29, 228-250.
 [[nodiscard]] std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "linalg/dense.hpp"
+#include "signal/surrogate_noise.hpp"
 #include "sysid/leading_svd.hpp"
 
 namespace twindeck::sysid {
@@ -20,6 +21,13 @@ namespace {
 
 Index columns_of(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, Index block_columns) {
   return std::min(block_columns, decays.front().rows() - block_rows + 1);
+}
+
+Eigen::MatrixXd white(Index samples, Index channels, double deviation, std::uint64_t seed, std::uint64_t draw) {
+  Eigen::MatrixXd noise(samples, channels);
+  std::uint64_t at = 0;
+  for (double& value : noise.reshaped()) value = deviation * normal_number(seed, draw, at++);
+  return noise;
 }
 
 }  // namespace
@@ -40,8 +48,10 @@ Eigen::MatrixXd block_hankel(const std::vector<Eigen::MatrixXd>& decays, Index b
 }
 
 FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, const std::vector<int>& orders, double rate_Hz,
-              std::uint64_t seed, int n_draws) {
+              std::uint64_t seed, int n_draws, const std::vector<Eigen::MatrixXd>& quiet) {
   TWINDECK_ASSERT(!decays.empty() && !orders.empty());
+  for (const Eigen::MatrixXd& record : quiet)
+    TWINDECK_ASSERT(record.rows() >= decays.front().rows() && record.cols() == decays.front().cols());
   const Index l = decays.front().cols(), samples = decays.front().rows(), n_max = orders.back();
   const Index q = columns_of(decays, block_rows, samples);
   const Index most = samples < 2 * block_rows ? 0 : std::min((block_rows - 1) * l, q * static_cast<Index>(decays.size()));
@@ -61,11 +71,15 @@ FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, cons
   found.noise = entries > 0.0 ? std::sqrt(left / entries) : 0.0;
 
   std::uint64_t drawn = 0;
+  const double share = 1.0 / std::sqrt(static_cast<double>(n_draws));
   for (int draw = 0; draw < n_draws; ++draw) {
-    std::vector<Eigen::MatrixXd> disturbance(decays.size(), Eigen::MatrixXd(samples, l));
-    for (Eigen::MatrixXd& d : disturbance) {
-      for (double& value : d.reshaped())
-        value = normal_number(seed, 0, drawn++) * found.noise / std::sqrt(static_cast<double>(n_draws));
+    std::vector<Eigen::MatrixXd> disturbance;
+    for (std::size_t d = 0; d < decays.size(); ++d) {
+      disturbance.push_back(
+          share * (quiet.empty()
+                       ? white(samples, l, found.noise, seed, drawn)
+                       : Eigen::MatrixXd(signal::surrogate_noise(quiet[drawn % quiet.size()], seed, drawn).topRows(samples))));
+      ++drawn;
     }
     const Eigen::MatrixXd change = block_hankel(disturbance, block_rows, q);
     found.changes.push_back(

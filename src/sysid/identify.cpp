@@ -74,19 +74,40 @@ Identification select(const ShiftModels& models, const IdentifyOptions& options)
 }
 
 /// Orders at which a pole has split in two know either half badly. Those known worse than twice the lower quartile do not speak
-/// for the mode.
+/// for the mode's values, but by the weight of their variance for how far these hang on the order.
 void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors) {
   for (Cluster& mode : result.modes) {
+    const std::vector<std::size_t> all = mode.members;
     std::vector<double> deviations;
-    for (const std::size_t i : mode.members) deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
+    for (const std::size_t i : all) deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
     std::vector<double> sorted = deviations;
     std::sort(sorted.begin(), sorted.end());
-    const double most = 2.0 * sorted[sorted.size() / 4];
+    const double quartile = std::max(sorted[sorted.size() / 4], 1e-300);
     std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k < deviations.size(); ++k) {
-      if (deviations[k] <= most) kept.push_back(mode.members[k]);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (deviations[k] <= 2.0 * quartile) kept.push_back(all[k]);
     }
     mode = summarise(result.diagram, std::move(kept));
+    double weights = 0.0, frequency = 0.0, damping = 0.0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Pole& pole = result.diagram[all[k]].pole;
+      const double weight = std::pow(quartile / std::max(deviations[k], quartile), 2);
+      weights += weight;
+      frequency += weight * std::pow(pole.frequency_Hz - mode.frequency_Hz, 2);
+      damping += weight * std::pow(pole.damping_ratio - mode.damping_ratio, 2);
+    }
+    mode.frequency_scatter_Hz = std::sqrt(frequency / weights);
+    mode.damping_ratio_scatter = std::sqrt(damping / weights);
+  }
+}
+
+/// The covariance says how far the records settle a pole of one order; which order it is, nobody knows. A pole that holds a
+/// share of a weak neighbour moves with the order, by more than its covariance where the neighbour lies within the bandwidth.
+void add_order_scatter(Identification& result) {
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    ModeDeviation& deviation = result.deviations[m];
+    deviation.frequency_Hz = std::hypot(deviation.frequency_Hz, result.modes[m].frequency_scatter_Hz);
+    deviation.damping_ratio = std::hypot(deviation.damping_ratio, result.modes[m].damping_ratio_scatter);
   }
 }
 
@@ -101,6 +122,7 @@ void add_deviations(Identification& result, const Observability& observability, 
   }
   result.deviations = mode_deviations(models, factors, members);
   drop_undetermined(result, options, seconds);
+  add_order_scatter(result);
 }
 
 }  // namespace
@@ -145,8 +167,9 @@ Identification identify_from_data(const std::vector<Eigen::MatrixXd>& records, c
 }
 
 Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, const IdentifyOptions& options,
-                               std::uint64_t seed) {
-  const FreeDecay found = era(decays, options.block_rows, options.orders(), rate_Hz, seed);
+                               std::uint64_t seed, const std::vector<Eigen::MatrixXd>& quiet) {
+  constexpr int kDraws = 100;  // deviations within 7 %
+  const FreeDecay found = era(decays, options.block_rows, options.orders(), rate_Hz, seed, kDraws, quiet);
   Identification result = select(found.models, options);
   add_deviations(result, found.observability, found.models, found.changes, options, 0.0);
   return result;

@@ -40,8 +40,10 @@ struct IdentifyOptions {
 
 struct Identification {
   std::vector<DiagramPole> diagram;
-  std::vector<Cluster> modes;             ///< ascending in frequency
-  std::vector<ModeDeviation> deviations;  ///< one a mode; empty where the covariance is not known (a single block)
+  std::vector<Cluster> modes;  ///< ascending in frequency
+  /// One a mode: of frequency and damping the root of the data's variance (`factor`) plus that over the model orders. Empty
+  /// where the covariance is not known (a single block).
+  std::vector<ModeDeviation> deviations;
 };
 
 /// Covariance-driven identification of output-only records: correlations to subspace to poles of all orders, stabilisation
@@ -57,8 +59,10 @@ struct Identification {
                                                 const IdentifyOptions& options);
 
 /// The same, of free decays by ERA. @param decays (n_samples × n_outputs) of one length, from the release on
+/// @param quiet  records of what disturbs them, see era
 [[nodiscard]] Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz,
-                                             const IdentifyOptions& options, std::uint64_t seed);
+                                             const IdentifyOptions& options, std::uint64_t seed,
+                                             const std::vector<Eigen::MatrixXd>& quiet = {});
 
 /// Drops the modes that the data don't settle, by the rules of the options. With the automatic selection also the less settled
 /// of two that the data can't tell apart: frequencies within three standard deviations of their difference, MAC above 0.8. Each

@@ -11,7 +11,7 @@ namespace twindeck::sysid {
 
 /// Standard deviations of one identified mode.
 struct ModeDeviation {
-  double frequency_Hz = 0.0;
+  double frequency_Hz = 0.0;  ///< from the data's covariance; an Identification's also holds the scatter over model orders
   double damping_ratio = 0.0;
   Eigen::VectorXd shape_real, shape_imag;  ///< (n_outputs) of the entries of the unit-norm shape
   /// (2 + 2 n_outputs × n_changes) frequency [Hz], damping ratio, real and imaginary parts of the shape: F with covariance F

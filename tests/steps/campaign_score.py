@@ -1,8 +1,8 @@
 """Scores what s3_identification found on a virtual campaign against the campaign's truth folder, which nothing else reads.
 
-A named mode found at f with standard deviation s is a true one if it lies within the larger of 0.5 % and 3 s; another one, mostly a stay's
-whose motion at the decks is weak, within the larger of 1 % and 3 s of a mode that takes part at the channels. A true mode counts once. Of a named mode the shape must be its own too. Of all ways to pair found and true modes the
-one is taken that pairs the most, named ones first, and among those the one with the smallest distances.
+A mode found at f with standard deviation s is a true one if it lies within the larger of 0.5 % and 3 s of a mode that takes part at the
+channels. A true mode counts once. Of a named mode the shape must be its own too. Of all ways to pair found and true modes the one is taken
+that pairs the most, named ones first, and among those the one with the smallest distances.
 """
 import collections
 import csv
@@ -12,7 +12,7 @@ import pathlib
 
 import numpy as np
 
-FREQUENCY, FREQUENCY_WITHOUT_NAME, SIGMAS, LEAST_MAC = 0.005, 0.01, 3.0, 0.5
+FREQUENCY, SIGMAS, LEAST_MAC = 0.005, 3.0, 0.5
 # Of the variance at some channel: what the sensors' noise has at the level of the quiet records (0.1 of 3 mm/s2).
 LEAST_PARTICIPATION = 1e-3
 BAND_HZ = 2.6
@@ -121,7 +121,7 @@ def score(campaign, identified, condition, is_first):
     for i, f in enumerate(found):
         for j, t in enumerate(true):
             truth = float(t["frequency_Hz"])
-            allowed = max((FREQUENCY if t["mode"] else FREQUENCY_WITHOUT_NAME) * truth, SIGMAS * f["frequency_std_Hz"])
+            allowed = max(FREQUENCY * truth, SIGMAS * f["frequency_std_Hz"])
             distance = abs(f["frequency_Hz"] - truth) / allowed
             if distance > 1.0:
                 continue

@@ -2,8 +2,10 @@
 
 Oracle: the truth folder of the virtual campaign (campaign_score.py says what counts as found), the closed-form expectations of each test.
 With TWINDECK_SLOW=1 also 30 campaigns of other seeds: calibration of the standard deviations, recall, the paper's own rule beside the
-automatic one; what they show is written to results/scoring/ as CSV and figure.
+automatic one; what they show is written to results/scoring/ as CSV and figure, seed by seed: a run that was broken off goes on.
 """
+import hashlib
+import json
 import math
 import os
 import pathlib
@@ -50,12 +52,8 @@ class Study(unittest.TestCase):
                 self.assertGreaterEqual(len(score.good), wanted, [m for m in score.named if not m.good])
 
     def test_nothing_else_below_2_6_Hz(self):
-        # What every setup shows is true. A mode that one setup alone has, marked `partial`, may be the half of a split one: by chance one
-        # in a state of some twenty modes, whose own standard deviations reach 1 %.
         for state in STATES:
-            spurious = self.scores[state].spurious
-            self.assertEqual([m["frequency_Hz"] for m in spurious if m["partial"] == "0"], [], state)
-            self.assertLessEqual(len(spurious), 1, state)
+            self.assertEqual([m["frequency_Hz"] for m in self.scores[state].spurious], [], state)
 
     def test_stays(self):
         truth = {(r["condition"], r["stay"]): r for r in rows(self.campaign / "truth" / "stays.csv")}
@@ -103,49 +101,83 @@ class Study(unittest.TestCase):
         self.assertGreater(rises, len(names) / 2)
 
 
-@unittest.skipUnless(os.environ.get("TWINDECK_SLOW") == "1", "TWINDECK_SLOW=1 identifies 30 campaigns (about ten minutes)")
+@unittest.skipUnless(os.environ.get("TWINDECK_SLOW") == "1", "TWINDECK_SLOW=1 identifies 30 campaigns (about ten minutes on two idle cores)")
 class Seeds(unittest.TestCase):
-    SEEDS = range(101, 131)  # none that a setting was ever looked at with
+    SEEDS = range(101, 131)
+    OUT = ROOT / "results" / "scoring"
 
     def test_deviations_are_calibrated_and_modes_found(self):
-        out = ROOT / "results" / "scoring"
-        out.mkdir(parents=True, exist_ok=True)
-        given = os.environ.get("TWINDECK_CAMPAIGNS")  # folder with campaigns already made, cSEED/s0_campaign
-        lines, errors, found_all = ["seed,state,selection,named,found,lost,spurious"], [], {}
+        of_seed = {}
         with tempfile.TemporaryDirectory() as folder:
             workflow = campaign_of_two_states(pathlib.Path(folder))
             for seed in self.SEEDS:
-                results = pathlib.Path(given) / f"c{seed}" if given else pathlib.Path(folder) / str(seed)
-                if not (results / "s0_campaign" / "manifest.json").exists():
-                    run("s0_campaign", "--study", workflow, "--out", results / "s0_campaign", "--threads", 2, "--seed", seed)
-                for selection in ("automatic", "paper"):
-                    identified = pathlib.Path(folder) / "identified" / selection
-                    run("s3_identification", "--study", STUDY, "--campaign", results / "s0_campaign", "--out", identified, "--threads", 2,
-                        "--set", f"selection={selection}")
-                    for state in STATES[:2]:
-                        score = campaign_score.score(results / "s0_campaign", identified, state, state == STATES[0])
-                        lost = " ".join(m.name for m in score.named if not m.good)
-                        lines.append(f"{seed},{state},{selection},{len(score.named)},{len(score.good)},{lost},{len(score.spurious)}")
-                        found_all.setdefault((state, selection), []).append((len(score.good), len(score.spurious)))
-                        if selection == "automatic":
-                            errors += [(seed, state, m.name, m.frequency_error, m.damping_error) for m in score.named if m.found]
-                if not given:
-                    shutil.rmtree(results)
-        (out / "identification_recall.csv").write_text("\n".join(lines) + "\n")
-        (out / "identification_errors.csv").write_text("\n".join(["seed,state,mode,frequency_error,damping_error"] + [
-            f"{a},{b},{c},{d:.4f},{e:.4f}" for a, b, c, d, e in errors]) + "\n")
-        deviation = {what: np.std([e[k] for e in errors]) for k, what in ((3, "frequency"), (4, "damping"))}
-        draw(errors, deviation, out / "identification_errors.png")
-        for key, counts in found_all.items():
-            print(*key, "found", np.bincount([c[0] for c in counts]).tolist(), "spurious in all", sum(c[1] for c in counts))
+                of_seed[seed] = self.kept(seed, lambda n: self.scored(n, workflow, pathlib.Path(folder)))
+                self.write(of_seed)
+        lines = [line for one in of_seed.values() for line in one["recall"]]
+        errors = np.array([e[3:] for one in of_seed.values() for e in one["errors"]])
+        deviation = dict(zip(("frequency", "damping"), errors.std(axis=0)))
+        draw(errors, deviation, self.OUT / "identification_errors.png")
+
+        def mean(state, selection, column):
+            return np.mean([line[column] for line in lines if line[1:3] == [state, selection]])
+        for state in STATES[:2]:
+            for selection in ("automatic", "paper"):
+                print(state, selection, "found", mean(state, selection, 4), "spurious", mean(state, selection, 6))
         print("standard deviation of normalised errors", deviation)
         for what, value in deviation.items():
             self.assertTrue(0.8 <= value <= 1.25, (what, value))
         # A damping error beyond three standard deviations from 30 blocks happens to one mode in 180 (Student's law), to twice as many where
         # stays' modes lie within the bandwidth: one row of Table 4 in forty may fail, over all campaigns.
-        self.assertGreaterEqual(np.mean([c[0] for c in found_all["without_dampers", "automatic"]]), 9.75)
-        self.assertGreaterEqual(np.mean([c[0] for c in found_all["with_dampers", "automatic"]]), 8.75)
-        self.assertLessEqual(np.mean([c[1] for state in STATES[:2] for c in found_all[state, "automatic"]]), 0.1)
+        self.assertGreaterEqual(mean(STATES[0], "automatic", 4), 9.75)
+        self.assertGreaterEqual(mean(STATES[1], "automatic", 4), 8.75)
+        self.assertLessEqual(np.mean([mean(state, "automatic", 6) for state in STATES[:2]]), 0.1)
+
+    def kept(self, seed, work):
+        """What `work` makes of a seed; if it was made before by the same sources and settings, that. So an interrupted run goes on."""
+        file, stamp = self.OUT / "seeds" / f"{seed}.json", stamp_of_what_decides()
+        if file.exists() and (before := json.loads(file.read_text()))["stamp"] == stamp:
+            return before
+        done = {"stamp": stamp, **work(seed)}
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(done))
+        return done
+
+    @staticmethod
+    def scored(seed, workflow, folder):
+        given = os.environ.get("TWINDECK_CAMPAIGNS")  # folder with campaigns already made, cSEED/s0_campaign
+        results = pathlib.Path(given) / f"c{seed}" if given else folder / str(seed)
+        if not (results / "s0_campaign" / "manifest.json").exists():
+            run("s0_campaign", "--study", workflow, "--out", results / "s0_campaign", "--threads", 2, "--seed", seed)
+        recall, errors = [], []
+        for selection in ("automatic", "paper"):
+            identified = folder / "identified" / selection
+            run("s3_identification", "--study", STUDY, "--campaign", results / "s0_campaign", "--out", identified, "--threads", 2,
+                "--set", f"selection={selection}")
+            for state in STATES[:2]:
+                score = campaign_score.score(results / "s0_campaign", identified, state, state == STATES[0])
+                lost = " ".join(m.name for m in score.named if not m.good)
+                recall.append([seed, state, selection, len(score.named), len(score.good), lost, len(score.spurious)])
+                if selection == "automatic":
+                    errors += [[seed, state, m.name, m.frequency_error, m.damping_error] for m in score.named if m.found]
+        if not given:
+            shutil.rmtree(results)
+        return {"recall": recall, "errors": errors}
+
+    def write(self, of_seed):
+        """Tables of the seeds so far, which the report shows."""
+        for name, header in (("recall", "seed,state,selection,named,found,lost,spurious"), ("errors", "seed,state,mode,frequency_error,damping_error")):
+            text = "".join(",".join(f"{v:.4f}" if isinstance(v, float) else str(v) for v in row) + "\n" for one in of_seed.values() for row in one[name])
+            (self.OUT / f"identification_{name}.csv").write_text(header + "\n" + text)
+
+
+def stamp_of_what_decides():
+    """Of the sources and settings that campaign, identification and score are made by."""
+    content = hashlib.sha256()
+    folders = ("src/sysid", "src/signal", "src/steps/identification", "src/steps/campaign")
+    files = [f for folder in folders for f in sorted((ROOT / folder).glob("*.?pp"))]
+    for file in [*files, STUDY / "s0_campaign.toml", STUDY / "s3_identification.toml", pathlib.Path(campaign_score.__file__)]:
+        content.update(file.read_bytes())
+    return content.hexdigest()
 
 
 def campaign_of_two_states(folder):
@@ -167,8 +199,8 @@ def draw(errors, deviation, file):
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(1, 2, figsize=(8, 3), sharey=True)
     x = np.linspace(-4, 4, 200)
-    for axis, k, what in zip(axes, (3, 4), ("frequency", "damping")):
-        axis.hist([e[k] for e in errors], bins=np.arange(-4, 4.1, 0.4), density=True, color="0.75")
+    for axis, own, what in zip(axes, errors.T, ("frequency", "damping")):
+        axis.hist(own, bins=np.arange(-4, 4.1, 0.4), density=True, color="0.75")
         axis.plot(x, np.exp(-x**2 / 2) / math.sqrt(2 * math.pi), color="C0")
         axis.set_title(f"{what}: {len(errors)} errors, standard deviation {deviation[what]:.2f}", fontsize=9)
         axis.set_xlabel("error / standard deviation")

@@ -114,7 +114,7 @@ std::vector<DecayResult> identify_free_decays(const Campaign& campaign, const st
     const Eigen::VectorXd scale = channel_rms(conditioned.records);
     const auto wanted = static_cast<Index>(std::lround(config.decay_length_s * conditioned.rate_Hz));
     const auto skipped = static_cast<Index>(std::lround(config.decay_start_s * conditioned.rate_Hz));
-    std::vector<Eigen::MatrixXd> whole, pieces;
+    std::vector<Eigen::MatrixXd> whole, pieces, quiet;
     Index length = wanted;
     for (const Eigen::MatrixXd& record : conditioned.records) {
       const Index from = std::min(release_sample(record, conditioned.rate_Hz) + skipped, record.rows() - 1);
@@ -122,10 +122,17 @@ std::vector<DecayResult> identify_free_decays(const Campaign& campaign, const st
       length = std::min(length, whole.back().rows());
     }
     for (const Eigen::MatrixXd& decay : whole) pieces.emplace_back(decay.topRows(length) * scale.cwiseInverse().asDiagonal());
+    // The last half of a record that is long enough shows what moves the bridge when the decay is over.
+    for (const Eigen::MatrixXd& decay : whole) {
+      if (decay.rows() >= 2 * length) {
+        const Eigen::MatrixXd rest = decay.bottomRows(decay.rows() / 2) * scale.cwiseInverse().asDiagonal();
+        quiet.emplace_back(rest.rowwise() - rest.colwise().mean());
+      }
+    }
     sysid::IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
     options.block_rows = config.decay_block_rows;
     options.maximum_order = static_cast<int>(config.decay_maximum_order);
-    result.found = sysid::identify_decays(pieces, conditioned.rate_Hz, options, seed);
+    result.found = sysid::identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
     to_physical_shapes(result.found, conditioned.channels, scale);
     const ConditionResult* ambient = condition_named(results, group.condition);
     for (std::size_t i = 0; i < whole.size(); ++i) {
