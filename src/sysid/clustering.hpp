@@ -20,9 +20,7 @@ struct Cluster {
   std::size_t representative = 0;    ///< the member nearest to the medians, in units of the scatter
   double frequency_Hz = 0.0;         ///< median of the members
   double damping_ratio = 0.0;        ///< median of the members
-  /// Standard deviation over the members; where deviations are known, around the median over all orders that have the pole, weighted
-  /// by 1/variance.
-  double frequency_scatter_Hz = 0.0;
+  double frequency_scatter_Hz = 0.0;    ///< standard deviation over the members
   double damping_ratio_scatter = 0.0;
   Eigen::VectorXcd shape;            ///< median of the members' shapes, phases aligned, normalised
 };

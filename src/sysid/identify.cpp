@@ -74,30 +74,19 @@ Identification select(const ShiftModels& models, const IdentifyOptions& options)
 }
 
 /// Orders at which a pole has split in two know either half badly. Those known worse than twice the lower quartile do not speak
-/// for the mode's values, but by the weight of their variance for how far these hang on the order.
+/// for the mode.
 void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors) {
   for (Cluster& mode : result.modes) {
-    const std::vector<std::size_t> all = mode.members;
     std::vector<double> deviations;
-    for (const std::size_t i : all) deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
+    for (const std::size_t i : mode.members) deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
     std::vector<double> sorted = deviations;
     std::sort(sorted.begin(), sorted.end());
-    const double quartile = std::max(sorted[sorted.size() / 4], 1e-300);
+    const double most = 2.0 * sorted[sorted.size() / 4];
     std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (deviations[k] <= 2.0 * quartile) kept.push_back(all[k]);
+    for (std::size_t k = 0; k < deviations.size(); ++k) {
+      if (deviations[k] <= most) kept.push_back(mode.members[k]);
     }
     mode = summarise(result.diagram, std::move(kept));
-    double weights = 0.0, frequency = 0.0, damping = 0.0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const Pole& pole = result.diagram[all[k]].pole;
-      const double weight = std::pow(quartile / std::max(deviations[k], quartile), 2);
-      weights += weight;
-      frequency += weight * std::pow(pole.frequency_Hz - mode.frequency_Hz, 2);
-      damping += weight * std::pow(pole.damping_ratio - mode.damping_ratio, 2);
-    }
-    mode.frequency_scatter_Hz = std::sqrt(frequency / weights);
-    mode.damping_ratio_scatter = std::sqrt(damping / weights);
   }
 }
 
