@@ -56,6 +56,45 @@ TEST(Era, DeviationsAreCalibratedForNoisyDecays) {
   errors.expect_between(0.75, 1.3);
 }
 
+/// Of the modes found, the ones nearest to the chain's.
+Identification nearest_to(const test::Chain& chain, const Identification& found) {
+  Identification nearest;
+  for (int r = 0; r < chain.size(); ++r) {
+    const auto distance = [&](const Cluster& mode) { return std::abs(mode.frequency_Hz - chain.frequency_Hz(r)); };
+    const auto at = std::min_element(found.modes.begin(), found.modes.end(),
+                                     [&](const Cluster& a, const Cluster& b) { return distance(a) < distance(b); });
+    nearest.modes.push_back(*at);
+    nearest.deviations.push_back(found.deviations[static_cast<std::size_t>(at - found.modes.begin())]);
+  }
+  return nearest;
+}
+
+// A decay on top of ambient vibration of the same modes: the deviations hold with a record of that vibration to tell how strong
+// it is, and are far too small without, for the model takes part of the vibration for decay.
+TEST(Era, DeviationsAreCalibratedForDecaysUnderAmbientVibration) {
+  const double rate = 20.0, zeta = 0.02, level = 0.02;
+  const test::Chain chain(3, 10.0, zeta, rate);
+  IdentifyOptions options;
+  options.block_rows = 40;
+  options.minimum_order = 6;
+  options.maximum_order = 16;
+  test::NormalisedErrors with, without;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Eigen::MatrixXd ambient = level * chain.simulate(240 + 600, seed, 0.05);
+    const std::vector<Eigen::MatrixXd> decays = {decay(chain, zeta, rate, 240, 0.0, seed) + ambient.topRows(240)};
+    const Identification found = identify_decays(decays, rate, options, seed, {ambient.bottomRows(600)});
+    const Identification blind = identify_decays(decays, rate, options, seed);
+    ASSERT_GE(found.modes.size(), 3U) << "seed " << seed;
+    ASSERT_GE(blind.modes.size(), 3U) << "seed " << seed;
+    with.add(nearest_to(chain, found), chain, zeta);
+    without.add(nearest_to(chain, blind), chain, zeta);
+  }
+  // As above; a quiet record of 30 s has about six lines within a mode's bandwidth: another 20 % of a deviation, which is one
+  // for all.
+  with.expect_between(0.7, 1.4);
+  without.expect_between(2.0, 1e3);
+}
+
 TEST(Era, TooShortADecayIsRefused) {
   const test::Chain chain(2, 10.0, 0.02, 20.0);
   EXPECT_THROW(static_cast<void>(era({decay(chain, 0.02, 20.0, 30, 0.0, 1)}, 20, {6}, 20.0, 1)), InputError);
