@@ -61,7 +61,7 @@ REPORT_ARGUMENTS = --study $(STUDY) --results $(RESULTS) --data $(PAPER)
 $(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) workflows/python.sh
 	@$(REPORT) tables $(REPORT_ARGUMENTS)
 
-$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) workflows/python.sh
+$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(wildcard results/scoring/*.csv) workflows/python.sh
 	@$(REPORT) figures $(REPORT_ARGUMENTS)
 
 $(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json
