@@ -229,11 +229,15 @@ class Identification(unittest.TestCase):
             self.assertLess(std, 2e-3)
 
     def test_bad_input_is_refused_in_one_line(self):
-        nan, dead = self.data[:20000].copy(), self.data[:20000].copy()
+        nan, dead, clipped = (self.data[:20000].copy() for _ in range(3))
         nan[700:720, 2] = np.nan
         dead[:, 3] = 1.5
-        cases = [("nan", nan, {}, [], "c03: has a gap of 20 samples from sample 700 on"),
-                 ("dead", dead, {}, [], "c04: is constant (1.5)"),
+        limit = 0.6 * abs(clipped[:, 1]).max()
+        clipped[:, 1] = np.clip(clipped[:, 1], -limit, limit)
+        cases = [("nan", nan, {}, [], "records/ST1/record.npy: c03: has a gap of 20 samples from sample 700 on"),
+                 ("dead", dead, {}, [], "records/ST1/record.npy: c04: is constant (1.5) over 20000 samples; leave the channel out"),
+                 ("clipped", clipped, {}, [], "records/ST1/record.npy: c02: stands at its largest or smallest value over"),
+                 ("name", self.data[:20000], {"toml": "WRONG_NAME"}, [], "campaign.toml:1: channels: channel 'c4' is not in channels.csv (did you mean 'c04'?)"),
                  ("setup", self.data[:20000], {}, ["setup=ST9"], "no record has setup 'ST9'"),
                  ("reference", self.data[:20000], {}, ['references=["c99"]'], "'c99' is no channel of the record"),
                  ("short", self.data[:3000], {}, ["welch_segment=256"], "cut the record of 300 samples into 20 blocks of 15"),
@@ -243,10 +247,12 @@ class Identification(unittest.TestCase):
                  ("condition", self.data[:20000], {"conditions": "[low_no_damper]\n"}, [], "did you mean 'low_no_damper'?")]
         for name, data, options, sets, expected in cases:
             with self.subTest(name):
-                csv_clock = options.pop("toml", "") == "CSV_CLOCK"
+                wrong = options.pop("toml", "")
                 write_campaign(self.folder / name, data, **options)
-                if csv_clock:  # a second clock: the file's own time stamps run at half the rate of campaign.toml
-                    toml = self.folder / name / "campaign.toml"
+                toml = self.folder / name / "campaign.toml"
+                if wrong == "WRONG_NAME":
+                    toml.write_text(toml.read_text().replace('"c04"', '"c4"'))
+                if wrong == "CSV_CLOCK":  # a second clock: the file's own time stamps run at half the rate of campaign.toml
                     toml.write_text(toml.read_text().replace("record.npy", "record.csv"))
                     np.savetxt(self.folder / name / "records" / "ST1" / "record.csv", np.column_stack([np.arange(2000) / 50, data[:2000]]),
                                delimiter=",", header=",".join(["time_s", *CHANNELS]), comments="")
@@ -255,7 +261,19 @@ class Identification(unittest.TestCase):
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertIn(expected, done.stderr)
+                self.assertRegex(done.stderr, r"; \w.{10,}$", "how to mend it")
                 self.assertFalse(out.exists())
+
+    def test_a_clipped_channel_is_read_when_asked(self):
+        data = self.data[:20000].copy()
+        limit = 0.6 * abs(data[:, 1]).max()
+        data[:, 1] = np.clip(data[:, 1], -limit, limit)
+        write_campaign(self.folder / "driven", data)
+        done = identify(self.folder / "driven", self.folder / "driven_out", "welch_segment=1024", "largest_clipping=0.1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        counts = {q["channel"]: int(q["clipped"]) for q in rows(self.folder / "driven_out" / "features" / "quality.csv")}
+        self.assertGreater(counts["c02"], 100)
+        self.assertEqual({counts[c] for c in CHANNELS if c != "c02"}, {0})
 
     def test_a_gap_is_bridged_and_a_dead_channel_left_out_when_asked(self):
         data = self.data.copy()

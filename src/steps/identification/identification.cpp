@@ -62,12 +62,22 @@ void choose_references(Conditioned& conditioned, const std::vector<std::string>&
   }
 }
 
-void refuse_dead(const std::vector<ChannelQuality>& quality, const std::vector<CampaignChannel>& used) {
+/// Channels that are used must move, and within their range.
+void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vector<CampaignChannel>& used, double clipping) {
   for (const ChannelQuality& q : quality) {
     const bool is_used = std::any_of(used.begin(), used.end(), [&](const auto& c) { return c.name == q.channel; });
-    if (q.dead && is_used) {
-      throw InputError({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples),
-                       "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'");
+    if (!is_used) continue;
+    const std::string without = "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'";
+    if (q.dead) {
+      throw InputError({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples), without);
+    }
+    const double share = static_cast<double>(q.clipped) / static_cast<double>(q.samples);
+    if (share > clipping) {
+      throw InputError({q.record, 0, q.channel},
+                       fmt::format("stands at its largest or smallest value over {} of {} samples ({:.3g} %), expected at most "
+                                   "{:.3g} %: it was driven past its range",
+                                   q.clipped, q.samples, 100.0 * share, 100.0 * clipping),
+                       without + fmt::format(", or allow it (--set largest_clipping={:.2g})", 1.1 * share));
     }
   }
 }
@@ -111,8 +121,8 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
     const auto quality =
         channel_quality(raw, record.channels, record.setup, record.file.lexically_relative(campaign.folder).generic_string());
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
-    refuse_dead(quality, conditioned.channels);
-    refuse_dead(quality, conditioned.inputs);
+    refuse_unusable(quality, conditioned.channels, config.largest_clipping);
+    refuse_unusable(quality, conditioned.inputs, config.largest_clipping);
     conditioned.records.push_back(ready(raw, columns, names, record.file.string()));
     if (!input_columns.empty()) conditioned.excitation.push_back(ready(raw, input_columns, input_names, record.file.string()));
   }

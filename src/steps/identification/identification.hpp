@@ -25,6 +25,7 @@ struct IdentificationConfig {
   std::vector<std::string> setups, references, exclude;
   long decimation = 1, block_rows = 30, minimum_order = 2, maximum_order = 60, order_step = 2, blocks = 20, longest_gap = 0;
   long welch_segment = 2048;
+  double largest_clipping = 1e-3;
   double lowest_Hz = 0.0,
          highest_Hz = 0.0;  ///< highest 0: 0.8 of the Nyquist frequency after decimation, the filter's passband
   sysid::StabilisationCriteria criteria;
@@ -59,7 +60,7 @@ struct Conditioned {
 };
 
 /// Reads, judges, repairs as asked, detrends and decimates.
-/// @throws InputError  for a gap that is not to be filled, a dead channel, an unknown reference, no response channel
+/// @throws InputError  for a gap that is not to be filled, a dead or clipped channel, an unknown reference, no response channel
 [[nodiscard]] Conditioned condition_records(const Campaign& campaign, const RecordGroup& group,
                                             const IdentificationConfig& config, Eigen::Index decimation);
 
