@@ -52,10 +52,9 @@ Comparison compare(const SetupModes& a, std::size_t p, const SetupModes& b, std:
 }
 
 /// Alike by the rule, or as far as the deviations can tell: a mode that hardly moves the common channels has no shape there to
-/// speak of.
+/// speak of, and one that a setup hardly shows may lie further off.
 bool may_be_one(const Comparison& shapes, double df_Hz, double deviation_Hz, double df, const MergingRule& rule) {
-  if (df >= rule.frequency) return false;
-  if (shapes.mac >= rule.mac) return true;
+  if (df < rule.frequency && shapes.mac >= rule.mac) return true;
   return df_Hz <= 3.0 * deviation_Hz && 1.0 - shapes.mac <= rule.noise * shapes.noise;
 }
 
