@@ -24,6 +24,15 @@ double tempered(const Scored& scored, double ratio) {
   return scored.log_odds < -1e299 ? -1e300 : (scored.log_odds - prior) / ratio + prior;
 }
 
+/// What is known beforehand does not widen with the misfit: an entry to which a study gives more weight than the catalogue does leads
+/// where its odds are the largest once the likelihoods are widened.
+void prefer_stated_priors(std::vector<Scored>& ranking, double ratio) {
+  auto best = ranking.begin();
+  for (auto at = ranking.begin(); at != ranking.end(); ++at)
+    if (at->candidate->hypothesis->prior_weight > 1.0 && tempered(*at, ratio) > tempered(*best, ratio)) best = at;
+  std::rotate(ranking.begin(), best, best + 1);
+}
+
 /// Entries that these data can't tell from the best.
 std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double ratio, const DiagnoseOptions& options) {
   std::vector<const Scored*> members;
@@ -187,6 +196,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
         ratio = birge(ranking.front(), inference.dof());
       }
     }
+    prefer_stated_priors(ranking, ratio);
     if (step == 0) {
       out.ranking = ranking;
       out.log_odds = tempered(ranking.front(), ratio);

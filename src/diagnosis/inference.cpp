@@ -378,8 +378,10 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
     const double near = first.log_odds - std::max(options.refine_within, 0.3 * first.log_odds);
     std::vector<Scored*> siblings;
     const auto rivals_at_a_damper = [&](const Scored& other) {  // what a damper can have wrong shows alike
-      const std::string& set = first.candidate->hypothesis->set;
-      return set.starts_with("damper") && other.stage < 3 && other.candidate->location == first.candidate->location;
+      const auto lead = std::find_if(found.begin(), found.end(), [&](const Scored& s) {
+        return s.stage == 3 && s.candidate->hypothesis->set.starts_with("damper") && (&s == &first || s.candidate->hypothesis->prior_weight > 1.0);
+      });
+      return lead != found.end() && other.stage < 3 && other.candidate->location == lead->candidate->location;
     };
     for (Scored& scored : found)
       if (rivals_at_a_damper(scored)) siblings.push_back(&scored);
