@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "core/error.hpp"
@@ -56,6 +57,26 @@ std::string unmet(const Needs& needs, const FeatureSet& features) {
 }
 
 bool resolvable(const Candidate& candidate);
+
+/// Range that a stay's first frequency can have. Where it was measured: three deviations about it. Otherwise wide about what
+/// the modelled pull gives. Nothing for a stay of which neither is known.
+std::map<std::string, double> own_frequency(const Candidate& candidate, const FeatureSet& features) {
+  double weights = 0.0, mean = 0.0;
+  for (const Row& row : features.rows) {
+    if (row.type != RowType::stay_frequency || "stay:" + row.stay != candidate.location || !(row.std > 0.0)) continue;
+    const double number = std::max(1.0, std::atof(row.mode.c_str()));  // the n-th is n times the first
+    const double weight = std::pow(row.value / row.std, 2);
+    weights += weight;
+    mean += weight * std::log(row.value / number);
+  }
+  if (weights > 0.0) {
+    const double f = std::exp(mean / weights), spread = std::max(3.0 / std::sqrt(weights), 0.02);
+    return {{"f_own", f}, {"f_own_low", f * std::exp(-spread)}, {"f_own_high", f * std::exp(spread)}};
+  }
+  const auto modelled = candidate.places[0]->attributes.find("f_cable");
+  if (modelled == candidate.places[0]->attributes.end()) return {};
+  return {{"f_own", modelled->second}, {"f_own_low", 0.6 * modelled->second}, {"f_own_high", 1.6 * modelled->second}};
+}
 
 /// Locations of a set before bounds and priors.
 std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model, const FeatureSet& features) {
@@ -128,6 +149,8 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
   } else if (const auto at = model.sets.find(h.set); at != model.sets.end()) {
     for (const ReducedPlace& place : at->second) add(place.id).places = {&place};
   }
+  if (h.set == "stays")
+    for (Candidate& candidate : found) candidate.own = own_frequency(candidate, features);
   // A factor needs something to scale.
   const auto nothing_there = [&](const Candidate& candidate) {
     for (const ActionSpec& action : h.actions) {
@@ -148,7 +171,8 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
 std::optional<double> attribute_if(const Candidate& candidate, const Expression& e) {
   static const std::set<std::string> known = {"damping", "stiffness", "series",     "k_drive",    "cable_mass", "length",
                                               "pull",    "f_cable",   "deck_mass", "total_mass", "always_on",  "friction", "type",
-                                              "f_low",   "f_soft",    "f_stiff", "f_high"};
+                                              "f_low",   "f_soft",    "f_stiff", "f_high", "f_own", "f_own_low", "f_own_high"};
+  if (const auto at = candidate.own.find(e.name); at != candidate.own.end()) return at->second;
   for (const ReducedPlace* place : candidate.places) {
     const auto at = place->attributes.find(e.name);
     if (at != place->attributes.end()) return at->second;
@@ -169,12 +193,22 @@ bool resolvable(const Candidate& candidate) {
   });
 }
 
-void bound(Candidate& candidate, const std::vector<double>& measured_Hz) {
+/// Modes of the condition that has most of them: where something may resonate.
+struct MeasuredModes {
+  int condition = -1;
+  std::vector<std::pair<std::string, double>> modes;  ///< label, frequency [Hz]
+};
+
+void bound(Candidate& candidate, const MeasuredModes& measured) {
   const Hypothesis& h = *candidate.hypothesis;
   const auto k = static_cast<Index>(h.unknowns.size());
   candidate.low.resize(k);
   candidate.high.resize(k);
-  std::vector<std::vector<double>> start;
+  struct Start {
+    double value;
+    Tuning tuning;
+  };
+  std::vector<std::vector<Start>> start;
   for (Index i = 0; i < k; ++i) {
     const UnknownSpec& u = h.unknowns[static_cast<std::size_t>(i)];
     const auto resolve = [&](const Expression& e) { return e.name.empty() ? e.factor : e.factor * attribute(candidate, e); };
@@ -188,27 +222,36 @@ void bound(Candidate& candidate, const std::vector<double>& measured_Hz) {
     candidate.log.push_back(u.log);
     candidate.low[i] = u.log ? std::log(low) : low;
     candidate.high[i] = u.log ? std::log(high) : high;
-    std::vector<double> values;
-    std::vector<double> tried;
+    std::vector<Start> tried, values;
     for (const Expression& e : u.start) {
-      if (e.name == "f_measured") for (const double f : measured_Hz) tried.push_back(e.factor * f);
-      else tried.push_back(resolve(e));
+      if (e.name == "f_measured") {
+        candidate.tuned = static_cast<int>(i);
+        for (const auto& [label, f] : measured.modes) tried.push_back({e.factor * f, {label, measured.condition, e.factor}});
+      } else {
+        tried.push_back({resolve(e), {}});
+      }
     }
-    for (const double v : tried) {
-      if (v > low && v < high) values.push_back(u.log ? std::log(v) : v);
+    for (Start s : tried) {
+      if (!(s.value > low && s.value < high)) continue;
+      if (u.log) s.value = std::log(s.value);
+      values.push_back(s);
     }
-    if (values.empty()) values = {0.5 * (candidate.low[i] + candidate.high[i])};
+    if (values.empty()) values = {{0.5 * (candidate.low[i] + candidate.high[i]), {}}};
     start.push_back(values);
   }
   candidate.starts = {Eigen::VectorXd(k)};
+  candidate.tuning = {Tuning{}};
   for (Index i = 0; i < k; ++i) {
     std::vector<Eigen::VectorXd> grown;
-    for (const Eigen::VectorXd& a : candidate.starts)
-      for (const double v : start[static_cast<std::size_t>(i)]) {
-        grown.push_back(a);
-        grown.back()[i] = v;
+    std::vector<Tuning> tuning;
+    for (std::size_t n = 0; n < candidate.starts.size(); ++n)
+      for (const Start& s : start[static_cast<std::size_t>(i)]) {
+        grown.push_back(candidate.starts[n]);
+        grown.back()[i] = s.value;
+        tuning.push_back(s.tuning.mode.empty() ? candidate.tuning[n] : s.tuning);
       }
     candidate.starts = grown;
+    candidate.tuning = tuning;
   }
 }
 
@@ -231,12 +274,12 @@ double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
 Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model, const FeatureSet& features) {
   Instantiated out;
   double weights = 0.0;
-  std::vector<double> measured;  // frequencies of the condition with most of them: where something may resonate
+  MeasuredModes measured;
   for (std::size_t c = 0; c < features.conditions.size(); ++c) {
-    std::vector<double> here;
+    MeasuredModes here{static_cast<int>(c), {}};
     for (const Row& row : features.rows)
-      if (row.condition == static_cast<int>(c) && row.type == RowType::frequency) here.push_back(row.value);
-    if (here.size() > measured.size()) measured = here;
+      if (row.condition == here.condition && row.type == RowType::frequency) here.modes.emplace_back(row.mode, row.value);
+    if (here.modes.size() > measured.modes.size()) measured = here;
   }
   std::vector<std::vector<Candidate>> families;
   for (const Hypothesis& h : catalogue) {

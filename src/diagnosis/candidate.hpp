@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,13 @@
 #include "diagnosis/reduced_model.hpp"
 
 namespace twindeck::diagnosis {
+
+/// A start that is tuned to a measured mode: `factor` times its frequency, wherever the model has that mode at the time.
+struct Tuning {
+  std::string mode;  ///< label, "" for a start that is not tuned
+  int condition = -1;
+  double factor = 1.0;
+};
 
 /// A hypothesis at a location: an entry of the catalogue for this model and these data.
 struct Candidate {
@@ -21,6 +29,9 @@ struct Candidate {
   Eigen::VectorXd low, high;              ///< (k) bounds of the unknowns, in ln where they are logarithmic
   std::vector<bool> log;
   std::vector<Eigen::VectorXd> starts;    ///< magnitudes that the screen tries, in the same coordinates
+  std::map<std::string, double> own;      ///< numbers that the rows say of the place: f_own, f_own_low, f_own_high of a stay
+  int tuned = -1;                         ///< unknown that is a frequency tuned to measured modes, -1 for none
+  std::vector<Tuning> tuning;             ///< (n_starts) where there is one
   double log_prior = 0.0;                 ///< ln (weight of the family / sum of weights / number of locations)
 
   [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }

@@ -22,6 +22,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
       {"damper.move", {}},                                                // to where the study says that it might stand
       {"frequency.amplitude", {"curvature"}},                             // f (1 + curvature A²)
       {"damping.add", {"ratio"}},                                         // of critical
+      {"stay.pull", {"factor"}},                                          // of its tension: its frequency goes with the root
       {"stay.frequency", {"factor"}},                                     // of a stay's own frequencies
       {"channel.gain", {"factor"}},
       {"channel.sign", {}},

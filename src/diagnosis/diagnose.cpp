@@ -149,6 +149,20 @@ void check_backwards(const Inference& inference, Fit& current, std::vector<Effec
   }
 }
 
+/// The lowest fit of the same causes from where the best entries left x. A better optimiser must not look like a better model:
+/// modes that change partners make valleys beside each other, and an entry may have found the way into a deeper one.
+Fit lowest_from(const Inference& inference, const Fit& current, const std::vector<Scored>& ranking) {
+  Fit lowest = current;
+  int tried = 0;
+  for (const Scored& scored : ranking) {
+    if (scored.x.size() == 0) continue;
+    if (tried++ == 3) break;
+    Fit again = inference.fit(current.causes, scored.x);
+    if (again.chi_squared < lowest.chi_squared) lowest = std::move(again);
+  }
+  return lowest;
+}
+
 }  // namespace
 
 double tempered_log_odds(const Scored& best, int dof) { return tempered(best, birge(best, dof)); }
@@ -183,19 +197,16 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     ranking = inference.search(current, options.search);
     if (ranking.empty()) break;
     double ratio = birge(ranking.front(), inference.dof());
-    if (tempered(ranking.front(), ratio) > -2.0 && step == 0) {
-      // A better optimiser must not look like a better model: the base again, from where the best cause left it.
-      std::vector<Cause> causes = current.causes;
-      causes.push_back({ranking.front().candidate, ranking.front().a});
-      const Fit with = inference.fit(causes, current.map.x.head(n));
-      const Fit again = inference.fit(current.causes, with.map.x.head(n));
-      if (again.chi_squared + 1.0 < current.chi_squared) {
-        current = again;
-        out.before = again;
-        ranking = inference.search(current, options.search);
-        ratio = birge(ranking.front(), inference.dof());
-      }
+    for (int guard = 0; guard < 2 && tempered(ranking.front(), ratio) > -2.0; ++guard) {
+      Fit lower = lowest_from(inference, current, ranking);
+      if (!(lower.chi_squared + 1.0 < current.chi_squared)) break;
+      current = std::move(lower);
+      if (step == 0) out.before = current;
+      ranking = inference.search(current, options.search);
+      if (ranking.empty()) break;
+      ratio = birge(ranking.front(), inference.dof());
     }
+    if (ranking.empty()) break;
     prefer_stated_priors(ranking, ratio);
     if (step == 0) {
       out.ranking = ranking;
@@ -218,7 +229,8 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     effect.split_by = splitting_measurement(inference, current, members);
     std::vector<Cause> causes = current.causes;
     causes.push_back(effect.cause);
-    Fit extended = inference.fit(causes, current.map.x.head(n));
+    const VectorXd& fitted = ranking.front().x;
+    Fit extended = inference.fit(causes, fitted.size() > 0 ? fitted : VectorXd(current.map.x.head(n)));
     if (extended.chi_squared > 1e299) break;
     current = std::move(extended);
     out.effects.push_back(effect);

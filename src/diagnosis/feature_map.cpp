@@ -176,6 +176,12 @@ std::string FeatureMap::damping_name(const std::string& label, int condition) co
 void FeatureMap::set_values(const Eigen::VectorXd& values) {
   TWINDECK_ASSERT(values.size() == values_.size());
   values_ = values;
+  for (std::size_t r = 0; r < features_.rows.size(); ++r) {
+    Row& row = features_.rows[r];
+    const double value = is_logarithmic(row.type) ? std::exp(values[static_cast<Index>(r)]) : values[static_cast<Index>(r)];
+    if (is_logarithmic(row.type)) row.std *= value / row.value;  // deviations are relative there
+    row.value = value;
+  }
   for (MeasuredMode& mode : modes_)
     if (mode.frequency >= 0) mode.frequency_Hz = std::exp(values_[mode.frequency]);
 }

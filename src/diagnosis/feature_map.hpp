@@ -70,6 +70,7 @@ class FeatureMap {
     Eigen::VectorXd x, theta;
     Eigen::MatrixXd stiffness, mass;  ///< (r × r)
     std::shared_ptr<struct StateStore> store;
+    bool keeps = false;  ///< states with causes are kept too: for the same causes predicted again
   };
   [[nodiscard]] Base base(const Eigen::VectorXd& x) const;
   [[nodiscard]] Prediction predict(const Base& base, const std::vector<Cause>& causes, bool with_jacobian) const;

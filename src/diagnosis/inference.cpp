@@ -99,7 +99,7 @@ MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>&
   return out;
 }
 
-Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start) const {
+Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int iterations) const {
   const auto n = static_cast<Index>(map_.nuisances().size());
   Index k = 0;
   for (const Cause& cause : causes) k += cause.a.size();
@@ -130,8 +130,13 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start) cons
       for (Index i = 0; i < cause.a.size(); ++i, ++p) cause.a[i] = middle[p] + width[p] * x[n + p];
     return moved;
   };
+  // A step that is taken is predicted twice, without derivatives and with them: both share the solved states.
+  FeatureMap::Base base;
   const auto predict = [&](const VectorXd& x, VectorXd& g, MatrixXd* jacobian, MatrixXd* scales) {
-    const FeatureMap::Base base = map_.base(x.head(n));
+    if (base.x.size() != n || base.x != x.head(n)) {
+      base = map_.base(x.head(n));
+      base.keeps = true;
+    }
     const std::vector<Cause> moved = causes_at(x);
     const Prediction p = map_.predict(base, moved, jacobian != nullptr);
     if (!p.valid) return false;
@@ -149,7 +154,9 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start) cons
     return true;
   };
   Fit fit;
-  fit.map = updating::joint_map(predict, y_, sigma_factor_, x0, box);
+  updating::JointMapOptions options;
+  if (iterations > 0) options.max_iterations = iterations;
+  fit.map = updating::joint_map(predict, y_, sigma_factor_, x0, box, options);
   fit.causes = causes_at(fit.map.x);
   fit.base = map_.base(fit.map.x.head(n));
   fit.all = map_.predict(fit.base, fit.causes, true);
@@ -178,73 +185,6 @@ VectorXd Inference::signature(const Fit& base, const Candidate& candidate, const
   const Prediction p = map_.predict(base.base, causes, false);
   if (!p.valid) return {};
   return base.total_factor.triangularView<Eigen::Lower>().solve(pick(p.g - base.all.g, training_));
-}
-
-ScreenTable Inference::screen_table(const Fit& base) const {
-  std::vector<std::vector<VectorXd>> changes(candidates_.size());
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    for (const VectorXd& a : candidates_[i]->starts) {
-      std::vector<Cause> causes = base.causes;
-      causes.push_back({candidates_[i].get(), a});
-      const Prediction p = map_.predict(base.base, causes, false);
-      changes[i].push_back(p.valid ? VectorXd(p.g - base.all.g) : VectorXd());
-    }
-  }
-  ScreenTable table;
-  for (std::size_t i = 0; i < candidates_.size(); ++i) table.change[candidates_[i]->id()] = std::move(changes[i]);
-  return table;
-}
-
-Scored Inference::screen(const Fit& base, const Candidate& candidate, const std::vector<VectorXd>* from_table) const {
-  Scored best;
-  best.candidate = &candidate;
-  best.screen = -1e300;
-  for (std::size_t i = 0; i < candidate.starts.size(); ++i) {
-    VectorXd s;
-    if (from_table == nullptr)
-      s = signature(base, candidate, candidate.starts[i]);
-    else if (i < from_table->size() && (*from_table)[i].size() > 0)
-      s = base.total_factor.triangularView<Eigen::Lower>().solve(pick((*from_table)[i], training_));
-    if (s.size() == 0) continue;
-    const double along = s.dot(base.whitened), norm = s.squaredNorm();
-    if (!(norm > 1e-12)) continue;
-    const double scale = along / norm;
-    const double t = !candidate.low.size() || scale <= 0.0 || scale > 3.0 ? 2.0 * along - norm : along * along / norm;
-    if (t > best.screen) {
-      best.screen = t;
-      best.a = candidate.starts[i];
-      best.signature = s;
-    }
-  }
-  return best;
-}
-
-/// Candidates that are worth a new signature: those that the table shows best, and the best few of every family.
-std::vector<const Candidate*> Inference::promising(const Fit& base, const SearchOptions& options) const {
-  std::vector<const Candidate*> all;
-  for (const auto& candidate : candidates_)
-    if (std::none_of(base.causes.begin(), base.causes.end(),
-                     [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); }))
-      all.push_back(candidate.get());
-  if (table_ == nullptr) return all;
-  std::vector<std::pair<double, const Candidate*>> ranked;
-  for (const Candidate* candidate : all) {
-    const auto known = table_->change.find(candidate->id());
-    const double t = known == table_->change.end() ? 1e300 : screen(base, *candidate, &known->second).screen;
-    ranked.emplace_back(0.5 * t + candidate->log_prior, candidate);
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::map<std::string, std::size_t> of_family, starts;
-  for (const Candidate* candidate : all) starts[candidate->hypothesis->id] += candidate->starts.size();
-  std::vector<const Candidate*> chosen;
-  for (std::size_t i = 0; i < ranked.size(); ++i) {
-    const Hypothesis& family = *ranked[i].second->hypothesis;
-    // Families of few magnitudes, and those that leave the structure alone, cost little to compute anew.
-    const bool cheap = family.measurement || starts[family.id] <= 32;
-    if (of_family[family.id]++ < 2 || static_cast<int>(i) < options.tabled || cheap) chosen.push_back(ranked[i].second);
-  }
-  return chosen;
 }
 
 void Inference::fit_linearised(const Fit& base, Scored& scored) const {
@@ -302,13 +242,14 @@ void Inference::fit_linearised(const Fit& base, Scored& scored) const {
   }
 }
 
-void Inference::refine(const Fit& base, Scored& scored) const {
+void Inference::refine(const Fit& base, Scored& scored, const VectorXd& start, int iterations) const {
   std::vector<Cause> causes = base.causes;
   causes.push_back({scored.candidate, scored.a});
-  const Fit with = fit(causes, base.map.x);
+  const Fit with = fit(causes, start, iterations);
   if (with.chi_squared > 1e299) return;
-  scored.stage = 3;
+  scored.stage = iterations > 0 && !with.map.status.converged ? 2 : 3;
   scored.a = with.causes.back().a;
+  scored.x = with.map.x.head(static_cast<Index>(map_.nuisances().size()));
   const Index k = scored.a.size();
   // The new cause's own part of Sigma_tot is an unknown with a prior, not scatter: evidence is taken without it.
   const MatrixXd& j = with.map.jacobian;
@@ -332,71 +273,6 @@ void Inference::refine(const Fit& base, Scored& scored) const {
     for (Index i = 0; i < k; ++i) h(i, i) += 48.0 / (width[i] * width[i]);
     scored.a_covariance = h.ldlt().solve(MatrixXd::Identity(k, k));
   }
-}
-
-std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options) const {
-  // Candidates are held against the base one by one: the number of threads changes nothing.
-  const std::vector<const Candidate*> chosen = promising(base, options);
-  std::vector<Scored> all(chosen.size());
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < chosen.size(); ++i) all[i] = screen(base, *chosen[i], nullptr);
-  std::vector<Scored> found;
-  for (Scored& scored : all)
-    if (scored.signature.size() > 0) found.push_back(std::move(scored));
-  const auto promise = [](const Scored& s) { return 0.5 * s.screen + s.candidate->log_prior; };
-  std::stable_sort(found.begin(), found.end(), [&](const Scored& a, const Scored& b) { return promise(a) > promise(b); });
-  std::set<std::string> families;
-  int fitted = 0;
-  std::vector<Scored*> list;
-  for (Scored& scored : found) {
-    const bool new_family = !families.contains(scored.candidate->hypothesis->id);
-    const bool near = promise(scored) > promise(found.front()) - std::max(12.0, 0.3 * promise(found.front()));
-    if (fitted < options.short_list || (near && fitted < options.longest_list) ||
-        (new_family && scored.screen > options.family_screen)) {
-      list.push_back(&scored);
-      ++fitted;
-      families.insert(scored.candidate->hypothesis->id);
-    } else {
-      scored.log_odds = -1e300;
-    }
-  }
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < list.size(); ++i) fit_linearised(base, *list[i]);
-  const auto by_odds = [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; };
-  std::stable_sort(found.begin(), found.end(), by_odds);
-  if (!found.empty() && found.front().log_odds > -2.0) {
-    const double best = found.front().log_odds;
-    for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
-      Scored& scored = found[static_cast<std::size_t>(i)];
-      if (scored.log_odds > best - std::max(options.refine_within, 0.1 * best)) refine(base, scored);
-    }
-    std::stable_sort(found.begin(), found.end(), by_odds);
-    // A refitted entry stands above its neighbours that were weighed on the linearised base alone: the nearest of its family
-    // are refitted too, so that the place is chosen among equals.
-    int deepened = 0;
-    const Scored& first = found.front();
-    const double near = first.log_odds - std::max(options.refine_within, 0.3 * first.log_odds);
-    std::vector<Scored*> siblings;
-    const auto rivals_at_a_damper = [&](const Scored& other) {  // what a damper can have wrong shows alike
-      const auto lead = std::find_if(found.begin(), found.end(), [&](const Scored& s) {
-        return s.stage == 3 && s.candidate->hypothesis->set.starts_with("damper") && (&s == &first || s.candidate->hypothesis->prior_weight > 1.0);
-      });
-      return lead != found.end() && other.stage < 3 && other.candidate->location == lead->candidate->location;
-    };
-    for (Scored& scored : found)
-      if (rivals_at_a_damper(scored)) siblings.push_back(&scored);
-      else if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
-          scored.candidate->hypothesis == first.candidate->hypothesis) {
-        siblings.push_back(&scored);
-        ++deepened;
-      }
-    for (Scored* sibling : siblings) {
-      if (sibling->stage == 1) fit_linearised(base, *sibling);
-      refine(base, *sibling);
-    }
-    std::stable_sort(found.begin(), found.end(), by_odds);
-  }
-  return found;
 }
 
 }  // namespace twindeck::diagnosis

@@ -32,7 +32,9 @@ struct Scored {
   double log_odds = 0.0;  ///< ln posterior odds against nothing missing; only where fitted
   double chi_squared = 0.0;
   double remaining = 0.0;        ///< chi² that the best account with this cause leaves
-  int stage = 1;                 ///< 1 screened, 2 fitted on the linearised base, 3 with the base fitted again
+  int stage = 1;                 ///< 1 screened, 2 fitted on the linearised base or probed, 3 with the base fitted again
+  std::vector<Eigen::VectorXd> other_starts;  ///< of a tuned entry: further promising magnitudes
+  Eigen::VectorXd x;             ///< of the joint fit, where there was one
   Eigen::VectorXd signature;     ///< L^-1 (g(x, a) - g(x)) (n_train)
   Eigen::MatrixXd a_covariance;  ///< of the coordinates (stage 2 on)
 };
@@ -41,10 +43,14 @@ struct SearchOptions {
   int short_list = 6;
   int longest_list = 16;
   int tabled = 40;             ///< entries of the table that are computed anew, besides the best of each family
-  int deepened = 6;            ///< further entries of the best one's family that are fitted with the base
+  int deepened = 4;            ///< further entries of the best one's family that are fitted with the base
   double family_screen = 4.0;  ///< families whose best entry screens above this are fitted too
   double refine_within = 6.0;  ///< nats of the best: these are fitted with the base
   int most_refined = 3;
+  int tabled_tuned = 6;    ///< entries of each family that is tuned to modes that are computed anew
+  int probes = 8;          ///< starts of tuned entries from which a few steps of the joint fit are made
+  int probe_iterations = 5;
+  double least_promise = -1.0;  ///< nats that an entry must promise to be probed
 };
 
 /// What every candidate does to the rows at each magnitude that the screen tries, g(x, a) - g(x) at one base: it changes little
@@ -60,8 +66,9 @@ class Inference {
  public:
   Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Candidate>>& candidates);
 
-  /// Joint MAP of x and the causes' magnitudes. `start`: x of a neighbouring fit; empty for zero.
-  [[nodiscard]] Fit fit(const std::vector<Cause>& causes, const Eigen::VectorXd& start) const;
+  /// Joint MAP of x and the causes' magnitudes. `start`: x of a neighbouring fit; empty for zero. `iterations`: at most so many
+  /// (a first look); 0: to convergence.
+  [[nodiscard]] Fit fit(const std::vector<Cause>& causes, const Eigen::VectorXd& start, int iterations = 0) const;
   /// Candidates in descending order of odds against `base`; those already in it are left out.
   [[nodiscard]] std::vector<Scored> search(const Fit& base, const SearchOptions& options) const;
   [[nodiscard]] ScreenTable screen_table(const Fit& base) const;
@@ -77,12 +84,21 @@ class Inference {
   [[nodiscard]] const std::vector<std::unique_ptr<Candidate>>& candidates() const { return candidates_; }
 
  private:
-  /// The best magnitude of the screen. @param from_table  signatures of the table instead of new ones
-  [[nodiscard]] Scored screen(const Fit& base, const Candidate& candidate,
-                              const std::vector<Eigen::VectorXd>* from_table) const;
-  [[nodiscard]] std::vector<const Candidate*> promising(const Fit& base, const SearchOptions& options) const;
+  /// An entry that is worth new signatures, at those of its starts that are (empty: at all).
+  struct Promise {
+    const Candidate* candidate;
+    std::vector<std::size_t> starts;
+  };
+  /// Magnitudes that the screen tries, those tuned to modes where the base has the modes.
+  [[nodiscard]] std::vector<Eigen::VectorXd> starts_at(const Fit& base, const Candidate& candidate) const;
+  /// The best magnitude of the screen at the given starts. @param from_table  signatures of the table instead of new ones
+  [[nodiscard]] Scored screen(const Fit& base, const Promise& promise, const std::vector<Eigen::VectorXd>* from_table,
+                              std::vector<std::pair<double, std::size_t>>* by_start = nullptr) const;
+  [[nodiscard]] std::vector<Promise> promising(const Fit& base, const SearchOptions& options) const;
+  void probe(const Fit& base, std::vector<Scored>& found, const SearchOptions& options) const;
   void fit_linearised(const Fit& base, Scored& scored) const;
-  void refine(const Fit& base, Scored& scored) const;
+  /// Joint fit of x and the magnitudes from `start` (empty: the prior's mean), and the evidence there.
+  void refine(const Fit& base, Scored& scored, const Eigen::VectorXd& start, int iterations = 0) const;
   [[nodiscard]] Eigen::MatrixXd slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
                                        const Eigen::VectorXd& g) const;
 

@@ -56,7 +56,8 @@ NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, cons
       for (Eigen::Index r = 0; r < noise.size(); ++r) noise[r] = normal();
       FeatureMap drawn = original;
       drawn.set_values(truth.g + factor * noise);
-      Inference inference(drawn, entries.candidates);
+      const Instantiated own = instantiate(catalogue, model, drawn.features());  // ranges that follow what is measured
+      Inference inference(drawn, own.candidates);
       inference.use(&table);
       const Fit base = inference.fit({}, {});
       const auto ranking = inference.search(base, search);

@@ -427,6 +427,9 @@ void Predictor::predict_stays() {
         each_action("stay.frequency", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
           if (c.places[0] == &stay) g += std::log(c.value(action.number.at("factor"), a));
         });
+        each_action("stay.pull", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+          if (c.places[0] == &stay) g += 0.5 * std::log(c.value(action.number.at("factor"), a));  // f ~ sqrt(pull)
+        });
       }
     }
     out_.g[at] = g;

@@ -268,7 +268,7 @@ SolvedState& Predictor::solved(int c) {
     columns_ = entry->columns = columns;
     entry->state = build_state(condition);
     // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
-    const bool kept = acting.empty() || with_jacobian_;
+    const bool kept = acting.empty() || with_jacobian_ || base_.keeps;
     // Damped modes follow from those without the last cause.
     const auto neighbour = follows ? states.find({before_last, key}) : states.end();
     StateModes from;

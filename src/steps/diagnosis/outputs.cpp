@@ -62,7 +62,8 @@ std::vector<std::string> measure_next(const Diagnosis& result, const std::vector
 
 }  // namespace
 
-void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const std::vector<diagnosis::Invisible>& invisible, double residual_alpha, double seconds, const std::string& threshold_from,
+void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const std::vector<diagnosis::Invisible>& invisible,
+                     const diagnosis::FullCheck& check, double residual_alpha, double seconds, const std::string& threshold_from,
                      const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
@@ -119,6 +120,10 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                   {"interval_pct", {result.gain.low_pct, result.gain.high_pct}},
                   {"level", 0.90}};
   json["measure_next"] = measure_next(result, invisible);
+  const auto listed = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
+  json["full_model"] = {{"frequency_Hz", listed(check.full_Hz)},
+                        {"reduced_Hz", listed(check.reduced_Hz)},
+                        {"largest_deviation_pct", check.largest_pct}};
   json["parameters_on_bounds"] = result.on_bounds;
   json["seconds"] = seconds;
   json["extended_model"] = "extended_model/";

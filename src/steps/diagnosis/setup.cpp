@@ -370,8 +370,14 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   write_misfit(inference, result, context.out / "misfit.csv");
   write_unknowns(inference, result, context.out / "parameters.csv");
   write_extended_model(*inputs.model, inputs.places, result, context.out / "extended_model");
+  std::set<std::string> labels;
+  for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
+  const diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
+                                                                   std::max(1, static_cast<int>(labels.size())));
+  context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
+                          check.full_Hz.size(), check.largest_pct));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_diagnosis(result, inputs.account, entries.invisible, config.residual_alpha, seconds, threshold.from,
+  write_diagnosis(result, inputs.account, entries.invisible, check, config.residual_alpha, seconds, threshold.from,
                   context.out / "diagnosis.json");
   for (const Finding& finding : inputs.account) context.say(finding.text);
   context.say(fmt::format("{}: {}", result.verdict, result.message));

@@ -1,0 +1,156 @@
+#include "diagnosis/full_check.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "linalg/generalized_eigen.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void add_outer(MatrixXd& to, double amount, const VectorXd& u, const VectorXd& v) { to += amount * u * v.transpose(); }
+void add_outer(Symmetric& to, double amount, const VectorXd& u, const VectorXd& v) {
+  const Eigen::SparseMatrix<double> a = u.sparseView(), b = v.sparseView();
+  to += amount * Eigen::SparseMatrix<double>(a * Eigen::SparseMatrix<double>(b.transpose()));
+}
+void grow(MatrixXd& k) { k.conservativeResizeLike(MatrixXd::Zero(k.rows() + 1, k.cols() + 1)); }
+void grow(Symmetric& k) { k.conservativeResize(k.rows() + 1, k.cols() + 1); }
+
+/// Stiffness and mass, dense in the reduced basis or sparse in full coordinates.
+template <typename Matrix, typename OnePlace>
+struct Assembly {
+  Matrix stiffness, mass;
+  const std::map<std::string, std::vector<OnePlace>>& sets;
+
+  [[nodiscard]] const OnePlace* find(const std::string& id) const {
+    for (const auto& [set, list] : sets)
+      for (const OnePlace& place : list)
+        if (place.id == id) return &place;
+    return nullptr;
+  }
+  [[nodiscard]] VectorXd direction(const OnePlace& place, Index d) const {
+    VectorXd b = VectorXd::Zero(stiffness.rows());
+    b.head(place.directions.rows()) = MatrixXd(place.directions).col(d);
+    return b;
+  }
+  void add(Matrix& to, double amount, const Matrix& what) {
+    if (what.size() == 0 || amount == 0.0) return;
+    Matrix part = amount * what;
+    while (part.rows() < to.rows()) grow(part);
+    to += part;
+  }
+  void scatter(const FeatureMap& map, const VectorXd& x) {
+    const auto place = [&](const char* set, int i) -> const OnePlace& { return sets.at(set)[static_cast<std::size_t>(i)]; };
+    for (std::size_t j = 0; j < map.nuisances().size(); ++j) {
+      const Nuisance& v = map.nuisances()[j];
+      const double amount = v.deviation * x[static_cast<Index>(j)];
+      if (v.kind == Nuisance::Kind::element_stiffness) add(stiffness, amount, place("elements", v.index).stiffness);
+      if (v.kind == Nuisance::Kind::element_mass) add(mass, amount, place("elements", v.index).mass);
+      if (v.kind == Nuisance::Kind::node_mass) add(mass, amount, place("nodes", v.index).mass);
+      if (v.kind == Nuisance::Kind::stay) add(stiffness, amount, place("stays", v.index).stiffness);
+    }
+  }
+  void apply(const Cause& cause) {
+    const Candidate& candidate = *cause.candidate;
+    if (candidate.places.empty()) return;
+    const OnePlace* place = find(candidate.places[0]->id);
+    for (const ActionSpec& action : candidate.hypothesis->actions) {
+      const bool structural =
+          action.kind.starts_with("scale.") || action.kind == "mass.add" || action.kind.starts_with("element.");
+      if (!structural) continue;
+      TWINDECK_ASSERT(place != nullptr);
+      const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
+      if (action.kind == "scale.stiffness") add(stiffness, value("factor") - 1.0, place->stiffness);
+      if (action.kind == "scale.mass") add(mass, value("factor") - 1.0, place->mass);
+      if (action.kind == "mass.add")
+        for (Index d = 0; d < place->directions.cols(); ++d)
+          add_outer(mass, value("mass"), direction(*place, d), direction(*place, d));
+      if (action.kind == "element.spring") tie(candidate, *place, value("stiffness"));
+      if (action.kind == "element.oscillator" || action.kind == "element.string")
+        swing(*place, action.kind == "element.string", value("mass"), 2.0 * std::numbers::pi * value("frequency"));
+    }
+  }
+  void tie(const Candidate& candidate, const OnePlace& place, double k) {
+    const OnePlace* other = candidate.places.size() == 2 ? find(candidate.places[1]->id) : nullptr;
+    const Index shared = other ? std::min(place.directions.cols(), other->directions.cols()) : place.directions.cols();
+    const Eigen::Vector3d along = other ? Eigen::Vector3d(other->x_m - place.x_m) : Eigen::Vector3d::Zero();
+    VectorXd on_line = VectorXd::Zero(stiffness.rows());
+    const bool line = along.allFinite() && along.norm() > 0.0 && shared == 3;
+    for (Index d = 0; d < shared; ++d) {
+      VectorXd b = direction(place, d);
+      if (other) b -= direction(*other, d);
+      if (line)
+        on_line += along.normalized()[d] * b;
+      else
+        add_outer(stiffness, k, b, b);
+    }
+    if (line) add_outer(stiffness, k, on_line, on_line);
+  }
+  void swing(const OnePlace& place, bool string, double m, double omega) {
+    for (Index d = 0; d < place.directions.cols(); ++d) {
+      grow(stiffness);
+      grow(mass);
+      const Index k = stiffness.rows() - 1;
+      const VectorXd b = direction(place, d), own = VectorXd::Unit(k + 1, k);
+      if (string) {
+        add_outer(mass, m / 3.0, b, b);
+        add_outer(mass, 0.5 * m, own, own);
+        add_outer(mass, m / std::numbers::pi, b, own);
+        add_outer(mass, m / std::numbers::pi, own, b);
+        add_outer(stiffness, 0.5 * m * omega * omega, own, own);
+      } else {
+        add_outer(mass, m, own, own);
+        add_outer(stiffness, m * omega * omega, own - b, own - b);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map, const Fit& fit, int modes) {
+  const fe::ParametricSystem& system = *structure.system;
+  Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
+                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets};
+  full.scatter(map, fit.base.x);
+  // base.stiffness holds parameters and workmanship already.
+  Assembly<MatrixXd, ReducedPlace> reduced{fit.base.stiffness, fit.base.mass, map.model().sets};
+  std::vector<int> columns;
+  for (int k = 0; k < map.model().common; ++k) columns.push_back(k);
+  for (const Cause& cause : fit.causes) {
+    for (const ReducedPlace* place : cause.candidate->places)
+      for (const int k : place->columns)
+        if (std::find(columns.begin(), columns.end(), k) == columns.end()) columns.push_back(k);
+    full.apply(cause);
+    reduced.apply(cause);
+  }
+  for (Index k = map.model().size(); k < reduced.stiffness.rows(); ++k) columns.push_back(static_cast<int>(k));
+  const MatrixXd k = reduced.stiffness(columns, columns), m = reduced.mass(columns, columns);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> small(k, m, Eigen::EigenvaluesOnly);
+  const int count = std::min(modes, static_cast<int>(k.rows()));
+  linalg::Cholesky factor;
+  const linalg::SparseMatrix lower_k = full.stiffness.triangularView<Eigen::Lower>();
+  const linalg::SparseMatrix lower_m = full.mass.triangularView<Eigen::Lower>();
+  const linalg::EigenPairs pairs = linalg::lowest_eigenpairs(lower_k, lower_m, count, 0.0, factor, MatrixXd(lower_k.rows(), 0));
+  if (!pairs.status.converged) throw InputError({structure.source, 0, ""}, "the extended model: " + pairs.status.message, "");
+  FullCheck check;
+  const auto hertz = [](const VectorXd& values) {
+    return VectorXd(values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi));
+  };
+  check.full_Hz = hertz(pairs.values.head(count));
+  check.reduced_Hz = hertz(small.eigenvalues().head(count));
+  for (int i = 0; i < count; ++i)
+    if (check.full_Hz[i] > 0.0)
+      check.largest_pct = std::max(check.largest_pct, 100.0 * std::abs(check.reduced_Hz[i] / check.full_Hz[i] - 1.0));
+  return check;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "diagnosis/inference.hpp"
+
+namespace twindeck::diagnosis {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& candidate) const {
+  std::vector<VectorXd> starts = candidate.starts;
+  if (candidate.tuned < 0 || !base.all.valid) return starts;
+  const auto u = static_cast<Index>(candidate.tuned);
+  const auto& modes = map_.measured_modes();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Tuning& tuning = candidate.tuning[i];
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      if (tuning.mode.empty() || modes[m].condition != tuning.condition || modes[m].label != tuning.mode) continue;
+      const double f = tuning.factor * base.all.frequency_Hz[m];
+      starts[i][u] =
+          std::clamp(candidate.log[static_cast<std::size_t>(u)] ? std::log(f) : f, candidate.low[u], candidate.high[u]);
+    }
+  }
+  return starts;
+}
+
+ScreenTable Inference::screen_table(const Fit& base) const {
+  std::vector<std::vector<VectorXd>> changes(candidates_.size());
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = *candidates_[i];
+    // Where a stay's own frequency was measured, its starts are those of one data set: they are always computed anew.
+    if (candidate.tuned >= 0 && (candidate.high - candidate.low)[candidate.tuned] < 0.25) continue;
+    for (const VectorXd& a : starts_at(base, candidate)) {
+      std::vector<Cause> causes = base.causes;
+      causes.push_back({&candidate, a});
+      const Prediction p = map_.predict(base.base, causes, false);
+      changes[i].push_back(p.valid ? VectorXd(p.g - base.all.g) : VectorXd());
+    }
+  }
+  ScreenTable table;
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (!changes[i].empty()) table.change[candidates_[i]->id()] = std::move(changes[i]);
+  return table;
+}
+
+Scored Inference::screen(const Fit& base, const Promise& promise, const std::vector<VectorXd>* from_table,
+                         std::vector<std::pair<double, std::size_t>>* by_start) const {
+  const Candidate& candidate = *promise.candidate;
+  const std::vector<VectorXd> starts = starts_at(base, candidate);
+  Scored best;
+  best.candidate = &candidate;
+  best.screen = -1e300;
+  std::vector<std::pair<double, std::size_t>> all;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (!promise.starts.empty() && std::find(promise.starts.begin(), promise.starts.end(), i) == promise.starts.end()) continue;
+    VectorXd s;
+    if (from_table == nullptr)
+      s = signature(base, candidate, starts[i]);
+    else if (i < from_table->size() && (*from_table)[i].size() > 0)
+      s = base.total_factor.triangularView<Eigen::Lower>().solve(VectorXd((*from_table)[i](training_)));
+    if (s.size() == 0) continue;
+    const double along = s.dot(base.whitened), norm = s.squaredNorm();
+    if (!(norm > 1e-12)) continue;
+    const double scale = along / norm;
+    const double t = !candidate.low.size() || scale <= 0.0 || scale > 3.0 ? 2.0 * along - norm : along * along / norm;
+    all.emplace_back(t, i);
+    if (t > best.screen) {
+      best.screen = t;
+      best.a = starts[i];
+      best.signature = s;
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (candidate.tuned >= 0)
+    for (std::size_t k = 1; k < all.size() && k < 2; ++k) best.other_starts.push_back(starts[all[k].second]);
+  if (by_start != nullptr) *by_start = std::move(all);
+  return best;
+}
+
+/// Candidates that are worth a new signature: those that the table shows best, and the best few of every family.
+std::vector<Inference::Promise> Inference::promising(const Fit& base, const SearchOptions& options) const {
+  std::vector<const Candidate*> all;
+  for (const auto& candidate : candidates_)
+    if (std::none_of(base.causes.begin(), base.causes.end(),
+                     [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); }))
+      all.push_back(candidate.get());
+  if (table_ == nullptr) {
+    std::vector<Promise> everything;
+    for (const Candidate* candidate : all) everything.push_back({candidate, {}});
+    return everything;
+  }
+  std::vector<std::pair<double, Promise>> ranked;
+  for (const Candidate* candidate : all) {
+    Promise promise{candidate, {}};
+    const auto known = table_->change.find(candidate->id());
+    double t = 1e300;
+    if (known != table_->change.end()) {
+      std::vector<std::pair<double, std::size_t>> by_start;
+      t = screen(base, promise, &known->second, &by_start).screen;
+      if (candidate->tuned >= 0)
+        for (std::size_t k = 0; k < std::min<std::size_t>(2, by_start.size()); ++k) promise.starts.push_back(by_start[k].second);
+    }
+    ranked.emplace_back(0.5 * t + candidate->log_prior, std::move(promise));
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::map<std::string, int> of_family, starts;
+  for (const Candidate* candidate : all) starts[candidate->hypothesis->id] += static_cast<int>(candidate->starts.size());
+  std::vector<Promise> chosen;
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    const Candidate& candidate = *ranked[i].second.candidate;
+    const Hypothesis& family = *candidate.hypothesis;
+    // Families of few magnitudes, and those that leave the structure alone, cost little to compute anew.
+    const bool cheap = family.measurement || starts[family.id] <= 32;
+    const int least = candidate.tuned >= 0 ? options.tabled_tuned : 2;
+    if (of_family[family.id]++ < least || static_cast<int>(i) < options.tabled || cheap)
+      chosen.push_back(std::move(ranked[i].second));
+  }
+  return chosen;
+}
+
+/// What is tuned to a mode splits it, and what it does turns with the last per cent of the ratio; a mass or a joint turns close
+/// modes into each other. There, signatures at the base tell where to look, not how much there is. So a few steps of the joint
+/// fit are made from the best starts of all such entries.
+void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchOptions& options) const {
+  struct Probe {
+    std::size_t at;
+    VectorXd a;
+    double promise;
+  };
+  std::vector<Probe> probes;
+  double best = 0.0;
+  for (const Scored& scored : found) best = std::max(best, scored.log_odds);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Scored& scored = found[i];
+    if (scored.screen < options.family_screen) continue;
+    const double promise = 0.5 * scored.screen + scored.candidate->log_prior;
+    // Others only where the full effect at the base is far from what its direction promised, or was not looked at.
+    if (scored.candidate->tuned < 0 && (scored.candidate->low.size() == 0 || scored.log_odds > promise - 5.0)) continue;
+    if (promise < std::max(0.5 * best - 3.0, options.least_promise)) continue;
+    probes.push_back({i, scored.a, promise});
+    for (const VectorXd& a : scored.other_starts) probes.push_back({i, a, promise - 1.0});
+  }
+  std::stable_sort(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return a.promise > b.promise; });
+  if (static_cast<int>(probes.size()) > options.probes) probes.resize(static_cast<std::size_t>(options.probes));
+  std::vector<Scored> looked(probes.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    looked[k] = found[probes[k].at];
+    looked[k].a = probes[k].a;
+    looked[k].log_odds = -1e300;
+    // From the prior's mean: the base's x has taken up what the cause should, and may have paired modes by it.
+    refine(base, looked[k], {}, options.probe_iterations);
+  }
+  for (std::size_t k = 0; k < probes.size(); ++k)
+    if (looked[k].log_odds > found[probes[k].at].log_odds) found[probes[k].at] = looked[k];
+}
+
+std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options) const {
+  // Candidates are held against the base one by one: the number of threads changes nothing.
+  const std::vector<Promise> chosen = promising(base, options);
+  std::vector<Scored> all(chosen.size());
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t i = 0; i < chosen.size(); ++i) all[i] = screen(base, chosen[i], nullptr);
+  std::vector<Scored> found;
+  for (Scored& scored : all)
+    if (scored.signature.size() > 0) found.push_back(std::move(scored));
+  const auto promise = [](const Scored& s) { return 0.5 * s.screen + s.candidate->log_prior; };
+  std::stable_sort(found.begin(), found.end(), [&](const Scored& a, const Scored& b) { return promise(a) > promise(b); });
+  std::set<std::string> families;
+  int fitted = 0;
+  std::vector<Scored*> list;
+  for (Scored& scored : found) {
+    scored.log_odds = -1e300;
+    if (scored.candidate->tuned >= 0) continue;
+    const bool new_family = !families.contains(scored.candidate->hypothesis->id);
+    const bool near = promise(scored) > promise(found.front()) - std::max(12.0, 0.3 * promise(found.front()));
+    if (fitted < options.short_list || (near && fitted < options.longest_list) ||
+        (new_family && scored.screen > options.family_screen)) {
+      list.push_back(&scored);
+      ++fitted;
+      families.insert(scored.candidate->hypothesis->id);
+    }
+  }
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < list.size(); ++i) fit_linearised(base, *list[i]);
+  probe(base, found, options);
+  const auto by_odds = [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; };
+  std::stable_sort(found.begin(), found.end(), by_odds);
+  if (!found.empty() && found.front().log_odds > -2.0) {
+    const double best = found.front().log_odds;
+    for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
+      Scored& scored = found[static_cast<std::size_t>(i)];
+      if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best))
+        refine(base, scored, scored.x.size() > 0 ? scored.x : base.map.x);
+    }
+    std::stable_sort(found.begin(), found.end(), by_odds);
+    // A refitted entry stands above its neighbours that were weighed on the linearised base alone: the nearest of its family
+    // are refitted too, so that the place is chosen among equals.
+    int deepened = 0;
+    const Scored& first = found.front();
+    const double near = first.log_odds - std::max(options.refine_within, 0.3 * first.log_odds);
+    std::vector<Scored*> siblings;
+    const auto rivals_at_a_damper = [&](const Scored& other) {  // what a damper can have wrong shows alike
+      const auto lead = std::find_if(found.begin(), found.end(), [&](const Scored& s) {
+        const Hypothesis& h = *s.candidate->hypothesis;
+        return s.stage == 3 && h.set.starts_with("damper") && (&s == &first || h.prior_weight > 1.0);
+      });
+      return lead != found.end() && other.stage < 3 && other.candidate->location == lead->candidate->location;
+    };
+    for (Scored& scored : found)
+      if (rivals_at_a_damper(scored)) {
+        siblings.push_back(&scored);
+      } else if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
+          scored.candidate->hypothesis == first.candidate->hypothesis) {
+        siblings.push_back(&scored);
+        ++deepened;
+      }
+    for (Scored* sibling : siblings) {
+      if (sibling->stage == 1) fit_linearised(base, *sibling);
+      refine(base, *sibling, sibling->x.size() > 0 ? sibling->x : base.map.x);
+    }
+    std::stable_sort(found.begin(), found.end(), by_odds);
+  }
+  return found;
+}
+
+}  // namespace twindeck::diagnosis
