@@ -41,7 +41,7 @@ std::vector<ScoreLine> score_lines(double eased) {
       {"detection, 4 to 6 sigma", [=](const Score& s) { return effect(s) && s.sigma >= 4.0 && s.sigma < 6.0; },
        [](const Score& s) { return s.detected; }, 0.50, true},
       {"family named, given detected", found, [](const Score& s) { return s.family_named; }, 0.97, true,
-       "a stay that swings with the deck, an oscillator and a damper's mount look alike in these rows: 21 of the first 25"},
+       "a stay that swings with the deck, an oscillator and a mode's own amplitude dependence look alike in these rows"},
       {"exact entry, given detected and alone in its set", [=](const Score& s) { return found(s) && s.set_size == 1; },
        [](const Score& s) { return s.exact; }, 0.93, true},
       {"truth in the reported set, given detected", found, [](const Score& s) { return s.in_set; }, 0.97, true},
