@@ -14,8 +14,8 @@ std::vector<int> best_assignment(const Eigen::Ref<const Eigen::MatrixXd>& gain) 
     for (int j = 0; j < columns; ++j) result[static_cast<std::size_t>(row_of[static_cast<std::size_t>(j)])] = j;
     return result;
   }
-  // Shortest augmenting paths with potentials u, v of rows and columns; position 0 of the columns is a dummy that holds the row
-  // that is being assigned.
+  // Shortest augmenting paths with potentials u, v of rows and columns; column 0 stands for the row that is being
+  // assigned.
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto width = static_cast<std::size_t>(columns) + 1;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(rows + 1), v = Eigen::VectorXd::Zero(columns + 1);

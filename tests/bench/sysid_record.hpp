@@ -2,10 +2,11 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <cmath>
 #include <complex>
 #include <cstdint>
 #include <numbers>
+
+#include "unit/signal/noise.hpp"
 
 /// The record that identification is timed and judged on: 16 channels x 60,000 samples at 20 Hz, 14 modes between 0.72 and 7.4 Hz with
 /// two close pairs, damping 0.6 to 1.1 %, white modal forces, 5 % sensor noise. Seed fixed.
@@ -16,29 +17,9 @@ constexpr std::array<double, 14> kRecordFrequencies_Hz = {0.72, 0.98, 1.05, 1.32
 
 inline double record_damping(std::size_t mode) { return 0.006 + 0.005 * static_cast<double>(mode * 5 % 14) / 13.0; }
 
-class RecordNoise {
- public:
-  explicit RecordNoise(std::uint64_t seed) : state_(seed) {}
-  double operator()() {
-    const double u = uniform(), v = uniform();
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
-  }
-
- private:
-  double uniform() {  // SplitMix64
-    state_ += 0x9E3779B97F4A7C15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    z ^= z >> 31;
-    return (static_cast<double>(z >> 11) + 0.5) * 0x1.0p-53;
-  }
-  std::uint64_t state_;
-};
-
 /// Accelerations (n_samples × 16), each channel of unit mean square before the noise.
 inline Eigen::MatrixXd sysid_record(Eigen::Index n_samples = 60000, std::uint64_t seed = 20240901) {
-  RecordNoise random(seed);
+  signal::test::Noise random(seed);
   constexpr Eigen::Index channels = 16;
   Eigen::MatrixXd data = Eigen::MatrixXd::Zero(n_samples, channels);
   for (std::size_t mode = 0; mode < kRecordFrequencies_Hz.size(); ++mode) {

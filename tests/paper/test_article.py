@@ -1,12 +1,8 @@
 """The article refers to what there is. Oracle: the list of macros, tables and figures that the package makes; the paper's fourteen
 tables and twenty-one figures, none of which may be left out."""
-import contextlib
-import io
-import os
 import re
 import shutil
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -14,8 +10,7 @@ from unittest import mock
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 
-import made_up_study  # noqa: E402
-from twindeck_report import cli  # noqa: E402
+from made_up_case import MadeUpCase  # noqa: E402
 from twindeck_report.article.numbers import ABSENT, camel, names  # noqa: E402
 from twindeck_report.figures import FIGURES  # noqa: E402
 from twindeck_report.tables import TABLES, table_name  # noqa: E402
@@ -55,25 +50,15 @@ class Source(unittest.TestCase):
 class Making(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.addClassCleanup(os.chdir, os.getcwd())
-        cls.data, cls.workflow, cls.results = made_up_study.make_study(cls.folder.name)
-        os.chdir(cls.folder.name)
-        code, err = cls.run_command("tables")
+        cls.case = MadeUpCase(cls.addClassCleanup)
+        cls.results = cls.case.results
+        code, _, err = cls.case.run("tables")
         assert code == 0, err
-
-    @classmethod
-    def run_command(cls, command):
-        err = io.StringIO()
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(err):
-            code = cli.main([command, "--study", "made_up", "--results", str(cls.results), "--data", str(cls.data), "--workflow", str(cls.workflow)])
-        return code, err.getvalue()
 
     def test_without_latex_it_says_how_to_get_it(self):
         """Its numbers are written all the same: each macro once, n/a for what the study has no step for."""
         with mock.patch.object(shutil, "which", return_value=None):
-            code, err = self.run_command("article")
+            code, _, err = self.case.run("article")
         self.assertEqual(code, 2)
         self.assertRegex(err, r"pdflatex is not here.*apt-get install.*texlive-latex-base.*`make paper STUDY=made_up` again\n\Z")
         made = {name: (self.results / "paper" / name).read_text(encoding="utf-8") for name in ("numbers.tex", "captions.tex", "errata.tex")}
@@ -86,7 +71,7 @@ class Making(unittest.TestCase):
     @unittest.skipUnless(shutil.which("pdflatex"), "LaTeX is not installed")
     def test_with_latex_a_page_comes_out(self):
         """Without drawings: they are left out where there are none."""
-        code, err = self.run_command("article")
+        code, _, err = self.case.run("article")
         self.assertEqual((code, err), (0, ""))
         self.assertTrue((self.results / "paper/paper.pdf").read_bytes().startswith(b"%PDF"))
 

@@ -1,38 +1,24 @@
 """The paper check must be able to fail. Oracle throughout: a made-up study (made_up_study.py) whose numbers are known by
 construction, with one thing changed at a time."""
-import io
-import os
 import re
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
-from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 
 import made_up_study  # noqa: E402
-from twindeck_report import cli  # noqa: E402
+from made_up_case import MadeUpCase  # noqa: E402
 
 
 class PaperCheck(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.data, self.workflow, self.results = made_up_study.make_study(self.folder.name)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder.name)  # CHANGELOG.md is looked for here
+        self.case = MadeUpCase(self.addCleanup)
+        self.data, self.workflow, self.results = self.case.data, self.case.workflow, self.case.results
+        self.run_command = self.case.run
         self.assertEqual(self.run_command("tables")[0], 0)
-
-    def run_command(self, command):
-        """(exit code, stdout, stderr)"""
-        out, err = io.StringIO(), io.StringIO()
-        with redirect_stdout(out), redirect_stderr(err):
-            code = cli.main([command, "--study", "made_up", "--results", str(self.results), "--data", str(self.data),
-                             "--workflow", str(self.workflow)])
-        return code, out.getvalue(), err.getvalue()
 
     def edit(self, path, old, new):
         text = path.read_text(encoding="utf-8")

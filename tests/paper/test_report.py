@@ -2,13 +2,9 @@
 gives the same bytes."""
 import csv
 import hashlib
-import io
-import os
 import re
 import sys
-import tempfile
 import unittest
-from contextlib import redirect_stderr, redirect_stdout
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -16,7 +12,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 
 import made_up_study  # noqa: E402
-from twindeck_report import cli  # noqa: E402
+from made_up_case import MadeUpCase  # noqa: E402
 from twindeck_report.cells import shown  # noqa: E402
 from twindeck_report.figures import FIGURES  # noqa: E402
 from twindeck_report.tables import TABLES  # noqa: E402
@@ -44,22 +40,11 @@ class Balance(HTMLParser):
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.addClassCleanup(os.chdir, os.getcwd())
-        cls.data, cls.workflow, cls.results = made_up_study.make_study(cls.folder.name)
-        os.chdir(cls.folder.name)
+        cls.case = MadeUpCase(cls.addClassCleanup)
+        cls.results = cls.case.results
         for command in ("tables", "figures", "report"):
-            code, err = cls.run_command(command)
+            code, _, err = cls.case.run(command)
             assert code == 0, err
-
-    @classmethod
-    def run_command(cls, command):
-        err = io.StringIO()
-        with redirect_stdout(io.StringIO()), redirect_stderr(err):
-            code = cli.main([command, "--study", "made_up", "--results", str(cls.results), "--data", str(cls.data),
-                             "--workflow", str(cls.workflow)])
-        return code, err.getvalue()
 
     def test_figures_and_their_data(self):
         for name in ("fig_01", "fig_05", "sensitivity_map", "updating_history"):
@@ -83,7 +68,7 @@ class Report(unittest.TestCase):
                     for part in ("tables", "figures") for p in (self.results / part).iterdir() if p.name != "manifest.json"}
 
         before = hashes()
-        self.assertEqual((self.run_command("tables")[0], self.run_command("figures")[0]), (0, 0))
+        self.assertEqual((self.case.run("tables")[0], self.case.run("figures")[0]), (0, 0))
         self.assertEqual(hashes(), before)
 
     def test_page_stands_alone(self):

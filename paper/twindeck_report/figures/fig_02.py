@@ -27,7 +27,7 @@ def draw(study: Study):
         along.axhline(0, color=INK, linewidth=0.7)
         along.set_ylabel("axial force (MN)")
         along.set_title(f"{deck} deck, bottom: {_sign(mean.at[deck, 'bottom'])} ({STATED[deck]} in section 2.1)", loc="left", fontsize=9)
-    axes[0, 1].legend(frameon=False, fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98))
+    axes[1, 1].legend(frameon=False, fontsize=8, ncols=3, loc="center", bbox_to_anchor=(0.5, 0.62))
     axes[1, 1].set_xlabel("station along the deck from mid-length (m)")
     return figure, forces
 

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "../../bench/sysid_record.hpp"
+#include "bench/sysid_record.hpp"
 #include "signal/condition.hpp"
 #include "sysid/identify.hpp"
 
