@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "aero/flutter_derivatives.hpp"
+#include "core/angle.hpp"
 #include "core/error.hpp"
 
 namespace twindeck::aero {
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 bool ascends(const std::vector<double>& axis) {
   return !axis.empty() && std::adjacent_find(axis.begin(), axis.end(), std::greater_equal<>()) == axis.end();

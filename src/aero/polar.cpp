@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/error.hpp"
 
 namespace twindeck::aero {
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 StaticCoefficients mix(const StaticCoefficients& a, const StaticCoefficients& b, double t) {
   const auto between = [t](double u, double v) { return u + t * (v - u); };

@@ -7,13 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::model_io {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180.0;
 
 std::vector<std::string> names_of(aero::Convention convention) {
   std::vector<std::string> names;

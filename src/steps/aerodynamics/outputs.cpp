@@ -4,12 +4,11 @@
 #include <map>
 #include <numbers>
 
+#include "core/angle.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 const char* on_off(bool on) { return on ? "on" : "off"; }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.hpp"
 #include "dynamics/reduced_basis.hpp"
 #include "io/csv.hpp"
 #include "steps/aerodynamics/aerodynamics.hpp"
@@ -11,8 +11,6 @@
 
 namespace twindeck::steps {
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 // A set of aerodynamic data at its fitted level.
 struct FittedSet {

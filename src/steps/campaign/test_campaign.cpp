@@ -28,7 +28,7 @@ namespace {
 constexpr double kHighestTruth_Hz = 3.0;
 
 Status write_calibration(const VirtualBridge& bridge, const CampaignSettings& settings, const StepContext& context) {
-  const Calibration found = calibrate(bridge, settings, context);
+  const BridgeTuning found = tune(bridge, settings, context);
   io::CsvWriter csv({"parameter", "factor"});
   for (std::size_t i = 0; i < bridge.undivided.parameters.size(); ++i) {
     const auto at = static_cast<Index>(i);

@@ -35,12 +35,12 @@ std::vector<Index> starting_modes(const BridgeState& state, const CampaignSettin
 
 }  // namespace
 
-Calibration calibrate(const VirtualBridge& bridge, const CampaignSettings& settings, const StepContext& context) {
+BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings, const StepContext& context) {
   constexpr int kSteps = 40;
   constexpr double kLongestStep = 0.08;  // of a logarithm: further, modes pass each other unseen
   constexpr double kGood = 2e-4;         // a tenth of the 0.2 % allowed
   const Index n = std::ssize(settings.named), p = bridge.uncorrected.size();
-  Calibration found{bridge.uncorrected, VectorXd::Zero(n), {false, "no step was made"}};
+  BridgeTuning found{bridge.uncorrected, VectorXd::Zero(n), {false, "no step was made"}};
   std::optional<BridgeState> before;
   for (int step = 0; step < kSteps; ++step) {
     BridgeState state = solve_bridge(bridge, settings, found.theta, settings.modes);

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kWarmUp_s = 60.0;
+constexpr double kRampUp_s = 60.0;
 
 /// v' and w' at the aerodynamic nodes, one after the other. @return (n_samples × 2 n_nodes)
 MatrixXd gusts(const VirtualWind& virtual_wind, const CampaignSettings& settings, const RecordSettings& record,
@@ -92,7 +92,7 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
   if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
   MotionRecorder recorder(model, settings, seen, n_samples);
   VectorXd before = VectorXd::Zero(force.rows()), after = before;
-  const auto warm_up = std::min<Index>(n_samples, static_cast<Index>(std::lround(kWarmUp_s * settings.rate_Hz)));
+  const auto warm_up = std::min<Index>(n_samples, static_cast<Index>(std::lround(kRampUp_s * settings.rate_Hz)));
   for (Index sample = -warm_up; sample < n_samples; ++sample) {
     before = after;
     const double rise = std::min(1.0, 2.0 * static_cast<double>(sample + warm_up) / static_cast<double>(warm_up));

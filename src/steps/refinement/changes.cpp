@@ -21,7 +21,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 bool same_dofs(const fe::ParametricSystem& a, const fe::ParametricSystem& b) {
   if (a.dofs.size() != b.dofs.size()) return false;

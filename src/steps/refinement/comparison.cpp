@@ -18,7 +18,6 @@ namespace twindeck::steps {
 namespace {
 
 using Eigen::Index;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); }
 

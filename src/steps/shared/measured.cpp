@@ -18,7 +18,6 @@ namespace twindeck::steps {
 namespace {
 
 using Eigen::Index;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string label_of(const std::string& mode) { return mode.ends_with('X') ? mode : mode + "X"; }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< a number that a file leaves empty
 
 /// A measuring channel of channels.csv: where it sits and along what.
 struct Channel {
@@ -27,8 +30,8 @@ struct Measured {
   std::string source;               ///< folder, for messages
 };
 
-/// Reads the modes of one condition out of a features folder (docs/my_records.md): rows.csv, conditions.toml and, where there are
-/// shapes, channels.csv. Modes come in ascending frequency; rows that are held out stay out.
+/// Reads the modes of one condition out of a features folder (docs/my_records.md): rows.csv, conditions.toml and, where there
+/// are shapes, channels.csv. Modes come in ascending frequency; rows that are held out stay out.
 /// @param condition  a table of conditions.toml; "" means the only one, or the only one with dampers = "off"
 /// @throws InputError  with file, line, column: an unknown type, condition or channel, a row without a standard deviation, a
 /// mode

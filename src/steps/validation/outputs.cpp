@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "core/angle.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
@@ -13,8 +13,6 @@ namespace twindeck::steps {
 using Eigen::Index;
 
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 std::string word(aero::StaticRule rule) {
   return rule == aero::StaticRule::normal ? "normal" : rule == aero::StaticRule::cosine ? "cosine" : "oblique_strip";

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "aero/stability.hpp"
+#include "core/angle.hpp"
 #include "dynamics/reduced_basis.hpp"
 #include "linalg/cholesky.hpp"
 #include "model_io/aero_data.hpp"
@@ -11,8 +11,6 @@
 
 namespace twindeck::steps {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180.0;
 
 aero::OutOfRange choice(const std::string& word) { return word == "hold" ? aero::OutOfRange::hold : aero::OutOfRange::refuse; }
 
