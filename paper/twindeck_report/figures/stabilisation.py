@@ -42,12 +42,12 @@ def draw_clusters(axes, poles, band, key, highest_damping):
         axes.plot(rows["frequency_Hz"], rows["damping_ratio_pct"], "o", color=colour, markersize=3.2, alpha=0.7)
         medians.append((rows["frequency_Hz"].median(), rows["damping_ratio_pct"].median(), colour))
     axes.set_xlim(*band)
-    axes.set_ylim(0, highest_damping)
+    axes.set_ylim(0, 1.13 * highest_damping)  # the names stand above every pole
     medians.sort()
     for (f, z, colour), place in zip(medians, apart([f for f, *_ in medians], 0.022 * (band[1] - band[0]), band)):
         axes.plot(f, z, "+", color=INK, markersize=10, markeredgewidth=1.2)
-        axes.plot([f, place], [z, 0.9 * highest_damping], color=colour, linewidth=0.5, alpha=0.5, zorder=0)
-        axes.text(place, 0.905 * highest_damping, f"{f:.3f} Hz", fontsize=7, rotation=90, ha="center", va="bottom", color=colour)
+        axes.plot([f, place], [z, 1.01 * highest_damping], color=colour, linewidth=0.5, alpha=0.5, zorder=0)
+        axes.text(place, 1.015 * highest_damping, f"{f:.3f} Hz", fontsize=7, rotation=90, ha="center", va="bottom", color=colour)
     axes.set_xlabel("frequency (Hz)")
     axes.set_ylabel("damping ratio (%)")
 
