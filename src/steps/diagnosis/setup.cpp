@@ -187,7 +187,7 @@ std::map<std::string, int> bound_modes(const std::vector<std::string>& pairs) {
 std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference) {
   std::ostringstream key;
   key.precision(8);
-  key << "2|" << config.alpha << '|' << config.nulls << '|';
+  key << "3|" << config.alpha << '|' << config.nulls << '|';
   const diagnosis::ScatterOptions& scatter = config.scatter;
   for (const double v : {scatter.element_stiffness, scatter.element_mass, scatter.node_mass, scatter.stay_stiffness,
                          scatter.stay_pull, scatter.gain, scatter.frequency_floor, scatter.damping_floor, scatter.shape_floor,
