@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "modal/mac.hpp"
 #include "modal/pairing.hpp"
 #include "steps/refinement/refinement.hpp"
+#include "steps/shared/measured.hpp"
 
 namespace twindeck::steps {
 
