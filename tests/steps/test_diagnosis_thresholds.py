@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import sys
 import tempfile
 import unittest
@@ -48,7 +49,8 @@ class Thresholds(unittest.TestCase):
         self.assertEqual(len(list(cache.iterdir())), 2)
 
     def test_the_committed_threshold_is_used(self):
-        result = self.diagnose("committed", "nulls=200", f'threshold_cache="{COMMITTED}"')
+        copied = shutil.copytree(COMMITTED, self.folder / "copied")  # where it does not fit, a run would write one beside it
+        result = self.diagnose("committed", "nulls=200", f'threshold_cache="{copied}"')
         self.assertRegex(result["detection"]["threshold_from"], "^nulls cached in [0-9a-f]{16}.toml$")
 
     @unittest.skipUnless(os.environ.get("TWINDECK_SLOW"), "200 null data sets: with TWINDECK_SLOW=1")
