@@ -89,7 +89,8 @@ bool draw_effect(const Shared& shared, const std::string& family, double target,
                  double& sigma) {
   const auto& twins = shared.families.at(family);
   // Of nineteen supports the mast's alone shows much, and only where it is soft by orders: it takes more draws to meet it.
-  const bool supports = twins.front().diagnosing->hypothesis->set == "supports" || twins.front().diagnosing->hypothesis->set == "foundations";
+  const bool supports =
+      twins.front().diagnosing->hypothesis->set == "supports" || twins.front().diagnosing->hypothesis->set == "foundations";
   const double margin = supports ? 0.0 : 0.1;
   for (int attempt = 0; attempt < (supports ? 100 : 12); ++attempt) {
     twin = twins[random.below(twins.size())];
@@ -260,10 +261,10 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
   }
 }
 
-Score run_case(const Bench& bench, const Case& hidden) {
+/// What `use` makes of the inference on a case's values, by the catalogue without the family that the case takes away.
+template <typename Use>
+static auto on_inference(const Bench& bench, const Case& hidden, const Use& use) {
   const Shared& shared = shared_of(bench);
-  timespec begin{}, end{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
   std::vector<diagnosis::Hypothesis> catalogue;
   for (const diagnosis::Hypothesis& h : bench.catalogue)
     if (h.id != hidden.removed) catalogue.push_back(h);
@@ -272,23 +273,24 @@ Score run_case(const Bench& bench, const Case& hidden) {
   const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue, *bench.diagnosing.reduced, map.features());
   diagnosis::Inference inference(map, entries.candidates);
   inference.use(&shared.table);
-  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
-  return score_of(hidden.seal, result, static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec));
+  return use(inference);
+}
+
+Score run_case(const Bench& bench, const Case& hidden) {
+  timespec begin{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
+  return on_inference(bench, hidden, [&](auto& inference) {  // what is found refers to the inference's entries
+    const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
+    timespec end{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
+    return score_of(hidden.seal, result,
+                    static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec));
+  });
 }
 
 void explain_case(const Bench& bench, std::uint64_t seed) {
-  const Shared& shared = shared_of(bench);
   const Case hidden = make_case(bench, seed);
-  std::vector<diagnosis::Hypothesis> catalogue;
-  for (const diagnosis::Hypothesis& h : bench.catalogue)
-    if (h.id != hidden.removed) catalogue.push_back(h);
-  diagnosis::FeatureMap map = *shared.nominal;
-  map.set_values(hidden.values);
-  const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue, *bench.diagnosing.reduced, map.features());
-  diagnosis::Inference inference(map, entries.candidates);
-  inference.use(&shared.table);
-  explain(inference, hidden.seal, 14);
+  on_inference(bench, hidden, [&](auto& inference) { explain(inference, hidden.seal, 14); });
 }
 
 Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double seconds) {
