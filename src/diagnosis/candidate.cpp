@@ -155,8 +155,7 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
   const auto nothing_there = [&](const Candidate& candidate) {
     for (const ActionSpec& action : h.actions) {
       if (candidate.places.empty()) continue;
-      if ((action.kind == "scale.stiffness" || action.kind == "field.stiffness" || action.kind == "step.stiffness") &&
-          candidate.places[0]->stiffness.size() == 0)
+      if (action.kind.ends_with(".stiffness") && candidate.places[0]->stiffness.size() == 0)
         return true;
       if (action.kind == "scale.mass" && candidate.places[0]->mass.size() == 0) return true;
     }

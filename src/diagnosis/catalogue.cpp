@@ -9,6 +9,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
       {"field.stiffness", {"rate", "reference"}},                         // factor 1 + rate (v - reference), v = `variable`
       {"step.stiffness", {"factor", "below"}},                            // factor where v < below
       {"slip.stiffness", {"factor", "above"}},                            // factor where v > above
+      {"soften.stiffness", {"half"}},                                     // factor 1/(1 + v/half): half is left at v = half
       {"mass.add", {"mass"}},                                             // point mass
       {"mass.per_count", {"mass", "assumed"}},                            // mass per person instead of the assumed one
       {"person.oscillator", {"mass", "frequency", "damping"}},            // people as masses on springs

@@ -60,7 +60,7 @@ bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Conditi
   if (kind.starts_with("damper."))
     return condition.dampers_on.value_or(cause.candidate->places[0]->attributes.at("always_on") != 0.0);
   const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
-  if (kind == "field.stiffness") return std::isfinite(variable(action, condition));
+  if (kind == "field.stiffness" || kind == "soften.stiffness") return std::isfinite(variable(action, condition));
   if (kind == "step.stiffness") return variable(action, condition) < value("below");
   if (kind == "slip.stiffness") return variable(action, condition) > value("above");
   if (kind == "mass.per_count") return condition.people.value_or(0.0) > 0.0;
@@ -127,6 +127,9 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   } else if (kind == "field.stiffness") {
     const double v = variable(action, condition);
     if (std::isfinite(v)) state.stiffness += value("rate") * (v - value("reference")) * sliced(place.stiffness, columns_, n);
+  } else if (kind == "soften.stiffness") {  // the hyperbola of soils (Hardin and Drnevich, J. Soil Mech. Found. Div. ASCE 98 SM7, 1972)
+    const double v = variable(action, condition);
+    if (std::isfinite(v)) state.stiffness -= v / (v + value("half")) * sliced(place.stiffness, columns_, n);
   } else if (kind == "step.stiffness") {
     if (variable(action, condition) < value("below"))
       state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
@@ -227,7 +230,7 @@ SolvedState& Predictor::solved(int c) {
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
       if (!acts(cause, action, condition)) continue;
       any = true;
-      const bool field = action.kind == "field.stiffness";
+      const bool field = action.kind == "field.stiffness" || action.kind == "soften.stiffness";
       const auto named = action.text.find("variable");
       const std::string key = named == action.text.end() ? "temperature_C" : named->second;
       temperature = temperature || (field && key == "temperature_C");

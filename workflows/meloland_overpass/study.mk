@@ -8,3 +8,21 @@ $(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/channels.csv $(DATA)/*.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
 	@workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
+
+# The transverse mode of each earthquake and a model of it; the model fitted to the weak ones, where the strong ones are held out all three;
+# then the diagnosis, which starts from that model and keeps the strongest from the fit.
+INPUTS := $(RESULTS)/inputs
+WEAK_FIT := $(RESULTS)/weak_fit
+STRONG := nov1987_237 oct1979_484 dec2009_498
+comma := ,
+OPTIONS_s9_diagnosis += --model $(INPUTS)/fitted_model
+
+$(RESULTS)/s9_diagnosis/manifest.json: $(WEAK_FIT)/manifest.json $(wildcard $(WORKFLOW)/hypotheses/*)
+
+$(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
+	@workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)
+
+$(WEAK_FIT)/manifest.json: $(INPUTS)/model/model.toml $(WORKFLOW)/s9_diagnosis.toml $(WORKFLOW)/narrow.py $(BIN)/s9_diagnosis
+	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $(WEAK_FIT) --model $(INPUTS)/model --threads $(THREADS) --quiet \
+	  --set most_causes=0 --set 'hold_out=[$(subst $() ,$(comma),$(STRONG:%="%"))]'
+	@workflows/python.sh $(WORKFLOW)/narrow.py $(WEAK_FIT)/extended_model $(INPUTS)/fitted_model

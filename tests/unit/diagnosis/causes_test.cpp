@@ -61,6 +61,38 @@ TEST_F(Causes, TieBetweenTwoNodes) {
   expect("tie@nodes:3,6", VectorXd::Constant(1, std::log(7e5)), chain.stiffness(truth), m);
 }
 
+TEST(SofteningCause, ScalesStiffnessByTheHyperbolaOfTheAmplitude) {
+  // Half of the stiffness is left at 4 mm: 1/(1 + A/4 mm) of spring 5 at 1, 4 and 12 mm, and all of it where no amplitude is
+  // known.
+  const Chain chain({.masses = 8, .modes = 3});
+  auto features = chain.measure(chain.as_modelled());
+  const std::vector<double> amplitudes = {0.001, 0.004, 0.012};
+  const std::size_t rows = features.rows.size();
+  for (const double amplitude : amplitudes) {
+    diagnosis::Condition condition;
+    condition.name = "shaken" + std::to_string(features.conditions.size());
+    condition.amplitude_m = amplitude;
+    features.conditions.push_back(condition);
+    for (std::size_t r = 0; r < rows; ++r) {
+      features.rows.push_back(features.rows[r]);
+      features.rows.back().condition = static_cast<int>(features.conditions.size()) - 1;
+    }
+  }
+  const Examined e = examine(
+      chain, features, steps::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/meloland_overpass/hypotheses"));
+  const auto base = e.map->base(VectorXd::Zero(static_cast<Index>(e.map->nuisances().size())));
+  const auto p = e.map->predict(base, {{&e.entry("soften@group:g5"), VectorXd::Constant(1, std::log(0.004))}}, false);
+  ASSERT_TRUE(p.valid);
+  const MatrixXd m = Chain::kMass * MatrixXd::Identity(8, 8);
+  for (std::size_t i = 0; i < p.frequency_Hz.size(); ++i) {
+    const diagnosis::MeasuredMode& mode = e.map->measured_modes()[i];
+    ChainTruth truth = chain.as_modelled();
+    if (mode.condition > 0) truth.spring[5] = 1.0 / (1.0 + amplitudes[static_cast<std::size_t>(mode.condition) - 1] / 0.004);
+    const double expected = hertz(chain.stiffness(truth), m)[std::atoi(mode.label.c_str()) - 1];
+    EXPECT_NEAR(p.frequency_Hz[i] / expected, 1.0, 1e-9) << mode.label << " of condition " << mode.condition;
+  }
+}
+
 TEST_F(Causes, EveryStructuralCauseAtNothingIsTheModel) {
   // Factors of one, masses and ties of almost nothing; entries whose smallest size still matters are left to the law on the
   // bridge.

@@ -1,0 +1,85 @@
+"""The laboratory frame of four storeys, from its published modes to a diagnosis; skipped where they are not at hand.
+
+Oracles: the changes of storey stiffness that the authors publish, -0.260 -0.216 -0.128 +0.533 (MAC form) and -0.248 -0.269 -0.119 +0.578
+(shape form): their two forms differ by up to 0.053, so that 0.06 is allowed to ours. The measured modes 3 and 4, which neither they nor we
+fit: the published changes give their frequencies to 0.8 %.
+"""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
+DATA = pathlib.Path(os.environ.get("TWINDECK_DATA", ROOT.parent / "shared" / "data")) / "smu_lab_frames"
+STUDY = "smu_four_storey"
+
+
+def table(path):
+    with open(path, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+@unittest.skipUnless((DATA / "four_story_f_hz.csv").is_file(), f"the frame's modes are not at hand ({DATA}); name their parent by TWINDECK_DATA")
+class FourStoreyFrame(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.root = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        for part in ("workflows", "paper", "data/template"):
+            shutil.copytree(ROOT / part, cls.root / part, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(ROOT / "Makefile", cls.root / "Makefile")
+        cls.results = cls.root / "results" / STUDY
+        done = cls.make("all", f"STUDY={STUDY}", f"DATA={DATA}")
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+
+    @classmethod
+    def make(cls, *arguments):
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+        return subprocess.run(
+            ["make", "NO_BUILD=1", f"BIN={BIN}", "THREADS=1", *arguments],
+            cwd=cls.root, env=environment, capture_output=True, text=True, timeout=300,
+        )
+
+    def told(self, folder):
+        return json.loads((self.results / folder / "diagnosis.json").read_text(encoding="utf-8"))
+
+    def test_the_published_updating_is_found_again(self):
+        ours = [float(row["change"]) for row in table(self.results / "inputs/changes_as_published.csv")]
+        for found, published in zip(ours, (-0.260, -0.216, -0.128, 0.533), strict=True):
+            self.assertAlmostEqual(found, published, delta=0.06)
+        print("changes of storey stiffness:", " ".join(f"{c:+.3f}" for c in ours))
+
+    def test_it_says_the_modes_that_it_did_not_see(self):
+        for row in table(self.results / "as_published/pairs.csv"):
+            self.assertLess(abs(float(row["after_Hz"]) / float(row["measured_Hz"]) - 1.0), 0.015, row["mode"])
+            self.assertGreater(float(row["mac_after"]), 0.99, row["mode"])
+
+    def test_within_workmanship_the_fourth_storey_is_on_its_bound_and_those_modes_are_missed(self):
+        diagnosis, published = self.told("s9_diagnosis"), self.told("as_published")
+        self.assertIn("storey4", diagnosis["parameters_on_bounds"])
+        self.assertGreater(diagnosis["gain"]["before"], 2.0 * published["gain"]["before"])
+        self.assertEqual(published["verdict"], "none", "with the storeys free there is nothing left to name")
+        print(f"held out: {diagnosis['gain']['before']:.2f} deviations within 30 %, {published['gain']['before']:.2f} with the storeys free; "
+              f"verdict {diagnosis['verdict']}")
+
+    def test_the_report_tells_source_and_published_figures(self):
+        page = (self.results / "report/report.html").read_text(encoding="utf-8")
+        for part in ("Where the data come from", "Licence:", "github.com/", "0.533", "verdict of the diagnosis"):
+            self.assertIn(part, page)
+
+    def test_without_data_it_says_so(self):
+        shutil.copytree(self.root, other := self.root / "bare", ignore=shutil.ignore_patterns("results", "bare"))
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+        done = subprocess.run(["make", "NO_BUILD=1", f"BIN={BIN}", "steps", f"STUDY={STUDY}"], cwd=other, env=environment,
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("DATA", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
