@@ -105,6 +105,16 @@ class RealStudies(unittest.TestCase):
         self.assertLess(told["gain"]["after"], told["gain"]["before"])
         gain = told["gain"]
         print(f"Meloland: {told['message']} Held out: {gain['before']:.2f} -> {gain['after']:.2f} deviations")
+        # The strong records in two parts: the same cause, and the strong part of 1979, which no fit saw, within two deviations.
+        done = self.make("windows", "STUDY=meloland_overpass", f"DATA={DATA / 'meloland_overpass'}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        parts = json.loads((folder / "windows/s9_diagnosis/diagnosis.json").read_text())
+        self.assertEqual([(e["cause"], e["location"]) for e in parts["effects"]], [("soften", "group:abutments")])
+        self.assertGreater(parts["gain"]["reduction_pct"], 0.0)
+        with open(folder / "windows/s9_diagnosis/residuals.csv", newline="") as stream:
+            held = {r["condition"]: r for r in csv.DictReader(stream) if r["type"] == "frequency_Hz" and r["held_out"] == "1"}
+        self.assertLess(abs(float(held["oct1979_484_strong"]["residual_after"])), 2.0)
+        self.assertLess(float(held["oct1979_484_strong"]["residual_before"]), -2.0)
 
     @at_hand("gt_pedestrian_bridge")
     def test_gt_pairs_and_updating(self):
