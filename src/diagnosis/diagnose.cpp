@@ -24,8 +24,8 @@ double tempered(const Scored& scored, double ratio) {
   return scored.log_odds < -1e299 ? -1e300 : (scored.log_odds - prior) / ratio + prior;
 }
 
-/// What is known beforehand does not widen with the misfit: an entry to which a study gives more weight than the catalogue does leads
-/// where its odds are the largest once the likelihoods are widened.
+/// What is known beforehand does not widen with the misfit: an entry to which a study gives more weight than the catalogue does
+/// leads where its odds are the largest once the likelihoods are widened.
 void prefer_stated_priors(std::vector<Scored>& ranking, double ratio) {
   auto best = ranking.begin();
   for (auto at = ranking.begin(); at != ranking.end(); ++at)
@@ -245,9 +245,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
   }
   out.after_extension = !out.effects.empty();
   if (out.after_extension) out.localisation = location_map(inference, current, ranking);
-  out.residual_statistic = current.chi_squared;
-  out.residual_dof = inference.dof();
-  out.residual_p = chi_squared_tail(current.chi_squared, out.residual_dof);
+  out.residual = residual_test(inference, current);
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
   for (Index j = 0; j < n; ++j) {
     const Nuisance& v = inference.map().nuisances()[static_cast<std::size_t>(j)];
@@ -256,7 +254,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     const double u = out.before.map.x[j];
     if (u < v.lower + 0.02 * range || u > v.upper - 0.02 * range) out.on_bounds.push_back(v.name);
   }
-  const bool rejects = out.residual_p < options.residual_alpha;
+  const bool rejects = out.residual.rejects(options.residual_alpha);
   // Held-out rows speak against a cause where they lose by more than chance, and by as many nats as a name must win.
   const double loss = 0.5 * out.gain.rows * (out.gain.after * out.gain.after - out.gain.before * out.gain.before);
   const bool fits_but_does_not_predict =
@@ -275,6 +273,9 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     out.message = rejects ? "something is missing that no entry of the catalogue explains"
                           : "the best cause fits but does not predict the held-out rows";
     if (!out.effects.empty()) out.message += "; it acts like " + out.effects.front().cluster.front();
+    if (rejects && out.residual.block_p_value < options.residual_alpha)
+      out.message += fmt::format(", but {} ({} rows) is not explained", out.residual.blocks.front().name,
+                                 out.residual.blocks.front().rows);
   }
   if (out.verdict == "named" || out.verdict == "ambiguous") out.message = out.effects.front().sentence;
   return out;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/inference.hpp"
+#include "diagnosis/residual_test.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -51,8 +52,7 @@ struct Diagnosis {
   std::string verdict;  ///< none | named | ambiguous | unknown
   std::string message;  ///< one line for people
   double log_odds = 0.0, threshold = 0.0, alpha = 0.0;
-  double residual_statistic = 0.0, residual_p = 1.0;
-  int residual_dof = 0;
+  ResidualTest residual;  ///< with the causes in the model
   bool after_extension = false;
   std::vector<Effect> effects;
   std::vector<LocationScore> localisation;
@@ -75,7 +75,8 @@ struct Diagnosis {
 /// out.
 [[nodiscard]] Eigen::VectorXd standardised_residuals(const Inference& inference, const Fit& fit);
 
-/// 90 % intervals of the unknowns of one of the fit's causes, by the likelihood along each unknown with the others following.
+/// 90 % intervals of the unknowns of one of the fit's causes, by the likelihood along each unknown with the others following,
+/// widened by the misfit that the fit leaves (Birge 1932).
 [[nodiscard]] std::vector<EffectParameter> effect_parameters(const Inference& inference, const Fit& fit, std::size_t which);
 
 /// Threshold of the largest log odds at false-alarm rate alpha by the union bound over candidates, chi² tails with the

@@ -51,7 +51,7 @@ struct Hidden {
 
 struct HideOptions {
   std::set<std::string> only;  ///< families that are drawn from; empty: all
-  double least_sigma = 3.0;    ///< smallest single effect, up to fifteen
+  double least_sigma = 3.0;    ///< smallest single effect, up to fifteen; at most three: or what a family shows at best
   char kind = 0;               ///< 'n' null, 'e' one cause, 't' two, 'o' outside the catalogue; 0: by the number
   int family = -1;             ///< place among `only` of the family whose turn it is; -1: by the number
 };
@@ -74,7 +74,7 @@ struct Case {
 struct NullTest {
   double chi_squared;
   int dof;
-  double p_value;
+  double p_value, block_p_value;
 };
 [[nodiscard]] NullTest residual_test(const Bench& bench, std::uint64_t seed);
 /// The analytic threshold of this bench at 1 %.
@@ -87,9 +87,9 @@ struct Score {
   double sigma = 0.0, seconds = 0.0;
   bool detected = false, family_named = false, exact = false, in_set = false, both = false, unknown = false,
        gain_claimed = false;
-  bool covered = false, sized = false;
+  bool covered = false, sized = false, one_sided = false;  ///< the magnitude: within its interval, given, only a limit of it
   int set_size = 0;
-  double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, held_out_ratio = 1.0, magnitude_error = 0.0;
+  double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, block_p_value = 1.0, held_out_ratio = 1.0, magnitude_error = 0.0;
   std::string verdict, found, seal;
 };
 

@@ -73,11 +73,21 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                        {"threshold", result.threshold},
                        {"alpha", result.alpha},
                        {"threshold_from", threshold_from}};
-  json["residual_test"] = {{"statistic", result.residual_statistic},
-                           {"dof", result.residual_dof},
-                           {"p_value", result.residual_p},
+  json["residual_test"] = {{"statistic", result.residual.statistic},
+                           {"dof", result.residual.dof},
+                           {"p_value", result.residual.p_value},
+                           {"block_p_value", result.residual.block_p_value},
                            {"alpha", residual_alpha},
-                           {"stage", result.after_extension ? "after extension" : "before"}};
+                           {"stage", result.after_extension ? "after extension" : "before"},
+                           {"blocks", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < std::min<std::size_t>(result.residual.blocks.size(), 5); ++i) {
+    const auto& block = result.residual.blocks[i];
+    json["residual_test"]["blocks"].push_back({{"name", block.name},
+                                               {"rows", block.rows},
+                                               {"statistic", block.statistic},
+                                               {"dof", block.dof},
+                                               {"p_value", block.p_value}});
+  }
   json["account"] = nlohmann::ordered_json::array();
   for (const Finding& finding : account)
     json["account"].push_back({{"kind", finding.kind},

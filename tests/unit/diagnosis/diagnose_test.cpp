@@ -24,7 +24,7 @@ TEST(Diagnose, NamesAndSizesASoftSpring) {
   EXPECT_GT(effect.parameters[0].high, 0.55);
   EXPECT_NEAR(effect.parameters[0].value, 0.55, 0.06);
   EXPECT_NE(effect.sentence.find("group:g6"), std::string::npos);
-  EXPECT_GT(e.result.residual_p, 0.01);
+  EXPECT_GT(e.result.residual.p_value, 0.01);
 }
 
 TEST(Diagnose, TwoCausesAreFoundOneAfterTheOther) {
@@ -81,7 +81,7 @@ TEST(Diagnose, WithoutTheTrueFamilyTheAnswerIsUnknown) {
     std::erase_if(without, [](const auto& h) { return h.id == "tie"; });
     const Examined e = diagnosed(chain, features, without);
     if (e.result.verdict == "unknown") ++unknown;
-    if (!e.result.effects.empty() && e.result.verdict != "unknown" && e.result.residual_p > 0.05) ++named_with_a_passing_test;
+    if (!e.result.effects.empty() && e.result.verdict != "unknown" && e.result.residual.p_value > 0.05) ++named_with_a_passing_test;
   }
   EXPECT_GE(with_the_family, 9);
   EXPECT_LE(named_with_a_passing_test, 1);

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference.hpp"
+
+namespace twindeck::diagnosis {
+
+/// How far rows that belong together (one condition, one mode, one channel, one type) lie from what all other rows lead one to
+/// expect of them.
+struct BlockMisfit {
+  std::string name;  ///< "frequency_Hz in frost", "shape of mode 3", "channel M4z"
+  int rows = 0;
+  double statistic = 0.0;  ///< chi² of `dof` degrees of freedom where nothing is missing
+  int dof = 0;
+  double p_value = 1.0;
+};
+
+/// Whether anything is left that bounds, workmanship and the named causes don't explain.
+struct ResidualTest {
+  double statistic = 0.0;  ///< of all training rows
+  int dof = 0;
+  double p_value = 1.0;
+  std::vector<BlockMisfit> blocks;  ///< the least likely first
+  double block_p_value = 1.0;       ///< of the least likely block, times their number (Bonferroni)
+
+  [[nodiscard]] bool rejects(double alpha) const { return p_value < alpha || block_p_value < alpha; }
+};
+
+/// Two tests of a fit, each at its level: the sum over all rows, which sees what is spread, and the rows of each block against
+/// their prediction by all others, which sees what sits in a few rows and drowns in the sum. With r = y - g + J x ~ N(0, S) and
+/// u = S^-1 r, the block b given the rest has the statistic u_b' ((S^-1)_bb)^-1 u_b (conditional normal law; Cook and Weisberg
+/// 1982, section 3.5, for the deletion of several rows).
+[[nodiscard]] ResidualTest residual_test(const Inference& inference, const Fit& fit);
+
+}  // namespace twindeck::diagnosis
