@@ -57,6 +57,13 @@ void FeatureMap::collect_modes() {
       mode.imag_channels.push_back(row.channel);
     }
   }
+  // A model that is several times too stiff has fewer modes below that than were measured: then as many of its own as were.
+  std::map<int, Index> measured;
+  Index most = 0;
+  for (const MeasuredMode& mode : modes_) most = std::max(most, ++measured[mode.condition]);
+  most = std::min(most, model_.frequency_Hz.size());
+  if (highest_Hz_ > 0.0 && most > 0 && model_.frequency_Hz[most - 1] > highest_Hz_)
+    highest_Hz_ = 1.01 * model_.frequency_Hz[most - 1];
   if (highest_Hz_ == 0.0) highest_Hz_ = 1.01 * model_.frequency_Hz[std::min<Index>(9, model_.frequency_Hz.size() - 1)];
   for (const MeasuredMode& mode : modes_)
     if (!mode.real_rows.empty()) n_scales_ += mode.imag_rows.empty() ? 1 : 2;

@@ -165,5 +165,21 @@ TEST(ModelForm, IsCommonToTheConditionsOfAMode) {
   EXPECT_NEAR(c(0, 4), 0.0, 1e-15);
 }
 
+// Oracle: K/16 leaves shapes alone and divides every frequency by four. Few of the model's modes lie below the highest measured one then,
+// and every measured mode must find its own all the same.
+TEST(FeatureMap, PredictsEveryModeOfAStructureFourTimesAsSlow) {
+  const Chain chain({.masses = 8, .modes = 6});
+  ChainTruth truth = chain.as_modelled();
+  truth.spring /= 16.0;
+  const diagnosis::FeatureMap map(chain.reduced(), chain.measure(truth), {});
+  const auto prediction =
+      map.predict(map.base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(map.nuisances().size()))), {}, false);
+  ASSERT_TRUE(prediction.valid);
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    EXPECT_NEAR(prediction.frequency_Hz[m] / map.measured_modes()[m].frequency_Hz, 4.0, 1e-6) << m;
+    EXPECT_NEAR(prediction.mac[m], 1.0, 1e-9) << m;
+  }
+}
+
 }  // namespace
 }  // namespace twindeck::tests
