@@ -23,7 +23,7 @@ else
 include workflows/steps.mk
 endif
 
-.PHONY: paper blind-trials help all deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
+.PHONY: paper blind-trials help all look deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -39,15 +39,26 @@ all: report verify ## everything of the study: install, build, steps, tables, fi
 deps: ## packages and versions; what is missing is installed (apt, as root or with sudo)
 	@workflows/deps.sh $(if $(filter deps,$(MAKECMDGOALS)),--report)
 
+# What is compiled: the steps that are asked for and those before them; everything when anything else is asked for too.
+STEP_OF = $(foreach step,$(STEPS),$(if $(filter $(1),$(step) $(firstword $(subst _, ,$(step)))),$(step)))
+WITH_EARLIER = $(1) $(foreach read,$(filter $(READS_$(1)),$(STEPS)),$(call WITH_EARLIER,$(read)))
+ASKED := $(MAKECMDGOALS:look=s1)
+ASKED_STEPS := $(foreach goal,$(ASKED),$(call STEP_OF,$(goal)))
+EXECUTABLES := $(if $(filter $(words $(ASKED)),$(words $(ASKED_STEPS))),$(sort $(foreach step,$(ASKED_STEPS),$(call WITH_EARLIER,$(step)))))
+EXECUTABLES := $(or $(strip $(EXECUTABLES)),executables)
+
 build: deps ## compile into build/
 	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 	@rm -f $(BUILD).log
-	@cmake --build $(BUILD) -j $(JOBS) --target executables
+	@cmake --build $(BUILD) -j $(JOBS) --target $(EXECUTABLES)
 
 test: build ## unit tests, laws, verification, steps, architecture, the study and its check against the paper
 	@cmake --build $(BUILD) -j $(JOBS)
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 	@$(MAKE) --no-print-directory all
+
+look: $(RESULTS)/s1_model/manifest.json ## a first look: compiles step 1 alone, runs it and draws the model's modes 1 and 2
+	@$(REPORT) figures --only fig_05 $(REPORT_ARGUMENTS)
 
 steps: $(STEP_MANIFESTS) ## every step of the study
 

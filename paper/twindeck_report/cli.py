@@ -23,6 +23,8 @@ def main(arguments) -> int:
     study = Study(options.study, options.results or Path("results") / options.study,
                   options.data or Path("data") / options.study, options.workflow or Path("workflows") / options.study)
     try:
+        if getattr(options, "only", None):
+            return _figure(study, options.only)
         return COMMANDS[options.command][0](study)
     except InputError as problem:
         print(f"twindeck_report {options.command}: {problem}", file=sys.stderr)
@@ -42,6 +44,13 @@ def _figures(study: Study) -> int:
 
     written = write_figures(study)
     print(f"{len(written)} figures in {study.results / 'figures'}: {', '.join(written)}")
+    return 0
+
+
+def _figure(study: Study, name: str) -> int:
+    from .figures.writer import write_figure
+
+    print(f"{write_figure(study, name)} written")
     return 0
 
 
@@ -111,5 +120,7 @@ def _parse(arguments):
         command.add_argument("--study", required=True, help="name of the study, e.g. ponte_del_mare")
         command.add_argument("--results", type=Path, help="results of the study's steps (default results/<study>)")
         command.add_argument("--data", type=Path, help="the paper as printed and the rules (default data/<study>)")
+        if name == "figures":
+            command.add_argument("--only", metavar="NAME", help="this figure alone, e.g. fig_05, into results/<study>/look")
         command.add_argument("--workflow", type=Path, help="study.toml and the steps' configs (default workflows/<study>)")
     return parser.parse_args(arguments)

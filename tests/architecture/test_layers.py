@@ -18,6 +18,11 @@ MAX_MAIN_LINES = 80
 MAX_FILE_LINES = 500
 
 
+def library_of(parts):
+    """The library of a file below src, or of an include: its folder; below `steps` each folder is one, the mains are `steps`."""
+    return "/".join(parts[:2]) if parts[0] == "steps" and len(parts) == 3 else parts[0]
+
+
 def violations(src):
     """Every breach of the layer rules below the folder `src`, as sentences."""
     declared = tomllib.loads((src / "layers.toml").read_text())
@@ -28,13 +33,13 @@ def violations(src):
             if layer[target] > layer[name] or (layer[target] == layer[name] and target in uses and name in uses[target]):
                 found.append(f"layers.toml: {name} (L{layer[name]}) uses {target} (L{layer[target]}), which climbs")
     for file in sorted(src.rglob("*.[hc]pp")):
-        library = file.relative_to(src).parts[0]
+        library = library_of(file.relative_to(src).parts)
         if library not in layer:
             found.append(f"{file.relative_to(src)}: folder {library} is not in layers.toml")
             continue
         text = file.read_text()
         for include in INCLUDE.findall(text):
-            target = include.split("/")[0]
+            target = library_of(include.split("/"))
             if target == library or "/" not in include:
                 continue
             used.add((library, target))
@@ -51,25 +56,32 @@ def violations(src):
     return found
 
 
-def step_circle(src):
-    """The folders of src/steps that include each other in a circle; empty if none do."""
-    edges = {}
-    for file in (src / "steps").glob("*/*.[hc]pp"):
-        edges.setdefault(file.parent.name, set()).update(
-            t for t in re.findall(r'#\s*include\s*"steps/(\w+)/', file.read_text()) if t != file.parent.name)
+def circle(uses):
+    """Libraries that use each other in a circle; empty if none do."""
     try:
-        graphlib.TopologicalSorter(edges).prepare()
-    except graphlib.CycleError as circle:
-        return circle.args[1]
+        graphlib.TopologicalSorter(uses).prepare()
+    except graphlib.CycleError as found:
+        return found.args[1]
     return []
+
+
+def linked(cmake):
+    """What src/CMakeLists.txt links: {library: libraries after USES}."""
+    calls = re.findall(r"^twindeck_library\(([^)]*)\)", cmake, re.M)
+    return {(words := call.split("LINKS")[0].split())[0]: sorted(words[2:]) for call in calls}
 
 
 class Layers(unittest.TestCase):
     def test_includes_answer_to_the_declared_layers(self):
         self.assertEqual(violations(ROOT / "src"), [])
 
-    def test_steps_include_each_other_in_no_circle(self):
-        self.assertEqual(step_circle(ROOT / "src"), [])
+    def test_libraries_use_each_other_in_no_circle(self):
+        self.assertEqual(circle(tomllib.loads((ROOT / "src/layers.toml").read_text())["uses"]), [])
+
+    def test_cmake_links_what_is_declared(self):
+        declared = tomllib.loads((ROOT / "src/layers.toml").read_text())["uses"]
+        libraries = {name: sorted(used) for name, used in declared.items() if name not in ("steps", "tools")}  # executables
+        self.assertEqual(linked((ROOT / "src/CMakeLists.txt").read_text()), libraries)
 
     def test_ceres_stays_in_one_file(self):
         files = [f.name for f in (ROOT / "src").rglob("*.[hc]pp") if re.search(r"#\s*include\s*<ceres", f.read_text())]
@@ -135,9 +147,19 @@ class TheCheckCanFail(unittest.TestCase):
         found = violations(self.tree({"layers.toml": self.LAYERS} | self.USED | {"fe/c.hpp": "#include <ceres/ceres.h>\n"}))
         self.assertTrue(any("crosses" in f for f in found), found)
 
-    def test_a_circle_of_steps_is_found(self):
-        tree = self.tree({"steps/a/x.hpp": '#include "steps/b/y.hpp"\n', "steps/b/y.hpp": '#include "steps/a/x.hpp"\n'})
-        self.assertEqual(set(step_circle(tree)), {"a", "b"})
+    def test_a_folder_of_the_steps_is_a_library_of_its_own(self):
+        layers = "[layer]\n'steps/a' = 6\n'steps/b' = 6\nsteps = 7\n[uses]\n'steps/a' = []\n'steps/b' = []\nsteps = ['steps/a']\n"
+        files = {"steps/s1_a.cpp": '#include "steps/a/x.hpp"\n', "steps/a/x.hpp": "", "steps/b/y.hpp": '#include "steps/a/x.hpp"\n'}
+        found = violations(self.tree({"layers.toml": layers} | files))
+        self.assertEqual(len(found), 1)
+        self.assertIn("steps/b -> steps/a", found[0])
+
+    def test_a_circle_is_found(self):
+        self.assertEqual(set(circle({"steps/a": ["steps/b"], "steps/b": ["steps/a"]})), {"steps/a", "steps/b"})
+
+    def test_what_cmake_links_is_read(self):
+        self.assertEqual(linked("twindeck_library(core)\ntwindeck_library(fe USES linalg\n core LINKS X::X)\n"),
+                         {"core": [], "fe": ["core", "linalg"]})
 
 
 if __name__ == "__main__":

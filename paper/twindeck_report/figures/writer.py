@@ -4,6 +4,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from ..errors import InputError
 from ..manifests import write_manifest
 from ..study import Study
 from ..tables.writer import write_csv
@@ -28,3 +29,17 @@ def write_figures(study: Study) -> list:
         written = [Path(shutil.move(path, folder / path.name)) for path in written]
     write_manifest("figures", folder, study.used, written, started)
     return names
+
+
+def write_figure(study: Study, name: str) -> Path:
+    """One figure, as soon as its own steps have run: look/<name>.png, .pdf, .csv. Returns the picture's path. The figures of the study,
+    which go together, are left as they are."""
+    figures = {figure.NAME: figure for figure in figures_of(study)}
+    if name not in figures:
+        raise InputError(f"--only: study {study.name} has no figure {name}; it has {', '.join(figures)}")
+    picture, data = figures[name].draw(study)
+    folder = study.results / "look"
+    folder.mkdir(parents=True, exist_ok=True)
+    save(picture, folder / name)
+    write_csv(data, folder / f"{name}.csv")
+    return folder / f"{name}.png"
