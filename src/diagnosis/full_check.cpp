@@ -1,11 +1,11 @@
 #include "diagnosis/full_check.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "linalg/dense_instances.hpp"
 #include "linalg/generalized_eigen.hpp"
 
 namespace twindeck::diagnosis {
@@ -116,7 +116,8 @@ struct Assembly {
 
 }  // namespace
 
-FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map, const Fit& fit, int modes) {
+FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map, const Fit& fit,
+                             int modes) {
   const fe::ParametricSystem& system = *structure.system;
   Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
                                   Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets};

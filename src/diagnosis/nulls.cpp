@@ -1,10 +1,10 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "diagnosis/diagnose.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

@@ -1,7 +1,5 @@
 #include "diagnosis/reduced_model.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,7 @@
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/free_structure.hpp"
 #include "linalg/cholesky.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

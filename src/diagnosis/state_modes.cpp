@@ -1,13 +1,12 @@
 #include "diagnosis/state_modes.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <tuple>
+
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

@@ -1,9 +1,9 @@
 #include "diagnosis/undamped_modes.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
+
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -6,6 +5,7 @@
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/modal_forces.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/dense_instances.hpp"
 #include "linalg/orthonormal_block.hpp"
 
 namespace twindeck::dynamics {

@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "dynamics/eigen_sensitivity.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 
@@ -46,8 +46,8 @@ VectorXd quadratic_forms(const linalg::SparseMatrix& pattern, const fe::Term& te
   return form;
 }
 
-/// Adds sign_i · (d coefficient / d theta_p) · phi_i' K_g phi_i of every term to (n_modes × n_parameters). Terms side by side, each
-/// summed by one thread.
+/// Adds sign_i · (d coefficient / d theta_p) · phi_i' K_g phi_i of every term to (n_modes × n_parameters). Terms side by side,
+/// each summed by one thread.
 void add_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const std::vector<int>& column,
                const VectorXd& theta, const MatrixXd& shapes_by_dof, const VectorXd& sign, MatrixXd& sum) {
   std::vector<VectorXd> forms(terms.size());
@@ -55,8 +55,7 @@ void add_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& 
 #pragma omp parallel for schedule(dynamic, 1)
   for (int t = 0; t < count; ++t) {
     const auto at = static_cast<std::size_t>(t);
-    if (!terms[at].coefficient.factors.empty())
-      forms[at] = quadratic_forms(system.pattern, terms[at], column, shapes_by_dof);
+    if (!terms[at].coefficient.factors.empty()) forms[at] = quadratic_forms(system.pattern, terms[at], column, shapes_by_dof);
   }
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (forms[t].size() == 0) continue;

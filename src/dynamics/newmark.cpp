@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <utility>
 
 #include "dynamics/friction_balance.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 

@@ -1,11 +1,11 @@
 #include "dynamics/reduced_basis.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/error.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 

@@ -1,9 +1,9 @@
 #include "dynamics/trapezoidal.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 using Eigen::Index;
@@ -46,8 +46,8 @@ void TrapezoidalStepper::start(const VectorXd& displacement, const VectorXd& loa
   }
 }
 
-/// F + (k dt + c_m) g(F) + (k + 2 c_m/dt) C F = k (u_free - x) + c_m (2 (u_free - u)/dt - u'), the left side growing with F: the
-/// pieces of g that hold are found in a few rounds.
+/// F + (k dt + c_m) g(F) + (k + 2 c_m/dt) C F = k (u_free - x) + c_m (2 (u_free - u)/dt - u'), the left side growing with F:
+/// the pieces of g that hold are found in a few rounds.
 void TrapezoidalStepper::find_forces(const VectorXd& u_free) {
   const Index d = u_free.size();
   VectorXd right(d);
@@ -89,8 +89,7 @@ void TrapezoidalStepper::find_forces(const VectorXd& u_free) {
 void TrapezoidalStepper::step(const VectorXd& load) {
   // Accelerations without the dampers; what they add is linear in their forces.
   predicted_ = v_ + 0.5 * dt_ * a_;
-  a_ = (load - two_zeta_omega_.cwiseProduct(predicted_) -
-        omega_squared_.cwiseProduct(q_ + dt_ * v_ + 0.25 * dt_ * dt_ * a_))
+  a_ = (load - two_zeta_omega_.cwiseProduct(predicted_) - omega_squared_.cwiseProduct(q_ + dt_ * v_ + 0.25 * dt_ * dt_ * a_))
            .cwiseProduct(inverse_)
            .eval();
   // Displacement of the last step's acceleration goes into the prediction before it is lost.

@@ -1,8 +1,8 @@
 #include "updating/joint_map.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
+
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::updating {
 
@@ -34,7 +34,9 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
     map.status = {false, "the model predicts nothing at the start"};
     return map;
   }
-  const auto residual_of = [&](const VectorXd& g) { return VectorXd(sigma_factor.triangularView<Eigen::Lower>().solve(y - g)); };
+  const auto residual_of = [&](const VectorXd& g) {
+    return VectorXd(sigma_factor.triangularView<Eigen::Lower>().solve(y - g));
+  };
   VectorXd r = residual_of(map.g);
   map.chi_squared = r.squaredNorm() + map.x.squaredNorm();
   double damping = 1e-3;

@@ -1,11 +1,11 @@
 #include "updating/reduced_system.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <exception>
 #include <utility>
 
 #include "linalg/dense.hpp"
+#include "linalg/dense_instances.hpp"
 #include "linalg/symmetric_product.hpp"
 
 namespace twindeck::updating {

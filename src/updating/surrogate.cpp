@@ -1,12 +1,12 @@
 #include "updating/surrogate.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <numbers>
 
 #include "linalg/cholesky.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::updating {
 

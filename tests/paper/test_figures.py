@@ -20,6 +20,7 @@ from twindeck_report.figures import fig_02, fig_03  # noqa: E402
 from twindeck_report.figures.mesh import read_mesh  # noqa: E402
 from twindeck_report.figures.stabilisation import apart  # noqa: E402
 from twindeck_report.figures.style import plt  # noqa: E402
+from twindeck_report.figures.writer import write_figure  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
 
 
@@ -75,6 +76,16 @@ class Figures(unittest.TestCase):
         mesh = read_mesh(self.study, "s1_model/with_ramp")
         self.assertEqual((mesh.ids.tolist(), mesh.lines.tolist(), mesh.groups.tolist()), ([1, 2], [[0, 1]], ["foot_top_chord"]))
         self.assertEqual(mesh.extent("chord")[1].tolist(), [1, 0, 0])
+
+    def test_one_figure_needs_its_own_steps_only(self):
+        with tempfile.TemporaryDirectory() as fresh:
+            study = Study("made_up", Path(fresh), self.study.data, self.study.workflow)
+            (study.results / "s1_model").symlink_to(self.study.results / "s1_model")
+            picture = write_figure(study, "fig_05")
+            self.assertGreater(picture.stat().st_size, 10_000)
+            self.assertFalse((study.results / "figures").exists(), "the figures that belong together are left alone")
+            with self.assertRaisesRegex(InputError, "no figure fig_99; it has fig_01"):
+                write_figure(study, "fig_99")
 
     def test_names_do_not_meet(self):
         places = [1.0, 1.01, 1.02, 2.0]

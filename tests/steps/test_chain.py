@@ -63,5 +63,27 @@ class Chain(unittest.TestCase):
         self.assertEqual(different, [])
 
 
+
+class WhatIsCompiled(unittest.TestCase):
+    """`make sN` compiles step N and those before it. Oracle: the table of what each step reads of earlier ones, followed by hand."""
+
+    def compiled(self, *goals):
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+        said = subprocess.run(["make", "-n", *goals, f"RESULTS={tempfile.gettempdir()}/no_such_results"], cwd=ROOT, capture_output=True, text=True,
+                              env=environment).stdout
+        return set(said.split("--target ")[1].split("\n")[0].split())
+
+    def test_a_step_alone(self):
+        self.assertEqual(self.compiled("s1"), {"s1_model"})
+        self.assertEqual(self.compiled("look"), {"s1_model"})
+
+    def test_a_step_and_those_before_it(self):
+        self.assertEqual(self.compiled("s2", "s6"), {"s1_model", "s2_sensors", "s4_refinement", "s5_sensitivity", "s6_updating"})
+
+    def test_everything_when_something_else_is_asked_for_too(self):
+        for goals in (["build"], ["s1", "tables"], ["all"]):
+            self.assertEqual(self.compiled(*goals), {"executables"}, goals)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,2 @@
+#define TWINDECK_INSTANCE
+#include "linalg/dense_instances.hpp"
