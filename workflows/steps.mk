@@ -62,7 +62,9 @@ OPTIONS_s9_diagnosis += $(if $(FEATURES),--features $(FEATURES))
 # An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
 # NO_BUILD=1 takes the executables as they are.
 ifndef NO_BUILD
-$(STEPS:%=$(BIN)/%): build ; @:
+# `build` compiles what was asked for; what a study's own rules (study.mk) need beside that is compiled here.
+$(STEPS:%=$(BIN)/%): build
+	@$(if $(filter executables $(@F),$(EXECUTABLES)),:,flock $(BUILD) cmake --build $(BUILD) -j $(JOBS) --target $(@F))
 endif
 
 define step_rule
