@@ -6,6 +6,7 @@
 
 #include "diagnosis/inference.hpp"
 #include "diagnosis/residual_test.hpp"
+#include "diagnosis/scatter_scales.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -53,6 +54,7 @@ struct Diagnosis {
   std::string message;  ///< one line for people
   double log_odds = 0.0, threshold = 0.0, alpha = 0.0;
   ResidualTest residual;  ///< with the causes in the model
+  std::vector<ScatterScale> scatter;  ///< likewise; left to who asks for it (scatter_scales)
   bool after_extension = false;
   std::vector<Effect> effects;
   std::vector<LocationScore> localisation;

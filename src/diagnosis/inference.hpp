@@ -81,6 +81,8 @@ class Inference {
   [[nodiscard]] const std::vector<int>& held_out() const { return held_out_; }
   [[nodiscard]] int dof() const { return static_cast<int>(training_.size()) - training_scales_; }
   [[nodiscard]] const FeatureMap& map() const { return map_; }
+  /// Of the training rows' errors (n_train × n_train).
+  [[nodiscard]] const Eigen::MatrixXd& covariance() const { return sigma_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Candidate>>& candidates() const { return candidates_; }
 
  private:

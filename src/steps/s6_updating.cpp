@@ -43,6 +43,7 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   // 5. Tables, the model, and the outcome in words.
   steps::write_parameters(parameters, active, result, context.out / "parameters.csv");
   steps::write_comparison(comparison, context.out);
+  steps::write_smooth_bounds(parameters, active, result, context.out / "smooth_bounds.csv");
   steps::write_history(parameters, active, result, context.out / "history.csv");
   steps::write_starts(parameters, active, result, context.out / "starts.csv");
   steps::write_updating_summary(comparison, config.common_pairs, result, context.out / "summary.csv");

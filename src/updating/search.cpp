@@ -8,6 +8,7 @@
 
 #include "updating/optimality.hpp"
 #include "updating/problem.hpp"
+#include "updating/smooth_bounds.hpp"
 #include "updating/surrogate.hpp"
 
 namespace twindeck::updating {
@@ -158,6 +159,34 @@ SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int star
   }
   search_full(search, x, system, reference, start, out);
   return out;
+}
+
+SmoothCheck check_by_smooth_map(const Search& search, const SearchEnd& ended) {
+  const auto n_targets = static_cast<int>(search.definition.targets.size());
+  const SharedSystem system = search.refresh ? refreshed(search, ended.end.x) : search.initial_system;
+  FrequencyResiduals residuals(system, search.definition);
+  const Evaluation full = residuals.at(ended.end.x, true);
+  SmoothCheck check;
+  if (!full.valid) return check;
+  const Eigen::VectorXd first = ended.result.initial.cwiseQuotient(search.definition.scale);
+  const BoundedOptions options{search.options.trust_radius, 10 * search.options.max_iterations,
+                               search.options.optimality_tolerance * gradient_reference(full.gradient(), full.jacobian),
+                               search.options.bound_tolerance};
+  BoundedResult found;
+  if (search.surrogate.basis) {
+    const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());
+    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate.mass_reference, search.surrogate.mass,
+                                       full);
+    if (!corrected.valid()) return check;
+    found = minimise_by_smooth_map(corrected, n_targets, first, search.box, options);
+  } else {
+    found = minimise_by_smooth_map(as_function(residuals), n_targets, first, search.box, options);
+  }
+  check.theta = found.x.cwiseProduct(search.definition.scale);
+  check.cost = found.cost;
+  check.iterations = found.iterations;
+  check.largest_difference = ((found.x - ended.end.x).array().abs() / (search.box.upper - search.box.lower).array()).maxCoeff();
+  return check;
 }
 
 }  // namespace twindeck::updating

@@ -129,6 +129,7 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, UpdatingResult&
   result.frequency_after_Hz = best.evaluation.frequency_Hz;
   result.mode_after = best.evaluation.mode;
   result.followed_mac = best.evaluation.mac;
+  if (best.result.converged) result.smooth = check_by_smooth_map(search, best);
   if (!best.result.converged) {
     result.status = {false, fmt::format("none of {} starts converged; the best (start {}) stopped with a relative projected gradient of "
                                         "{:.1e}: {}",

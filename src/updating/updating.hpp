@@ -47,6 +47,14 @@ struct StartResult {
   std::string message;
 };
 
+/// The best start's problem solved again by a smooth map of the bounds (smooth_bounds.hpp), at the prestress of its end.
+struct SmoothCheck {
+  Eigen::VectorXd theta;                ///< (n_active) in the parameters' units; empty where it could not be made
+  double cost = 0.0;
+  double largest_difference = 0.0;      ///< from the bounded search, as a fraction of the range
+  int iterations = 0;
+};
+
 struct UpdatingResult {
   Eigen::VectorXd theta;                ///< (n_parameters) all parameters, the inactive at their initial values
   std::vector<StartResult> starts;
@@ -57,6 +65,7 @@ struct UpdatingResult {
   std::vector<int> mode_before, mode_after;                 ///< (n_targets) positions
   Eigen::VectorXd followed_mac;                             ///< (n_targets) MAC of the followed mode with the start model's
   std::vector<IterationRecord> history;
+  SmoothCheck smooth;
   Status status;
 };
 

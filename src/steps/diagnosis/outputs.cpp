@@ -88,6 +88,9 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                                                {"dof", block.dof},
                                                {"p_value", block.p_value}});
   }
+  json["scatter"] = nlohmann::ordered_json::array();
+  for (const auto& s : result.scatter)
+    json["scatter"].push_back({{"of", s.of}, {"rows", s.rows}, {"times_stated", s.scale}, {"low", s.low}, {"high", s.high}, {"level", 0.90}});
   json["account"] = nlohmann::ordered_json::array();
   for (const Finding& finding : account)
     json["account"].push_back({{"kind", finding.kind},

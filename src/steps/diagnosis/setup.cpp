@@ -361,8 +361,9 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   options.search = config.search;
   options.search.most_refined = static_cast<int>(config.most_refined);
   options.most_causes = static_cast<int>(config.most_causes);
-  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
+  diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
+  result.scatter = diagnosis::scatter_scales(inference, result.after);
   write_residuals(inference, result, context.out / "residuals.csv");
   write_hypotheses(result, entries.invisible, context.out / "hypotheses.csv");
   write_gain(inference, result, context.out / "gain.csv");

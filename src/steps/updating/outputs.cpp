@@ -54,6 +54,18 @@ void write_parameters(const std::vector<fe::Parameter>& parameters, const std::v
   csv.save(file);
 }
 
+void write_smooth_bounds(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                         const updating::UpdatingResult& result, const std::filesystem::path& file) {
+  if (result.smooth.theta.size() == 0) return;
+  io::CsvWriter csv({"parameter", "unit", "final_value", "smooth_bounds_value", "difference_of_range"});
+  for (std::size_t j = 0; j < active.size(); ++j) {
+    const fe::Parameter& parameter = parameter_at(parameters, active, j);
+    const double value = result.theta(active[j]), smooth = result.smooth.theta(static_cast<Eigen::Index>(j));
+    csv.row({parameter.name, parameter.unit, value, smooth, (smooth - value) / (parameter.upper - parameter.lower)});
+  }
+  csv.save(file);
+}
+
 void write_history(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                    const updating::UpdatingResult& result, const std::filesystem::path& file) {
   io::CsvWriter csv(with_parameter_names(
@@ -117,6 +129,10 @@ void write_updating_summary(const std::vector<ComparisonRow>& comparison, const 
            static_cast<long>(std::count_if(result.on_bound.begin(), result.on_bound.end(), [](int side) { return side != 0; })),
            "-"});
   csv.row({"smallest_followed_mac", result.followed_mac.minCoeff(), "-"});
+  if (result.smooth.theta.size() > 0) {
+    csv.row({"smooth_bounds_cost", result.smooth.cost, "-"});
+    csv.row({"smooth_bounds_largest_difference_of_range", result.smooth.largest_difference, "-"});
+  }
   csv.save(file);
 }
 
@@ -140,6 +156,10 @@ std::vector<std::string> report_lines(const std::vector<fe::Parameter>& paramete
                                 start.relative_projected_gradient, start.iterations, start.solves,
                                 start.converged ? fmt::format("{}", optimum_number(result, start)) : "-",
                                 start.converged ? (static_cast<int>(k) == result.best ? "best" : "") : start.message));
+  }
+  if (result.smooth.theta.size() > 0) {
+    lines.push_back(fmt::format("by a smooth map of the bounds from start {}: cost {:.6e}, parameters within {:.2g} of their range after {} steps",
+                                result.best, result.smooth.cost, result.smooth.largest_difference, result.smooth.iterations));
   }
   return lines;
 }

@@ -15,6 +15,11 @@ namespace twindeck::steps {
 void write_parameters(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                       const updating::UpdatingResult& result, const std::filesystem::path& file);
 
+/// `smooth_bounds.csv`: parameter,unit,final_value,smooth_bounds_value,difference_of_range: the best start's problem solved
+/// again without projection (updating/smooth_bounds.hpp). No file where no start converged.
+void write_smooth_bounds(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                         const updating::UpdatingResult& result, const std::filesystem::path& file);
+
 /// `history.csv`: start,outer,iteration,cost,projected_gradient,step_norm,trust_radius and the normalised parameters, one row
 /// an accepted step.
 void write_history(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
@@ -27,7 +32,8 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
 
 /// `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over the
 /// measured modes `common` (those that an earlier table compares too), so that means are over like and like; cost and
-/// optimality of the best start; numbers of starts, of distinct optima, of parameters on a bound.
+/// optimality of the best start, and its cost by a smooth map of the bounds; numbers of starts, of distinct optima, of
+/// parameters on a bound.
 void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
                             const updating::UpdatingResult& result, const std::filesystem::path& file);
 
