@@ -274,7 +274,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
                           : "the best cause fits but does not predict the held-out rows";
     if (!out.effects.empty()) out.message += "; it acts like " + out.effects.front().cluster.front();
     if (rejects && out.residual.block_p_value < options.residual_alpha)
-      out.message += fmt::format(", but {} ({} rows) is not explained", out.residual.blocks.front().name,
+      out.message += fmt::format("; not explained: {} ({} rows)", out.residual.blocks.front().name,
                                  out.residual.blocks.front().rows);
   }
   if (out.verdict == "named" || out.verdict == "ambiguous") out.message = out.effects.front().sentence;

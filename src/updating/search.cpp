@@ -169,7 +169,7 @@ SmoothCheck check_by_smooth_map(const Search& search, const SearchEnd& ended) {
   SmoothCheck check;
   if (!full.valid) return check;
   const Eigen::VectorXd first = ended.result.initial.cwiseQuotient(search.definition.scale);
-  const BoundedOptions options{search.options.trust_radius, 10 * search.options.max_iterations,
+  const BoundedOptions options{search.options.trust_radius, 3 * search.options.max_iterations,
                                search.options.optimality_tolerance * gradient_reference(full.gradient(), full.jacobian),
                                search.options.bound_tolerance};
   BoundedResult found;
