@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "core/error.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 

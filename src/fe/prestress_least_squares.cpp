@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <vector>
 
+#include "linalg/dense_instances.hpp"
+
 namespace twindeck::fe {
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::sysid {
 

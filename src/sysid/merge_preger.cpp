@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/dense_instances.hpp"
 #include "sysid/leading_svd.hpp"
 #include "sysid/merging.hpp"
 #include "sysid/ssi_cov.hpp"

@@ -2,6 +2,7 @@
 #include "fe/large_displacement.hpp"
 #include "hanging_chain.hpp"
 #include "verification_models.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe::verification {
 namespace {

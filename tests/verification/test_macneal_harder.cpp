@@ -2,6 +2,7 @@
 /// does not hold: solids, curved beam of shells, pinched cylinder, hemisphere; and the patch tests of shells and solids through
 /// the product's assembly.
 #include "verification_models.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe::verification {
 namespace {

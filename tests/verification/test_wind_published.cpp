@@ -12,6 +12,7 @@
 #include "model_io/aero_data.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace {
 

@@ -11,6 +11,7 @@
 
 #include "diagnosis/diagnose.hpp"
 #include "steps/diagnosis/catalogue.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::tests {
 

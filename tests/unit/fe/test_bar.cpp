@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "fe/elements.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 namespace {

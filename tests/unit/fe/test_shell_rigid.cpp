@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "test_shell_mesh.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 namespace {
@@ -32,7 +33,7 @@ Vector24 rigid_motion(const ShellGeometry& g, int d) {
 }
 
 int rank_of(const Matrix24& k) {
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Matrix24>(k).eigenvalues();
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
   EXPECT_GT(values.minCoeff(), -1e-10 * values.maxCoeff());
   return static_cast<int>((values.array() > 1e-9 * values.maxCoeff()).count());
 }

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "test_assembly_models.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fe/parametric_system.hpp"
+#include "linalg/dense_instances.hpp"
 
 namespace twindeck::updating {
 
