@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "diagnosis/residual_test.hpp"
+
 namespace twindeck::blind {
 
 namespace {
@@ -29,6 +31,10 @@ void explain(const diagnosis::Inference& inference, const Sealed& seal, int entr
   const auto ms = [](auto a, auto b) { return 1e3 * std::chrono::duration<double>(b - a).count(); };
   fmt::print("base fit {:.1f} ms {} it, predict {:.1f} ms, with jacobian {:.1f} ms\n", ms(t0, t1), base.map.iterations, ms(t1, t2), ms(t2, t3));
   fmt::print("{}\nwithout a cause: chi2 {:.1f} of {} dof\n", seal.text(), base.chi_squared, inference.dof());
+  const diagnosis::ResidualTest test = diagnosis::residual_test(inference, base);
+  for (std::size_t i = 0; i < std::min<std::size_t>(test.blocks.size(), 4); ++i)
+    fmt::print("  not expected: {} ({} rows), statistic {:.1f} of {} dof, p {:.2g}\n", test.blocks[i].name, test.blocks[i].rows,
+               test.blocks[i].statistic, test.blocks[i].dof, test.blocks[i].p_value);
   const std::vector<diagnosis::Scored> ranking = inference.search(base, {});
   int place = 0, shown = 0;
   const auto is_truth = [&](const diagnosis::Candidate& candidate) {
