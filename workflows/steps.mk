@@ -38,7 +38,7 @@ endif
 # A study of outside records makes its inputs from them once: make s9 STUDY=gt_pedestrian_bridge DATA=dir
 ifneq ($(wildcard $(WORKFLOW)/make_inputs.py),)
 STUDY_INPUTS += $(RESULTS)/inputs/model/model.toml
-$(RESULTS)/inputs/model/model.toml: $(WORKFLOW)/make_inputs.py
+$(RESULTS)/inputs/model/model.toml: $(WORKFLOW)/make_inputs.py $(wildcard workflows/common/*.py)
 	@workflows/python.sh $(WORKFLOW)/make_inputs.py "$(DATA)" $(RESULTS)/inputs
 endif
 

@@ -26,6 +26,9 @@ import csv
 import pathlib
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "common"))
+from shear_building import parameter_table, write_lower_triangle, write_shear_building  # noqa: E402
+
 STOREY_N_M = [1e5 * k for k in (1155, 1092, 1073, 1028, 1028, 990, 963, 938, 876, 840, 824, 788, 712, 660, 619, 562, 491, 363)]
 FLOOR_KG = [1e3 * w / 9.8 for w in [208] * 11 + [206] * 6 + [202]]
 FREQUENCY, SHAPE = 0.005, 0.03
@@ -37,35 +40,6 @@ def table(path):
         sys.exit(f"smu_eighteen_storey: {path} is not there; give DATA=the folder with the frame's measured modes")
     with open(path, newline="", encoding="utf-8") as stream:
         return [row for row in csv.reader(stream) if row]
-
-
-def matrix(path, entries, size=len(FLOOR_KG)):
-    """Lower triangle, 1-based."""
-    path.write_text(
-        f"%%MatrixMarket matrix coordinate real symmetric\n{size} {size} {len(entries)}\n"
-        + "".join(f"{i} {j} {value:.17g}\n" for (i, j), value in sorted(entries.items()))
-    )
-
-
-def write_model(folder, lower, upper):
-    folder.mkdir(parents=True, exist_ok=True)
-    text = 'title = "Eighteen-storey steel frame"\n[matrices]\nK = "K0.mtx"\nM = "M0.mtx"\n'
-    matrix(folder / "K0.mtx", {})
-    matrix(folder / "M0.mtx", {(i, i): mass for i, mass in enumerate(FLOOR_KG, 1)})
-    for i, stiffness in enumerate(STOREY_N_M, 1):
-        entries = {(i, i): stiffness}
-        if i > 1:
-            entries |= {(i - 1, i - 1): stiffness, (i, i - 1): -stiffness}
-        matrix(folder / f"K_storey{i:02d}.mtx", entries)
-        text += (
-            f'\n[[parameter]]\nname = "storey{i:02d}"\nmatrix = "K_storey{i:02d}.mtx"\ntarget = "stiffness"\ninitial = 1.0\n'
-            f"lower = {lower}\nupper = {upper}\n"
-        )
-    # Heights are not published: drawn with storeys of 1 m, which nothing but the drawing uses.
-    (folder / "dofs.csv").write_text(
-        "dof,node,direction,x_m,y_m,z_m\n" + "".join(f"{i},floor{i:02d},x,0,0,{i}\n" for i in range(1, len(FLOOR_KG) + 1))
-    )
-    (folder / "model.toml").write_text(text)
 
 
 def add_spring(entries, stiffness, coefficients):
@@ -80,17 +54,14 @@ def write_bending_model(folder):
     folder.mkdir(parents=True, exist_ok=True)
     floors = len(FLOOR_KG)
     size = 2 * floors
-    matrix(folder / "K0.mtx", {}, size)
-    matrix(folder / "M0.mtx", {(i, i): mass for i, mass in enumerate(FLOOR_KG, 1)}, size)
+    write_lower_triangle(folder / "K0.mtx", size, {})
+    write_lower_triangle(folder / "M0.mtx", size, {(i, i): mass for i, mass in enumerate(FLOOR_KG, 1)})
     every, bending = {}, {}
     text = 'title = "Eighteen-storey steel frame that bends as a whole too"\n[matrices]\nK = "K0.mtx"\nM = "M0.mtx"\n'
 
     def parameter(name, entries, initial, lower, upper):
-        matrix(folder / f"K_{name}.mtx", entries, size)
-        return (
-            f'\n[[parameter]]\nname = "{name}"\nmatrix = "K_{name}.mtx"\ntarget = "stiffness"\ninitial = {initial}\n'
-            f"lower = {lower}\nupper = {upper}\n"
-        )
+        write_lower_triangle(folder / f"K_{name}.mtx", size, entries)
+        return parameter_table(name, initial, lower, upper)
 
     for i, stiffness in enumerate(STOREY_N_M, 1):
         storey, sheared, turned = {}, {i: 1.0, floors + i: -0.5}, {floors + i: 1.0}
@@ -115,8 +86,8 @@ def main(data, out):
     frequencies = [float(row[0]) for row in table(data / "eighteen_story_modes.csv")[1:]]
     shapes = [[float(v) for v in row] for row in table(data / "eighteen_story_shapes.csv")]
     floors = [int(float(row[0])) for row in table(data / "eighteen_story_meas_dofs.csv")]
-    write_model(out / "model", 0.8, 1.2)
-    write_model(out / "published_model", 0.7, 1.3)
+    for name, lower, upper in (("model", 0.8, 1.2), ("published_model", 0.7, 1.3)):
+        write_shear_building(out / name, "Eighteen-storey steel frame", FLOOR_KG, STOREY_N_M, lower, upper)
     write_bending_model(out / "bending_model")
     features = out / "features"
     features.mkdir(parents=True, exist_ok=True)

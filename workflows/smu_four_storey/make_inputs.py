@@ -26,6 +26,9 @@ import csv
 import pathlib
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "common"))
+from shear_building import write_shear_building  # noqa: E402
+
 POUND_KG = 0.45359237
 POUND_FORCE_PER_INCH = POUND_KG * 9.80665 / 0.0254  # N/m
 FLOOR_KG = 12.060 * POUND_KG
@@ -39,35 +42,6 @@ def numbers(path):
         sys.exit(f"smu_four_storey: {path} is not there; give DATA=the folder with the frame's measured modes")
     with open(path, newline="", encoding="utf-8") as stream:
         return [[float(cell) for cell in row] for row in csv.reader(stream) if row]
-
-
-def matrix(path, entries):
-    """Lower triangle, 1-based."""
-    path.write_text(
-        f"%%MatrixMarket matrix coordinate real symmetric\n{FLOORS} {FLOORS} {len(entries)}\n"
-        + "".join(f"{i} {j} {value:.17g}\n" for (i, j), value in sorted(entries.items()))
-    )
-
-
-def write_model(folder, title, lower, upper):
-    folder.mkdir(parents=True, exist_ok=True)
-    text = f'title = "{title}"\n[matrices]\nK = "K0.mtx"\nM = "M0.mtx"\n'
-    matrix(folder / "K0.mtx", {})
-    matrix(folder / "M0.mtx", {(i, i): FLOOR_KG for i in range(1, FLOORS + 1)})
-    for i in range(1, FLOORS + 1):
-        entries = {(i, i): STOREY_N_M}
-        if i > 1:
-            entries |= {(i - 1, i - 1): STOREY_N_M, (i, i - 1): -STOREY_N_M}
-        matrix(folder / f"K_storey{i}.mtx", entries)
-        text += (
-            f'\n[[parameter]]\nname = "storey{i}"\nmatrix = "K_storey{i}.mtx"\ntarget = "stiffness"\ninitial = 1.0\n'
-            f"lower = {lower}\nupper = {upper}\n"
-        )
-    # Heights are not published: the frame is drawn with storeys of 1 m, which nothing but the drawing uses.
-    (folder / "dofs.csv").write_text(
-        "dof,node,direction,x_m,y_m,z_m\n" + "".join(f"{i},floor{i},x,0,0,{i}\n" for i in range(1, FLOORS + 1))
-    )
-    (folder / "model.toml").write_text(text)
 
 
 def write_features(folder, frequencies, shapes, floors, modes, held_out):
@@ -90,8 +64,11 @@ def main(data, out):
     frequencies = [row[0] for row in numbers(data / "four_story_f_hz.csv")]
     shapes = numbers(data / "four_story_shapes.csv")
     every, held_out = list(range(FLOORS)), set(range(FITTED, FLOORS))
-    write_model(out / "model", "Four-storey laboratory frame", 0.7, 1.3)
-    write_model(out / "published_model", "Four-storey laboratory frame, the authors' bounds", 0.01, 2.0)
+    for name, title, lower, upper in (
+        ("model", "Four-storey laboratory frame", 0.7, 1.3),
+        ("published_model", "Four-storey laboratory frame, the authors' bounds", 0.01, 2.0),
+    ):
+        write_shear_building(out / name, title, FLOORS * [FLOOR_KG], FLOORS * [STOREY_N_M], lower, upper)
     write_features(out / "features", frequencies, shapes, every[:MEASURED], every, held_out)
     write_features(out / "all_floors", frequencies, shapes, every, every, held_out)
 
