@@ -35,6 +35,17 @@ def fail(message):
     sys.exit(f"meloland_overpass: {message}")
 
 
+def write_record(out, condition, samples, rate, channels):
+    """Writes <condition>/record.npy. Returns its table for campaign.toml."""
+    (out / condition).mkdir(exist_ok=True)
+    np.save(out / condition / "record.npy", samples)
+    names = ", ".join(f'"{channel}"' for channel in channels)
+    return (
+        f'[[record]]\nsetup = "transverse"\nkind = "earthquake"\nfile = "{condition}/record.npy"\n'
+        f'sampling_rate_Hz = {rate:.6g}\nchannels = [{names}]\ncondition = "{condition}"\n\n'
+    )
+
+
 def main(data, out):
     table = data / "channels.csv"
     if not table.is_file():
@@ -78,13 +89,7 @@ def main(data, out):
         rate = 1 / float(here[wanted[0]]["dt_s"])
         if rate > RATE_HZ:  # the two oldest records are at 50 Hz, the others at 100 Hz
             samples, rate = decimate(samples, round(rate / RATE_HZ), ftype="fir", axis=0), RATE_HZ
-        (out / condition).mkdir(exist_ok=True)
-        np.save(out / condition / "record.npy", samples.astype(np.float64))
-        names = ", ".join(f'"c{n:02d}"' for n in wanted)
-        records += (
-            f'[[record]]\nsetup = "transverse"\nkind = "earthquake"\nfile = "{condition}/record.npy"\n'
-            f'sampling_rate_Hz = {rate:.6g}\nchannels = [{names}]\ncondition = "{condition}"\n\n'
-        )
+        records += write_record(out, condition, samples.astype(np.float64), rate, [f"c{n:02d}" for n in wanted])
         conditions += f"[{condition}]\n"
     (out / "campaign.toml").write_text(records)
     (out / "conditions.toml").write_text(conditions)

@@ -10,6 +10,7 @@ import tomllib
 
 import numpy as np
 
+from campaign import write_record
 from make_model import MIDDLE
 
 STRONG = ("nov1987_237", "oct1979_484", "dec2009_498")
@@ -32,13 +33,7 @@ def main(campaign, out):
             parts = {"strong": samples[max(0, first - round(LEAD_S * rate)) : last], "after": samples[last:]}
             parts = {f"{record['condition']}_{name}": part for name, part in parts.items() if len(part) >= LEAST_S * rate}
         for name, part in parts.items():
-            (out / name).mkdir(exist_ok=True)
-            np.save(out / name / "record.npy", part)
-            channels = ", ".join(f'"{c}"' for c in record["channels"])
-            text += (
-                f'[[record]]\nsetup = "transverse"\nkind = "earthquake"\nfile = "{name}/record.npy"\n'
-                f'sampling_rate_Hz = {rate:.6g}\nchannels = [{channels}]\ncondition = "{name}"\n\n'
-            )
+            text += write_record(out, name, part, rate, record["channels"])
             conditions += f"[{name}]\n"
     (out / "campaign.toml").write_text(text)
     (out / "conditions.toml").write_text(conditions)
