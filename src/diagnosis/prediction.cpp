@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "diagnosis/predictor.hpp"
-#include "modal/assignment.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -15,11 +14,6 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
-
-double mac(const VectorXcd& a, const VectorXcd& b) {
-  const double norms = a.squaredNorm() * b.squaredNorm();
-  return norms > 0.0 ? std::norm(a.dot(b)) / norms : 0.0;
-}
 
 }  // namespace
 
@@ -90,92 +84,6 @@ VectorXcd Predictor::shape_at(const std::vector<int>& channels, const SolvedStat
   return motion(state).col(mode)(channels);
 }
 
-void Predictor::pair(int condition) {
-  SolvedState& state = solved(condition);
-  std::vector<std::size_t> here;
-  for (std::size_t m = 0; m < map_.modes_.size(); ++m)
-    if (map_.modes_[m].condition == condition) here.push_back(m);
-  const Index n = state.modes.s.size();
-  if (n == 0) return;
-  Eigen::MatrixXd gain(static_cast<Index>(here.size()), n);
-  VectorXd own_norm;  // (n) phi' M phi, where modes are followed by it
-  // Shapes are known from this condition, or from another in which the label was measured with one.
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    const MeasuredMode& measured = map_.modes_[here[i]];
-    const MeasuredMode* shaped = &measured;
-    double weight = 3.0;
-    const auto has_shape = [](const MeasuredMode& m) { return m.real_rows.size() >= 2; };
-    if (!has_shape(measured)) {
-      weight = 2.0;
-      for (const MeasuredMode& other : map_.modes_)
-        if (other.label == measured.label && has_shape(other)) {
-          shaped = &other;
-          break;
-        }
-    }
-    each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-      // The shape under this label belongs to the next mode of the list, and the next one's to it. Not the next in frequency:
-      // close modes change places there from one data set to another.
-      std::vector<const MeasuredMode*> same;
-      for (const MeasuredMode& other : map_.modes_)
-        if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
-      for (std::size_t k = 0; k + 1 < same.size(); ++k) {
-        if (same[k]->label != c.mode) continue;
-        if (shaped == same[k]) shaped = same[k + 1];
-        else if (shaped == same[k + 1]) shaped = same[k];
-        break;
-      }
-    });
-    const bool usable = has_shape(*shaped);
-    VectorXcd y;
-    if (usable) {
-      y.resize(static_cast<Index>(shaped->real_rows.size()));
-      for (std::size_t k = 0; k < shaped->real_rows.size(); ++k) {
-        Complex value = map_.values_[shaped->real_rows[k]];
-        for (std::size_t q = 0; q < shaped->imag_rows.size(); ++q)
-          if (shaped->imag_channels[q] == shaped->real_channels[k]) value += Complex(0.0, map_.values_[shaped->imag_rows[q]]);
-        y[static_cast<Index>(k)] = value;
-      }
-    }
-    const auto bound = map_.bound_modes_.find(measured.label);
-    const bool followed = !usable && bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols();
-    VectorXd reference, mass_reference;
-    if (followed) {
-      reference = map_.model().mode_coordinates.col(bound->second);
-      mass_reference = base_.mass * reference;
-    }
-    const double reference_norm = followed ? reference.dot(mass_reference) : 1.0;
-    if (followed) mass_reference = sliced(mass_reference, state.columns, state.modes.shapes.rows());
-    for (Index j = 0; j < n; ++j) {
-      const double f = state.modes.frequency_Hz(j);
-      double cost = 0.0;
-      if (measured.frequency >= 0 && f > 0.0) {
-        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / 0.08;
-        cost = std::min(distance, 4.0) + 0.05 * distance;
-      }
-      const VectorXcd phi = state.modes.shapes.col(j);
-      if (usable) {
-        cost += weight * (1.0 - mac(shape_at(shaped->real_channels, state, j), y));
-      } else if (followed) {
-        // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
-        if (own_norm.size() == 0) {
-          own_norm.resize(n);
-          for (Index k = 0; k < n; ++k) {
-            const VectorXcd shape = state.modes.shapes.col(k);
-            own_norm[k] = shape.real().dot(state.state.mass * shape.real()) + shape.imag().dot(state.state.mass * shape.imag());
-          }
-        }
-        const Complex overlap = mass_reference.cast<Complex>().dot(phi);
-        const double norms = reference_norm * own_norm[j];
-        cost += 6.0 * (1.0 - std::min(1.0, std::norm(overlap) / norms));
-      }
-      gain(static_cast<Index>(i), j) = -cost;
-    }
-  }
-  const std::vector<int> chosen = modal::best_assignment(gain);
-  for (std::size_t i = 0; i < here.size(); ++i) out_.paired[here[i]] = chosen[i];
-}
-
 void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, Index mode, const VectorXcd&) {
   const double f = state.modes.frequency_Hz(mode);
   const bool complex_rows = !measured.imag_rows.empty();
@@ -211,10 +119,12 @@ void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, 
     norm += out_.g[row] * out_.g[row];
   }
   for (Index k = 0; k < hi.size(); ++k) out_.g[measured.imag_rows[static_cast<std::size_t>(k)]] = (scale * hi[k]).imag();
-  out_.mac[static_cast<std::size_t>(&measured - map_.modes_.data())] = 0.0;
-  VectorXcd y(count);
-  for (Index k = 0; k < count; ++k) y[k] = map_.values_[measured.real_rows[static_cast<std::size_t>(k)]];
-  out_.mac[static_cast<std::size_t>(&measured - map_.modes_.data())] = mac(complex_rows ? VectorXcd((scale * h).real().cast<Complex>()) : VectorXcd(h.real().cast<Complex>()), y);
+  VectorXcd y(count), model(count);
+  for (Index k = 0; k < count; ++k) {
+    y[k] = map_.values_[measured.real_rows[static_cast<std::size_t>(k)]];
+    model[k] = complex_rows ? (scale * h[k]).real() : h[k].real();
+  }
+  out_.mac[static_cast<std::size_t>(&measured - map_.modes_.data())] = likeness(model, y)[0];
   if (!with_jacobian_) return;
   for (Index k = 0; k < count; ++k) {
     const int row = measured.real_rows[static_cast<std::size_t>(k)];
@@ -452,8 +362,17 @@ Prediction Predictor::run() {
   for (const MeasuredMode& mode : map_.modes_) modal[static_cast<std::size_t>(mode.condition)] = true;
   for (const Row& row : map_.features().rows)
     if (row.type == RowType::rms || row.type == RowType::psd_floor) loaded[static_cast<std::size_t>(row.condition)] = true;
-  for (std::size_t c = 0; c < modal.size(); ++c)
-    if (modal[c]) pair(static_cast<int>(c));
+  std::vector<std::vector<int>> alike;  // conditions in one state of the structure
+  for (std::size_t c = 0; c < modal.size(); ++c) {
+    if (!modal[c]) continue;
+    const auto condition = static_cast<int>(c);
+    const auto known = std::find_if(alike.begin(), alike.end(), [&](const auto& group) { return &solved(group[0]) == &solved(condition); });
+    if (known == alike.end())
+      alike.push_back({condition});
+    else
+      known->push_back(condition);
+  }
+  for (const auto& group : alike) pair(group);
   for (std::size_t m = 0; m < modes && out_.valid; ++m) predict_mode(map_.modes_[m], m);
   if (!out_.valid) return out_;
   for (std::size_t c = 0; c < loaded.size(); ++c)

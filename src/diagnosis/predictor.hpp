@@ -30,6 +30,9 @@ struct StateStore {
   UndampedStore undamped;
 };
 
+/// Modal assurance criterion of each mode (n_channels × n_modes) with one measured shape; 0 where nothing moves.
+[[nodiscard]] Eigen::VectorXd likeness(const Eigen::MatrixXcd& shapes, const Eigen::VectorXcd& measured);
+
 class Predictor {
  public:
   Predictor(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, bool with_jacobian);
@@ -51,8 +54,18 @@ class Predictor {
   [[nodiscard]] const StateStore::Changes& changes(const std::vector<int>& columns) const;
   [[nodiscard]] const ModeDerivative& derivative(SolvedState& solved, Eigen::Index mode);
 
+  // which mode is which (pairing.cpp)
+  /// Model modes of what was measured in conditions that share a state: the one-to-one assignment at the least distance of
+  /// frequencies and shapes.
+  void pair(const std::vector<int>& conditions);
+  /// The mode whose measured shape this one should have: itself, or one of the same name.
+  [[nodiscard]] const MeasuredMode& shaped_like(const MeasuredMode& measured) const;
+  /// 1 - MAC of each mode of a state with a measured shape (n_modes).
+  [[nodiscard]] Eigen::VectorXd unlike_measured(const MeasuredMode& shaped, const SolvedState& state);
+  /// The same with a mode of the structure as it stands, by the whole shape (n_modes).
+  [[nodiscard]] Eigen::VectorXd unlike_bound(int position, const SolvedState& state) const;
+
   // measurement (prediction.cpp)
-  void pair(int condition);
   void predict_mode(const MeasuredMode& measured, std::size_t position);
   void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const Eigen::VectorXcd& phi);
   void predict_load(int condition);

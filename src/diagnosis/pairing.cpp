@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/predictor.hpp"
+#include "modal/assignment.hpp"
+
+/// Which mode of the model is which measured one.
+namespace twindeck::diagnosis {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
+  VectorXd mac(shapes.cols());
+  const double norm = measured.squaredNorm();
+  for (Index j = 0; j < mac.size(); ++j) {
+    const double norms = norm * shapes.col(j).squaredNorm();
+    mac[j] = norms > 0.0 ? std::norm(shapes.col(j).dot(measured)) / norms : 0.0;
+  }
+  return mac;
+}
+
+const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
+  const auto has_shape = [](const MeasuredMode& m) { return m.real_rows.size() >= 2; };
+  const MeasuredMode* shaped = &measured;
+  if (!has_shape(measured))
+    for (const MeasuredMode& other : map_.modes_)
+      if (other.label == measured.label && has_shape(other)) {
+        shaped = &other;
+        break;
+      }
+  each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+    // The shape under this label belongs to the next mode of the list, and the next one's to it. Not the next in frequency:
+    // close modes change places there from one data set to another.
+    std::vector<const MeasuredMode*> same;
+    for (const MeasuredMode& other : map_.modes_)
+      if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
+    for (std::size_t k = 0; k + 1 < same.size(); ++k) {
+      if (same[k]->label != c.mode) continue;
+      if (shaped == same[k]) shaped = same[k + 1];
+      else if (shaped == same[k + 1]) shaped = same[k];
+      break;
+    }
+  });
+  return *shaped;
+}
+
+VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedState& state) {
+  VectorXcd y(static_cast<Index>(shaped.real_rows.size()));
+  for (std::size_t k = 0; k < shaped.real_rows.size(); ++k) {
+    Complex value = map_.values_[shaped.real_rows[k]];
+    for (std::size_t q = 0; q < shaped.imag_rows.size(); ++q)
+      if (shaped.imag_channels[q] == shaped.real_channels[k]) value += Complex(0.0, map_.values_[shaped.imag_rows[q]]);
+    y[static_cast<Index>(k)] = value;
+  }
+  return 1.0 - likeness(motion(state)(shaped.real_channels, Eigen::all), y).array();
+}
+
+VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
+  const VectorXd reference = map_.model().mode_coordinates.col(position);
+  const VectorXd mass_reference = base_.mass * reference;
+  const double norm = reference.dot(mass_reference);
+  const VectorXcd here = sliced(mass_reference, state.columns, state.modes.shapes.rows()).cast<Complex>();
+  VectorXd unlike(state.modes.s.size());
+  for (Index j = 0; j < unlike.size(); ++j) {
+    const VectorXcd phi = state.modes.shapes.col(j);
+    const double own = phi.real().dot(state.state.mass * phi.real()) + phi.imag().dot(state.state.mass * phi.imag());
+    unlike[j] = 1.0 - std::min(1.0, std::norm(here.dot(phi)) / (norm * own));
+  }
+  return unlike;
+}
+
+void Predictor::pair(const std::vector<int>& conditions) {
+  SolvedState& state = solved(conditions.front());
+  const Index n = state.modes.s.size();
+  if (n == 0) return;
+  // Where the structure is the same, what is measured under one name is one mode: no cause may say that it is this one on a
+  // quiet day and its neighbour at a large amplitude.
+  std::vector<std::string> labels;
+  std::map<std::string, VectorXd> cost, by_shape;
+  std::vector<std::size_t> here;
+  for (std::size_t m = 0; m < map_.modes_.size(); ++m) {
+    const MeasuredMode& measured = map_.modes_[m];
+    if (std::find(conditions.begin(), conditions.end(), measured.condition) == conditions.end()) continue;
+    here.push_back(m);
+    VectorXd& sum = cost.try_emplace(measured.label, VectorXd::Zero(n)).first->second;
+    if (std::find(labels.begin(), labels.end(), measured.label) == labels.end()) labels.push_back(measured.label);
+    if (measured.frequency >= 0)
+      for (Index j = 0; j < n; ++j) {
+        const double f = state.modes.frequency_Hz(j);
+        if (!(f > 0.0)) continue;
+        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / 0.08;
+        sum[j] += std::min(distance, 4.0) + 0.05 * distance;
+      }
+    // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
+    if (measured.damping >= 0 && state.state.damped()) {
+      const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
+      for (Index j = 0; j < n; ++j) {
+        const double total = std::max(own + 100.0 * state.modes.damping(j), 1e-3 * own);
+        sum[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), 3.0);
+      }
+    }
+    // Shapes are known from this condition, or from another in which the label was measured with one.
+    const MeasuredMode& shaped = shaped_like(measured);
+    const auto bound = map_.bound_modes_.find(measured.label);
+    if (shaped.real_rows.size() >= 2) {
+      sum += (measured.real_rows.size() >= 2 ? 3.0 : 2.0) * unlike_measured(shaped, state);
+    } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
+      // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
+      VectorXd& unlike = by_shape[measured.label];
+      if (unlike.size() == 0) unlike = unlike_bound(bound->second, state);
+      sum += 6.0 * unlike;
+    }
+  }
+  Eigen::MatrixXd gain(static_cast<Index>(labels.size()), n);
+  for (std::size_t i = 0; i < labels.size(); ++i) gain.row(static_cast<Index>(i)) = -cost.at(labels[i]);
+  const std::vector<int> chosen = modal::best_assignment(gain);
+  for (const std::size_t m : here) {
+    const auto at = std::find(labels.begin(), labels.end(), map_.modes_[m].label) - labels.begin();
+    out_.paired[m] = chosen[static_cast<std::size_t>(at)];
+  }
+}
+
+}  // namespace twindeck::diagnosis
