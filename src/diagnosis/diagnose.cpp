@@ -33,6 +33,23 @@ void prefer_stated_priors(std::vector<Scored>& ranking, double ratio) {
   std::rotate(ranking.begin(), best, best + 1);
 }
 
+double cosine_of(const Scored& a, const Scored& b) {
+  const double norms = a.signature.norm() * b.signature.norm();
+  return a.signature.size() == b.signature.size() && norms > 0.0 ? a.signature.dot(b.signature) / norms : 0.0;
+}
+
+/// Of entries that say the same equally well the one with the fewest unknowns leads: an oscillator tuned far above all modes is a
+/// mass.
+void prefer_fewer_unknowns(std::vector<Scored>& ranking, double ratio, const DiagnoseOptions& options) {
+  const Scored& best = ranking.front();
+  auto simplest = ranking.begin();
+  for (auto at = ranking.begin(); at != ranking.end(); ++at)
+    if (at->a.size() < simplest->a.size() && tempered(best, ratio) - tempered(*at, ratio) < options.equal_within &&
+        std::abs(cosine_of(best, *at)) > options.same_direction)
+      simplest = at;
+  std::rotate(ranking.begin(), simplest, simplest + 1);
+}
+
 /// Entries that these data can't tell from the best.
 std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double ratio, const DiagnoseOptions& options) {
   std::vector<const Scored*> members;
@@ -41,10 +58,7 @@ std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double
     if (other.log_odds < -1e299) continue;
     const double gap = tempered(best, ratio) - tempered(other, ratio);
     bool in = gap < options.either_within;
-    if (!in && gap < options.same_within && other.signature.size() == best.signature.size() && best.signature.norm() > 0.0) {
-      const double cosine = other.signature.dot(best.signature) / (other.signature.norm() * best.signature.norm());
-      in = std::abs(cosine) > options.same_direction;
-    }
+    if (!in && gap < options.same_within) in = std::abs(cosine_of(best, other)) > options.same_direction;
     if (in) members.push_back(&other);
   }
   return members;
@@ -207,6 +221,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
       ratio = birge(ranking.front(), inference.dof());
     }
     if (ranking.empty()) break;
+    prefer_fewer_unknowns(ranking, ratio, options);
     prefer_stated_priors(ranking, ratio);
     if (step == 0) {
       out.ranking = ranking;

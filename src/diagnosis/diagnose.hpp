@@ -17,6 +17,7 @@ struct DiagnoseOptions {
   double either_within = 3.0;    ///< nats: causes this near the best are not told apart
   double same_direction = 0.95;  ///< |cos| of signatures above which causes within `same_within` are not told apart either
   double same_within = 8.0;      ///< nats
+  double equal_within = 1.0;     ///< nats: causes in one direction this near the best explain equally well
   double residual_alpha = 0.001;
   int most_causes = 4;
   int bootstrap = 2000;  ///< resamples of held-out blocks
