@@ -233,7 +233,7 @@ class ModalRoots {
     for (Index i = 0; i < neighbour.s.size(); ++i) {
       VectorXcd phi = VectorXcd::Zero(n);
       phi.head(neighbour.shapes.rows()) = neighbour.shapes.col(i);
-      if (!add(neighbour.s[i], phi, found, true)) return false;
+      if (!add(neighbour.s[i], phi, {}, found, true)) return false;
     }
     gather(found, out);
     return true;
@@ -247,7 +247,7 @@ class ModalRoots {
       for (int pass = 0; pass < 2; ++pass) {
         std::vector<std::pair<Complex, VectorXcd>> first;
         for (const Complex s : starts(forces, 2.0 * std::numbers::pi * highest_Hz)) {
-          if (!add(s, {}, first, false)) continue;
+          if (!add(s, {}, forces, first, false)) continue;
           for (Index k = 0; k < b_.cols(); ++k) {
             const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
             if (a.kind == Attachment::Kind::jenkins)
@@ -259,7 +259,7 @@ class ModalRoots {
     }
     std::vector<std::pair<Complex, VectorXcd>> found;
     for (const Complex s : starts(forces, 2.0 * std::numbers::pi * 1.1 * highest_Hz))
-      if (!add(s, {}, found, false)) return false;
+      if (!add(s, {}, forces, found, false)) return false;
     gather(found, out);
     return out.s.size() > 0;
   }
@@ -267,12 +267,15 @@ class ModalRoots {
  private:
   using Found = std::vector<std::pair<Complex, VectorXcd>>;
 
-  /// Refines a root and adds it. Roots that no longer vibrate are left out; false where one does not converge, or comes twice.
-  bool add(Complex s, VectorXcd phi, Found& found, bool must_oscillate) const {
-    if (!root(s, phi)) return false;
+  /// Refines a root and adds it. Roots that no longer vibrate are left out; false where one does not converge, or comes twice:
+  /// two modes may have one frequency, and it takes the state space to part them. Not where dampers slide: there each mode has
+  /// stiffnesses of its own, two starts of the lowest one's may end in one, and the state space's do so too.
+  /// @param forces  of sliders [N/m], where phi is not known: those that s is an eigenvalue with
+  bool add(Complex s, VectorXcd phi, const VectorXcd& forces, Found& found, bool must_oscillate) const {
+    if (!root(s, phi, forces)) return false;
     if (!oscillates(s)) return !must_oscillate;
     for (const auto& other : found)
-      if (same_mode(other, s, phi)) return false;
+      if (same_mode(other, s, phi)) return sliders_ && !must_oscillate;
     found.emplace_back(s, phi);
     return true;
   }
@@ -359,7 +362,7 @@ class ModalRoots {
   }
 
   /// Residual inverse iteration from s, and from phi where it is given, until s stands still.
-  bool root(Complex& s, VectorXcd& phi) const {
+  bool root(Complex& s, VectorXcd& phi, const VectorXcd& held) const {
     const Index n = modes_.size(), p = b_.cols();
     VectorXcd d(p), d_prime(p), q(p), z = VectorXcd::Ones(n);
     const auto forces = [&](bool first, double relax) {
@@ -384,6 +387,8 @@ class ModalRoots {
       forces(true, 1.0);
     } else {
       forces(true, 1.0);
+      for (Index k = 0; k < p; ++k)
+        if (state_.attachments[static_cast<std::size_t>(k)].kind == Attachment::Kind::jenkins) d[k] = held[k];
       for (int i = 0; i < 2; ++i) z = inverse(s, d, z).normalized();
     }
     for (int iteration = 0; iteration < (sliders_ ? 60 : 15); ++iteration) {
@@ -395,8 +400,12 @@ class ModalRoots {
       const Complex mass = (z.array().square() * modes_.mu.array()).sum();
       const Complex value = (z.array().square()).sum() + (s * s - modes_.shift) * mass + (d.array() * q.array().square()).sum();
       const Complex slope = 2.0 * s * mass + (d_prime.array() * q.array().square()).sum();
-      const Complex step = value / slope;
-      if (!std::isfinite(std::abs(step)) || std::abs(step) > 0.5 * std::abs(s)) return false;
+      Complex step = value / slope;
+      if (!std::isfinite(std::abs(step))) return false;
+      if (std::abs(step) > 0.5 * std::abs(s)) {
+        if (!sliders_) return false;
+        step *= 0.1 * std::abs(s / step);  // strokes of the shape that the start has: they change with it
+      }
       s -= step;
       const bool small = std::abs(step) < (sliders_ ? 1e-8 : 1e-10) * std::abs(s);
       VectorXcd v = 2.0 * s * z.cwiseProduct(modes_.mu);
