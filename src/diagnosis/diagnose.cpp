@@ -166,14 +166,15 @@ void check_backwards(const Inference& inference, Fit& current, std::vector<Effec
 /// The lowest fit of the same causes from where the best entries left x. A better optimiser must not look like a better model:
 /// modes that change partners make valleys beside each other, and an entry may have found the way into a deeper one.
 Fit lowest_from(const Inference& inference, const Fit& current, const std::vector<Scored>& ranking) {
+  std::vector<const VectorXd*> starts;
+  for (const Scored& scored : ranking)
+    if (scored.x.size() > 0 && starts.size() < 3) starts.push_back(&scored.x);
+  std::vector<Fit> again(starts.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < starts.size(); ++i) again[i] = inference.fit(current.causes, *starts[i]);
   Fit lowest = current;
-  int tried = 0;
-  for (const Scored& scored : ranking) {
-    if (scored.x.size() == 0) continue;
-    if (tried++ == 3) break;
-    Fit again = inference.fit(current.causes, scored.x);
-    if (again.chi_squared < lowest.chi_squared) lowest = std::move(again);
-  }
+  for (Fit& fit : again)
+    if (fit.chi_squared < lowest.chi_squared) lowest = std::move(fit);
   return lowest;
 }
 
@@ -194,7 +195,9 @@ double analytic_threshold(const Inference& inference, double alpha) {
   return high;
 }
 
-Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed) {
+Diagnosis diagnose(const Inference& given, const DiagnoseOptions& options, std::uint64_t seed) {
+  Inference inference = given;
+  ScreenTable table;
   Diagnosis out;
   out.threshold = std::max(options.threshold, options.least_log_odds);
   out.alpha = options.alpha;
@@ -206,6 +209,10 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     return out;
   }
   out.before = current;
+  if (!inference.has_table()) {
+    table = inference.screen_table(current);
+    inference.use(&table);
+  }
   std::vector<Scored> ranking;
   for (int step = 0; step <= options.most_causes; ++step) {
     ranking = inference.search(current, options.search);
@@ -213,7 +220,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     double ratio = birge(ranking.front(), inference.dof());
     for (int guard = 0; guard < 2 && tempered(ranking.front(), ratio) > -2.0; ++guard) {
       Fit lower = lowest_from(inference, current, ranking);
-      if (!(lower.chi_squared + 1.0 < current.chi_squared)) break;
+      if (!(lower.chi_squared + ratio < current.chi_squared)) break;  // half a nat of the widened odds
       current = std::move(lower);
       if (step == 0) out.before = current;
       ranking = inference.search(current, options.search);

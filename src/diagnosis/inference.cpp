@@ -250,6 +250,7 @@ void Inference::refine(const Fit& base, Scored& scored, const VectorXd& start, i
   scored.stage = iterations > 0 && !with.map.status.converged ? 2 : 3;
   scored.a = with.causes.back().a;
   scored.x = with.map.x.head(static_cast<Index>(map_.nuisances().size()));
+  if (const VectorXd here = signature(base, *scored.candidate, scored.a); here.size() > 0) scored.signature = here;
   const Index k = scored.a.size();
   // The new cause's own part of Sigma_tot is an unknown with a prior, not scatter: evidence is taken without it.
   const MatrixXd& j = with.map.jacobian;

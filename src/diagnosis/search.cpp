@@ -10,6 +10,13 @@ namespace twindeck::diagnosis {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Whether a table's entries are what would be computed anew.
+bool is_of(const ScreenTable& table, const Fit& base) { return base.causes.empty() && table.x == base.base.x; }
+
+}  // namespace
+
 std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& candidate) const {
   std::vector<VectorXd> starts = candidate.starts;
   if (candidate.tuned < 0 || !base.all.valid) return starts;
@@ -42,6 +49,7 @@ ScreenTable Inference::screen_table(const Fit& base) const {
     }
   }
   ScreenTable table;
+  table.x = base.base.x;
   for (std::size_t i = 0; i < candidates_.size(); ++i)
     if (!changes[i].empty()) table.change[candidates_[i]->id()] = std::move(changes[i]);
   return table;
@@ -88,7 +96,7 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
     if (std::none_of(base.causes.begin(), base.causes.end(),
                      [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); }))
       all.push_back(candidate.get());
-  if (table_ == nullptr) {
+  if (table_ == nullptr || is_of(*table_, base)) {
     std::vector<Promise> everything;
     for (const Candidate* candidate : all) everything.push_back({candidate, {}});
     return everything;
@@ -155,7 +163,17 @@ void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchO
     // From the prior's mean: the base's x has taken up what the cause should, and may have paired modes by it.
     refine(base, looked[k], {}, options.probe_iterations);
   }
-  for (std::size_t k = 0; k < probes.size(); ++k)
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    if (looked[k].log_odds > found[probes[k].at].log_odds) found[probes[k].at] = looked[k];
+    best = std::max(best, found[probes[k].at].log_odds);
+  }
+  // What promised more than was found, and was not on its way to it, goes on from the base's x.
+  std::vector<std::size_t> again;
+  for (std::size_t k = 0; k < probes.size() && static_cast<int>(again.size()) < options.probes_again; ++k)
+    if (looked[k].stage < 3 && probes[k].promise > best + options.broken_promise) again.push_back(k);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < again.size(); ++i) refine(base, looked[again[i]], base.map.x, 3 * options.probe_iterations);
+  for (const std::size_t k : again)
     if (looked[k].log_odds > found[probes[k].at].log_odds) found[probes[k].at] = looked[k];
 }
 
@@ -164,7 +182,12 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   const std::vector<Promise> chosen = promising(base, options);
   std::vector<Scored> all(chosen.size());
 #pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < chosen.size(); ++i) all[i] = screen(base, chosen[i], nullptr);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const std::vector<VectorXd>* known = nullptr;
+    if (table_ != nullptr && is_of(*table_, base))
+      if (const auto at = table_->change.find(chosen[i].candidate->id()); at != table_->change.end()) known = &at->second;
+    all[i] = screen(base, chosen[i], known);
+  }
   std::vector<Scored> found;
   for (Scored& scored : all)
     if (scored.signature.size() > 0) found.push_back(std::move(scored));
@@ -192,11 +215,19 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   std::stable_sort(found.begin(), found.end(), by_odds);
   if (!found.empty() && found.front().log_odds > -2.0) {
     const double best = found.front().log_odds;
+    const auto refine_all = [&](const std::vector<Scored*>& these) {
+#pragma omp parallel for schedule(dynamic, 1)
+      for (std::size_t i = 0; i < these.size(); ++i) {
+        if (these[i]->stage == 1) fit_linearised(base, *these[i]);
+        refine(base, *these[i], these[i]->x.size() > 0 ? Eigen::VectorXd(these[i]->x) : base.map.x);
+      }
+    };
+    std::vector<Scored*> leading;
     for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
       Scored& scored = found[static_cast<std::size_t>(i)];
-      if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best))
-        refine(base, scored, scored.x.size() > 0 ? scored.x : base.map.x);
+      if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best)) leading.push_back(&scored);
     }
+    refine_all(leading);
     std::stable_sort(found.begin(), found.end(), by_odds);
     // A refitted entry stands above its neighbours that were weighed on the linearised base alone: the nearest of its family
     // are refitted too, so that the place is chosen among equals.
@@ -219,10 +250,7 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
         siblings.push_back(&scored);
         ++deepened;
       }
-    for (Scored* sibling : siblings) {
-      if (sibling->stage == 1) fit_linearised(base, *sibling);
-      refine(base, *sibling, sibling->x.size() > 0 ? sibling->x : base.map.x);
-    }
+    refine_all(siblings);
     std::stable_sort(found.begin(), found.end(), by_odds);
   }
   return found;

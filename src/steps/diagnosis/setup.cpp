@@ -187,7 +187,7 @@ std::map<std::string, int> bound_modes(const std::vector<std::string>& pairs) {
 std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference) {
   std::ostringstream key;
   key.precision(8);
-  key << "3|" << config.alpha << '|' << config.nulls << '|';
+  key << "4|" << config.alpha << '|' << config.nulls << '|';
   const diagnosis::ScatterOptions& scatter = config.scatter;
   for (const double v : {scatter.element_stiffness, scatter.element_mass, scatter.node_mass, scatter.stay_stiffness,
                          scatter.stay_pull, scatter.gain, scatter.frequency_floor, scatter.damping_floor, scatter.shape_floor,
@@ -202,7 +202,7 @@ std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& 
     key << name_of(row.type) << row.mode << ',' << row.channel << row.stay << ',' << row.condition << ',' << row.std << ','
         << row.held_out << '|';
   for (const auto& candidate : inference.candidates())
-    key << candidate->id() << candidate->low.transpose() << candidate->high.transpose() << '|';
+    key << candidate->id() << candidate->low.transpose() << candidate->high.transpose() << candidate->starts.size() << '|';
   return key.str();
 }
 
@@ -303,6 +303,8 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
+  reduction.parameter_vectors = 30;  // fits end far from where the basis is made: the winner's frequencies to 0.1 %
+  reduction.corrected_modes = 12;
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
   if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, inputs.features)) inputs.account.push_back(*unpaired);
   hold_out(config, inputs.features);
