@@ -61,13 +61,7 @@ void explain(const diagnosis::Inference& inference, const Sealed& seal, int entr
   }
   for (const auto& candidate : inference.candidates()) {
     if (!is_truth(*candidate)) continue;
-    diagnosis::Cause cause{candidate.get(), candidate->low};
-    for (std::size_t f = 0; f < seal.families.size(); ++f)
-      if (candidate->hypothesis->id == seal.families[f])
-        for (Eigen::Index i = 0; i < cause.a.size(); ++i) {
-          const double value = seal.magnitudes[f][static_cast<std::size_t>(i)];
-          cause.a[i] = candidate->log[static_cast<std::size_t>(i)] ? std::log(value) : value;
-        }
+    const diagnosis::Cause cause = cause_of(*candidate, seal);
     for (const bool from_base : {true, false}) {
       const diagnosis::Fit with = inference.fit({cause}, from_base ? base.map.x : Eigen::VectorXd());
       fmt::print("from the truth's own magnitudes and x of {}: {} chi2 {:.1f} at ({})\n", from_base ? "the base" : "the prior",

@@ -200,7 +200,7 @@ int main(int argc, char** argv) {
   bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores) && shared_out;
   double sizes = 0.0, squares = 0.0, seconds = 0.0, slowest = 0.0;
   int sets = 0, limits = 0;
-  std::vector<double> ratios;
+  std::vector<double> ratios, with_truth;
   std::map<std::string, std::vector<double>> errors;
   for (const Score& s : scores) {
     seconds += s.seconds / static_cast<double>(scores.size());
@@ -210,6 +210,7 @@ int main(int argc, char** argv) {
       squares += s.set_size * s.set_size;
       ++sets;
       ratios.push_back(s.held_out_ratio);
+      with_truth.push_back(s.ratio_with_truth);
     }
     limits += s.sized && s.one_sided;
     if (s.sized && !s.one_sided) errors[s.family].push_back(s.magnitude_error);  // a limit has no size to compare
@@ -221,7 +222,8 @@ int main(int argc, char** argv) {
     fmt::print("  mean size of the reported set {:.2f} [{:.2f}, {:.2f}], target <= 1.5  {}\n", mean, mean - half, mean + half,
                wrong ? "MISSED" : "held");
     const double ratio = median(ratios);
-    fmt::print("  held-out RMS, after over before, median of {} accepted causes {:.2f}, target <= 0.8\n", ratios.size(), ratio);
+    fmt::print("  held-out RMS, after over before, median of {} accepted causes {:.2f}, target <= 0.8; with the truth known {:.2f}\n",
+               ratios.size(), ratio, median(with_truth));
   }
   fmt::print("  CPU seconds a trial: mean {:.2f}, largest {:.2f}, target <= 5\n", seconds, slowest);
   fmt::print("median relative error of the magnitude, where the entry is exact:");

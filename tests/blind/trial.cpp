@@ -287,6 +287,34 @@ static auto on_inference(const Bench& bench, const Case& hidden, const Use& use)
   return use(inference);
 }
 
+diagnosis::Cause cause_of(const Candidate& entry, const Sealed& seal) {
+  Cause cause{&entry, entry.low};
+  for (std::size_t f = 0; f < seal.families.size(); ++f) {
+    if (entry.hypothesis->id != seal.families[f]) continue;
+    for (Index i = 0; i < cause.a.size(); ++i) {
+      const double value = seal.magnitudes[f][static_cast<std::size_t>(i)];
+      cause.a[i] = entry.log[static_cast<std::size_t>(i)] ? std::log(value) : value;
+    }
+  }
+  return cause;
+}
+
+namespace {
+
+/// What the best possible answer gains: the hidden cause itself in the model, its size fitted to the training rows.
+double ratio_with_truth(const diagnosis::Inference& inference, const Sealed& seal, const diagnosis::Fit& before) {
+  std::vector<Cause> causes;
+  for (const auto& entry : inference.candidates())
+    for (std::size_t f = 0; f < seal.families.size(); ++f)
+      if (entry->id() == seal.families[f] + "@" + seal.locations[f]) causes.push_back(cause_of(*entry, seal));
+  const diagnosis::Fit with = inference.fit(causes, before.map.x);
+  if (with.chi_squared > 1e299) return 1.0;
+  const diagnosis::Gain gain = diagnosis::held_out_gain(inference, before, with, 1, seal.seed);
+  return gain.before > 0.0 ? gain.after / gain.before : 1.0;
+}
+
+}  // namespace
+
 Score run_case(const Bench& bench, const Case& hidden) {
   timespec begin{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
@@ -294,8 +322,11 @@ Score run_case(const Bench& bench, const Case& hidden) {
     const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
     timespec end{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
-    return score_of(hidden.seal, result,
-                    static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec));
+    Score score = score_of(
+        hidden.seal, result, static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec));
+    if (score.kind == "effect" && !result.effects.empty())
+      score.ratio_with_truth = ratio_with_truth(inference, hidden.seal, result.before);
+    return score;
   });
 }
 

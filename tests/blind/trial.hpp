@@ -90,8 +90,12 @@ struct Score {
   bool covered = false, sized = false, one_sided = false;  ///< the magnitude: within its interval, given, only a limit of it
   int set_size = 0;
   double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, block_p_value = 1.0, held_out_ratio = 1.0, magnitude_error = 0.0;
+  double ratio_with_truth = 1.0;  ///< held-out RMS over that without a cause, for who knows the truth and fits its size
   std::string verdict, found, seal;
 };
+
+/// The entry's part of what a seal hid, in the entry's coordinates; the entry's low bounds if it has none.
+[[nodiscard]] diagnosis::Cause cause_of(const diagnosis::Candidate& entry, const Sealed& seal);
 
 [[nodiscard]] Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double seconds);
 [[nodiscard]] Score run_case(const Bench& bench, const Case& hidden);
