@@ -99,8 +99,10 @@ int matrices(const std::string& folder) {
 
 int bridge(const std::string& file) {
   fe::ParametricSystem system;
+  fe::Model model;
+  std::printf("generate_s %.6f\n", seconds([&] { model = ponte::generate(file, "preliminary"); }));
   std::printf("assemble_s %.6f\n", seconds([&] {
-                const fe::Structure structure(ponte::generate(file, "preliminary"));
+                const fe::Structure structure(model);
                 system = structure.system(structure.prestress(fe::initial_parameters(structure.model())));
               }));
   std::printf("degrees_of_freedom %ld\n", static_cast<long>(system.size()));

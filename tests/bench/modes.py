@@ -77,9 +77,9 @@ def modes_of_the_bridge(binaries, runs, folder):
         table.row(part, "largest residual", us["residual"], "-", bridge["resolve_residual"], "after a change", ratio=""),
         table.row(part, "after a 1 % change of all parameters", bridge["resolve_s"], "s", beside="ratio: over the first solve",
                   ratio=bridge["resolve_s"] / first, aim="<= 0.5"),
-        table.row(part, "the same, from the model on", bridge["resolve_s"], "s",
-                  beside="ratio: over generating, assembling, prestress and the first solve",
-                  ratio=bridge["resolve_s"] / (first + bridge["assemble_s"])),
+        table.row(part, "the same, from the elements on", bridge["resolve_s"], "s",
+                  beside="ratio: over assembling, prestress and the first solve",
+                  ratio=bridge["resolve_s"] / (first + bridge["assemble_s"]), aim="<= 0.5"),
         table.row(part, "Jacobian, 15 frequencies", bridge["jacobian_s"], "s",
                   beside=f"by {bridge['parameters']:.0f} parameters; ratio: over the first solve", ratio=bridge["jacobian_s"] / first, aim="<= 0.25"),
         table.row(part, "the same by forward differences", bridge["jacobian_s"], "s", bridge["jacobian_by_differences_s"], "warm solves of ours"),
@@ -96,7 +96,7 @@ def modes_of_the_bridge(binaries, runs, folder):
                   f"peer: the rest of a solve; {us['solves']:.0f} solves by fours, {us['factor_entries'] * 8e-6:.0f} MB at "
                   f"{machine['bandwidth_B_s'] / 1e9:.0f} GB/s"),
         table.row(part, "bound: both", arithmetic + traffic, "s", first, "peer: measured; ratio: how far from the bound"),
-        table.row(part, "generate, assemble, prestress", bridge["assemble_s"], "s"),
+        table.row(part, "assemble, prestress", bridge["assemble_s"], "s", beside=f"the mesh is made before, in {bridge['generate_s']:.2f} s"),
     ]
 
 
