@@ -195,9 +195,7 @@ double analytic_threshold(const Inference& inference, double alpha) {
   return high;
 }
 
-Diagnosis diagnose(const Inference& given, const DiagnoseOptions& options, std::uint64_t seed) {
-  Inference inference = given;
-  ScreenTable table;
+Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed) {
   Diagnosis out;
   out.threshold = std::max(options.threshold, options.least_log_odds);
   out.alpha = options.alpha;
@@ -209,10 +207,6 @@ Diagnosis diagnose(const Inference& given, const DiagnoseOptions& options, std::
     return out;
   }
   out.before = current;
-  if (!inference.has_table()) {
-    table = inference.screen_table(current);
-    inference.use(&table);
-  }
   std::vector<Scored> ranking;
   for (int step = 0; step <= options.most_causes; ++step) {
     ranking = inference.search(current, options.search);

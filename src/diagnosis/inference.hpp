@@ -55,11 +55,10 @@ struct SearchOptions {
   double least_promise = -1.0;  ///< nats that an entry must promise to be probed
 };
 
-/// What every candidate does to the rows at each magnitude that the screen tries, g(x, a) - g(x) at one base without causes: it
-/// changes little with x and with other causes, so one table serves every data set of a model, and every step of one diagnosis;
-/// away from its base the screen looks through it first, and computes anew what looks promising.
+/// What every candidate does to the rows at each magnitude that the screen tries, g(x, a) - g(x) at one base: it changes little
+/// with x, so one table serves every data set of a model; the screen looks through it first, and computes anew what looks
+/// promising.
 struct ScreenTable {
-  Eigen::VectorXd x;  ///< of the base
   std::map<std::string, std::vector<Eigen::VectorXd>>
       change;  ///< by id of the candidate: (n_rows) each, size 0 where there is none
 };
@@ -77,7 +76,6 @@ class Inference {
   [[nodiscard]] ScreenTable screen_table(const Fit& base) const;
   /// Lets the searches look through a table first; it must outlive them.
   void use(const ScreenTable* table) { table_ = table; }
-  [[nodiscard]] bool has_table() const { return table_ != nullptr; }
   /// Signature of a candidate at coordinates a, whitened; empty where it cannot be computed.
   [[nodiscard]] Eigen::VectorXd signature(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
 

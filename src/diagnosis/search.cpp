@@ -10,13 +10,6 @@ namespace twindeck::diagnosis {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-namespace {
-
-/// Whether a table's entries are what would be computed anew.
-bool is_of(const ScreenTable& table, const Fit& base) { return base.causes.empty() && table.x == base.base.x; }
-
-}  // namespace
-
 std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& candidate) const {
   std::vector<VectorXd> starts = candidate.starts;
   if (candidate.tuned < 0 || !base.all.valid) return starts;
@@ -49,7 +42,6 @@ ScreenTable Inference::screen_table(const Fit& base) const {
     }
   }
   ScreenTable table;
-  table.x = base.base.x;
   for (std::size_t i = 0; i < candidates_.size(); ++i)
     if (!changes[i].empty()) table.change[candidates_[i]->id()] = std::move(changes[i]);
   return table;
@@ -96,7 +88,7 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
     if (std::none_of(base.causes.begin(), base.causes.end(),
                      [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); }))
       all.push_back(candidate.get());
-  if (table_ == nullptr || is_of(*table_, base)) {
+  if (table_ == nullptr) {
     std::vector<Promise> everything;
     for (const Candidate* candidate : all) everything.push_back({candidate, {}});
     return everything;
@@ -182,12 +174,7 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   const std::vector<Promise> chosen = promising(base, options);
   std::vector<Scored> all(chosen.size());
 #pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const std::vector<VectorXd>* known = nullptr;
-    if (table_ != nullptr && is_of(*table_, base))
-      if (const auto at = table_->change.find(chosen[i].candidate->id()); at != table_->change.end()) known = &at->second;
-    all[i] = screen(base, chosen[i], known);
-  }
+  for (std::size_t i = 0; i < chosen.size(); ++i) all[i] = screen(base, chosen[i], nullptr);
   std::vector<Scored> found;
   for (Scored& scored : all)
     if (scored.signature.size() > 0) found.push_back(std::move(scored));

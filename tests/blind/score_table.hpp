@@ -18,15 +18,12 @@ struct ScoreLine {
   std::function<bool(const Score&)> of, hit;
   double target;
   bool at_least;
-  /// A target that is known to be missed, with the reason: printed as missed, and no failure of the run.
-  std::string known_miss = {};
 };
 
 /// What is asked of the tier of features; `eased` by so much for tiers that see less.
 [[nodiscard]] std::vector<ScoreLine> score_lines(double eased);
 
-/// Prints the lines with intervals. @return false when an interval lies wholly on the wrong side of a target that is not known
-/// to be missed
+/// Prints the lines with intervals. @return false when an interval lies wholly on the wrong side of a target
 [[nodiscard]] bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>& scores);
 
 }  // namespace twindeck::blind
