@@ -30,21 +30,6 @@ MatrixXd mass_normalised(const UndampedModes& modes, Index count) {
   return modes.shapes.leftCols(count) * modes.mu.head(count).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// d(s, X) and its derivative in s.
-std::pair<Complex, Complex> dynamic_stiffness(const Attachment& a, Complex s, double amplitude) {
-  switch (a.kind) {
-    case Attachment::Kind::dashpot:
-      return {a.damping * s, a.damping};
-    case Attachment::Kind::maxwell: {
-      const Complex below = a.stiffness + a.damping * s;
-      return {a.stiffness * a.damping * s / below, a.stiffness * a.stiffness * a.damping / (below * below)};
-    }
-    case Attachment::Kind::jenkins:
-      return {sliding_stiffness(a.stiffness, a.threshold_N, a.damping, std::abs(s), amplitude), 0.0};
-  }
-  return {0.0, 0.0};
-}
-
 /// Peak amplitude of b'u in a mode whose RMS at the amplitude's channel is known.
 double peak(const StructureState& state, const VectorXcd& phi, const VectorXd& b) {
   if (state.amplitude_row.size() == 0 || !(state.amplitude_m > 0.0)) return 0.0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/undamped_modes.hpp"
@@ -43,6 +44,10 @@ struct StateModes {
 /// F_c. First-harmonic balance at the slider; with c = 0 the Jenkins element.
 [[nodiscard]] std::complex<double> sliding_stiffness(double stiffness, double threshold_N, double damping, double omega,
                                                      double amplitude_m);
+
+/// d(s, X) of an attachment at peak amplitude X [N/m], and its derivative in s (of friction none: it goes by |s| alone).
+[[nodiscard]] std::pair<std::complex<double>, std::complex<double>> dynamic_stiffness(const Attachment& a, std::complex<double> s,
+                                                                                      double amplitude_m);
 
 /// Modes up to `highest_Hz`. Undamped states by a symmetric eigenproblem; damped ones, T(s) phi = 0 with
 /// T = s² M + K + sum d_k(s, X_k) b_k b_k' and X_k the mode's own amplitude at the element, by Newton on their characteristic

@@ -25,4 +25,19 @@ std::complex<double> sliding_stiffness(double stiffness, double threshold_N, dou
   return stiffness * dashpot / (stiffness + dashpot);
 }
 
+std::pair<std::complex<double>, std::complex<double>> dynamic_stiffness(const Attachment& a, std::complex<double> s,
+                                                                        double amplitude_m) {
+  switch (a.kind) {
+    case Attachment::Kind::dashpot:
+      return {a.damping * s, a.damping};
+    case Attachment::Kind::maxwell: {
+      const std::complex<double> below = a.stiffness + a.damping * s;
+      return {a.stiffness * a.damping * s / below, a.stiffness * a.stiffness * a.damping / (below * below)};
+    }
+    case Attachment::Kind::jenkins:
+      return {sliding_stiffness(a.stiffness, a.threshold_N, a.damping, std::abs(s), amplitude_m), 0.0};
+  }
+  return {0.0, 0.0};
+}
+
 }  // namespace twindeck::diagnosis
