@@ -79,7 +79,7 @@ def modes_of_the_bridge(binaries, runs, folder):
                   ratio=bridge["resolve_s"] / first, aim="<= 0.5"),
         table.row(part, "the same, from the elements on", bridge["resolve_s"], "s",
                   beside="ratio: over assembling, prestress and the first solve",
-                  ratio=bridge["resolve_s"] / (first + bridge["assemble_s"]), aim="<= 0.5"),
+                  ratio=bridge["resolve_s"] / (first + bridge["assemble_s"])),
         table.row(part, "Jacobian, 15 frequencies", bridge["jacobian_s"], "s",
                   beside=f"by {bridge['parameters']:.0f} parameters; ratio: over the first solve", ratio=bridge["jacobian_s"] / first, aim="<= 0.25"),
         table.row(part, "the same by forward differences", bridge["jacobian_s"], "s", bridge["jacobian_by_differences_s"], "warm solves of ours"),
