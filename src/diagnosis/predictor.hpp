@@ -56,7 +56,7 @@ class Predictor {
 
   // which mode is which (pairing.cpp)
   /// Model modes of what was measured in conditions that share a state: the one-to-one assignment at the least distance of
-  /// frequencies and shapes.
+  /// frequencies, shapes and, with dampers, damping.
   void pair(const std::vector<int>& conditions);
   /// The mode whose measured shape this one should have: itself, or one of the same name.
   [[nodiscard]] const MeasuredMode& shaped_like(const MeasuredMode& measured) const;

@@ -303,7 +303,7 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
-  reduction.parameter_vectors = 30;  // fits end far from where the basis is made: the winner's frequencies to 0.1 %
+  reduction.parameter_vectors = 30;  // fits end far from where the basis is made (full_model)
   reduction.corrected_modes = 12;
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
   if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, inputs.features)) inputs.account.push_back(*unpaired);
