@@ -2,8 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace twindeck::diagnosis {
 
@@ -50,6 +53,69 @@ int free_scales(const Inference& inference, const std::vector<int>& block) {
   return count;
 }
 
+/// Slopes against what varies between conditions: one direction for each mode in each state of the dampers.
+struct Trends {
+  std::string name;  ///< "frequency_Hz against temperature"
+  int rows = 0;
+  MatrixXd directions;  ///< (n_training × n_slopes) distance of each row from the mean of its mode
+};
+
+/// What a condition says of a variable, in the scale in which effects are nearest to straight lines.
+using Variable = std::optional<double> (*)(const Condition&);
+const std::vector<std::pair<std::string, Variable>>& variables() {
+  static const std::vector<std::pair<std::string, Variable>> all = {
+      {"temperature", [](const Condition& c) { return c.temperature_C; }},
+      {"amplitude",
+       [](const Condition& c) -> std::optional<double> {
+         if (!c.amplitude_m || *c.amplitude_m <= 0.0) return std::nullopt;
+         return std::log(*c.amplitude_m);
+       }},
+      {"wind", [](const Condition& c) { return c.wind_m_s; }},
+      {"people", [](const Condition& c) { return c.people; }}};
+  return all;
+}
+
+std::vector<Trends> trends_of(const Inference& inference) {
+  const FeatureSet& features = inference.map().features();
+  const auto row_of = [&](std::size_t i) -> const Row& {
+    return features.rows[static_cast<std::size_t>(inference.training()[i])];
+  };
+  std::vector<Trends> all;
+  for (const RowType type : {RowType::frequency, RowType::damping}) {
+    for (const auto& [name, variable] : variables()) {
+      std::map<std::pair<std::string, bool>, std::vector<std::pair<Eigen::Index, double>>> series;  // by mode and dampers
+      for (std::size_t i = 0; i < inference.training().size(); ++i) {
+        const Row& row = row_of(i);
+        if (row.type != type) continue;
+        const Condition& condition = features.conditions[static_cast<std::size_t>(row.condition)];
+        if (const auto v = variable(condition))
+          series[{row.mode, condition.dampers_on.value_or(false)}].emplace_back(static_cast<Eigen::Index>(i), *v);
+      }
+      Trends trends{name_of(type) + " against " + name, 0, {}};
+      std::vector<VectorXd> slopes;
+      for (const auto& [of, points] : series) {
+        double weights = 0.0, mean = 0.0;
+        for (const auto& [at, v] : points) {
+          const double std = row_of(static_cast<std::size_t>(at)).std, weight = std > 0.0 ? 1.0 / (std * std) : 1.0;
+          weights += weight;
+          mean += weight * v;
+        }
+        mean /= weights;
+        VectorXd slope = VectorXd::Zero(static_cast<Eigen::Index>(inference.training().size()));
+        for (const auto& [at, v] : points) slope[at] = v - mean;
+        if (slope.norm() <= 1e-9 * (1.0 + std::abs(mean))) continue;  // measured at one value
+        slopes.push_back(slope);
+        trends.rows += static_cast<int>(points.size());
+      }
+      if (slopes.empty()) continue;
+      trends.directions.resize(slopes.front().size(), static_cast<Eigen::Index>(slopes.size()));
+      for (std::size_t k = 0; k < slopes.size(); ++k) trends.directions.col(static_cast<Eigen::Index>(k)) = slopes[k];
+      all.push_back(std::move(trends));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 ResidualTest residual_test(const Inference& inference, const Fit& fit) {
@@ -70,6 +136,13 @@ ResidualTest residual_test(const Inference& inference, const Fit& fit) {
     if (block.dof < 1) continue;
     const VectorXd of_block = u(rows);
     block.statistic = of_block.dot(precision(rows, rows).llt().solve(of_block));
+    block.p_value = chi_squared_tail(block.statistic, block.dof);
+    test.blocks.push_back(block);
+  }
+  for (const Trends& trends : trends_of(inference)) {
+    const VectorXd along = trends.directions.transpose() * u;
+    const MatrixXd variance = trends.directions.transpose() * precision * trends.directions;
+    BlockMisfit block{trends.name, trends.rows, along.dot(variance.llt().solve(along)), static_cast<int>(along.size()), 1.0};
     block.p_value = chi_squared_tail(block.statistic, block.dof);
     test.blocks.push_back(block);
   }

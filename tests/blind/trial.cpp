@@ -127,19 +127,52 @@ bool draw_effect(const Shared& shared, const std::string& family, double target,
   return false;
 }
 
-/// Whether another family says the same in other words: a signature that runs along this one.
+double cosine(const VectorXd& one, const VectorXd& other) {
+  const double norms = one.norm() * other.norm();
+  return norms > 0.0 ? std::abs(one.dot(other)) / norms : 0.0;
+}
+
+/// The signature of an entry, from one of its starts on towards nothing or its bound until it shows as much as `size`.
+VectorXd signature_of_size(const Shared& shared, const Candidate& candidate, VectorXd a, double size) {
+  const auto signature = [&](double first) {
+    a[0] = first;
+    return shared.inference->signature(shared.base, candidate, a);
+  };
+  const double none = neutral(candidate), start = a[0];
+  VectorXd s = signature(start);
+  double near = std::clamp(none, candidate.low[0], candidate.high[0]), far = start;
+  if (s.norm() < size) {
+    near = start;
+    far = none < start ? candidate.high[0] : candidate.low[0];
+  }
+  for (int i = 0; i < 10; ++i) {
+    const double middle = 0.5 * (near + far);
+    s = signature(middle);
+    (s.norm() > size ? far : near) = middle;
+  }
+  return s;
+}
+
+/// Whether another family says the same in other words: a signature that runs along this one, at the magnitudes of its starts or
+/// where it shows as much (thirty tonnes on the deck are another shape than three).
 bool said_by_others(const Shared& shared, const Candidate& truth, const VectorXd& a) {
+  constexpr double same = 0.9, similar = 0.8;
   const VectorXd s = shared.inference->signature(shared.base, truth, a);
   if (s.size() == 0) return true;
   for (const auto& candidate : shared.diagnosing.candidates) {
     if (candidate->hypothesis == truth.hypothesis) continue;
     const auto known = shared.table.change.find(candidate->id());
     if (known == shared.table.change.end()) continue;  // a stay whose own frequency is measured: nothing else has that
-    for (const VectorXd& change : known->second) {
+    const bool tuned = candidate->tuned >= 0, here = candidate->location == truth.location;
+    for (std::size_t k = 0; k < known->second.size(); ++k) {
+      const VectorXd& change = known->second[k];
       if (change.size() == 0) continue;
       const VectorXd other =
           shared.base.total_factor.triangularView<Eigen::Lower>().solve(VectorXd(change(shared.inference->training())));
-      if (other.norm() > 0.0 && std::abs(other.dot(s)) > 0.9 * other.norm() * s.norm()) return true;
+      const double cos = cosine(other, s);
+      if (cos > same) return true;
+      if (tuned || !(here || cos > similar) || !std::isfinite(neutral(*candidate))) continue;
+      if (cosine(signature_of_size(shared, *candidate, candidate->starts[k], s.norm()), s) > same) return true;
     }
   }
   return false;
