@@ -208,16 +208,24 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
   }
   out.before = current;
   std::vector<Scored> ranking;
+  ScreenTable first_look;  // what the first search computed of every entry; the next ones look through it first
   for (int step = 0; step <= options.most_causes; ++step) {
-    ranking = inference.search(current, options.search);
+    ranking = inference.search(current, options.search, first_look.change.empty() ? nullptr : &first_look, &first_look);
     if (ranking.empty()) break;
     double ratio = birge(ranking.front(), inference.dof());
     for (int guard = 0; guard < 2 && tempered(ranking.front(), ratio) > -2.0; ++guard) {
       Fit lower = lowest_from(inference, current, ranking);
-      if (!(lower.chi_squared + ratio < current.chi_squared)) break;  // half a nat of the widened odds
+      const double fall = 0.5 * (current.chi_squared - lower.chi_squared) / ratio;  // of the widened odds
+      if (!(fall > 0.5)) break;
+      const double nats =
+          0.5 * (current.chi_squared + current.log_determinant - lower.chi_squared - lower.log_determinant);
       current = std::move(lower);
       if (step == 0) out.before = current;
-      ranking = inference.search(current, options.search);
+      if (fall < options.least_log_odds) {  // not worth another search: every entry gains that much less
+        for (Scored& scored : ranking) scored.log_odds -= nats;
+        break;
+      }
+      ranking = inference.search(current, options.search, first_look.change.empty() ? nullptr : &first_look, nullptr);
       if (ranking.empty()) break;
       ratio = birge(ranking.front(), inference.dof());
     }

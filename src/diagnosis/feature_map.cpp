@@ -202,10 +202,8 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     const Nuisance& v = nuisances_[j];
     if (v.kind == Nuisance::Kind::parameter) base.theta[v.index] = v.mean + v.deviation * x[static_cast<Index>(j)];
   }
-  const Index r = model_.size();
-  base.stiffness = base.mass = Eigen::MatrixXd::Zero(r, r);
-  for (const auto& term : model_.stiffness) base.stiffness += term.coefficient.value(base.theta) * term.matrix;
-  for (const auto& term : model_.mass) base.mass += term.coefficient.value(base.theta) * term.matrix;
+  for (const auto& term : model_.stiffness) base.stiffness_parts.emplace_back(term.coefficient.value(base.theta), &term.matrix);
+  for (const auto& term : model_.mass) base.mass_parts.emplace_back(term.coefficient.value(base.theta), &term.matrix);
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
     const Nuisance& v = nuisances_[j];
     const double amount = v.deviation * x[static_cast<Index>(j)];
@@ -213,12 +211,41 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     const auto place = [&](const char* set) -> const ReducedPlace& {
       return model_.sets.at(set)[static_cast<std::size_t>(v.index)];
     };
-    if (v.kind == Nuisance::Kind::element_stiffness) base.stiffness += amount * place("elements").stiffness;
-    if (v.kind == Nuisance::Kind::element_mass) base.mass += amount * place("elements").mass;
-    if (v.kind == Nuisance::Kind::node_mass) base.mass += amount * place("nodes").mass;
-    if (v.kind == Nuisance::Kind::stay) base.stiffness += amount * place("stays").stiffness;
+    if (v.kind == Nuisance::Kind::element_stiffness) base.stiffness_parts.emplace_back(amount, &place("elements").stiffness);
+    if (v.kind == Nuisance::Kind::element_mass) base.mass_parts.emplace_back(amount, &place("elements").mass);
+    if (v.kind == Nuisance::Kind::node_mass) base.mass_parts.emplace_back(amount, &place("nodes").mass);
+    if (v.kind == Nuisance::Kind::stay) base.stiffness_parts.emplace_back(amount, &place("stays").stiffness);
   }
+  const Index c = model_.common;
+  const auto sum = [c](const std::vector<Base::Part>& parts) {
+    Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
+    for (const auto& [amount, matrix] : parts) total += amount * matrix->topLeftCorner(c, c);
+    return total;
+  };
+  base.common_stiffness = sum(base.stiffness_parts);
+  base.common_mass = sum(base.mass_parts);
   return base;
+}
+
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> FeatureMap::matrices(const Base& base, const std::vector<int>& columns) const {
+  const Index n = std::ssize(columns), c = model_.common;
+  TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));
+  const std::vector<int> own(columns.begin() + c, columns.end());
+  const auto assemble = [&](const Eigen::MatrixXd& common, const std::vector<Base::Part>& parts) {
+    Eigen::MatrixXd total(n, n);
+    total.topLeftCorner(c, c) = common;
+    if (own.empty()) return total;
+    total.rightCols(n - c).setZero();
+    for (const auto& [amount, matrix] : parts)
+      for (std::size_t j = 0; j < own.size(); ++j) {
+        const Index column = c + static_cast<Index>(j);
+        total.col(column).head(c) += amount * matrix->col(own[j]).head(c);
+        for (std::size_t i = 0; i < own.size(); ++i) total(c + static_cast<Index>(i), column) += amount * (*matrix)(own[i], own[j]);
+      }
+    total.bottomLeftCorner(n - c, c) = total.topRightCorner(c, n - c).transpose();
+    return total;
+  };
+  return {assemble(base.common_stiffness, base.stiffness_parts), assemble(base.common_mass, base.mass_parts)};
 }
 
 }  // namespace twindeck::diagnosis

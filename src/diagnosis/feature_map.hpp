@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/candidate.hpp"
@@ -68,11 +69,16 @@ class FeatureMap {
   /// thread).
   struct Base {
     Eigen::VectorXd x, theta;
-    Eigen::MatrixXd stiffness, mass;  ///< (r × r)
+    using Part = std::pair<double, const Eigen::MatrixXd*>;     // amount, matrix (r × r) of the reduced model
+    std::vector<Part> stiffness_parts, mass_parts;
+    Eigen::MatrixXd common_stiffness, common_mass;              ///< over the common columns, which every state has
     std::shared_ptr<struct StateStore> store;
     bool keeps = false;  ///< states with causes are kept too: for the same causes predicted again
   };
   [[nodiscard]] Base base(const Eigen::VectorXd& x) const;
+  /// Stiffness and mass at a base in some of the reduced model's coordinates, the common ones first (n × n each). Most of the
+  /// others stand for causes elsewhere and are never asked for.
+  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> matrices(const Base& base, const std::vector<int>& columns) const;
   [[nodiscard]] Prediction predict(const Base& base, const std::vector<Cause>& causes, bool with_jacobian) const;
 
   /// Motion of the nodes where a sensor could be, in each measured mode: "node:17 z" -> (n_measured_modes), the largest of a mode

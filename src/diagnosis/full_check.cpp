@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "linalg/dense_instances.hpp"
@@ -122,8 +123,11 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
   Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
                                   Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets};
   full.scatter(map, fit.base.x);
-  // base.stiffness holds parameters and workmanship already.
-  Assembly<MatrixXd, ReducedPlace> reduced{fit.base.stiffness, fit.base.mass, map.model().sets};
+  // What the map assembles holds parameters and workmanship already.
+  std::vector<int> all(static_cast<std::size_t>(map.model().size()));
+  std::iota(all.begin(), all.end(), 0);
+  const auto [stiffness, mass] = map.matrices(fit.base, all);
+  Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets};
   std::vector<int> columns;
   for (int k = 0; k < map.model().common; ++k) columns.push_back(k);
   for (const Cause& cause : fit.causes) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -21,6 +22,13 @@ constexpr double kScaleDeviation = 10.0;  // of a free shape scale, relative: wi
 constexpr double kUnbounded = 1e3;        // prior deviations
 
 VectorXd pick(const VectorXd& from, const std::vector<int>& rows) { return from(rows); }
+
+/// Lower factor of sigma + J J' + the scales' share.
+MatrixXd total_factor_of(const MatrixXd& sigma, const Eigen::Ref<const MatrixXd>& jacobian, const MatrixXd& scales) {
+  MatrixXd all(jacobian.rows(), jacobian.cols() + scales.cols());
+  all << jacobian, kScaleDeviation * scales;
+  return linalg::cholesky_factor(sigma + linalg::product(all, all.transpose()));
+}
 
 /// Nats that k unknowns with a uniform prior cost: ln of posterior width over prior width, never a gain.
 double ockham(const MatrixXd& precision, const Candidate& candidate) {
@@ -166,25 +174,33 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
   }
   // Accepted causes are marginalised like x, or the next step would find their errors again.
   const MatrixXd& j = fit.map.jacobian;
-  MatrixXd total = sigma_ + j * j.transpose();
-  total += kScaleDeviation * kScaleDeviation * fit.map.scales * fit.map.scales.transpose();
-  const Eigen::LLT<MatrixXd> factor(total);
-  fit.total_factor = factor.matrixL();
+  fit.total_factor = total_factor_of(sigma_, j, fit.map.scales);
+  if (fit.total_factor.size() == 0) {  // derivatives that are no numbers
+    fit.chi_squared = 1e300;
+    return fit;
+  }
   fit.log_determinant = 2.0 * fit.total_factor.diagonal().array().log().sum();
   const VectorXd r = y_ - fit.map.g + j * fit.map.x;
   fit.whitened = fit.total_factor.triangularView<Eigen::Lower>().solve(r);
   fit.chi_squared = fit.whitened.squaredNorm();
-  fit.cause_jacobian =
-      fit.total_factor.triangularView<Eigen::Lower>().solve(j.rightCols(k) * width.cwiseInverse().asDiagonal());
+  fit.cause_jacobian = linalg::lower_solve(fit.total_factor, j.rightCols(k) * width.cwiseInverse().asDiagonal());
   return fit;
 }
 
-VectorXd Inference::signature(const Fit& base, const Candidate& candidate, const VectorXd& a) const {
+VectorXd Inference::change(const Fit& base, const Candidate& candidate, const VectorXd& a) const {
   std::vector<Cause> causes = base.causes;
   causes.push_back({&candidate, a});
   const Prediction p = map_.predict(base.base, causes, false);
-  if (!p.valid) return {};
-  return base.total_factor.triangularView<Eigen::Lower>().solve(pick(p.g - base.all.g, training_));
+  return p.valid ? VectorXd(p.g - base.all.g) : VectorXd();
+}
+
+VectorXd Inference::whitened(const Fit& base, const VectorXd& change) const {
+  if (change.size() == 0) return {};
+  return base.total_factor.triangularView<Eigen::Lower>().solve(pick(change, training_));
+}
+
+VectorXd Inference::signature(const Fit& base, const Candidate& candidate, const VectorXd& a) const {
+  return whitened(base, change(base, candidate, a));
 }
 
 void Inference::fit_linearised(const Fit& base, Scored& scored) const {
@@ -254,17 +270,15 @@ void Inference::refine(const Fit& base, Scored& scored, const VectorXd& start, i
   const Index k = scored.a.size();
   // The new cause's own part of Sigma_tot is an unknown with a prior, not scatter: evidence is taken without it.
   const MatrixXd& j = with.map.jacobian;
-  MatrixXd total = sigma_ + j.leftCols(j.cols() - k) * j.leftCols(j.cols() - k).transpose();
-  total += kScaleDeviation * kScaleDeviation * with.map.scales * with.map.scales.transpose();
-  const Eigen::LLT<MatrixXd> factor(total);
-  const MatrixXd lower = factor.matrixL();
+  const MatrixXd lower = total_factor_of(sigma_, j.leftCols(j.cols() - k), with.map.scales);
+  if (lower.size() == 0) return;
   VectorXd x = with.map.x;
   x.tail(k).setZero();
   const VectorXd w = lower.triangularView<Eigen::Lower>().solve(y_ - with.map.g + j * x);
   const double log_det = 2.0 * lower.diagonal().array().log().sum();
   VectorXd width(k);
   for (Index i = 0; i < k; ++i) width[i] = 2.0 * (scored.candidate->high[i] - scored.candidate->low[i]);
-  const MatrixXd slope = lower.triangularView<Eigen::Lower>().solve(j.rightCols(k) * width.cwiseInverse().asDiagonal());
+  const MatrixXd slope = linalg::lower_solve(lower, j.rightCols(k) * width.cwiseInverse().asDiagonal());
   const MatrixXd precision = slope.transpose() * slope;
   scored.chi_squared = scored.remaining = w.squaredNorm();
   scored.log_odds = 0.5 * (base.chi_squared + base.log_determinant - scored.chi_squared - log_det) +

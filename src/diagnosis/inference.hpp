@@ -72,7 +72,10 @@ class Inference {
   /// (a first look); 0: to convergence.
   [[nodiscard]] Fit fit(const std::vector<Cause>& causes, const Eigen::VectorXd& start, int iterations = 0) const;
   /// Candidates in descending order of odds against `base`; those already in it are left out.
-  [[nodiscard]] std::vector<Scored> search(const Fit& base, const SearchOptions& options) const;
+  /// @param known  where the screen looks first, and from which only what promises is computed anew; null: that of `use`, or
+  ///               everything is. @param record  takes what a screen without such a table computed; may be null
+  [[nodiscard]] std::vector<Scored> search(const Fit& base, const SearchOptions& options, const ScreenTable* known = nullptr,
+                                           ScreenTable* record = nullptr) const;
   [[nodiscard]] ScreenTable screen_table(const Fit& base) const;
   /// Lets the searches look through a table first; it must outlive them.
   void use(const ScreenTable* table) { table_ = table; }
@@ -95,10 +98,15 @@ class Inference {
   };
   /// Magnitudes that the screen tries, those tuned to modes where the base has the modes.
   [[nodiscard]] std::vector<Eigen::VectorXd> starts_at(const Fit& base, const Candidate& candidate) const;
-  /// The best magnitude of the screen at the given starts. @param from_table  signatures of the table instead of new ones
+  /// What a candidate at coordinates a does to all rows; empty where it cannot be computed.
+  [[nodiscard]] Eigen::VectorXd change(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
+  [[nodiscard]] Eigen::VectorXd whitened(const Fit& base, const Eigen::VectorXd& change) const;
+  /// The best magnitude of the screen at the promised starts. @param from_table  changes of the table instead of new ones
+  /// @param by_start  screens and starts, the best first; may be null @param record  takes the new changes, (n_starts); may be null
   [[nodiscard]] Scored screen(const Fit& base, const Promise& promise, const std::vector<Eigen::VectorXd>* from_table,
-                              std::vector<std::pair<double, std::size_t>>* by_start = nullptr) const;
-  [[nodiscard]] std::vector<Promise> promising(const Fit& base, const SearchOptions& options) const;
+                              std::vector<std::pair<double, std::size_t>>* by_start,
+                              std::vector<Eigen::VectorXd>* record) const;
+  [[nodiscard]] std::vector<Promise> promising(const Fit& base, const SearchOptions& options, const ScreenTable* known) const;
   void probe(const Fit& base, std::vector<Scored>& found, const SearchOptions& options) const;
   void fit_linearised(const Fit& base, Scored& scored) const;
   /// Joint fit of x and the magnitudes from `start` (empty: the prior's mean), and the evidence there.

@@ -60,10 +60,13 @@ VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedStat
 }
 
 VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
-  const VectorXd reference = map_.model().mode_coordinates.col(position);
-  const VectorXd mass_reference = base_.mass * reference;
-  const double norm = reference.dot(mass_reference);
-  const VectorXcd here = sliced(mass_reference, state.columns, state.modes.shapes.rows()).cast<Complex>();
+  // Modes of the model as it stands move in the common coordinates alone.
+  const Index common = map_.model().common;
+  const VectorXd reference = map_.model().mode_coordinates.col(position).head(common);
+  const VectorXd mass_reference = map_.matrices(base_, state.columns).second.leftCols(common) * reference;
+  const double norm = reference.dot(mass_reference.head(common));
+  VectorXcd here = VectorXcd::Zero(state.modes.shapes.rows());
+  here.head(mass_reference.size()) = mass_reference.cast<Complex>();
   VectorXd unlike(state.modes.s.size());
   for (Index j = 0; j < unlike.size(); ++j) {
     const VectorXcd phi = state.modes.shapes.col(j);

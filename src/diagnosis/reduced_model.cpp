@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/free_structure.hpp"
 #include "linalg/cholesky.hpp"
+#include "linalg/dense.hpp"
 #include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
@@ -47,53 +49,75 @@ MatrixXd project(const Symmetric& s, const MatrixXd& v) {
   for (std::size_t i = 0; i < touched.size(); ++i)
     for (Symmetric::InnerIterator e(s, touched[i]); e; ++e)
       sum.col(static_cast<Index>(i)) += e.value() * rows.col(at[static_cast<std::size_t>(e.row())]);
-  return rows * sum.transpose();
+  return linalg::product(rows, sum.transpose());
 }
 
-/// Builds a basis that is orthonormal in K, column by column; what is nearly in it already is dropped.
+/// The common basis, orthonormal in K.
 class Basis {
  public:
   Basis(const Symmetric& stiffness, Index n) : stiffness_(stiffness), vectors_(n, 0), images_(n, 0) {}
 
-  /// Appends the columns of `block`, orthogonalised against the first `common` columns and against each other.
-  /// @return positions of those that were kept
-  std::vector<int> append(const MatrixXd& block, Index common, double tolerance = 1e-6) {
-    std::vector<int> kept;
+  /// The columns of `block`, orthonormalised against the basis and against each other; what is nearly in them already is dropped.
+  [[nodiscard]] MatrixXd orthonormal(const MatrixXd& block) const {
+    constexpr double tolerance = 1e-6;
+    const Eigen::VectorXd before = block.cwiseProduct(stiffness_ * block).colwise().sum().cwiseMax(0.0).cwiseSqrt();
+    const MatrixXd rest = beyond(block);
+    MatrixXd kept(block.rows(), block.cols()), images(block.rows(), block.cols());
+    Index size = 0;
     for (Index c = 0; c < block.cols(); ++c) {
-      Eigen::VectorXd v = block.col(c);
-      const double before = std::sqrt(std::max(v.dot(stiffness_ * v), 0.0));
-      if (!(before > 0.0)) continue;
-      for (int pass = 0; pass < 2; ++pass) {
-        v -= vectors_.leftCols(common) * (images_.leftCols(common).transpose() * v);
-        for (const int k : kept) v -= vectors_.col(k) * images_.col(k).dot(v);
-      }
-      Eigen::VectorXd image = stiffness_ * v;
+      if (!(before[c] > 0.0)) continue;
+      Eigen::VectorXd v = rest.col(c);
+      for (int pass = 0; pass < 2; ++pass)
+        for (Index k = 0; k < size; ++k) v -= kept.col(k) * images.col(k).dot(v);
+      const Eigen::VectorXd image = stiffness_ * v;
       const double norm = std::sqrt(std::max(v.dot(image), 0.0));
-      if (norm < tolerance * before) continue;
-      kept.push_back(static_cast<int>(vectors_.cols()));
-      vectors_.conservativeResize(Eigen::NoChange, vectors_.cols() + 1);
-      images_.conservativeResize(Eigen::NoChange, images_.cols() + 1);
-      vectors_.rightCols(1) = v / norm;
-      images_.rightCols(1) = image / norm;
+      if (norm < tolerance * before[c]) continue;
+      kept.col(size) = v / norm;
+      images.col(size) = image / norm;
+      ++size;
     }
-    return kept;
+    return kept.leftCols(size);
   }
-  /// The strongest directions of a block in K beyond the common ones, at most `count`.
-  [[nodiscard]] MatrixXd strongest(const MatrixXd& block, Index common, int count) const {
-    MatrixXd rest = block;
-    for (int pass = 0; pass < 2; ++pass) rest -= vectors_.leftCols(common) * (images_.leftCols(common).transpose() * rest);
+  void append(const MatrixXd& block) {
+    const MatrixXd further = orthonormal(block);
+    const Index size = vectors_.cols();
+    vectors_.conservativeResize(Eigen::NoChange, size + further.cols());
+    images_.conservativeResize(Eigen::NoChange, size + further.cols());
+    vectors_.rightCols(further.cols()) = further;
+    images_.rightCols(further.cols()) = stiffness_ * further;
+  }
+  /// The strongest directions of a block in K beyond the basis, at most `count`.
+  [[nodiscard]] MatrixXd strongest(const MatrixXd& block, int count) const {
+    const MatrixXd rest = beyond(block);
     if (rest.cols() <= count) return rest;
-    const MatrixXd gram = rest.transpose() * (stiffness_ * rest);
+    const MatrixXd gram = linalg::product(rest, stiffness_ * rest, true);
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);
-    return rest * eigen.eigenvectors().rightCols(count).rowwise().reverse();
+    return linalg::product(rest, eigen.eigenvectors().rightCols(count).rowwise().reverse());
   }
   [[nodiscard]] const MatrixXd& vectors() const { return vectors_; }
-  [[nodiscard]] Index size() const { return vectors_.cols(); }
 
  private:
+  [[nodiscard]] MatrixXd beyond(MatrixXd block) const {
+    for (int pass = 0; pass < 2; ++pass) linalg::subtract_product(vectors_, linalg::product(images_, block, true), block);
+    return block;
+  }
+
   const Symmetric& stiffness_;
-  MatrixXd vectors_, images_;
+  MatrixXd vectors_, images_;  ///< V and K V
 };
+
+/// What stands for causes at a place, beside the common vectors: K^-1 b for a force direction, K^-1 (dK Phi) for a factor.
+MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const Place& place, const MatrixXd& low, int count) {
+  if (count == 0) return {};
+  MatrixXd load;
+  if (place.directions.size() > 0)
+    load = MatrixXd(place.directions);
+  else if (place.stiffness.size() > 0)
+    load = place.stiffness * low;
+  else if (place.mass.size() > 0)
+    load = place.mass * low;
+  return load.cols() > 0 ? basis.orthonormal(basis.strongest(factor.solve(load), count)) : MatrixXd();
+}
 
 }  // namespace
 
@@ -139,7 +163,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     v = MatrixXd::Identity(n, n);
     common = static_cast<int>(n);
   } else {
-    basis.append(modes.shapes, 0);
+    basis.append(modes.shapes);
     MatrixXd forces(n, 0);
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       const double range = parameters[p].upper - parameters[p].lower;
@@ -149,37 +173,50 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
       forces.conservativeResize(Eigen::NoChange, forces.cols() + low.cols());
       forces.rightCols(low.cols()) = 0.25 * range * change;
     }
-    if (forces.cols() > 0) {
-      const Index modal = basis.size();
-      basis.append(basis.strongest(factor.solve(forces), modal, options.parameter_vectors), modal);
-    }
+    if (forces.cols() > 0) basis.append(basis.strongest(factor.solve(forces), options.parameter_vectors));
     if (const auto dampers = places.sets.find("dampers"); dampers != places.sets.end())
-      for (const Place& damper : dampers->second) basis.append(factor.solve(MatrixXd(damper.directions)), basis.size());
-    common = static_cast<int>(basis.size());
-    for (const auto& [set, list] : places.sets) {
+      for (const Place& damper : dampers->second) basis.append(factor.solve(MatrixXd(damper.directions)));
+    common = static_cast<int>(basis.vectors().cols());
+    std::vector<const Place*> all;
+    std::vector<int> count;
+    for (const auto& [set, list] : places.sets)
       for (const Place& place : list) {
-        MatrixXd load(n, 0);
-        if (place.directions.size() > 0) {
-          load = MatrixXd(place.directions);
-        } else if (set != "global" && (place.stiffness.size() > 0 || place.mass.size() > 0)) {
-          load = place.stiffness.size() > 0 ? MatrixXd(place.stiffness * low) : MatrixXd(place.mass * low);
-        }
-        std::vector<int> columns;
-        if (load.cols() > 0 && set != "dampers")
-          columns = basis.append(basis.strongest(factor.solve(load), common, options.vectors_per_place), common);
+        const bool served = set == "dampers" || (set == "global" && place.directions.size() == 0);  // by the common vectors
+        all.push_back(&place);
+        count.push_back(served ? 0 : options.vectors_per_place);
+      }
+    std::vector<MatrixXd> vectors(all.size());
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < all.size(); ++i) vectors[i] = own_vectors(basis, factor, *all[i], low, count[i]);
+    Index size = common;
+    for (const MatrixXd& block : vectors) size += block.cols();
+    v.resize(n, size);
+    v.leftCols(common) = basis.vectors();
+    Index next = common;
+    std::size_t at = 0;
+    for (const auto& [set, list] : places.sets)
+      for (std::size_t i = 0; i < list.size(); ++i, ++at) {
+        std::vector<int> columns(static_cast<std::size_t>(vectors[at].cols()));
+        std::iota(columns.begin(), columns.end(), static_cast<int>(next));
+        if (!columns.empty()) v.middleCols(next, vectors[at].cols()) = vectors[at];
+        next += vectors[at].cols();
         own[set].push_back(columns);
       }
-    }
-    v = basis.vectors();
   }
 
   // 3. Everything in that basis.
   const auto reduce_terms = [&](const std::vector<fe::Term>& terms, std::vector<Term>& out) {
-    for (const fe::Term& term : terms) out.push_back({term.coefficient, project(symmetric_of(system, term), v)});
+    out.resize(terms.size());
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t t = 0; t < terms.size(); ++t) out[t] = {terms[t].coefficient, project(symmetric_of(system, terms[t]), v)};
   };
   reduce_terms(system.stiffness_terms, stiffness);
   reduce_terms(system.mass_terms, mass);
   for (const auto& [set, list] : places.sets) {
+    if (list.empty()) continue;
+    std::vector<ReducedPlace>& reduced_set = sets[set];
+    reduced_set.resize(list.size());
+#pragma omp parallel for schedule(dynamic, 1)
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Place& place = list[i];
       ReducedPlace reduced{place.id, place.x_m, whole ? std::vector<int>{} : own.at(set)[i], {}, {}, {}, place.attributes};
@@ -192,7 +229,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
         const MatrixXd flexibility = b.transpose() * factor.solve(b);
         reduced.attributes["k_drive"] = static_cast<double>(b.cols()) / flexibility.trace();
       }
-      sets[set].push_back(std::move(reduced));
+      reduced_set[i] = std::move(reduced);
     }
   }
   sensors = structure.sensors(v);

@@ -34,12 +34,7 @@ ScreenTable Inference::screen_table(const Fit& base) const {
     const Candidate& candidate = *candidates_[i];
     // Where a stay's own frequency was measured, its starts are those of one data set: they are always computed anew.
     if (candidate.tuned >= 0 && (candidate.high - candidate.low)[candidate.tuned] < 0.25) continue;
-    for (const VectorXd& a : starts_at(base, candidate)) {
-      std::vector<Cause> causes = base.causes;
-      causes.push_back({&candidate, a});
-      const Prediction p = map_.predict(base.base, causes, false);
-      changes[i].push_back(p.valid ? VectorXd(p.g - base.all.g) : VectorXd());
-    }
+    for (const VectorXd& a : starts_at(base, candidate)) changes[i].push_back(change(base, candidate, a));
   }
   ScreenTable table;
   for (std::size_t i = 0; i < candidates_.size(); ++i)
@@ -48,20 +43,23 @@ ScreenTable Inference::screen_table(const Fit& base) const {
 }
 
 Scored Inference::screen(const Fit& base, const Promise& promise, const std::vector<VectorXd>* from_table,
-                         std::vector<std::pair<double, std::size_t>>* by_start) const {
+                         std::vector<std::pair<double, std::size_t>>* by_start, std::vector<VectorXd>* record) const {
   const Candidate& candidate = *promise.candidate;
   const std::vector<VectorXd> starts = starts_at(base, candidate);
   Scored best;
   best.candidate = &candidate;
   best.screen = -1e300;
   std::vector<std::pair<double, std::size_t>> all;
+  if (record != nullptr) record->resize(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (!promise.starts.empty() && std::find(promise.starts.begin(), promise.starts.end(), i) == promise.starts.end()) continue;
-    VectorXd s;
+    VectorXd of_start;
     if (from_table == nullptr)
-      s = signature(base, candidate, starts[i]);
-    else if (i < from_table->size() && (*from_table)[i].size() > 0)
-      s = base.total_factor.triangularView<Eigen::Lower>().solve(VectorXd((*from_table)[i](training_)));
+      of_start = change(base, candidate, starts[i]);
+    else if (i < from_table->size())
+      of_start = (*from_table)[i];
+    const VectorXd s = whitened(base, of_start);
+    if (record != nullptr) (*record)[i] = std::move(of_start);
     if (s.size() == 0) continue;
     const double along = s.dot(base.whitened), norm = s.squaredNorm();
     if (!(norm > 1e-12)) continue;
@@ -82,13 +80,14 @@ Scored Inference::screen(const Fit& base, const Promise& promise, const std::vec
 }
 
 /// Candidates that are worth a new signature: those that the table shows best, and the best few of every family.
-std::vector<Inference::Promise> Inference::promising(const Fit& base, const SearchOptions& options) const {
+std::vector<Inference::Promise> Inference::promising(const Fit& base, const SearchOptions& options,
+                                                     const ScreenTable* known_changes) const {
   std::vector<const Candidate*> all;
   for (const auto& candidate : candidates_)
     if (std::none_of(base.causes.begin(), base.causes.end(),
                      [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); }))
       all.push_back(candidate.get());
-  if (table_ == nullptr) {
+  if (known_changes == nullptr) {
     std::vector<Promise> everything;
     for (const Candidate* candidate : all) everything.push_back({candidate, {}});
     return everything;
@@ -96,11 +95,11 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
   std::vector<std::pair<double, Promise>> ranked;
   for (const Candidate* candidate : all) {
     Promise promise{candidate, {}};
-    const auto known = table_->change.find(candidate->id());
+    const auto known = known_changes->change.find(candidate->id());
     double t = 1e300;
-    if (known != table_->change.end()) {
+    if (known != known_changes->change.end()) {
       std::vector<std::pair<double, std::size_t>> by_start;
-      t = screen(base, promise, &known->second, &by_start).screen;
+      t = screen(base, promise, &known->second, &by_start, nullptr).screen;
       if (candidate->tuned >= 0)
         for (std::size_t k = 0; k < std::min<std::size_t>(2, by_start.size()); ++k) promise.starts.push_back(by_start[k].second);
     }
@@ -169,12 +168,19 @@ void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchO
     if (looked[k].log_odds > found[probes[k].at].log_odds) found[probes[k].at] = looked[k];
 }
 
-std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options) const {
+std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options, const ScreenTable* known,
+                                      ScreenTable* record) const {
   // Candidates are held against the base one by one: the number of threads changes nothing.
-  const std::vector<Promise> chosen = promising(base, options);
+  const ScreenTable* table = known != nullptr ? known : table_;
+  const std::vector<Promise> chosen = promising(base, options, table);
   std::vector<Scored> all(chosen.size());
+  std::vector<std::vector<VectorXd>> changes(chosen.size());
+  const bool records = record != nullptr && table == nullptr;
 #pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < chosen.size(); ++i) all[i] = screen(base, chosen[i], nullptr);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    all[i] = screen(base, chosen[i], nullptr, nullptr, records ? &changes[i] : nullptr);
+  if (records)
+    for (std::size_t i = 0; i < chosen.size(); ++i) record->change[chosen[i].candidate->id()] = std::move(changes[i]);
   std::vector<Scored> found;
   for (Scored& scored : all)
     if (scored.signature.size() > 0) found.push_back(std::move(scored));

@@ -33,10 +33,10 @@ MatrixXd mass_normalised(const UndampedModes& modes, Index count) {
 /// Peak amplitude of b'u in a mode whose RMS at the amplitude's channel is known.
 double peak(const StructureState& state, const VectorXcd& phi, const VectorXd& b) {
   if (state.amplitude_row.size() == 0 || !(state.amplitude_m > 0.0)) return 0.0;
-  const double there = std::abs((state.amplitude_row.cast<Complex>() * phi)(0));
-  const double largest = phi.cwiseAbs().maxCoeff();
+  const double there = std::hypot(state.amplitude_row.dot(phi.real()), state.amplitude_row.dot(phi.imag()));
+  const double largest = std::sqrt(phi.cwiseAbs2().maxCoeff());
   // A mode that hardly moves the channel cannot be scaled by it: at most 50 times the channel's amplitude.
-  const double here = std::abs((b.cast<Complex>().transpose() * phi)(0));
+  const double here = std::hypot(b.dot(phi.real()), b.dot(phi.imag()));
   return std::sqrt(2.0) * state.amplitude_m * std::min(here / std::max(there, 1e-12 * largest), 50.0);
 }
 
@@ -229,17 +229,15 @@ class ModalRoots {
     VectorXcd forces = VectorXcd::Zero(b_.cols());
     if (sliders_) {  // held by friction first; then as the lowest mode makes them slide
       for (Index k = 0; k < b_.cols(); ++k) forces[k] = state_.attachments[static_cast<std::size_t>(k)].stiffness;
-      for (int pass = 0; pass < 2; ++pass) {
-        std::vector<std::pair<Complex, VectorXcd>> first;
-        for (const Complex s : starts(forces, 2.0 * std::numbers::pi * highest_Hz)) {
-          if (!add(s, {}, forces, first, false)) continue;
-          for (Index k = 0; k < b_.cols(); ++k) {
-            const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
-            if (a.kind == Attachment::Kind::jenkins)
-              forces[k] = dynamic_stiffness(a, first[0].first, peak(state_, first[0].second, a.direction)).first;
-          }
-          break;
+      std::vector<std::pair<Complex, VectorXcd>> first;
+      for (const Complex s : starts(forces, 2.0 * std::numbers::pi * highest_Hz)) {
+        if (!add(s, {}, forces, first, false) || first.empty()) continue;
+        for (Index k = 0; k < b_.cols(); ++k) {
+          const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
+          if (a.kind == Attachment::Kind::jenkins)
+            forces[k] = dynamic_stiffness(a, first[0].first, peak(state_, first[0].second, a.direction)).first;
         }
+        break;
       }
     }
     std::vector<std::pair<Complex, VectorXcd>> found;
@@ -302,6 +300,15 @@ class ModalRoots {
       }
     }
     const MatrixXd stiff = flexibility.llt().solve(MatrixXd::Identity(p, p));
+    std::vector<Complex> roots;
+    if (rate.cwiseAbs().maxCoeff() == 0.0) {  // all held: springs
+      MatrixXd held = low * stiff * low.transpose();
+      for (Index i = 0; i < m; ++i) held(i, i) += modes_.eigenvalue(i);
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(held, Eigen::EigenvaluesOnly);
+      for (const double square : eigen.eigenvalues())
+        if (square > 1e-12 && square <= highest * highest) roots.emplace_back(0.0, std::sqrt(square));
+      return roots;
+    }
     MatrixXd system = MatrixXd::Zero(2 * m + p, 2 * m + p);
     system.block(0, m, m, m).setIdentity();
     system.block(m, 0, m, m) = -low * stiff * low.transpose();
@@ -311,7 +318,6 @@ class ModalRoots {
     system.block(2 * m, 2 * m, p, p) = -(rate.asDiagonal() * stiff);
     system.block(2 * m, 2 * m, p, p).diagonal() -= back;
     const Eigen::EigenSolver<MatrixXd> eigen(system, false);
-    std::vector<Complex> roots;
     for (Index i = 0; i < system.rows(); ++i) {
       const Complex s = eigen.eigenvalues()[i];
       if (s.imag() > 1e-6 && oscillates(s) && std::abs(s) <= highest) roots.push_back(s);
@@ -327,7 +333,8 @@ class ModalRoots {
     VectorXcd receptance(n);
     for (Index i = 0; i < n; ++i) {
       const Complex own = 1.0 + square * modes_.mu[i];
-      receptance[i] = 1.0 / (std::abs(own) > 1e-13 ? own : Complex(1e-13));
+      const double square_of_own = std::norm(own);
+      receptance[i] = square_of_own > 1e-26 ? std::conj(own) / square_of_own : Complex(1e13);
     }
     MatrixXcd h(p, p);
     MatrixXd scaled = receptance.real().asDiagonal() * bm_;

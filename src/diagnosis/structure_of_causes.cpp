@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "diagnosis/predictor.hpp"
@@ -193,8 +194,7 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
 StructureState Predictor::build_state(const Condition& condition) const {
   StructureState state;
   const auto n = static_cast<Index>(columns_.size());
-  state.stiffness = sliced(base_.stiffness, columns_, n);
-  state.mass = sliced(base_.mass, columns_, n);
+  std::tie(state.stiffness, state.mass) = map_.matrices(base_, columns_);
   const double people = condition.people.value_or(0.0);
   if (const auto global = map_.model().sets.find("global"); people > 0.0 && global != map_.model().sets.end()) {
     const ReducedPlace& deck = global->second.front();

@@ -14,6 +14,8 @@ void dsyevr_(const char* jobz, const char* range, const char* uplo, const int* n
              int* isuppz, double* work, const int* lwork, int* iwork, const int* liwork, int* info);
 void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int* lda, double* s, double* u, const int* ldu,
              double* vt, const int* ldvt, double* work, const int* lwork, int* iwork, int* info);
+void dtrsm_(const char* side, const char* uplo, const char* trans_a, const char* diag, const int* m, const int* n,
+            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 }
 
@@ -101,6 +103,16 @@ Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a) {
   if (info != 0) return {};
   a.triangularView<Eigen::StrictlyUpper>().setZero();
   return a;
+}
+
+Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b) {
+  use_one_thread();
+  TWINDECK_ASSERT(lower.rows() == lower.cols() && lower.rows() == b.rows());
+  const int m = as_int(b.rows()), n = as_int(b.cols()), lda = as_int(lower.outerStride());
+  if (m == 0 || n == 0) return b;
+  const double one = 1.0;
+  dtrsm_("L", "L", "N", "N", &m, &n, &one, lower.data(), &lda, b.data(), &m);
+  return b;
 }
 
 }  // namespace twindeck::linalg

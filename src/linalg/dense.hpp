@@ -36,4 +36,8 @@ struct ThinSvd {
 /// @param a  its lower triangle is read @return an empty matrix if A is not positive definite
 [[nodiscard]] Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a);
 
+/// L⁻¹ B for a lower triangular L.
+/// @param lower (n × n), its lower triangle is read @param b (n × columns)
+[[nodiscard]] Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b);
+
 }  // namespace twindeck::linalg

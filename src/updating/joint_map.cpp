@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "linalg/dense.hpp"
 #include "linalg/dense_instances.hpp"
 
 namespace twindeck::updating {
@@ -14,13 +15,13 @@ using Eigen::VectorXd;
 
 /// Whitened Jacobian without what the free scales explain.
 MatrixXd whitened(const MatrixXd& jacobian, const MatrixXd& scales, const MatrixXd& factor) {
-  MatrixXd a = factor.triangularView<Eigen::Lower>().solve(jacobian);
+  MatrixXd a = linalg::lower_solve(factor, jacobian);
   if (scales.cols() == 0) return a;
-  const MatrixXd s = factor.triangularView<Eigen::Lower>().solve(scales);
+  const MatrixXd s = linalg::lower_solve(factor, scales);
   // Each row belongs to one shape at most, so the columns are nearly orthogonal; a QR takes the rest.
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(s);
   const MatrixXd q = qr.householderQ() * MatrixXd::Identity(s.rows(), qr.rank());
-  a -= q * (q.transpose() * a);
+  linalg::subtract_product(q, linalg::product(q, a, true), a);
   return a;
 }
 
@@ -50,7 +51,7 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
       if (!rests[static_cast<std::size_t>(j)]) free.push_back(static_cast<int>(j));
     map.gradient = VectorXd(gradient(free)).norm();
     const MatrixXd reduced = a(Eigen::all, free);
-    MatrixXd normal = reduced.transpose() * reduced;
+    MatrixXd normal = linalg::product(reduced, reduced, true);
     normal.diagonal().array() += 1.0;
     const VectorXd g_free = gradient(free);
     const VectorXd newton = normal.llt().solve(g_free);
@@ -97,7 +98,7 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
 
 MatrixXd posterior_covariance(const JointMap& map, const MatrixXd& sigma_factor) {
   const MatrixXd a = whitened(map.jacobian, map.scales, sigma_factor);
-  MatrixXd precision = a.transpose() * a;
+  MatrixXd precision = linalg::product(a, a, true);
   precision.diagonal().array() += 1.0;
   return precision.llt().solve(MatrixXd::Identity(precision.rows(), precision.cols()));
 }

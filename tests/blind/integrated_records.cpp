@@ -177,7 +177,8 @@ Campaign integrated_records(const Bench& bench, const Hidden& hidden) {
   for (Index c = 0; c < gain.size(); ++c) channels.row(c) = model.sensors.row(4 * c)(columns);
   for (std::size_t c = 0; c < campaign.conditions.size(); ++c) {
     Condition& condition = campaign.conditions[c];
-    State state{columns, base.stiffness(columns, columns), base.mass(columns, columns), MatrixXd(0, channels.cols()), {}};
+    const auto [stiffness, mass] = map.matrices(base, columns);
+    State state{columns, stiffness, mass, MatrixXd(0, channels.cols()), {}};
     if (condition.people.value_or(0.0) > 0.0) {
       const ReducedPlace& deck = model.sets.at("global").front();
       state.mass += *condition.people * kPersonMass / deck.attributes.at("deck_mass") * deck.mass(columns, columns);
