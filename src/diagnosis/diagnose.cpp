@@ -178,6 +178,22 @@ Fit lowest_from(const Inference& inference, const Fit& current, const std::vecto
   return lowest;
 }
 
+/// The fit extended by the first entry of the ranking that is above the threshold and keeps its promise. Odds on the linearised
+/// base are a promise: an entry with which the joint fit is no lower than without loses its place.
+Fit extended_by_first(const Inference& inference, const Fit& current, std::vector<Scored>& ranking, double ratio,
+                      double threshold) {
+  const auto n = static_cast<Index>(inference.map().nuisances().size());
+  while (!ranking.empty() && tempered(ranking.front(), ratio) > threshold) {
+    const Scored& first = ranking.front();
+    std::vector<Cause> causes = current.causes;
+    causes.push_back({first.candidate, first.a});
+    Fit extended = inference.fit(causes, first.x.size() > 0 ? first.x : VectorXd(current.map.x.head(n)));
+    if (extended.chi_squared < current.chi_squared) return extended;
+    ranking.erase(ranking.begin());
+  }
+  return current;
+}
+
 }  // namespace
 
 double tempered_log_odds(const Scored& best, int dof) { return tempered(best, birge(best, dof)); }
@@ -209,8 +225,11 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
   out.before = current;
   std::vector<Scored> ranking;
   ScreenTable first_look;  // what the first search computed of every entry; the next ones look through it first
+  const auto search = [&] {
+    return inference.search(current, options.search, first_look.change.empty() ? nullptr : &first_look, &first_look);
+  };
   for (int step = 0; step <= options.most_causes; ++step) {
-    ranking = inference.search(current, options.search, first_look.change.empty() ? nullptr : &first_look, &first_look);
+    ranking = search();
     if (ranking.empty()) break;
     double ratio = birge(ranking.front(), inference.dof());
     for (int guard = 0; guard < 2 && tempered(ranking.front(), ratio) > -2.0; ++guard) {
@@ -225,13 +244,16 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
         for (Scored& scored : ranking) scored.log_odds -= nats;
         break;
       }
-      ranking = inference.search(current, options.search, first_look.change.empty() ? nullptr : &first_look, nullptr);
+      ranking = search();
       if (ranking.empty()) break;
       ratio = birge(ranking.front(), inference.dof());
     }
     if (ranking.empty()) break;
     prefer_fewer_unknowns(ranking, ratio, options);
     prefer_stated_priors(ranking, ratio);
+    Fit extended;
+    if (step < options.most_causes) extended = extended_by_first(inference, current, ranking, ratio, out.threshold);
+    if (ranking.empty()) break;
     if (step == 0) {
       out.ranking = ranking;
       out.log_odds = tempered(ranking.front(), ratio);
@@ -251,11 +273,6 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     effect.probability = 1.0 / sum;
     for (const Scored* member : members) effect.cluster.push_back(member->candidate->id());
     effect.split_by = splitting_measurement(inference, current, members);
-    std::vector<Cause> causes = current.causes;
-    causes.push_back(effect.cause);
-    const VectorXd& fitted = ranking.front().x;
-    Fit extended = inference.fit(causes, fitted.size() > 0 ? fitted : VectorXd(current.map.x.head(n)));
-    if (extended.chi_squared > 1e299) break;
     current = std::move(extended);
     out.effects.push_back(effect);
     check_backwards(inference, current, out.effects, options);

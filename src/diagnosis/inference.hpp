@@ -47,6 +47,7 @@ struct SearchOptions {
   double family_screen = 4.0;  ///< families whose best entry screens above this are fitted too
   double refine_within = 6.0;  ///< nats of the best: these are fitted with the base
   int most_refined = 3;
+  int most_rounds = 4;         ///< in which the leading ones are refitted, until one that was leads
   int tabled_tuned = 6;    ///< entries of each family that is tuned to modes that are computed anew
   int probes = 8;          ///< starts from which a few steps of the joint fit are made
   int probes_again = 2;    ///< of these, such as are looked at once more

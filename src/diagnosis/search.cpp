@@ -207,7 +207,6 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   const auto by_odds = [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; };
   std::stable_sort(found.begin(), found.end(), by_odds);
   if (!found.empty() && found.front().log_odds > -2.0) {
-    const double best = found.front().log_odds;
     const auto refine_all = [&](const std::vector<Scored*>& these) {
 #pragma omp parallel for schedule(dynamic, 1)
       for (std::size_t i = 0; i < these.size(); ++i) {
@@ -215,13 +214,21 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
         refine(base, *these[i], these[i]->x.size() > 0 ? Eigen::VectorXd(these[i]->x) : base.map.x);
       }
     };
-    std::vector<Scored*> leading;
-    for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
-      Scored& scored = found[static_cast<std::size_t>(i)];
-      if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best)) leading.push_back(&scored);
+    // Odds on the linearised base are a promise: who leads must have been refitted, or the next one does.
+    for (int round = 0; round < options.most_rounds && (round == 0 || found.front().stage == 2); ++round) {
+      const double best = found.front().log_odds;
+      std::vector<Scored*> leading;
+      for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
+        Scored& scored = found[static_cast<std::size_t>(i)];
+        if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best)) leading.push_back(&scored);
+      }
+      refine_all(leading);
+      std::stable_sort(found.begin(), found.end(), by_odds);
+      if (round == 0 && found.front().log_odds < best - options.refine_within) {  // others had looked not worth a probe beside it
+        probe(base, found, options);
+        std::stable_sort(found.begin(), found.end(), by_odds);
+      }
     }
-    refine_all(leading);
-    std::stable_sort(found.begin(), found.end(), by_odds);
     // A refitted entry stands above its neighbours that were weighed on the linearised base alone: the nearest of its family
     // are refitted too, so that the place is chosen among equals.
     int deepened = 0;
