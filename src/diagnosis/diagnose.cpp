@@ -249,10 +249,20 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
       ratio = birge(ranking.front(), inference.dof());
     }
     if (ranking.empty()) break;
-    prefer_fewer_unknowns(ranking, ratio, options);
-    prefer_stated_priors(ranking, ratio);
-    Fit extended;
-    if (step < options.most_causes) extended = extended_by_first(inference, current, ranking, ratio, out.threshold);
+    const auto weigh = [&] {
+      prefer_fewer_unknowns(ranking, ratio, options);
+      prefer_stated_priors(ranking, ratio);
+      return step < options.most_causes ? extended_by_first(inference, current, ranking, ratio, out.threshold) : current;
+    };
+    Fit extended = weigh();
+    const bool found = !ranking.empty() && tempered(ranking.front(), ratio) > out.threshold;
+    if (!found && step > 0 && step < options.most_causes && !first_look.change.empty()) {
+      // That nothing more is there is said only after every entry was computed anew.
+      ranking = inference.search(current, options.search);
+      if (ranking.empty()) break;
+      ratio = birge(ranking.front(), inference.dof());
+      extended = weigh();
+    }
     if (ranking.empty()) break;
     if (step == 0) {
       out.ranking = ranking;
