@@ -179,17 +179,18 @@ Fit lowest_from(const Inference& inference, const Fit& current, const std::vecto
 }
 
 /// The fit extended by the first entry of the ranking that is above the threshold and keeps its promise. Odds on the linearised
-/// base are a promise: an entry with which the joint fit is no lower than without loses its place.
+/// base are a promise: an entry with which the joint fit is no lower than without goes to the end of the ranking.
 Fit extended_by_first(const Inference& inference, const Fit& current, std::vector<Scored>& ranking, double ratio,
                       double threshold) {
   const auto n = static_cast<Index>(inference.map().nuisances().size());
-  while (!ranking.empty() && tempered(ranking.front(), ratio) > threshold) {
-    const Scored& first = ranking.front();
+  while (tempered(ranking.front(), ratio) > threshold) {
+    Scored& first = ranking.front();
     std::vector<Cause> causes = current.causes;
     causes.push_back({first.candidate, first.a});
     Fit extended = inference.fit(causes, first.x.size() > 0 ? first.x : VectorXd(current.map.x.head(n)));
     if (extended.chi_squared < current.chi_squared) return extended;
-    ranking.erase(ranking.begin());
+    first.log_odds = -1e300;
+    std::rotate(ranking.begin(), ranking.begin() + 1, ranking.end());
   }
   return current;
 }
@@ -255,7 +256,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
       return step < options.most_causes ? extended_by_first(inference, current, ranking, ratio, out.threshold) : current;
     };
     Fit extended = weigh();
-    const bool found = !ranking.empty() && tempered(ranking.front(), ratio) > out.threshold;
+    const bool found = tempered(ranking.front(), ratio) > out.threshold;
     if (!found && step > 0 && step < options.most_causes && !first_look.change.empty()) {
       // That nothing more is there is said only after every entry was computed anew.
       ranking = inference.search(current, options.search);
@@ -263,7 +264,6 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
       ratio = birge(ranking.front(), inference.dof());
       extended = weigh();
     }
-    if (ranking.empty()) break;
     if (step == 0) {
       out.ranking = ranking;
       out.log_odds = tempered(ranking.front(), ratio);
@@ -274,13 +274,11 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     Effect effect;
     effect.cause = {ranking.front().candidate, ranking.front().a};
     effect.log_odds = tempered(ranking.front(), ratio);
-    double sum = 1.0;  // nothing missing has odds 1
     const double top = effect.log_odds;
-    double scaled = std::exp(-top);
+    double scaled = std::exp(-top);  // nothing missing has odds 1
     for (const Scored& scored : ranking)
       if (const double d = tempered(scored, ratio); d > top - 40.0) scaled += std::exp(d - top);
-    sum = scaled;
-    effect.probability = 1.0 / sum;
+    effect.probability = 1.0 / scaled;
     for (const Scored* member : members) effect.cluster.push_back(member->candidate->id());
     effect.split_by = splitting_measurement(inference, current, members);
     current = std::move(extended);

@@ -69,9 +69,9 @@ class FeatureMap {
   /// thread).
   struct Base {
     Eigen::VectorXd x, theta;
-    using Part = std::pair<double, const Eigen::MatrixXd*>;     // amount, matrix (r × r) of the reduced model
+    using Part = std::pair<double, const Eigen::MatrixXd*>;  ///< amount, matrix (r × r) of the reduced model
     std::vector<Part> stiffness_parts, mass_parts;
-    Eigen::MatrixXd common_stiffness, common_mass;              ///< over the common columns, which every state has
+    Eigen::MatrixXd common_stiffness, common_mass;  ///< over the common columns, which every state has
     std::shared_ptr<struct StateStore> store;
     bool keeps = false;  ///< states with causes are kept too: for the same causes predicted again
   };

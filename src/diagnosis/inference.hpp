@@ -80,6 +80,8 @@ class Inference {
   [[nodiscard]] ScreenTable screen_table(const Fit& base) const;
   /// Lets the searches look through a table first; it must outlive them.
   void use(const ScreenTable* table) { table_ = table; }
+  /// A change of all rows as the training rows of a fit see it, L^-1 dg; empty for an empty one.
+  [[nodiscard]] Eigen::VectorXd whitened(const Fit& base, const Eigen::VectorXd& change) const;
   /// Signature of a candidate at coordinates a, whitened; empty where it cannot be computed.
   [[nodiscard]] Eigen::VectorXd signature(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
 
@@ -101,7 +103,6 @@ class Inference {
   [[nodiscard]] std::vector<Eigen::VectorXd> starts_at(const Fit& base, const Candidate& candidate) const;
   /// What a candidate at coordinates a does to all rows; empty where it cannot be computed.
   [[nodiscard]] Eigen::VectorXd change(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
-  [[nodiscard]] Eigen::VectorXd whitened(const Fit& base, const Eigen::VectorXd& change) const;
   /// The best magnitude of the screen at the promised starts. @param from_table  changes of the table instead of new ones
   /// @param by_start  screens and starts, the best first; may be null @param record  takes the new changes, (n_starts); may be null
   [[nodiscard]] Scored screen(const Fit& base, const Promise& promise, const std::vector<Eigen::VectorXd>* from_table,

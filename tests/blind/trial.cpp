@@ -167,9 +167,7 @@ bool said_by_others(const Shared& shared, const Candidate& truth, const VectorXd
     for (std::size_t k = 0; k < known->second.size(); ++k) {
       const VectorXd& change = known->second[k];
       if (change.size() == 0) continue;
-      const VectorXd other =
-          shared.base.total_factor.triangularView<Eigen::Lower>().solve(VectorXd(change(shared.inference->training())));
-      const double cos = cosine(other, s);
+      const double cos = cosine(shared.inference->whitened(shared.base, change), s);
       if (cos > same) return true;
       if (tuned || !(here || cos > similar) || !std::isfinite(neutral(*candidate))) continue;
       if (cosine(signature_of_size(shared, *candidate, candidate->starts[k], s.norm()), s) > same) return true;
