@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/error.hpp"
@@ -149,17 +150,23 @@ std::string sentence_of(const Effect& effect) {
 
 /// Drops earlier causes whose removal costs less than the threshold.
 void check_backwards(const Inference& inference, Fit& current, std::vector<Effect>& effects, const DiagnoseOptions& options) {
-  for (std::size_t i = 0; i + 1 < effects.size();) {
-    std::vector<Cause> rest = current.causes;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-    const Fit without = inference.fit(rest, current.map.x.head(static_cast<Index>(inference.map().nuisances().size())));
-    const double cost = 0.5 * (without.chi_squared - current.chi_squared) + effects[i].cause.candidate->log_prior;
-    if (cost < std::max(options.threshold, options.least_log_odds) - 1.0) {
-      effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(i));
-      current = without;
-    } else {
-      ++i;
+  std::size_t held = 0;  // up to here no cause can go
+  while (held + 1 < effects.size()) {
+    std::vector<Fit> without(effects.size() - 1);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t i = held; i < without.size(); ++i) {
+      std::vector<Cause> rest = current.causes;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      without[i] = inference.fit(rest, current.map.x.head(static_cast<Index>(inference.map().nuisances().size())));
     }
+    const auto dispensable = [&](std::size_t i) {
+      const double cost = 0.5 * (without[i].chi_squared - current.chi_squared) + effects[i].cause.candidate->log_prior;
+      return cost < std::max(options.threshold, options.least_log_odds) - 1.0;
+    };
+    while (held < without.size() && !dispensable(held)) ++held;
+    if (held == without.size()) return;
+    effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(held));
+    current = std::move(without[held]);
   }
 }
 
@@ -187,8 +194,14 @@ Fit extended_by_first(const Inference& inference, const Fit& current, std::vecto
     Scored& first = ranking.front();
     std::vector<Cause> causes = current.causes;
     causes.push_back({first.candidate, first.a});
-    Fit extended = inference.fit(causes, first.x.size() > 0 ? first.x : VectorXd(current.map.x.head(n)));
-    if (extended.chi_squared < current.chi_squared) return extended;
+    // From where the search left it and from where the fit without it is: valleys lie beside each other.
+    std::vector<VectorXd> starts{current.map.x.head(n)};
+    if (first.x.size() > 0) starts.push_back(first.x);
+    std::vector<Fit> extended(starts.size());
+#pragma omp parallel for schedule(static, 1)
+    for (std::size_t i = 0; i < starts.size(); ++i) extended[i] = inference.fit(causes, starts[i]);
+    Fit& lowest = extended.back().chi_squared <= extended.front().chi_squared ? extended.back() : extended.front();
+    if (lowest.chi_squared < current.chi_squared) return std::move(lowest);
     first.log_odds = -1e300;
     std::rotate(ranking.begin(), ranking.begin() + 1, ranking.end());
   }
@@ -230,6 +243,13 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     return inference.search(current, options.search, first_look.change.empty() ? nullptr : &first_look, &first_look);
   };
   for (int step = 0; step <= options.most_causes; ++step) {
+    if (step == options.most_causes && step > 0) {  // no more causes are wanted: the map of what is left takes the screen alone
+      SearchOptions look = options.search;
+      look.short_list = look.longest_list = look.probes = 0;
+      look.family_screen = std::numeric_limits<double>::infinity();
+      ranking = inference.search(current, look, first_look.change.empty() ? nullptr : &first_look, &first_look);
+      break;
+    }
     ranking = search();
     if (ranking.empty()) break;
     double ratio = birge(ranking.front(), inference.dof());

@@ -25,6 +25,13 @@ void add_outer(Symmetric& to, double amount, const VectorXd& u, const VectorXd& 
 void grow(MatrixXd& k) { k.conservativeResizeLike(MatrixXd::Zero(k.rows() + 1, k.cols() + 1)); }
 void grow(Symmetric& k) { k.conservativeResize(k.rows() + 1, k.cols() + 1); }
 
+void add_part(MatrixXd& to, double amount, const MatrixXd& part) { to.topLeftCorner(part.rows(), part.cols()) += amount * part; }
+/// A place's entries are among the structure's: a hundred sums of whole sparse matrices would take seconds.
+void add_part(Symmetric& to, double amount, const Symmetric& part) {
+  for (int c = 0; c < part.outerSize(); ++c)
+    for (Symmetric::InnerIterator e(part, c); e; ++e) to.coeffRef(e.row(), e.col()) += amount * e.value();
+}
+
 /// Stiffness and mass, dense in the reduced basis or sparse in full coordinates.
 template <typename Matrix, typename OnePlace>
 struct Assembly {
@@ -43,10 +50,7 @@ struct Assembly {
     return b;
   }
   void add(Matrix& to, double amount, const Matrix& what) {
-    if (what.size() == 0 || amount == 0.0) return;
-    Matrix part = amount * what;
-    while (part.rows() < to.rows()) grow(part);
-    to += part;
+    if (what.size() != 0 && amount != 0.0) add_part(to, amount, what);
   }
   void scatter(const FeatureMap& map, const VectorXd& x) {
     const auto place = [&](const char* set, int i) -> const OnePlace& { return sets.at(set)[static_cast<std::size_t>(i)]; };

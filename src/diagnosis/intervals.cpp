@@ -37,7 +37,8 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
     const double reach = std::min(4.0 * std::sqrt(misfit) * deviation, 1.0 * (high - low));
     const double from = std::max(low, centre - reach), to = std::min(high, centre + reach);
     constexpr int points = 25;
-    std::vector<double> at_a, log_likelihood;
+    std::vector<double> at_a(points), log_likelihood(points, -1e300);
+#pragma omp parallel for schedule(dynamic, 1)
     for (int p = 0; p < points; ++p) {
       const double value = from + (to - from) * p / (points - 1);
       std::vector<Cause> causes = fit.causes;
@@ -50,11 +51,8 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
       }
       causes[which].a[i] = value;
       const Prediction moved = inference.map().predict(fit.base, causes, false);
-      at_a.push_back(value);
-      if (!moved.valid) {
-        log_likelihood.push_back(-1e300);
-        continue;
-      }
+      at_a[static_cast<std::size_t>(p)] = value;
+      if (!moved.valid) continue;
       // x follows too: what it can take up is in Sigma_tot, from which the cause's own part is removed (Woodbury).
       VectorXd change(static_cast<Index>(inference.training().size()));
       for (std::size_t r = 0; r < inference.training().size(); ++r)
@@ -65,7 +63,7 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
       const VectorXd projected = own.transpose() * c;
       const double distance = c.squaredNorm() + projected.dot(capacity.ldlt().solve(projected));
       // About the optimum the residual is orthogonal to what the cause can do.
-      log_likelihood.push_back(-0.5 * distance / misfit);
+      log_likelihood[static_cast<std::size_t>(p)] = -0.5 * distance / misfit;
     }
     const double top = *std::max_element(log_likelihood.begin(), log_likelihood.end());
     std::vector<double> cumulative(points, 0.0);

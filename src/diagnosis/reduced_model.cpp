@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
 #include "dynamics/eigenmodes.hpp"
@@ -40,7 +42,7 @@ MatrixXd project(const Symmetric& s, const MatrixXd& v) {
   std::vector<int> touched;
   for (int c = 0; c < s.outerSize(); ++c)
     if (Symmetric::InnerIterator(s, c)) touched.push_back(c);
-  MatrixXd left(static_cast<Index>(touched.size()), v.cols()), right(left.rows(), v.cols());
+  MatrixXd left(static_cast<Index>(touched.size()), v.cols());
   std::vector<int> at(static_cast<std::size_t>(s.rows()), -1);
   for (std::size_t i = 0; i < touched.size(); ++i) at[static_cast<std::size_t>(touched[i])] = static_cast<int>(i);
   for (std::size_t i = 0; i < touched.size(); ++i) left.row(static_cast<Index>(i)) = v.row(touched[i]);
@@ -49,7 +51,16 @@ MatrixXd project(const Symmetric& s, const MatrixXd& v) {
   for (std::size_t i = 0; i < touched.size(); ++i)
     for (Symmetric::InnerIterator e(s, touched[i]); e; ++e)
       sum.col(static_cast<Index>(i)) += e.value() * rows.col(at[static_cast<std::size_t>(e.row())]);
-  return linalg::product(rows, sum.transpose());
+  const MatrixXd right = sum.transpose();
+  // The result is symmetric: by a few panels, each down to the diagonal alone.
+  const Index n = v.cols(), width = std::max<Index>(32, n / 8);
+  MatrixXd out(n, n);
+  for (Index first = 0; first < n; first += width) {
+    const Index columns = std::min(width, n - first), last = first + columns;
+    out.block(0, first, last, columns) = linalg::product(rows.topRows(last), right.middleCols(first, columns));
+    out.block(first, 0, columns, first) = out.block(0, first, first, columns).transpose();
+  }
+  return out;
 }
 
 /// The common basis, orthonormal in K.
@@ -86,13 +97,23 @@ class Basis {
     vectors_.rightCols(further.cols()) = further;
     images_.rightCols(further.cols()) = stiffness_ * further;
   }
-  /// The strongest directions of a block in K beyond the basis, at most `count`.
-  [[nodiscard]] MatrixXd strongest(const MatrixXd& block, int count) const {
-    const MatrixXd rest = beyond(block);
-    if (rest.cols() <= count) return rest;
-    const MatrixXd gram = linalg::product(rest, stiffness_ * rest, true);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);
-    return linalg::product(rest, eigen.eigenvectors().rightCols(count).rowwise().reverse());
+  /// Vectors and what loads hold them: K vectors = loads.
+  struct Held {
+    MatrixXd vectors, loads;
+  };
+  /// The strongest directions of a block in K beyond the basis, at most `count`, and none of less energy than `least`.
+  [[nodiscard]] Held strongest(Held block, int count, double least = 0.0) const {
+    for (int pass = 0; pass < 2; ++pass) {
+      const MatrixXd part = linalg::product(images_, block.vectors, true);
+      linalg::subtract_product(vectors_, part, block.vectors);
+      linalg::subtract_product(images_, part, block.loads);
+    }
+    if (block.vectors.cols() <= count) return block;
+    const MatrixXd gram = linalg::product(block.vectors, block.loads, true);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (gram + gram.transpose()));
+    const Index kept = std::min<Index>(count, (eigen.eigenvalues().array() >= least).count());
+    const MatrixXd turn = eigen.eigenvectors().rightCols(kept).rowwise().reverse();
+    return {linalg::product(block.vectors, turn), linalg::product(block.loads, turn)};
   }
   [[nodiscard]] const MatrixXd& vectors() const { return vectors_; }
 
@@ -116,7 +137,50 @@ MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const P
     load = place.stiffness * low;
   else if (place.mass.size() > 0)
     load = place.mass * low;
-  return load.cols() > 0 ? basis.orthonormal(basis.strongest(factor.solve(load), count)) : MatrixXd();
+  return load.cols() > 0 ? basis.orthonormal(basis.strongest({factor.solve(load), load}, count).vectors) : MatrixXd();
+}
+
+/// K^-1 dK Phi and K^-1 dM Phi Lambda for each parameter and, where asked for, each group of elements, by as much as they may
+/// change; of each the strongest few beyond the basis, of these the strongest of all. Each mode counts by its strain energy, so
+/// that what is missed costs each the same part of its frequency.
+MatrixXd corrections(const Basis& basis, const linalg::Cholesky& factor, const fe::ParametricSystem& system,
+                     const Eigen::VectorXd& theta, const Eigen::VectorXd& eigenvalue, const MatrixXd& low, const Places& places,
+                     const ReductionOptions& options) {
+  std::vector<std::function<MatrixXd()>> changes;
+  const auto squares = eigenvalue.head(low.cols());
+  for (std::size_t p = 0; p < system.parameters.size(); ++p) {
+    const double range = system.parameters[p].upper - system.parameters[p].lower;
+    if (!(range > 0.0)) continue;
+    changes.emplace_back([&, p, range] {
+      MatrixXd change = system.stiffness_derivative_times(theta, static_cast<int>(p), low);
+      change -= system.mass_derivative_times(theta, static_cast<int>(p), low) * squares.asDiagonal();
+      return MatrixXd(0.25 * range * change);
+    });
+  }
+  if (const auto elements = places.sets.find("elements"); elements != places.sets.end() && options.element_change > 0.0)
+    for (const Place& place : elements->second) {
+      if (place.stiffness.size() > 0)
+        changes.emplace_back([&] { return MatrixXd(options.element_change * (place.stiffness * low)); });
+      if (place.mass.size() > 0)
+        changes.emplace_back([&] { return MatrixXd(options.element_change * (place.mass * low) * squares.asDiagonal()); });
+    }
+  const double least = 1e-6 * squares[squares.size() - 1];  // modes of a free structure have none
+  std::vector<Basis::Held> found(changes.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const MatrixXd load = changes[i]() * squares.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal();
+    found[i] = basis.strongest({factor.solve(load), load}, 6);
+  }
+  Index columns = 0;
+  for (const Basis::Held& block : found) columns += block.vectors.cols();
+  Basis::Held all{MatrixXd(low.rows(), columns), MatrixXd(low.rows(), columns)};
+  Index at = 0;
+  for (const Basis::Held& block : found) {
+    all.vectors.middleCols(at, block.vectors.cols()) = block.vectors;
+    all.loads.middleCols(at, block.vectors.cols()) = block.loads;
+    at += block.vectors.cols();
+  }
+  return basis.strongest(std::move(all), options.parameter_vectors, options.least_correction).vectors;
 }
 
 }  // namespace
@@ -164,16 +228,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     common = static_cast<int>(n);
   } else {
     basis.append(modes.shapes);
-    MatrixXd forces(n, 0);
-    for (std::size_t p = 0; p < parameters.size(); ++p) {
-      const double range = parameters[p].upper - parameters[p].lower;
-      if (!(range > 0.0)) continue;
-      MatrixXd change = system.stiffness_derivative_times(theta, static_cast<int>(p), low);
-      change -= system.mass_derivative_times(theta, static_cast<int>(p), low) * modes.eigenvalue.head(low.cols()).asDiagonal();
-      forces.conservativeResize(Eigen::NoChange, forces.cols() + low.cols());
-      forces.rightCols(low.cols()) = 0.25 * range * change;
-    }
-    if (forces.cols() > 0) basis.append(basis.strongest(factor.solve(forces), options.parameter_vectors));
+    basis.append(corrections(basis, factor, system, theta, modes.eigenvalue, low, places, options));
     if (const auto dampers = places.sets.find("dampers"); dampers != places.sets.end())
       for (const Place& damper : dampers->second) basis.append(factor.solve(MatrixXd(damper.directions)));
     common = static_cast<int>(basis.vectors().cols());

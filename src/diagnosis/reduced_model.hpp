@@ -20,11 +20,13 @@ struct ReducedPlace {
 };
 
 struct ReductionOptions {
-  int modes = 30;               ///< of the structure as it stands
-  int parameter_vectors = 10;   ///< corrections for changed parameters, the strongest directions of them all
-  int corrected_modes = 8;      ///< lowest modes whose static response to a change at a place is kept …
-  int vectors_per_place = 3;    ///< … in its strongest directions
-  int full_below = 60;          ///< a structure with no more dofs is not reduced
+  int modes = 30;                 ///< of the structure as it stands
+  int parameter_vectors = 10;     ///< corrections for changed parameters and workmanship, the strongest directions of them all
+  double least_correction = 0.0;  ///< part of any mode's omega² below which a correction is left out
+  double element_change = 0.0;    ///< relative change of a group of elements by workmanship; 0: no corrections for it
+  int corrected_modes = 8;        ///< lowest modes whose static response to a change at a place is kept …
+  int vectors_per_place = 3;      ///< … in its strongest directions
+  int full_below = 60;            ///< a structure with no more dofs is not reduced
 };
 
 /// The structure projected once to a small basis, so that thousands of changed structures can be solved:

@@ -45,7 +45,7 @@ std::vector<Listed> list_modes(const FeatureSet& features) {
 }
 
 /// MAC over the channels that both shapes have.
-double likeness(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+double alike(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   std::complex<double> product = 0.0;
   double aa = 0.0, bb = 0.0;
   for (Index i = 0; i < a.size(); ++i) {
@@ -66,7 +66,7 @@ std::vector<int> same_modes(const Eigen::VectorXd& reference_Hz, const Eigen::Ma
   Eigen::MatrixXd gain(m, n), mac(m, n);
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < n; ++j) {
-      mac(i, j) = likeness(reference.col(j), other.col(i));
+      mac(i, j) = alike(reference.col(j), other.col(i));
       gain(i, j) = mac(i, j) - std::abs(std::log(other_Hz[i] / reference_Hz[j]));
     }
   std::vector<int> chosen = modal::best_assignment(gain);

@@ -1,10 +1,11 @@
 #include "diagnosis/scatter_scales.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+
+#include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -30,10 +31,10 @@ struct MarginalLikelihood {
     VectorXd row_scale(r.size());
     for (Index i = 0; i < r.size(); ++i) row_scale[i] = std::exp(log_scale[group[static_cast<std::size_t>(i)]]);
     const double w = std::exp(2.0 * log_scale[log_scale.size() - 1]);
-    const Eigen::LLT<MatrixXd> factor(row_scale.asDiagonal() * errors * row_scale.asDiagonal() + fixed + w * workmanship);
-    if (factor.info() != Eigen::Success) return -1e300;
-    const VectorXd white = factor.matrixL().solve(r);
-    return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
+    const MatrixXd factor =
+        linalg::cholesky_factor(row_scale.asDiagonal() * errors * row_scale.asDiagonal() + fixed + w * workmanship);
+    if (factor.size() == 0) return -1e300;
+    return -0.5 * linalg::lower_solve(factor, r).squaredNorm() - factor.diagonal().array().log().sum();
   }
 };
 
@@ -92,8 +93,8 @@ std::vector<ScatterScale> scatter_scales(const Inference& inference, const Fit& 
   }
   MarginalLikelihood likelihood;
   likelihood.errors = inference.covariance();
-  likelihood.workmanship = workmanship.leftCols(w) * workmanship.leftCols(w).transpose();
-  likelihood.fixed = parameters.leftCols(p) * parameters.leftCols(p).transpose() +
+  likelihood.workmanship = linalg::product(workmanship.leftCols(w), workmanship.leftCols(w).transpose());
+  likelihood.fixed = linalg::product(parameters.leftCols(p), parameters.leftCols(p).transpose()) +
                      kFreeDeviation * kFreeDeviation * fit.map.scales * fit.map.scales.transpose();
   likelihood.r = fit.total_factor.triangularView<Eigen::Lower>() * fit.whitened;
   std::map<RowType, Index> group_of;

@@ -4,10 +4,12 @@
 #include <set>
 
 #include "diagnosis/inference.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& candidate) const {
@@ -51,6 +53,8 @@ Scored Inference::screen(const Fit& base, const Promise& promise, const std::vec
   best.screen = -1e300;
   std::vector<std::pair<double, std::size_t>> all;
   if (record != nullptr) record->resize(starts.size());
+  std::vector<std::size_t> used;
+  MatrixXd signatures(static_cast<Index>(training_.size()), std::ssize(starts));
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (!promise.starts.empty() && std::find(promise.starts.begin(), promise.starts.end(), i) == promise.starts.end()) continue;
     VectorXd of_start;
@@ -58,9 +62,17 @@ Scored Inference::screen(const Fit& base, const Promise& promise, const std::vec
       of_start = change(base, candidate, starts[i]);
     else if (i < from_table->size())
       of_start = (*from_table)[i];
-    const VectorXd s = whitened(base, of_start);
+    if (of_start.size() > 0) {
+      signatures.col(std::ssize(used)) = of_start(training_);
+      used.push_back(i);
+    }
     if (record != nullptr) (*record)[i] = std::move(of_start);
-    if (s.size() == 0) continue;
+  }
+  // All at once: a solve takes its time to read the factor.
+  signatures = linalg::lower_solve(base.total_factor, signatures.leftCols(std::ssize(used)));
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    const std::size_t i = used[k];
+    const auto s = signatures.col(static_cast<Index>(k));
     const double along = s.dot(base.whitened), norm = s.squaredNorm();
     if (!(norm > 1e-12)) continue;
     const double scale = along / norm;
@@ -92,8 +104,10 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
     for (const Candidate* candidate : all) everything.push_back({candidate, {}});
     return everything;
   }
-  std::vector<std::pair<double, Promise>> ranked;
-  for (const Candidate* candidate : all) {
+  std::vector<std::pair<double, Promise>> ranked(all.size());
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Candidate* candidate = all[i];
     Promise promise{candidate, {}};
     const auto known = known_changes->change.find(candidate->id());
     double t = 1e300;
@@ -103,7 +117,7 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
       if (candidate->tuned >= 0)
         for (std::size_t k = 0; k < std::min<std::size_t>(2, by_start.size()); ++k) promise.starts.push_back(by_start[k].second);
     }
-    ranked.emplace_back(0.5 * t + candidate->log_prior, std::move(promise));
+    ranked[i] = {0.5 * t + candidate->log_prior, std::move(promise)};
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::map<std::string, int> of_family, starts;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "linalg/dense.hpp"
 #include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
@@ -40,7 +41,8 @@ double peak(const StructureState& state, const VectorXcd& phi, const VectorXd& b
   return std::sqrt(2.0) * state.amplitude_m * std::min(here / std::max(there, 1e-12 * largest), 50.0);
 }
 
-/// T(s) and T'(s) with attachments at the amplitudes of phi.
+}  // namespace
+
 void dynamic_matrices(const StructureState& state, Complex s, const VectorXcd& phi, MatrixXcd& t, VectorXcd& t_prime_phi) {
   const Complex square = s * s;
   const Index n = state.mass.rows();
@@ -72,6 +74,8 @@ void dynamic_matrices(const StructureState& state, Complex s, const VectorXcd& p
   t.real() = re;
   t.imag() = im;
 }
+
+namespace {
 
 /// Eigenvalues and shapes of the linear part in modal coordinates (dashpots, Maxwell; friction as given spring and dashpot).
 StateModes state_space(const StructureState& state, const UndampedModes& undamped, double highest,
@@ -129,7 +133,7 @@ void refine(const StructureState& state, Complex& s, VectorXcd& phi) {
     const Complex step = (phi.transpose() * (t * phi))(0) / (phi.transpose() * t_prime_phi)(0);
     s -= step;
     if (iteration > 1 && std::abs(step) < 1e-9 * std::abs(s)) break;
-    const VectorXcd y = t.partialPivLu().solve(t_prime_phi);
+    const VectorXcd y = linalg::solve(t, t_prime_phi);
     if (y.allFinite()) phi = y / y.norm();
   }
 }
@@ -255,7 +259,13 @@ class ModalRoots {
   /// stiffnesses of its own, two starts of the lowest one's may end in one, and the state space's do so too.
   /// @param forces  of sliders [N/m], where phi is not known: those that s is an eigenvalue with
   bool add(Complex s, VectorXcd phi, const VectorXcd& forces, Found& found, bool must_oscillate) const {
-    if (!root(s, phi, forces)) return false;
+    const Complex start = s;
+    if (!root(s, phi, forces, 1.0)) {
+      if (!sliders_ || must_oscillate) return false;
+      s = start;
+      phi.resize(0);
+      if (!root(s, phi, forces, 0.25)) return false;
+    }
     if (!oscillates(s)) return !must_oscillate;
     for (const auto& other : found)
       if (same_mode(other, s, phi)) return sliders_ && !must_oscillate;
@@ -354,15 +364,17 @@ class ModalRoots {
   }
 
   /// Residual inverse iteration from s, and from phi where it is given, until s stands still.
-  bool root(Complex& s, VectorXcd& phi, const VectorXcd& held) const {
+  /// @param relax  part of the way that sliders' forces go in a step: strokes and forces may answer each other in turn, and where
+  ///               a damper begins to slide they do so for ever, by some 1e-5
+  bool root(Complex& s, VectorXcd& phi, const VectorXcd& held, double relax) const {
     const Index n = modes_.size(), p = b_.cols();
     VectorXcd d(p), d_prime(p), q(p), z = VectorXcd::Ones(n);
-    const auto forces = [&](bool first, double relax) {
+    const auto forces = [&](bool first, double part) {
       for (Index k = 0; k < p; ++k) {
         const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
         const bool slides = a.kind == Attachment::Kind::jenkins;
         const auto [now, slope] = dynamic_stiffness(a, s, slides && phi.size() > 0 ? peak(state_, phi, a.direction) : 0.0);
-        d[k] = slides && !first ? relax * now + (1.0 - relax) * d[k] : now;
+        d[k] = slides && !first ? part * now + (1.0 - part) * d[k] : now;
         d_prime[k] = slope;
       }
     };
@@ -383,10 +395,10 @@ class ModalRoots {
         if (state_.attachments[static_cast<std::size_t>(k)].kind == Attachment::Kind::jenkins) d[k] = held[k];
       for (int i = 0; i < 2; ++i) z = inverse(s, d, z).normalized();
     }
-    for (int iteration = 0; iteration < (sliders_ ? 60 : 15); ++iteration) {
+    for (int iteration = 0; iteration < (sliders_ ? 60 / relax : 15); ++iteration) {
       if (sliders_) shape();
       if (sliders_ || iteration > 0)
-        forces(iteration == 0, iteration > 8 ? 0.4 : 1.0);  // strokes and forces may answer each other in turn
+        forces(iteration == 0, iteration > 8 ? std::min(0.4, relax) : relax);
       q.real() = bm_.transpose() * z.real();
       q.imag() = bm_.transpose() * z.imag();
       const Complex mass = (z.array().square() * modes_.mu.array()).sum();
@@ -399,7 +411,7 @@ class ModalRoots {
         step *= 0.1 * std::abs(s / step);  // strokes of the shape that the start has: they change with it
       }
       s -= step;
-      const bool small = std::abs(step) < (sliders_ ? 1e-8 : 1e-10) * std::abs(s);
+      const bool small = std::abs(step) < (relax < 1.0 ? 3e-5 : sliders_ ? 1e-8 : 1e-10) * std::abs(s);
       VectorXcd v = 2.0 * s * z.cwiseProduct(modes_.mu);
       const VectorXcd force = d_prime.cwiseProduct(q);
       v.real() += bm_ * force.real();
@@ -445,54 +457,6 @@ StateModes solve_state(const StructureState& state, double highest_Hz, UndampedS
   if (neighbour != nullptr && roots.follow(*neighbour, modes)) return modes;
   if (roots.solve(highest_Hz, modes)) return modes;
   return solve_by_state_space(state, highest_Hz, undamped);
-}
-
-ModeDerivative differentiate(const StructureState& state, const StateModes& modes, Index mode,
-                             const std::vector<MatrixXd>& stiffness, const std::vector<MatrixXd>& mass) {
-  const Complex s = modes.s[mode];
-  const VectorXcd phi = modes.shapes.col(mode);
-  const Index n = phi.size();
-  const auto changes = static_cast<Index>(stiffness.size());
-  MatrixXcd force = MatrixXcd::Zero(n + 1, changes);
-  const VectorXd re = phi.real(), im = phi.imag();
-  const bool real = !state.damped();
-  for (Index j = 0; j < changes; ++j) {
-    const MatrixXd& dk = stiffness[static_cast<std::size_t>(j)];
-    const MatrixXd& dm = mass[static_cast<std::size_t>(j)];
-    if (dk.size() > 0) {
-      force.col(j).head(n).real() -= dk * re;
-      if (!real) force.col(j).head(n).imag() -= dk * im;
-    }
-    if (dm.size() > 0) {
-      VectorXcd v(n);
-      v.real() = dm * re;
-      v.imag() = real ? VectorXd::Zero(n) : VectorXd(dm * im);
-      force.col(j).head(n) -= (s * s) * v;
-    }
-  }
-  MatrixXcd t;
-  VectorXcd t_prime_phi;
-  dynamic_matrices(state, s, phi, t, t_prime_phi);
-  ModeDerivative out;
-  if (real) {  // everything is real in lambda = -s²: (K - lambda M) dphi - dlambda M phi = -(dK - lambda dM) phi
-    MatrixXd bordered(n + 1, n + 1);
-    bordered << t.real(), -(state.mass * re), -(state.mass * re).transpose(), 0.0;
-    const MatrixXd solution = bordered.partialPivLu().solve(MatrixXd(force.real()));
-    out.shapes = solution.topRows(n).cast<Complex>();
-    const double omega = s.imag();
-    out.s.resize(changes);
-    for (Index j = 0; j < changes; ++j) out.s[j] = Complex(0.0, omega > 0.0 ? solution(n, j) / (2.0 * omega) : 0.0);
-    return out;
-  }
-  MatrixXcd bordered(n + 1, n + 1);
-  bordered.topLeftCorner(n, n) = t;
-  bordered.topRightCorner(n, 1) = t_prime_phi;
-  bordered.bottomLeftCorner(1, n) = t_prime_phi.transpose();
-  bordered(n, n) = 0.0;
-  const MatrixXcd solution = bordered.partialPivLu().solve(force);
-  out.shapes = solution.topRows(n);
-  out.s = solution.row(n).transpose();
-  return out;
 }
 
 }  // namespace twindeck::diagnosis

@@ -49,6 +49,10 @@ struct StateModes {
 [[nodiscard]] std::pair<std::complex<double>, std::complex<double>> dynamic_stiffness(const Attachment& a, std::complex<double> s,
                                                                                       double amplitude_m);
 
+/// T(s) of a state with attachments at the amplitudes of the shape phi (n), and T'(s) phi.
+void dynamic_matrices(const StructureState& state, std::complex<double> s, const Eigen::VectorXcd& phi, Eigen::MatrixXcd& t,
+                      Eigen::VectorXcd& t_prime_phi);
+
 /// Modes up to `highest_Hz`. Undamped states by a symmetric eigenproblem; damped ones, T(s) phi = 0 with
 /// T = s² M + K + sum d_k(s, X_k) b_k b_k' and X_k the mode's own amplitude at the element, by Newton on their characteristic
 /// equation in the undamped modes. It starts from the roots of `neighbour` (same attachments, other matrices) where there is one, else

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
@@ -18,10 +20,9 @@ UndampedModes::UndampedModes(const MatrixXd& k, const MatrixXd& m) : stiffness(k
   }
   const MatrixXd half = factor.matrixL().solve(m);
   MatrixXd a = factor.matrixL().solve(half.transpose());
-  a = (0.5 * (a + a.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(a);
-  mu = eigen.eigenvalues().reverse().cwiseMax(0.0);
-  shapes = factor.matrixU().solve(MatrixXd(eigen.eigenvectors().rowwise().reverse()));
+  linalg::LeadingEigenpairs all = linalg::leading_eigenpairs(std::move(a), k.rows());
+  mu = all.values.cwiseMax(0.0);
+  shapes = factor.matrixU().solve(all.vectors);
 }
 
 double UndampedModes::eigenvalue(Index i) const {

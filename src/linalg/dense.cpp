@@ -1,6 +1,8 @@
 #include "linalg/dense.hpp"
 
 #include <algorithm>
+#include <complex>
+#include <limits>
 
 #include "core/error.hpp"
 #include "linalg/one_thread.hpp"
@@ -17,6 +19,8 @@ void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int*
 void dtrsm_(const char* side, const char* uplo, const char* trans_a, const char* diag, const int* m, const int* n,
             const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+void zgesv_(const int* n, const int* nrhs, std::complex<double>* a, const int* lda, int* pivot, std::complex<double>* b,
+            const int* ldb, int* info);
 }
 
 namespace twindeck::linalg {
@@ -112,6 +116,18 @@ Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eige
   if (m == 0 || n == 0) return b;
   const double one = 1.0;
   dtrsm_("L", "L", "N", "N", &m, &n, &one, lower.data(), &lda, b.data(), &m);
+  return b;
+}
+
+Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b) {
+  use_one_thread();
+  TWINDECK_ASSERT(a.rows() == a.cols() && a.rows() == b.rows());
+  const int n = as_int(a.rows()), columns = as_int(b.cols());
+  if (n == 0 || columns == 0) return b;
+  Eigen::VectorXi pivot(n);
+  int info = 0;
+  zgesv_(&n, &columns, a.data(), &n, pivot.data(), b.data(), &n, &info);
+  if (info != 0) b.setConstant(std::numeric_limits<double>::quiet_NaN());
   return b;
 }
 

@@ -40,4 +40,9 @@ struct ThinSvd {
 /// @param lower (n × n), its lower triangle is read @param b (n × columns)
 [[nodiscard]] Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b);
 
+/// A⁻¹ B of complex matrices by Gaussian elimination with row exchanges. Where A is singular to the last digit the result is
+/// not finite.
+/// @param a (n × n) @param b (n × columns)
+[[nodiscard]] Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b);
+
 }  // namespace twindeck::linalg

@@ -303,8 +303,14 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
-  reduction.parameter_vectors = 30;  // fits end far from where the basis is made (full_model)
-  reduction.corrected_modes = 12;
+  // Fits end far from where the basis is made (full_model): parameters on bounds, workmanship off by three of its deviations.
+  reduction.parameter_vectors = 60;
+  reduction.least_correction = 2.5e-4;
+  reduction.element_change = 0.1;
+  std::set<std::string> measured;
+  for (const diagnosis::Row& row : inputs.features.rows)
+    if (row.type == diagnosis::RowType::frequency) measured.insert(row.mode);
+  reduction.corrected_modes = std::max(12, static_cast<int>(measured.size()) + 2);
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
   if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, inputs.features)) inputs.account.push_back(*unpaired);
   hold_out(config, inputs.features);

@@ -26,7 +26,7 @@ struct DiagnosisConfig {
   double alpha = 0.01, residual_alpha = 0.001, either_within = 3.0, least_log_odds = 3.0;
   diagnosis::SearchOptions search;
   long most_refined = search.most_refined;
-  long nulls = 0, most_causes = 4, modes = 30, zones = 24, nodes = 24;
+  long nulls = 0, most_causes = 4, modes = 24, zones = 24, nodes = 24;
   double sensor_tolerance_m = 0.5;
   std::string threshold_cache;  ///< folder of thresholds by hash
   diagnosis::ScatterOptions scatter;

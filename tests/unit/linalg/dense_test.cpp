@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <complex>
 
 namespace twindeck::tests {
 namespace {
@@ -39,6 +40,17 @@ TEST(Dense, AFactorTimesItselfIsTheMatrixAndThereIsNoneOfAnIndefiniteOne) {
   EXPECT_LT((l.lazyProduct(l.transpose()) - positive).cwiseAbs().maxCoeff(), 1e-12 * positive.trace());
   positive(7, 7) = -1.0;
   EXPECT_EQ(linalg::cholesky_factor(positive).size(), 0);
+}
+
+TEST(Dense, AComplexSystemIsSolvedAndASingularOneIsNoNumber) {
+  Eigen::MatrixXcd a(25, 25);
+  a.real() = numbers(25, 25);
+  a.imag() = numbers(25, 25).transpose();
+  const Eigen::MatrixXcd x = numbers(25, 3) * std::complex<double>(0.3, -1.1);
+  EXPECT_LT((linalg::solve(a, a.lazyProduct(x)) - x).cwiseAbs().maxCoeff(), 1e-9);
+  a.col(4).setZero();
+  EXPECT_FALSE(linalg::solve(a, x).allFinite());
+  EXPECT_EQ(linalg::solve(a, Eigen::MatrixXcd(25, 0)).cols(), 0);
 }
 
 }  // namespace
