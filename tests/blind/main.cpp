@@ -4,6 +4,7 @@
 /// blind_trials --nulls N: calibration of the residual test.
 /// blind_trials --count N: what N trials hide, by family, without a diagnosis.
 /// blind_trials --explain SEED …: the evidence of single cases.
+/// blind_trials --coverage N SEED …: how often intervals hold the size when the cause is given, each case in N campaigns.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -126,6 +127,23 @@ bool print_shares(const std::map<std::string, int>& hidden, int least) {
   return seldom.empty();
 }
 
+/// Cases with one cause of known size, each in so many campaigns.
+int print_coverage(const twindeck::blind::Bench& bench, int campaigns, const std::vector<std::string>& seeds) {
+  int covered = 0, all = 0;
+  for (const std::string& seed : seeds) {
+    const auto one = twindeck::blind::coverage(bench, std::stoull(seed), campaigns);
+    fmt::print("{:>4} of {:>4}  {}\n", one.covered, one.campaigns, one.seal);
+    std::fflush(stdout);
+    covered += one.covered;
+    all += one.campaigns;
+  }
+  if (all == 0) return 0;
+  const auto [from, to] = twindeck::blind::exact_interval(covered, all);
+  fmt::print("90 % intervals that hold the size, the cause given: {} of {} = {:.1f} % [{:.1f}, {:.1f}]\n", covered, all,
+             100.0 * covered / all, 100.0 * from, 100.0 * to);
+  return 0;
+}
+
 /// What `count` trials hide: kinds, families, sizes.
 int dry_run(const twindeck::blind::Bench& bench, const std::vector<std::string>& catalogue, int count, std::uint64_t first) {
   std::vector<twindeck::blind::Sealed> seals(static_cast<std::size_t>(count));
@@ -169,6 +187,7 @@ int main(int argc, char** argv) {
     for (int i = 2; i < argc; ++i) twindeck::blind::explain_case(bench, static_cast<std::uint64_t>(std::atoll(argv[i])));
     return 0;
   }
+  if (argc > 3 && std::string(argv[1]) == "--coverage") return print_coverage(bench, std::atoi(argv[2]), {argv + 3, argv + argc});
   if (argc > 2 && std::string(argv[1]) == "--count") return dry_run(bench, catalogue, std::atoi(argv[2]), 1);
   if (nulls) return null_calibration(bench, count, first);
   const auto run = [&](std::uint64_t seed) {

@@ -273,10 +273,11 @@ Hidden hide(const Bench& bench, std::uint64_t seed, const HideOptions& options) 
   return hide(bench, seed, random, options, false);
 }
 
-Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool null) {
+Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool null, std::uint64_t campaign) {
   const Shared& shared = shared_of(bench);
   Stream random(seed);
   const Hidden drawn = hide(bench, seed, random, {}, null);
+  if (campaign > 0) random = Stream(seed + 1000003 * campaign);
   Case hidden;
   hidden.seal = drawn.seal;
   hidden.removed = drawn.removed;
@@ -345,6 +346,31 @@ double ratio_with_truth(const diagnosis::Inference& inference, const Sealed& sea
 }
 
 }  // namespace
+
+Coverage coverage(const Bench& bench, std::uint64_t seed, int campaigns) {
+  const Sealed seal = hide(bench, seed, {}).seal;
+  Coverage out{seal.text(), 0, 0};
+  if (seal.kind != "effect" || seal.magnitudes[0].empty()) return out;
+  std::vector<char> covered(static_cast<std::size_t>(campaigns), 0);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < campaigns; ++i) {
+    const Case hidden = make_case(bench, seed, 1.0, false, static_cast<std::uint64_t>(i) + 1);
+    covered[static_cast<std::size_t>(i)] = on_inference(bench, hidden, [&](auto& inference) {
+      const auto& all = inference.candidates();
+      const auto truth = std::find_if(all.begin(), all.end(), [&](const auto& entry) {
+        return entry->id() == seal.families[0] + "@" + seal.locations[0];
+      });
+      TWINDECK_ASSERT(truth != all.end());
+      const diagnosis::Fit with = inference.fit({cause_of(**truth, seal)}, inference.fit({}, {}).map.x);
+      const diagnosis::EffectParameter size = diagnosis::effect_parameters(inference, with, 0).front();
+      const double value = seal.magnitudes[0][0];
+      return value >= std::min(size.low, size.high) && value <= std::max(size.low, size.high);
+    });
+  }
+  out.campaigns = campaigns;
+  out.covered = static_cast<int>(std::count(covered.begin(), covered.end(), 1));
+  return out;
+}
 
 Score run_case(const Bench& bench, const Case& hidden) {
   timespec begin{};

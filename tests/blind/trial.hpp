@@ -68,7 +68,18 @@ struct Case {
 /// Case number `seed`: of twenty five nulls, three outside the catalogue, one with two causes; families in turn, place and
 /// magnitude from one stream.
 /// @param noise_scale  of the errors against the declared deviations @param null  whatever the number says
-[[nodiscard]] Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale = 1.0, bool null = false);
+/// @param campaign  0: the case's own; others: the same thing hidden in another bridge of the kind, measured with other errors
+[[nodiscard]] Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale = 1.0, bool null = false,
+                             std::uint64_t campaign = 0);
+
+/// How often the 90 % interval of the hidden cause's first unknown holds the truth when the cause is given and its size is
+/// fitted: what is wrong with intervals alone, without the choice of the cause and without the luck of being noticed.
+struct Coverage {
+  std::string seal;
+  int campaigns = 0, covered = 0;
+};
+/// @param seed  of a case with one cause that has a size; of others no campaign is made
+[[nodiscard]] Coverage coverage(const Bench& bench, std::uint64_t seed, int campaigns);
 
 /// The residual test alone on a null.
 struct NullTest {
