@@ -303,7 +303,7 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
-  // Fits end far from where the basis is made (full_model): parameters on bounds, workmanship off by three of its deviations.
+  // Fits end far from where the basis is made (full_model): parameters on bounds, workmanship off by several deviations.
   reduction.parameter_vectors = 60;
   reduction.least_correction = 2.5e-4;
   reduction.element_change = 0.1;
