@@ -33,7 +33,7 @@ struct Scored {
   double chi_squared = 0.0;
   double remaining = 0.0;        ///< chi² that the best account with this cause leaves
   int stage = 1;                 ///< 1 screened, 2 fitted on the linearised base or probed, 3 with the base fitted again
-  std::vector<Eigen::VectorXd> other_starts;  ///< of a tuned entry: further promising magnitudes
+  std::vector<Eigen::VectorXd> other_starts;  ///< the next best magnitudes of the screen
   Eigen::VectorXd x;             ///< of the joint fit, where there was one
   Eigen::VectorXd signature;     ///< L^-1 (g(x, a) - g(x)) (n_train)
   Eigen::MatrixXd a_covariance;  ///< of the coordinates (stage 2 on)

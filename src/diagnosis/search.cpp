@@ -85,8 +85,8 @@ Scored Inference::screen(const Fit& base, const Promise& promise, const std::vec
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (candidate.tuned >= 0)
-    for (std::size_t k = 1; k < all.size() && k < 2; ++k) best.other_starts.push_back(starts[all[k].second]);
+  // Of what is tuned there are many, each near a mode of its own.
+  for (std::size_t k = 1; k < all.size() && (k < 2 || candidate.tuned < 0); ++k) best.other_starts.push_back(starts[all[k].second]);
   if (by_start != nullptr) *by_start = std::move(all);
   return best;
 }
@@ -155,7 +155,8 @@ void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchO
     if (scored.candidate->tuned < 0 && (scored.candidate->low.size() == 0 || scored.log_odds > promise - 5.0)) continue;
     if (promise < std::max(0.5 * best - 3.0, options.least_promise)) continue;
     probes.push_back({i, scored.a, promise});
-    for (const VectorXd& a : scored.other_starts) probes.push_back({i, a, promise - 1.0});
+    if (scored.candidate->tuned >= 0)
+      for (const VectorXd& a : scored.other_starts) probes.push_back({i, a, promise - 1.0});
   }
   std::stable_sort(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return a.promise > b.promise; });
   if (static_cast<int>(probes.size()) > options.probes) probes.resize(static_cast<std::size_t>(options.probes));
@@ -172,14 +173,27 @@ void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchO
     if (looked[k].log_odds > found[probes[k].at].log_odds) found[probes[k].at] = looked[k];
     best = std::max(best, found[probes[k].at].log_odds);
   }
-  // What promised more than was found, and was not on its way to it, goes on from the base's x.
-  std::vector<std::size_t> again;
-  for (std::size_t k = 0; k < probes.size() && static_cast<int>(again.size()) < options.probes_again; ++k)
-    if (looked[k].stage < 3 && probes[k].promise > best + options.broken_promise) again.push_back(k);
+  // What promised more than was found, and was not on its way to it, goes on from the base's x; and what was tried at one
+  // magnitude alone, afresh from the next: on the way from too much to the right one, modes may change partners.
+  struct Again {
+    std::size_t at;
+    Scored scored;
+    VectorXd x;
+  };
+  std::vector<Again> again;
+  int broken = 0;
+  for (std::size_t k = 0; k < probes.size() && broken < options.probes_again; ++k) {
+    if (looked[k].stage >= 3 || probes[k].promise <= best + options.broken_promise) continue;
+    ++broken;
+    again.push_back({probes[k].at, looked[k], base.map.x});
+    if (looked[k].candidate->tuned >= 0 || looked[k].other_starts.empty()) continue;
+    again.push_back({probes[k].at, looked[k], {}});
+    again.back().scored.a = looked[k].other_starts.front();
+  }
 #pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < again.size(); ++i) refine(base, looked[again[i]], base.map.x, 3 * options.probe_iterations);
-  for (const std::size_t k : again)
-    if (looked[k].log_odds > found[probes[k].at].log_odds) found[probes[k].at] = looked[k];
+  for (std::size_t i = 0; i < again.size(); ++i) refine(base, again[i].scored, again[i].x, 3 * options.probe_iterations);
+  for (const Again& a : again)
+    if (a.scored.log_odds > found[a.at].log_odds) found[a.at] = a.scored;
 }
 
 std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options, const ScreenTable* known,
@@ -266,6 +280,19 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
       }
     refine_all(siblings);
     std::stable_sort(found.begin(), found.end(), by_odds);
+    // Who leads is fitted from its other magnitudes too: a damper that friction holds in one fit may slide in a better one.
+    Scored& leading = found.front();
+    if (leading.stage == 3 && leading.candidate->tuned < 0) {
+      std::vector<Scored> otherwise(leading.other_starts.size(), leading);
+      std::vector<Scored*> these;
+      for (std::size_t i = 0; i < otherwise.size(); ++i) {
+        otherwise[i].a = leading.other_starts[i];
+        these.push_back(&otherwise[i]);
+      }
+      refine_all(these);
+      for (const Scored& other : otherwise)
+        if (other.log_odds > leading.log_odds) leading = other;
+    }
   }
   return found;
 }
