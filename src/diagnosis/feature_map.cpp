@@ -217,9 +217,11 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     if (v.kind == Nuisance::Kind::stay) base.stiffness_parts.emplace_back(amount, &place("stays").stiffness);
   }
   const Index c = model_.common;
-  const auto sum = [c](const std::vector<Base::Part>& parts) {
+  const auto sum = [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of so many matrices takes half the time
     Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
-    for (const auto& [amount, matrix] : parts) total += amount * matrix->topLeftCorner(c, c);
+    for (const auto& [amount, matrix] : parts)
+      for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->col(j).head(j + 1);
+    total.triangularView<Eigen::StrictlyLower>() = total.transpose();
     return total;
   };
   base.common_stiffness = sum(base.stiffness_parts);

@@ -43,7 +43,7 @@ ModeDerivative differentiate(const StructureState& state, const StateModes& mode
   if (real) {  // everything is real in lambda = -s²: (K - lambda M) dphi - dlambda M phi = -(dK - lambda dM) phi
     MatrixXd bordered(n + 1, n + 1);
     bordered << t.real(), -(state.mass * re), -(state.mass * re).transpose(), 0.0;
-    const MatrixXd solution = bordered.partialPivLu().solve(MatrixXd(force.real()));
+    const MatrixXd solution = linalg::solve(std::move(bordered), MatrixXd(force.real()));
     out.shapes = solution.topRows(n).cast<Complex>();
     const double omega = s.imag();
     out.s.resize(changes);

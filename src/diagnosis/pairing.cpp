@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "diagnosis/predictor.hpp"
+#include "linalg/dense.hpp"
 #include "modal/assignment.hpp"
 
 /// Which mode of the model is which measured one.
@@ -63,17 +64,14 @@ VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
   // Modes of the model as it stands move in the common coordinates alone.
   const Index common = map_.model().common;
   const VectorXd reference = map_.model().mode_coordinates.col(position).head(common);
-  const VectorXd mass_reference = map_.matrices(base_, state.columns).second.leftCols(common) * reference;
+  const VectorXd mass_reference = matrices(state.columns).second.leftCols(common) * reference;
   const double norm = reference.dot(mass_reference.head(common));
-  VectorXcd here = VectorXcd::Zero(state.modes.shapes.rows());
-  here.head(mass_reference.size()) = mass_reference.cast<Complex>();
-  VectorXd unlike(state.modes.s.size());
-  for (Index j = 0; j < unlike.size(); ++j) {
-    const VectorXcd phi = state.modes.shapes.col(j);
-    const double own = phi.real().dot(state.state.mass * phi.real()) + phi.imag().dot(state.state.mass * phi.imag());
-    unlike[j] = 1.0 - std::min(1.0, std::norm(here.dot(phi)) / (norm * own));
-  }
-  return unlike;
+  const MatrixXd re = state.modes.shapes.real(), im = state.modes.shapes.imag();
+  const Index rows = mass_reference.size();
+  const VectorXd along = (re.topRows(rows).transpose() * mass_reference).cwiseAbs2() + (im.topRows(rows).transpose() * mass_reference).cwiseAbs2();
+  const VectorXd own = re.cwiseProduct(linalg::product(state.state.mass, re)).colwise().sum() +
+                       im.cwiseProduct(linalg::product(state.state.mass, im)).colwise().sum();
+  return 1.0 - along.cwiseQuotient(norm * own).cwiseMin(1.0).array();
 }
 
 void Predictor::pair(const std::vector<int>& conditions) {

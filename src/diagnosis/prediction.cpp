@@ -138,7 +138,7 @@ void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, 
   }
   scale_ += complex_rows ? 2 : 1;
   const ModeDerivative& d = derivative(state, mode);
-  const auto& position = changes(state.columns).position;
+  const auto& position = changes(state).position;
   const auto n = static_cast<Index>(state.columns.size());
   const Eigen::MatrixXd rows_here = channel_factor_.asDiagonal() * channel_rows_(Eigen::all, state.columns);
   for (const bool imaginary : {false, true}) {
@@ -210,7 +210,7 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
   if (measured.damping >= 0) out_.g[measured.damping] = std::log(total);
   if (with_jacobian_ && (measured.frequency >= 0 || measured.damping >= 0)) {
     const ModeDerivative& d = derivative(state, chosen);
-    const auto& position_of = changes(state.columns).position;
+    const auto& position_of = changes(state).position;
     for (std::size_t j = 0; j < position_of.size(); ++j) {
       const Complex ds = d.s[static_cast<Index>(j)];
       const double relative = (ds / s).real();
@@ -292,7 +292,7 @@ void Predictor::predict_load(int c) {
       variance += weight[static_cast<std::size_t>(i)] * std::norm(h);
       if (!with_jacobian_) continue;
       const ModeDerivative& d = derivative(*state, i);
-      const auto& position_of = changes(state->columns).position;
+      const auto& position_of = changes(*state).position;
       const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows_.row(row.channel)(state->columns);
       const Eigen::RowVectorXcd dh = sensor.cast<Complex>() * d.shapes.topRows(sensor.size());
       for (std::size_t j = 0; j < position_of.size(); ++j) {

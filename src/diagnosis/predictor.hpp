@@ -20,13 +20,15 @@ struct SolvedState {
 };
 
 /// States of one base by the causes that act in them and the circumstances that they depend on; changes of the nuisances by columns.
+/// Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
 struct StateStore {
   struct Changes {
     std::vector<int> position;  ///< among the nuisances
     std::vector<Eigen::MatrixXd> stiffness, mass;
   };
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> states;
-  std::map<std::vector<int>, Changes> changes;
+  std::map<std::pair<std::vector<int>, Eigen::Index>, Changes> changes;                      ///< by columns and size
+  std::map<std::vector<int>, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> matrices;  ///< stiffness and mass by columns
   UndampedStore undamped;
 };
 
@@ -51,7 +53,9 @@ class Predictor {
   [[nodiscard]] SolvedState& solved(int condition);
   [[nodiscard]] static Eigen::MatrixXd sliced(const Eigen::MatrixXd& full, const std::vector<int>& columns, Eigen::Index size);
   [[nodiscard]] static Eigen::VectorXd sliced(const Eigen::VectorXd& full, const std::vector<int>& columns, Eigen::Index size);
-  [[nodiscard]] const StateStore::Changes& changes(const std::vector<int>& columns) const;
+  [[nodiscard]] const StateStore::Changes& changes(const SolvedState& state) const;
+  /// Stiffness and mass without causes, in some of the reduced model's coordinates.
+  [[nodiscard]] const std::pair<Eigen::MatrixXd, Eigen::MatrixXd>& matrices(const std::vector<int>& columns) const;
   [[nodiscard]] const ModeDerivative& derivative(SolvedState& solved, Eigen::Index mode);
 
   // which mode is which (pairing.cpp)
@@ -93,6 +97,7 @@ class Predictor {
   Eigen::VectorXd channel_factor_, channel_delay_s_;
   std::map<const SolvedState*, Eigen::MatrixXcd> motion_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> own_;
+  mutable std::map<std::vector<int>, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> matrices_;
   UndampedStore undamped_;
   std::map<int, SolvedState*> of_condition_;
   Prediction out_;

@@ -38,22 +38,19 @@ Symmetric symmetric_of(const fe::ParametricSystem& system, const fe::Term& term)
 }
 
 /// V' S V, over the rows that S touches.
-MatrixXd project(const Symmetric& s, const MatrixXd& v) {
+/// @param rows_of_v  V' (r × n): what is read of a degree of freedom lies together
+MatrixXd project(const Symmetric& s, const MatrixXd& rows_of_v) {
   std::vector<int> touched;
   for (int c = 0; c < s.outerSize(); ++c)
     if (Symmetric::InnerIterator(s, c)) touched.push_back(c);
-  MatrixXd left(static_cast<Index>(touched.size()), v.cols());
-  std::vector<int> at(static_cast<std::size_t>(s.rows()), -1);
-  for (std::size_t i = 0; i < touched.size(); ++i) at[static_cast<std::size_t>(touched[i])] = static_cast<int>(i);
-  for (std::size_t i = 0; i < touched.size(); ++i) left.row(static_cast<Index>(i)) = v.row(touched[i]);
-  const MatrixXd rows = left.transpose();
-  MatrixXd sum = MatrixXd::Zero(v.cols(), left.rows());
-  for (std::size_t i = 0; i < touched.size(); ++i)
-    for (Symmetric::InnerIterator e(s, touched[i]); e; ++e)
-      sum.col(static_cast<Index>(i)) += e.value() * rows.col(at[static_cast<std::size_t>(e.row())]);
+  MatrixXd rows(rows_of_v.rows(), std::ssize(touched)), sum = MatrixXd::Zero(rows_of_v.rows(), std::ssize(touched));
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    rows.col(static_cast<Index>(i)) = rows_of_v.col(touched[i]);
+    for (Symmetric::InnerIterator e(s, touched[i]); e; ++e) sum.col(static_cast<Index>(i)) += e.value() * rows_of_v.col(e.row());
+  }
   const MatrixXd right = sum.transpose();
   // The result is symmetric: by a few panels, each down to the diagonal alone.
-  const Index n = v.cols(), width = std::max<Index>(32, n / 8);
+  const Index n = rows.rows(), width = std::max<Index>(32, n / 8);
   MatrixXd out(n, n);
   for (Index first = 0; first < n; first += width) {
     const Index columns = std::min(width, n - first), last = first + columns;
@@ -259,11 +256,17 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
       }
   }
 
-  // 3. Everything in that basis.
+  // 3. Everything in that basis, the largest first: whole groups take as long as hundreds of places.
+  const MatrixXd rows_of_v = v.transpose();
+  struct Job {
+    Index size;
+    std::function<void()> run;
+  };
+  std::vector<Job> jobs;
   const auto reduce_terms = [&](const std::vector<fe::Term>& terms, std::vector<Term>& out) {
     out.resize(terms.size());
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t t = 0; t < terms.size(); ++t) out[t] = {terms[t].coefficient, project(symmetric_of(system, terms[t]), v)};
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      jobs.push_back({n, [&, t] { out[t] = {terms[t].coefficient, project(symmetric_of(system, terms[t]), rows_of_v)}; }});
   };
   reduce_terms(system.stiffness_terms, stiffness);
   reduce_terms(system.mass_terms, mass);
@@ -271,22 +274,26 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     if (list.empty()) continue;
     std::vector<ReducedPlace>& reduced_set = sets[set];
     reduced_set.resize(list.size());
-#pragma omp parallel for schedule(dynamic, 1)
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Place& place = list[i];
-      ReducedPlace reduced{place.id, place.x_m, whole ? std::vector<int>{} : own.at(set)[i], {}, {}, {}, place.attributes};
-      reduced.attributes.try_emplace("total_mass", total_mass_kg);
-      if (place.stiffness.size() > 0) reduced.stiffness = project(place.stiffness, v);
-      if (place.mass.size() > 0) reduced.mass = project(place.mass, v);
-      if (place.directions.size() > 0) {
+      ReducedPlace& reduced = reduced_set[i];
+      const auto reduce = [&] {
+        if (place.stiffness.size() > 0) reduced.stiffness = project(place.stiffness, rows_of_v);
+        if (place.mass.size() > 0) reduced.mass = project(place.mass, rows_of_v);
+        if (place.directions.size() == 0) return;
         reduced.directions = v.transpose() * place.directions;
         const MatrixXd b = MatrixXd(place.directions);
         const MatrixXd flexibility = b.transpose() * factor.solve(b);
         reduced.attributes["k_drive"] = static_cast<double>(b.cols()) / flexibility.trace();
-      }
-      reduced_set[i] = std::move(reduced);
+      };
+      reduced = {place.id, place.x_m, whole ? std::vector<int>{} : own.at(set)[i], {}, {}, {}, place.attributes};
+      reduced.attributes.try_emplace("total_mass", total_mass_kg);
+      jobs.push_back({place.stiffness.nonZeros() + place.mass.nonZeros(), reduce});
     }
   }
+  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.size > b.size; });
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < jobs.size(); ++i) jobs[i].run();
   sensors = structure.sensors(v);
   // modes = V q with q from the K inner product (V is K-orthonormal), or the modes themselves.
   mode_coordinates = whole ? modes.shapes : MatrixXd(v.transpose() * (stiffness_now * modes.shapes));

@@ -31,14 +31,17 @@ MatrixXd mass_normalised(const UndampedModes& modes, Index count) {
   return modes.shapes.leftCols(count) * modes.mu.head(count).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Peak amplitude of b'u in a mode whose RMS at the amplitude's channel is known.
+/// Peak amplitude of an element that moves by `here` in a mode that moves the amplitude's channel, where the RMS is known, by
+/// `there`. A mode that hardly moves the channel cannot be scaled by it: at most 50 times the channel's amplitude.
+double peak(const StructureState& state, Complex here, Complex there) {
+  return std::sqrt(2.0) * state.amplitude_m * std::min(std::abs(here) / std::max(std::abs(there), 1e-300), 50.0);
+}
+
+Complex along(const Eigen::Ref<const VectorXd>& b, const VectorXcd& phi) { return {b.dot(phi.real()), b.dot(phi.imag())}; }
+
 double peak(const StructureState& state, const VectorXcd& phi, const VectorXd& b) {
   if (state.amplitude_row.size() == 0 || !(state.amplitude_m > 0.0)) return 0.0;
-  const double there = std::hypot(state.amplitude_row.dot(phi.real()), state.amplitude_row.dot(phi.imag()));
-  const double largest = std::sqrt(phi.cwiseAbs2().maxCoeff());
-  // A mode that hardly moves the channel cannot be scaled by it: at most 50 times the channel's amplitude.
-  const double here = std::hypot(b.dot(phi.real()), b.dot(phi.imag()));
-  return std::sqrt(2.0) * state.amplitude_m * std::min(here / std::max(there, 1e-12 * largest), 50.0);
+  return peak(state, along(b, phi), along(state.amplitude_row.transpose(), phi));
 }
 
 }  // namespace
@@ -212,17 +215,27 @@ class ModalRoots {
       b_.col(k) = a.direction;
       sliders_ = sliders_ || a.kind == Attachment::Kind::jenkins;
     }
-    bm_ = modes_.shapes.transpose() * b_;
+    bm_ = linalg::product(modes_.shapes, b_, true);
+    if (sliders_ && state.amplitude_row.size() > 0 && state.amplitude_m > 0.0)
+      amplitude_ = modes_.shapes.transpose() * state.amplitude_row.transpose();
   }
 
   /// From the roots of a state with the same attachments and other matrices. False where one is lost, or two end in one.
   bool follow(const StateModes& neighbour, StateModes& out) const {
-    const Index n = modes_.size();
-    std::vector<std::pair<Complex, VectorXcd>> found;
-    for (Index i = 0; i < neighbour.s.size(); ++i) {
-      VectorXcd phi = VectorXcd::Zero(n);
-      phi.head(neighbour.shapes.rows()) = neighbour.shapes.col(i);
-      if (!add(neighbour.s[i], phi, {}, found, true)) return false;
+    // K-orthonormal modes: z = Psi' (K + shift M) phi. Real parts, then imaginary ones.
+    const Index count = neighbour.s.size(), rows = neighbour.shapes.rows();
+    MatrixXd phi = MatrixXd::Zero(modes_.size(), 2 * count);
+    phi.topLeftCorner(rows, count) = neighbour.shapes.real();
+    phi.topRightCorner(rows, count) = neighbour.shapes.imag();
+    MatrixXd stiff = linalg::product(state_.stiffness, phi);
+    if (modes_.shift != 0.0) stiff += modes_.shift * linalg::product(state_.mass, phi);
+    const MatrixXd parts = linalg::product(modes_.shapes, stiff, true);
+    Found found;
+    for (Index i = 0; i < count; ++i) {
+      VectorXcd z(modes_.size());
+      z.real() = parts.col(i);
+      z.imag() = parts.col(count + i);
+      if (!add(neighbour.s[i], z, {}, found, true)) return false;
     }
     gather(found, out);
     return true;
@@ -233,18 +246,18 @@ class ModalRoots {
     VectorXcd forces = VectorXcd::Zero(b_.cols());
     if (sliders_) {  // held by friction first; then as the lowest mode makes them slide
       for (Index k = 0; k < b_.cols(); ++k) forces[k] = state_.attachments[static_cast<std::size_t>(k)].stiffness;
-      std::vector<std::pair<Complex, VectorXcd>> first;
+      Found first;
       for (const Complex s : starts(forces, 2.0 * std::numbers::pi * highest_Hz)) {
         if (!add(s, {}, forces, first, false) || first.empty()) continue;
         for (Index k = 0; k < b_.cols(); ++k) {
           const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
           if (a.kind == Attachment::Kind::jenkins)
-            forces[k] = dynamic_stiffness(a, first[0].first, peak(state_, first[0].second, a.direction)).first;
+            forces[k] = dynamic_stiffness(a, first[0].first, stroke(along(bm_.col(k), first[0].second), first[0].second)).first;
         }
         break;
       }
     }
-    std::vector<std::pair<Complex, VectorXcd>> found;
+    Found found;
     for (const Complex s : starts(forces, 2.0 * std::numbers::pi * 1.1 * highest_Hz))
       if (!add(s, {}, forces, found, false)) return false;
     gather(found, out);
@@ -252,36 +265,48 @@ class ModalRoots {
   }
 
  private:
-  using Found = std::vector<std::pair<Complex, VectorXcd>>;
+  using Found = std::vector<std::pair<Complex, VectorXcd>>;  // roots and shapes in the modes, scaled as `StateModes` are
 
   /// Refines a root and adds it. Roots that no longer vibrate are left out; false where one does not converge, or comes twice:
   /// two modes may have one frequency, and it takes the state space to part them. Not where dampers slide: there each mode has
   /// stiffnesses of its own, two starts of the lowest one's may end in one, and the state space's do so too.
-  /// @param forces  of sliders [N/m], where phi is not known: those that s is an eigenvalue with
-  bool add(Complex s, VectorXcd phi, const VectorXcd& forces, Found& found, bool must_oscillate) const {
+  /// @param z       shape in the modes, empty where it is not known
+  /// @param forces  of sliders [N/m], where the shape is not known: those that s is an eigenvalue with
+  bool add(Complex s, VectorXcd z, const VectorXcd& forces, Found& found, bool must_oscillate) const {
     const Complex start = s;
-    if (!root(s, phi, forces, 1.0)) {
+    if (!root(s, z, forces, 1.0)) {
       if (!sliders_ || must_oscillate) return false;
       s = start;
-      phi.resize(0);
-      if (!root(s, phi, forces, 0.25)) return false;
+      z.resize(0);
+      if (!root(s, z, forces, 0.25)) return false;
     }
     if (!oscillates(s)) return !must_oscillate;
     for (const auto& other : found)
-      if (same_mode(other, s, phi)) return sliders_ && !must_oscillate;
-    found.emplace_back(s, phi);
+      if (same_mode(other, s, z)) return sliders_ && !must_oscillate;
+    found.emplace_back(s, std::move(z));
     return true;
   }
 
-  static void gather(Found& found, StateModes& out) {
+  void gather(Found& found, StateModes& out) const {
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& c) { return std::abs(a.first) < std::abs(c.first); });
-    out.s.resize(static_cast<Index>(found.size()));
-    if (found.empty()) return;
-    out.shapes.resize(found[0].second.size(), out.s.size());
-    for (Index j = 0; j < out.s.size(); ++j) {
-      out.s[j] = found[static_cast<std::size_t>(j)].first;
-      out.shapes.col(j) = found[static_cast<std::size_t>(j)].second;
+    const Index count = std::ssize(found);
+    out.s.resize(count);
+    MatrixXd parts(modes_.size(), 2 * count);
+    for (Index j = 0; j < count; ++j) {
+      const auto& [s, z] = found[static_cast<std::size_t>(j)];
+      out.s[j] = s;
+      parts.col(j) = z.real();
+      parts.col(count + j) = z.imag();
     }
+    const MatrixXd shapes = linalg::product(modes_.shapes, parts);
+    out.shapes.resize(modes_.size(), count);
+    out.shapes.real() = shapes.leftCols(count);
+    out.shapes.imag() = shapes.rightCols(count);
+  }
+
+  /// Peak amplitude of an element that moves by `here` in a mode of shape z; 0 where no amplitude is known.
+  [[nodiscard]] double stroke(Complex here, const VectorXcd& z) const {
+    return amplitude_.size() > 0 ? peak(state_, here, along(amplitude_, z)) : 0.0;
   }
 
   /// Eigenvalues that vibrate, |s| below `highest`, with sliders as springs and dashpots `forces` [N/m]. In the low modes y:
@@ -327,9 +352,7 @@ class ModalRoots {
     system.block(2 * m, 0, p, m) = rate.asDiagonal() * stiff * low.transpose();
     system.block(2 * m, 2 * m, p, p) = -(rate.asDiagonal() * stiff);
     system.block(2 * m, 2 * m, p, p).diagonal() -= back;
-    const Eigen::EigenSolver<MatrixXd> eigen(system, false);
-    for (Index i = 0; i < system.rows(); ++i) {
-      const Complex s = eigen.eigenvalues()[i];
+    for (const Complex s : linalg::eigenvalues(std::move(system))) {
       if (s.imag() > 1e-6 && oscillates(s) && std::abs(s) <= highest) roots.push_back(s);
     }
     std::sort(roots.begin(), roots.end(), [](Complex a, Complex c) { return std::abs(a) < std::abs(c); });
@@ -343,7 +366,7 @@ class ModalRoots {
     VectorXcd receptance(n);
     for (Index i = 0; i < n; ++i) {
       const Complex own = 1.0 + square * modes_.mu[i];
-      const double square_of_own = std::norm(own);
+      const double square_of_own = own.real() * own.real() + own.imag() * own.imag();  // std::norm takes a root first
       receptance[i] = square_of_own > 1e-26 ? std::conj(own) / square_of_own : Complex(1e13);
     }
     MatrixXcd h(p, p);
@@ -363,44 +386,39 @@ class ModalRoots {
     return y - receptance.cwiseProduct(back);
   }
 
-  /// Residual inverse iteration from s, and from phi where it is given, until s stands still.
+  /// Residual inverse iteration from s, and from z where it is given, until s stands still.
   /// @param relax  part of the way that sliders' forces go in a step: strokes and forces may answer each other in turn, and where
   ///               a damper begins to slide they do so for ever, by some 1e-5
-  bool root(Complex& s, VectorXcd& phi, const VectorXcd& held, double relax) const {
-    const Index n = modes_.size(), p = b_.cols();
-    VectorXcd d(p), d_prime(p), q(p), z = VectorXcd::Ones(n);
+  bool root(Complex& s, VectorXcd& z, const VectorXcd& held, double relax) const {
+    const Index p = b_.cols();
+    VectorXcd d(p), d_prime(p), q = VectorXcd::Zero(p);
     const auto forces = [&](bool first, double part) {
       for (Index k = 0; k < p; ++k) {
         const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
         const bool slides = a.kind == Attachment::Kind::jenkins;
-        const auto [now, slope] = dynamic_stiffness(a, s, slides && phi.size() > 0 ? peak(state_, phi, a.direction) : 0.0);
+        const auto [now, slope] = dynamic_stiffness(a, s, slides && z.size() > 0 ? stroke(q[k], z) : 0.0);
         d[k] = slides && !first ? part * now + (1.0 - part) * d[k] : now;
         d_prime[k] = slope;
       }
     };
-    const auto shape = [&] {
-      phi.resize(n);
-      phi.real() = modes_.shapes * z.real();
-      phi.imag() = modes_.shapes * z.imag();
+    const auto motion = [&] {
+      q.real() = bm_.transpose() * z.real();
+      q.imag() = bm_.transpose() * z.imag();
     };
-    if (phi.size() > 0) {  // K-orthonormal modes: z = Psi' (K + shift M) phi
-      const VectorXd re = state_.stiffness * phi.real() + modes_.shift * (state_.mass * phi.real());
-      const VectorXd im = state_.stiffness * phi.imag() + modes_.shift * (state_.mass * phi.imag());
-      z.real() = modes_.shapes.transpose() * re;
-      z.imag() = modes_.shapes.transpose() * im;
-      forces(true, 1.0);
-    } else {
+    if (z.size() == 0) {
       forces(true, 1.0);
       for (Index k = 0; k < p; ++k)
         if (state_.attachments[static_cast<std::size_t>(k)].kind == Attachment::Kind::jenkins) d[k] = held[k];
+      z = VectorXcd::Ones(modes_.size());
       for (int i = 0; i < 2; ++i) z = inverse(s, d, z).normalized();
+    } else {
+      motion();
+      forces(true, 1.0);
     }
     for (int iteration = 0; iteration < (sliders_ ? 60 / relax : 15); ++iteration) {
-      if (sliders_) shape();
+      motion();
       if (sliders_ || iteration > 0)
         forces(iteration == 0, iteration > 8 ? std::min(0.4, relax) : relax);
-      q.real() = bm_.transpose() * z.real();
-      q.imag() = bm_.transpose() * z.imag();
       const Complex mass = (z.array().square() * modes_.mu.array()).sum();
       const Complex value = (z.array().square()).sum() + (s * s - modes_.shift) * mass + (d.array() * q.array().square()).sum();
       const Complex slope = 2.0 * s * mass + (d_prime.array() * q.array().square()).sum();
@@ -419,12 +437,10 @@ class ModalRoots {
       z = inverse(s, d, v).normalized();
       if (!z.allFinite()) return false;
       if (small && iteration > 0) {
-        shape();
-        q.real() = bm_.transpose() * z.real();
-        q.imag() = bm_.transpose() * z.imag();
+        motion();
         const Complex scale =
             2.0 * s * (z.array().square() * modes_.mu.array()).sum() + (d_prime.array() * q.array().square()).sum();
-        phi /= std::sqrt(scale / (2.0 * s));
+        z /= std::sqrt(scale / (2.0 * s));
         return true;
       }
     }
@@ -433,7 +449,8 @@ class ModalRoots {
 
   const StructureState& state_;
   const UndampedModes& modes_;
-  MatrixXd b_, bm_;  // directions (n × p) over the coordinates and in the modes
+  MatrixXd b_, bm_;     // directions (n × p) over the coordinates and in the modes
+  VectorXd amplitude_;  // motion of the amplitude's channel (n) in the modes; empty where nothing slides or it is not known
   bool sliders_ = false;
 };
 

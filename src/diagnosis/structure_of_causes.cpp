@@ -194,7 +194,7 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
 StructureState Predictor::build_state(const Condition& condition) const {
   StructureState state;
   const auto n = static_cast<Index>(columns_.size());
-  std::tie(state.stiffness, state.mass) = map_.matrices(base_, columns_);
+  std::tie(state.stiffness, state.mass) = matrices(columns_);
   const double people = condition.people.value_or(0.0);
   if (const auto global = map_.model().sets.find("global"); people > 0.0 && global != map_.model().sets.end()) {
     const ReducedPlace& deck = global->second.front();
@@ -291,8 +291,16 @@ SolvedState& Predictor::solved(int c) {
   return *entry;
 }
 
-const StateStore::Changes& Predictor::changes(const std::vector<int>& columns) const {
-  const auto [at, is_new] = base_.store->changes.try_emplace(columns);
+const std::pair<MatrixXd, MatrixXd>& Predictor::matrices(const std::vector<int>& columns) const {
+  auto& known = base_.keeps ? base_.store->matrices : matrices_;
+  const auto at = known.find(columns);
+  return at != known.end() ? at->second : known.emplace(columns, map_.matrices(base_, columns)).first->second;
+}
+
+const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
+  const std::vector<int>& columns = state.columns;
+  const Index size = state.state.stiffness.rows();
+  const auto [at, is_new] = base_.store->changes.try_emplace({columns, size});
   StateStore::Changes& out = at->second;
   if (!is_new) return out;
   const ReducedModel& model = map_.model();
@@ -303,11 +311,12 @@ const StateStore::Changes& Predictor::changes(const std::vector<int>& columns) c
     };
     MatrixXd dk, dm;
     const auto add = [&](MatrixXd& to, double a, const MatrixXd& from) {
-      const MatrixXd part = a * from(columns, columns);
-      if (to.size() == 0)
-        to = part;
-      else
-        to += part;
+      if (to.size() == 0) to = MatrixXd::Zero(size, size);
+      const Index n = std::ssize(columns), c = model.common, own = n - c;  // the common columns come first
+      to.topLeftCorner(c, c) += a * from.topLeftCorner(c, c);
+      const std::vector<int> others(columns.begin() + c, columns.end());
+      to.block(c, 0, own, c) += a * from(others, Eigen::seqN(0, c));
+      to.topRows(n).middleCols(c, own) += a * from(columns, others);
     };
     if (v.kind == Nuisance::Kind::parameter) {
       for (const auto& term : model.stiffness)
@@ -326,8 +335,8 @@ const StateStore::Changes& Predictor::changes(const std::vector<int>& columns) c
       continue;
     }
     out.position.push_back(static_cast<int>(j));
-    out.stiffness.push_back(dk);
-    out.mass.push_back(dm);
+    out.stiffness.push_back(std::move(dk));
+    out.mass.push_back(std::move(dm));
   }
   return out;
 }
@@ -335,17 +344,9 @@ const StateStore::Changes& Predictor::changes(const std::vector<int>& columns) c
 const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
   const auto known = solved.derivatives.find(mode);
   if (known != solved.derivatives.end()) return known->second;
-  const StateStore::Changes& change = changes(solved.columns);
-  const Index n = solved.state.stiffness.rows();
-  if (n == static_cast<Index>(solved.columns.size()))
-    return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, change.stiffness, change.mass))
-        .first->second;
-  // Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
-  std::vector<MatrixXd> dk = change.stiffness, dm = change.mass;
-  for (auto* list : {&dk, &dm})
-    for (MatrixXd& matrix : *list)
-      if (matrix.size() > 0) matrix.conservativeResizeLike(MatrixXd::Zero(n, n));
-  return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, dk, dm)).first->second;
+  const StateStore::Changes& change = changes(solved);
+  return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, change.stiffness, change.mass))
+      .first->second;
 }
 
 }  // namespace twindeck::diagnosis

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -13,16 +12,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 UndampedModes::UndampedModes(const MatrixXd& k, const MatrixXd& m) : stiffness(k), mass(m) {
-  Eigen::LLT<MatrixXd> factor(k);
-  if (factor.info() != Eigen::Success) {  // free as a rigid body
+  MatrixXd factor = linalg::cholesky_factor(k);
+  if (factor.size() == 0) {  // free as a rigid body
     shift = 1e-7 * k.trace() / m.trace();
-    factor.compute(k + shift * m);
+    factor = linalg::cholesky_factor(k + shift * m);
   }
-  const MatrixXd half = factor.matrixL().solve(m);
-  MatrixXd a = factor.matrixL().solve(half.transpose());
+  if (factor.size() == 0) {  // no structure stands like this: it has no modes
+    mu = Eigen::VectorXd::Zero(k.rows());
+    shapes = MatrixXd::Zero(k.rows(), k.rows());
+    return;
+  }
+  MatrixXd a = linalg::lower_solve(factor, linalg::lower_solve(factor, m).transpose());
   linalg::LeadingEigenpairs all = linalg::leading_eigenpairs(std::move(a), k.rows());
   mu = all.values.cwiseMax(0.0);
-  shapes = factor.matrixU().solve(all.vectors);
+  shapes = linalg::lower_solve(factor, std::move(all.vectors), true);
 }
 
 double UndampedModes::eigenvalue(Index i) const {

@@ -21,6 +21,9 @@ void dtrsm_(const char* side, const char* uplo, const char* trans_a, const char*
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void zgesv_(const int* n, const int* nrhs, std::complex<double>* a, const int* lda, int* pivot, std::complex<double>* b,
             const int* ldb, int* info);
+void dgesv_(const int* n, const int* nrhs, double* a, const int* lda, int* pivot, double* b, const int* ldb, int* info);
+void dgeev_(const char* jobvl, const char* jobvr, const int* n, double* a, const int* lda, double* wr, double* wi, double* vl,
+            const int* ldvl, double* vr, const int* ldvr, double* work, const int* lwork, int* info);
 }
 
 namespace twindeck::linalg {
@@ -30,6 +33,7 @@ using Eigen::Index;
 namespace {
 
 int as_int(Index n) { return static_cast<int>(n); }
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -109,13 +113,13 @@ Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a) {
   return a;
 }
 
-Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b) {
+Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b, bool transposed) {
   use_one_thread();
   TWINDECK_ASSERT(lower.rows() == lower.cols() && lower.rows() == b.rows());
   const int m = as_int(b.rows()), n = as_int(b.cols()), lda = as_int(lower.outerStride());
   if (m == 0 || n == 0) return b;
   const double one = 1.0;
-  dtrsm_("L", "L", "N", "N", &m, &n, &one, lower.data(), &lda, b.data(), &m);
+  dtrsm_("L", "L", transposed ? "T" : "N", "N", &m, &n, &one, lower.data(), &lda, b.data(), &m);
   return b;
 }
 
@@ -127,8 +131,39 @@ Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b) {
   Eigen::VectorXi pivot(n);
   int info = 0;
   zgesv_(&n, &columns, a.data(), &n, pivot.data(), b.data(), &n, &info);
-  if (info != 0) b.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (info != 0) b.setConstant(kNaN);
   return b;
+}
+
+Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b) {
+  use_one_thread();
+  TWINDECK_ASSERT(a.rows() == a.cols() && a.rows() == b.rows());
+  const int n = as_int(a.rows()), columns = as_int(b.cols());
+  if (n == 0 || columns == 0) return b;
+  Eigen::VectorXi pivot(n);
+  int info = 0;
+  dgesv_(&n, &columns, a.data(), &n, pivot.data(), b.data(), &n, &info);
+  if (info != 0) b.setConstant(kNaN);
+  return b;
+}
+
+Eigen::VectorXcd eigenvalues(Eigen::MatrixXd a) {
+  use_one_thread();
+  TWINDECK_ASSERT(a.rows() == a.cols());
+  const int n = as_int(a.rows()), one = 1;
+  Eigen::VectorXcd values = Eigen::VectorXcd::Constant(n, {kNaN, kNaN});
+  if (n == 0 || !a.allFinite()) return values;
+  Eigen::VectorXd re(n), im(n), work(1);
+  double none = 0.0;
+  int info = 0, room = -1;
+  dgeev_("N", "N", &n, a.data(), &n, re.data(), im.data(), &none, &one, &none, &one, work.data(), &room, &info);
+  room = static_cast<int>(work[0]);
+  work.resize(room);
+  dgeev_("N", "N", &n, a.data(), &n, re.data(), im.data(), &none, &one, &none, &one, work.data(), &room, &info);
+  if (info != 0) return values;
+  values.real() = re;
+  values.imag() = im;
+  return values;
 }
 
 }  // namespace twindeck::linalg

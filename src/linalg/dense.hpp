@@ -36,13 +36,20 @@ struct ThinSvd {
 /// @param a  its lower triangle is read @return an empty matrix if A is not positive definite
 [[nodiscard]] Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a);
 
-/// L⁻¹ B for a lower triangular L.
+/// L⁻¹ B for a lower triangular L, or L⁻ᵀ B if `transposed`.
 /// @param lower (n × n), its lower triangle is read @param b (n × columns)
-[[nodiscard]] Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b);
+[[nodiscard]] Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b,
+                                          bool transposed = false);
 
 /// A⁻¹ B of complex matrices by Gaussian elimination with row exchanges. Where A is singular to the last digit the result is
 /// not finite.
 /// @param a (n × n) @param b (n × columns)
 [[nodiscard]] Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b);
+/// The same of real ones.
+[[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b);
+
+/// Eigenvalues of a real matrix without symmetry (size), in no order; not finite where they do not converge.
+/// Reference: LAPACK's DGEEV (multishift QR).
+[[nodiscard]] Eigen::VectorXcd eigenvalues(Eigen::MatrixXd a);
 
 }  // namespace twindeck::linalg

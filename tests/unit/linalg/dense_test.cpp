@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <complex>
+#include <vector>
 
 namespace twindeck::tests {
 namespace {
@@ -30,6 +31,8 @@ TEST(Dense, ALowerFactorIsSolvedByItsLowerTriangleAlone) {
                 .maxCoeff(),
             1e-11);
   EXPECT_EQ(linalg::lower_solve(lower, MatrixXd(40, 0)).cols(), 0);
+  const MatrixXd upper = triangle.transpose();
+  EXPECT_LT((linalg::lower_solve(lower, upper.lazyProduct(x), true) - x).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(Dense, AFactorTimesItselfIsTheMatrixAndThereIsNoneOfAnIndefiniteOne) {
@@ -51,6 +54,30 @@ TEST(Dense, AComplexSystemIsSolvedAndASingularOneIsNoNumber) {
   a.col(4).setZero();
   EXPECT_FALSE(linalg::solve(a, x).allFinite());
   EXPECT_EQ(linalg::solve(a, Eigen::MatrixXcd(25, 0)).cols(), 0);
+}
+
+TEST(Dense, ARealSystemToo) {
+  MatrixXd a = numbers(25, 25);
+  const MatrixXd x = numbers(25, 3);
+  EXPECT_LT((linalg::solve(a, a.lazyProduct(x)) - x).cwiseAbs().maxCoeff(), 1e-9);
+  a.col(4).setZero();
+  EXPECT_FALSE(linalg::solve(a, x).allFinite());
+}
+
+// Oracle: the companion matrix of a polynomial has its roots as eigenvalues.
+TEST(Dense, EigenvaluesOfACompanionMatrixAreTheRoots) {
+  const std::vector<std::complex<double>> roots = {{-0.1, 2.0}, {-0.1, -2.0}, {-3.0, 0.0}, {0.4, 0.7}, {0.4, -0.7}};
+  std::vector<std::complex<double>> polynomial = {1.0};  // highest power first
+  for (const auto root : roots) {
+    polynomial.emplace_back(0.0);
+    for (std::size_t i = polynomial.size() - 1; i > 0; --i) polynomial[i] -= root * polynomial[i - 1];
+  }
+  MatrixXd companion = MatrixXd::Zero(5, 5);
+  companion.bottomLeftCorner(4, 4).setIdentity();
+  for (int i = 0; i < 5; ++i) companion(0, i) = -polynomial[static_cast<std::size_t>(i) + 1].real();
+  const Eigen::VectorXcd found = linalg::eigenvalues(companion);
+  for (const auto root : roots) EXPECT_LT((found.array() - root).abs().minCoeff(), 1e-12);
+  EXPECT_FALSE(linalg::eigenvalues(MatrixXd::Constant(3, 3, std::nan(""))).allFinite());
 }
 
 }  // namespace
