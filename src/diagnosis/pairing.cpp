@@ -68,7 +68,8 @@ VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
   const double norm = reference.dot(mass_reference.head(common));
   const MatrixXd re = state.modes.shapes.real(), im = state.modes.shapes.imag();
   const Index rows = mass_reference.size();
-  const VectorXd along = (re.topRows(rows).transpose() * mass_reference).cwiseAbs2() + (im.topRows(rows).transpose() * mass_reference).cwiseAbs2();
+  const VectorXd along =
+      (re.topRows(rows).transpose() * mass_reference).cwiseAbs2() + (im.topRows(rows).transpose() * mass_reference).cwiseAbs2();
   const VectorXd own = re.cwiseProduct(linalg::product(state.state.mass, re)).colwise().sum() +
                        im.cwiseProduct(linalg::product(state.state.mass, im)).colwise().sum();
   return 1.0 - along.cwiseQuotient(norm * own).cwiseMin(1.0).array();
