@@ -200,7 +200,8 @@ Fit extended_by_first(const Inference& inference, const Fit& current, std::vecto
     std::vector<Fit> extended(starts.size());
 #pragma omp parallel for schedule(static, 1)
     for (std::size_t i = 0; i < starts.size(); ++i) extended[i] = inference.fit(causes, starts[i]);
-    Fit& lowest = extended.back().chi_squared <= extended.front().chi_squared ? extended.back() : extended.front();
+    // By what the fits minimise: the whitened misfit looks past the bounds that hold a fit back.
+    Fit& lowest = extended.back().map.chi_squared <= extended.front().map.chi_squared ? extended.back() : extended.front();
     if (lowest.chi_squared < current.chi_squared) return std::move(lowest);
     first.log_odds = -1e300;
     std::rotate(ranking.begin(), ranking.begin() + 1, ranking.end());
