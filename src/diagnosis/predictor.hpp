@@ -19,15 +19,15 @@ struct SolvedState {
   std::map<Eigen::Index, ModeDerivative> derivatives;
 };
 
-/// States of one base by the causes that act in them and the circumstances that they depend on; changes of the nuisances by columns.
-/// Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
+/// States of one base by the causes that act in them and the circumstances that they depend on; changes of the nuisances by
+/// columns. Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
 struct StateStore {
   struct Changes {
     std::vector<int> position;  ///< among the nuisances
     std::vector<Eigen::MatrixXd> stiffness, mass;
   };
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> states;
-  std::map<std::pair<std::vector<int>, Eigen::Index>, Changes> changes;                      ///< by columns and size
+  std::map<std::pair<std::vector<int>, Eigen::Index>, Changes> changes;              ///< by columns and size
   std::map<std::vector<int>, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> matrices;  ///< stiffness and mass by columns
   UndampedStore undamped;
 };

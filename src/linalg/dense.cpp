@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <complex>
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "linalg/one_thread.hpp"
@@ -34,6 +35,20 @@ namespace {
 
 int as_int(Index n) { return static_cast<int>(n); }
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A⁻¹ B by LAPACK's GESV of the matrices' kind of number; not finite where A is singular.
+template <typename Matrix, typename Gesv>
+Matrix solved_by(Gesv gesv, Matrix a, Matrix b) {
+  use_one_thread();
+  TWINDECK_ASSERT(a.rows() == a.cols() && a.rows() == b.rows());
+  const int n = as_int(a.rows()), columns = as_int(b.cols());
+  if (n == 0 || columns == 0) return b;
+  Eigen::VectorXi pivot(n);
+  int info = 0;
+  gesv(&n, &columns, a.data(), &n, pivot.data(), b.data(), &n, &info);
+  if (info != 0) b.setConstant(kNaN);
+  return b;
+}
 
 }  // namespace
 
@@ -123,29 +138,9 @@ Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eige
   return b;
 }
 
-Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b) {
-  use_one_thread();
-  TWINDECK_ASSERT(a.rows() == a.cols() && a.rows() == b.rows());
-  const int n = as_int(a.rows()), columns = as_int(b.cols());
-  if (n == 0 || columns == 0) return b;
-  Eigen::VectorXi pivot(n);
-  int info = 0;
-  zgesv_(&n, &columns, a.data(), &n, pivot.data(), b.data(), &n, &info);
-  if (info != 0) b.setConstant(kNaN);
-  return b;
-}
+Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b) { return solved_by(zgesv_, std::move(a), std::move(b)); }
 
-Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b) {
-  use_one_thread();
-  TWINDECK_ASSERT(a.rows() == a.cols() && a.rows() == b.rows());
-  const int n = as_int(a.rows()), columns = as_int(b.cols());
-  if (n == 0 || columns == 0) return b;
-  Eigen::VectorXi pivot(n);
-  int info = 0;
-  dgesv_(&n, &columns, a.data(), &n, pivot.data(), b.data(), &n, &info);
-  if (info != 0) b.setConstant(kNaN);
-  return b;
-}
+Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b) { return solved_by(dgesv_, std::move(a), std::move(b)); }
 
 Eigen::VectorXcd eigenvalues(Eigen::MatrixXd a) {
   use_one_thread();
