@@ -1,5 +1,6 @@
 #include "blind/records.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <complex>
@@ -22,7 +23,7 @@ struct Identified {
   Eigen::VectorXd hertz;
   Eigen::MatrixXcd shapes;  ///< (n_channels × n_modes) largest entry 1, as real as it can be
   std::vector<double> damping, hertz_std, damping_std;
-  std::vector<Eigen::VectorXd> shape_std;
+  std::vector<Eigen::VectorXd> real_std, imag_std;
 };
 
 Identified identify(const Bench& bench, const Eigen::MatrixXd& record, double rate_Hz) {
@@ -57,7 +58,8 @@ Identified identify(const Bench& bench, const Eigen::MatrixXd& record, double ra
     out.damping_std.push_back(deviation.damping_ratio);
     const double largest = mode.shape.cwiseAbs().maxCoeff();
     out.shapes.col(m) = mode.shape / largest;
-    out.shape_std.emplace_back(deviation.shape_real.cwiseMax(deviation.shape_imag) / largest);
+    out.real_std.emplace_back(deviation.shape_real / largest);
+    out.imag_std.emplace_back(deviation.shape_imag / largest);
   }
   return out;
 }
@@ -97,12 +99,13 @@ diagnosis::FeatureSet identified_rows(const Bench& bench, const Campaign& campai
       f.rows.push_back(
           {RowType::damping, name, -1, "", condition, 100.0 * found.damping[k], 100.0 * found.damping_std[k], false});
       for (Index ch = 0; ch < found.shapes.rows(); ++ch) {
-        const double std = found.shape_std[k][ch];
         if (shaped[c].contains(name))
-          f.rows.push_back({RowType::shape, name, static_cast<int>(ch), "", condition, found.shapes(ch, m).real(), std, false});
+          f.rows.push_back({RowType::shape, name, static_cast<int>(ch), "", condition, found.shapes(ch, m).real(),
+                            std::max(found.real_std[k][ch], 1e-6), false});
         if (turned[c].contains(name))
           f.rows.push_back(
-              {RowType::shape_imag, name, static_cast<int>(ch), "", condition, found.shapes(ch, m).imag(), std, false});
+              {RowType::shape_imag, name, static_cast<int>(ch), "", condition, found.shapes(ch, m).imag(),
+               std::max(found.imag_std[k][ch], 1e-6), false});
       }
     }
   }
