@@ -38,7 +38,7 @@ EigenModes ModalSolver::solve(const Eigen::VectorXd& theta, int n_modes) {
   modes.eigenvalue = pairs.values;
   modes.frequency_Hz = pairs.values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
   modes.shapes = std::move(pairs.vectors);
-  last_ = modes.shapes;
+  last_ = std::move(pairs.space);
   return modes;
 }
 

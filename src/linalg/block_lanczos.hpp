@@ -22,6 +22,7 @@ struct BlockLanczosOptions {
 struct BlockLanczosResult {
   Eigen::VectorXd values;   ///< largest eigenvalues of the operator, descending
   Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal
+  Eigen::MatrixXd further;  ///< (n × any number) the next ones, converged to a hundredth or better
   int converged = 0;
   int operations = 0;
 };

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "linalg/lane_basis.hpp"
 #include "linalg/types.hpp"
 
 namespace twindeck::linalg {
@@ -25,6 +26,8 @@ class Cholesky {
   [[nodiscard]] Eigen::Index failed_column() const;
   /// Solves A X = B. @param b (n × m) @return (n × m)
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+  /// The same, without copies between the vectors' orders. @param b (n × m) @return (n × m)
+  [[nodiscard]] LaneBasis solve(const LaneBasis& b) const;
 
  private:
   struct Impl;

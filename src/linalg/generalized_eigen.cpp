@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "linalg/block_lanczos.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/nearby_eigenpairs.hpp"
 #include "linalg/symmetric_product.hpp"
 
 namespace twindeck::linalg {
@@ -43,7 +45,7 @@ MatrixXd fixed_block(Index rows, Index columns, int draw) {
 
 /// Pairs of the operator, 1/(lambda - sigma) descending, not yet purified.
 struct Candidates {
-  MatrixXd vectors;
+  MatrixXd vectors, further;
   int converged = 0;
   int operations = 0;
 };
@@ -92,7 +94,7 @@ Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky&
   BlockLanczosOptions options;
   options.n_pairs = n_pairs;
   const BlockLanczosResult found = block_lanczos(op, start_block, options);
-  return {found.vectors, found.converged, found.operations + kBlock};
+  return {found.vectors, found.further, found.converged, found.operations + kBlock};
 }
 
 void largest_entry_positive(MatrixXd& vectors) {
@@ -111,13 +113,13 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
   EigenPairs out;
   out.values.resize(0);
   out.vectors.resize(stiffness.rows(), 0);
-  if (shift == 0.0) {
-    out.status = factor.factorize(stiffness);
-  } else {
-    SparseMatrix shifted = stiffness - shift * mass;
+  SparseMatrix shifted;
+  if (shift != 0.0) {
+    shifted = stiffness - shift * mass;
     shifted.makeCompressed();
-    out.status = factor.factorize(shifted);
   }
+  const SparseMatrix& a_lower = shift != 0.0 ? shifted : stiffness;
+  out.status = factor.factorize(a_lower);
   if (!out.status.converged) return out;
 
   const SymmetricProduct mass_matrix(mass);
@@ -127,6 +129,19 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
     return out;
   }
   const bool few = static_cast<Index>(massive.size()) <= std::max<Index>(60, 3 * n_pairs);
+  int spent = 0;
+  if (!few && start.rows() == mass_matrix.size() && start.cols() >= n_pairs) {
+    NearbyEigenpairs near = nearby_eigenpairs(a_lower, mass_matrix, factor, n_pairs, start, fixed_block(start.rows(), 1, 0));
+    spent = near.operations;
+    if (near.converged) {
+      out.values = near.values.array() + shift;
+      out.vectors = near.space.leftCols(n_pairs);
+      largest_entry_positive(out.vectors);
+      out.space = std::move(near.space);
+      out.operations = spent;
+      return out;
+    }
+  }
   const Candidates found =
       few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor, start);
 
@@ -135,12 +150,14 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
   const MatrixXd y = factor.solve(mass_x);
   const MatrixXd mass_y = mass_matrix.times(y);
   const MatrixXd a = product(y, mass_x, true), b = product(y, mass_y, true);
-  out.operations = found.operations + static_cast<int>(found.vectors.cols());
+  out.operations = spent + found.operations + static_cast<int>(found.vectors.cols());
   if (found.vectors.cols() > 0) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (a + a.transpose()), 0.5 * (b + b.transpose()));
     out.values = ritz.eigenvalues().array() + shift;
     out.vectors = y * ritz.eigenvectors();
     largest_entry_positive(out.vectors);
+    out.space.resize(stiffness.rows(), out.vectors.cols() + found.further.cols());
+    out.space << out.vectors, found.further;
   }
   if (found.converged < n_pairs) {
     out.status = {false, fmt::format("{} of {} modes converged{}", found.converged, n_pairs,

@@ -1,4 +1,4 @@
-// Kernels of supernodal_solve.hpp. Included by one file for each instruction set, inside a namespace of its own, after the file
+// Kernels of lane_kernels.hpp. Included by one file for each instruction set, inside a namespace of its own, after the file
 // has named the set to the compiler, how many numbers a register holds (kLanes) and how many registers may hold sums (kAtOnce);
 // so there is no include guard, and nothing else may be included from here.
 
@@ -18,6 +18,9 @@ struct Entries {
   inline __attribute__((always_inline)) void subtract(double factor, const Entries& other) {
     for (int p = 0; p < count; ++p) part[p] -= factor * other.part[p];
   }
+  inline __attribute__((always_inline)) void add(double factor, const Entries& other) {
+    for (int p = 0; p < count; ++p) part[p] += factor * other.part[p];
+  }
   inline __attribute__((always_inline)) void divide(double divisor) {
     for (int p = 0; p < count; ++p) part[p] /= divisor;
   }
@@ -25,7 +28,8 @@ struct Entries {
 
 /// Rows i … i + Rows - 1 of a block, y_i -= sum_j L_ij y_j over the block's first `columns` columns; where the rows are the
 /// block's own (`own`), also their triangle, so that they are solved.
-/// @param l  L_i0 of the block  @param stride  the block's height  @param first  its first column  @param row  numbers of the rows
+/// @param l  L_i0 of the block  @param stride  the block's height  @param first  its first column  @param row  numbers of the
+/// rows
 template <int Width, int Rows, bool own>
 inline void forward_rows(const double* l, long stride, long first, long columns, const int* row, double* y) {
   Entries<Width> sum[Rows], x;

@@ -1,29 +1,44 @@
 #include "linalg/symmetric_product.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/error.hpp"
+#include "linalg/lane_kernels.hpp"
 
 namespace twindeck::linalg {
 
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 
-/// Y += A X for `Width` vectors, whose entries of one degree of freedom lie side by side: xt, yt (Width × n).
-template <int Width>
-void multiply(const std::vector<int>& outer, const std::vector<int>& inner, const std::vector<double>& value, const double* xt,
-              double* yt) {
-  using Entries = Eigen::Matrix<double, Width, 1>;
-  const auto at = [](auto* base, std::size_t dof) { return base + Width * dof; };
-  for (std::size_t j = 0; j + 1 < outer.size(); ++j) {
-    const Entries xj = Eigen::Map<const Entries>(at(xt, j));
-    Entries sum = Entries::Zero();
-    for (auto k = static_cast<std::size_t>(outer[j]); k < static_cast<std::size_t>(outer[j + 1]); ++k) {
-      const auto i = static_cast<std::size_t>(inner[k]);
-      sum += value[k] * Eigen::Map<const Entries>(at(xt, i));
-      if (i != j) Eigen::Map<Entries>(at(yt, i)) += value[k] * xj;
-    }
-    Eigen::Map<Entries>(at(yt, j)) += sum;
+/// Four columns in one pass over the entries. In plain instructions, since another order of these sums is another realisation
+/// of a virtual campaign (decision 0011).
+MatrixXd times(const LowerTriangle& a, const Eigen::Ref<const MatrixXd>& x) {
+  constexpr Index width = 4;
+  static const SymmetricMultiply multiply = plain_kernels().multiply_4;
+  TWINDECK_ASSERT(x.rows() == a.size);
+  MatrixXd y(a.size, x.cols()), xt = MatrixXd::Zero(width, a.size), yt(width, a.size);
+  for (Index first = 0; first < x.cols(); first += width) {
+    const Index count = std::min(width, x.cols() - first);
+    xt.topRows(count) = x.middleCols(first, count).transpose();
+    yt.setZero();
+    multiply(a, xt.data(), yt.data());
+    y.middleCols(first, count) = yt.topRows(count).transpose();
   }
+  return y;
+}
+
+LaneBasis times(const LowerTriangle& a, const LaneBasis& x) {
+  TWINDECK_ASSERT(x.rows() == a.size);
+  LaneBasis y(a.size);
+  for (const LaneBasis::Block& block : x.blocks()) {
+    Lanes image = Lanes::Zero(8, a.size);
+    lane_kernels().multiply_8(a, block.lanes.data(), image.data());
+    y.append(std::move(image), block.columns);
+  }
+  return y;
 }
 
 }  // namespace
@@ -32,6 +47,9 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& lower) {
   TWINDECK_ASSERT(lower.rows() == lower.cols());
   outer_.reserve(static_cast<std::size_t>(lower.outerSize()) + 1);
   outer_.push_back(0);
+  const auto used = static_cast<std::size_t>((lower.coeffs() != 0.0).count());
+  inner_.reserve(used);
+  value_.reserve(used);
   for (Index j = 0; j < lower.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
       if (it.value() == 0.0) continue;
@@ -42,25 +60,17 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& lower) {
   }
 }
 
+LowerTriangle SymmetricProduct::triangle() const { return {size(), outer_.data(), inner_.data(), value_.data()}; }
+
 Eigen::MatrixXd SymmetricProduct::times(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
-  constexpr Index width = 4;
-  const Index n = static_cast<Index>(outer_.size()) - 1;
-  TWINDECK_ASSERT(x.rows() == n);
-  Eigen::MatrixXd y(n, x.cols());
-  Eigen::MatrixXd xt(width, n), yt(width, n);
-  Index first = 0;
-  for (; first + width <= x.cols(); first += width) {
-    xt = x.middleCols(first, width).transpose();
-    yt.setZero();
-    multiply<width>(outer_, inner_, value_, xt.data(), yt.data());
-    y.middleCols(first, width) = yt.transpose();
-  }
-  for (; first < x.cols(); ++first) {
-    y.col(first).setZero();
-    const Eigen::VectorXd one = x.col(first);
-    multiply<1>(outer_, inner_, value_, one.data(), y.col(first).data());
-  }
-  return y;
+  return linalg::times(triangle(), x);
+}
+
+LaneBasis SymmetricProduct::times(const LaneBasis& x) const { return linalg::times(triangle(), x); }
+
+LaneBasis symmetric_product(const SparseMatrix& lower, const LaneBasis& x) {
+  TWINDECK_ASSERT(lower.rows() == lower.cols() && lower.isCompressed());
+  return times({lower.rows(), lower.outerIndexPtr(), lower.innerIndexPtr(), lower.valuePtr()}, x);
 }
 
 std::vector<Index> SymmetricProduct::rows_in_use() const {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "linalg/supernodal_solve.hpp"
+#include "linalg/lane_kernels.hpp"
 
 namespace {
 
@@ -74,7 +74,7 @@ TEST(Cholesky, SolvesAnyNumberOfColumnsAlike) {
 // blocks: of thirteen columns with rows below, whose remainders by 8, 4, 2 and 1 all occur, and of nine.
 TEST(SupernodalSolve, EveryInstructionSetSolvesWithBothTriangles) {
   using twindeck::linalg::SupernodalFactor;
-  using twindeck::linalg::SupernodalSweeps;
+  using twindeck::linalg::LaneKernels;
   constexpr int n = 22, wide = 13;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
@@ -99,12 +99,12 @@ TEST(SupernodalSolve, EveryInstructionSetSolvesWithBothTriangles) {
     value_start.push_back(static_cast<int>(values.size()));
   }
   const SupernodalFactor factor{n, 2, first.data(), row_start.data(), value_start.data(), rows.data(), values.data()};
-  std::vector<SupernodalSweeps> sets = {twindeck::linalg::plain_sweeps(), twindeck::linalg::supernodal_sweeps()};
+  std::vector<LaneKernels> sets = {twindeck::linalg::plain_kernels(), twindeck::linalg::lane_kernels()};
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) sets.push_back(twindeck::linalg::avx2_sweeps());
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) sets.push_back(twindeck::linalg::avx2_kernels());
 #endif
-  for (const SupernodalSweeps& set : sets) {
-    for (const auto& [width, sweep] : {std::pair(4, set.four), std::pair(8, set.eight), std::pair(16, set.sixteen)}) {
+  for (const LaneKernels& set : sets) {
+    for (const auto& [width, sweep] : {std::pair(4, set.sweep_4), std::pair(8, set.sweep_8), std::pair(16, set.sweep_16)}) {
       const Eigen::MatrixXd b = Eigen::MatrixXd::Random(width, n);  // a vector a row
       Eigen::MatrixXd y = b;
       sweep(factor, y.data());

@@ -200,7 +200,7 @@ TEST(LowestEigenpairs, DoNotDependOnTheStart) {
   Cholesky factor;
   const EigenPairs cold = lowest_eigenpairs(k, m, 8, 0.0, factor, kCold);
   const EigenPairs near = lowest_eigenpairs(neighbour, m, 8, 0.0, factor, kCold);
-  const EigenPairs warm = lowest_eigenpairs(k, m, 8, 0.0, factor, near.vectors);
+  const EigenPairs warm = lowest_eigenpairs(k, m, 8, 0.0, factor, near.space);
   const EigenPairs poor = lowest_eigenpairs(k, m, 8, 0.0, factor, cold.vectors.rightCols(7));
   ASSERT_TRUE(warm.status.converged && poor.status.converged);
   for (const EigenPairs* other : {&warm, &poor}) {

@@ -1,4 +1,4 @@
-#include "linalg/supernodal_solve.hpp"
+#include "linalg/lane_kernels.hpp"
 
 #if defined(__x86_64__)
 #pragma GCC push_options
@@ -8,13 +8,18 @@ namespace avx512 {
 namespace {
 constexpr int kLanes = 8, kAtOnce = 24;
 #include "linalg/supernodal_kernels.hpp"
+#include "linalg/symmetric_kernels.hpp"
+#include "linalg/tall_kernels.hpp"
 }  // namespace
 }  // namespace avx512
-SupernodalSweeps avx512_sweeps() { return {avx512::sweep<4>, avx512::sweep<8>, avx512::sweep<16>}; }
+LaneKernels avx512_kernels() {
+  return {avx512::sweep<4>,    avx512::sweep<8>, avx512::sweep<16>, avx512::multiply<4>,
+          avx512::multiply<8>, avx512::inner<8>, avx512::combine<8>};
+}
 }  // namespace twindeck::linalg
 #pragma GCC pop_options
 #else
 namespace twindeck::linalg {
-SupernodalSweeps avx512_sweeps() { return plain_sweeps(); }
+LaneKernels avx512_kernels() { return plain_kernels(); }
 }  // namespace twindeck::linalg
 #endif

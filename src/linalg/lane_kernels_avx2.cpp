@@ -1,4 +1,4 @@
-#include "linalg/supernodal_solve.hpp"
+#include "linalg/lane_kernels.hpp"
 
 #if defined(__x86_64__)
 #pragma GCC push_options
@@ -8,13 +8,18 @@ namespace avx2 {
 namespace {
 constexpr int kLanes = 4, kAtOnce = 8;
 #include "linalg/supernodal_kernels.hpp"
+#include "linalg/symmetric_kernels.hpp"
+#include "linalg/tall_kernels.hpp"
 }  // namespace
 }  // namespace avx2
-SupernodalSweeps avx2_sweeps() { return {avx2::sweep<4>, avx2::sweep<8>, avx2::sweep<16>}; }
+LaneKernels avx2_kernels() {
+  return {avx2::sweep<4>,    avx2::sweep<8>, avx2::sweep<16>, avx2::multiply<4>,
+          avx2::multiply<8>, avx2::inner<8>, avx2::combine<8>};
+}
 }  // namespace twindeck::linalg
 #pragma GCC pop_options
 #else
 namespace twindeck::linalg {
-SupernodalSweeps avx2_sweeps() { return plain_sweeps(); }
+LaneKernels avx2_kernels() { return plain_kernels(); }
 }  // namespace twindeck::linalg
 #endif
