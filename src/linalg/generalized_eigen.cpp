@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "linalg/block_lanczos.hpp"
+#include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/nearby_eigenpairs.hpp"
 #include "linalg/symmetric_product.hpp"
@@ -97,14 +98,6 @@ Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky&
   return {found.vectors, found.further, found.converged, found.operations + kBlock};
 }
 
-void largest_entry_positive(MatrixXd& vectors) {
-  for (Index j = 0; j < vectors.cols(); ++j) {
-    Index at = 0;
-    vectors.col(j).cwiseAbs().maxCoeff(&at);
-    if (vectors(at, j) < 0.0) vectors.col(j) *= -1.0;
-  }
-}
-
 }  // namespace
 
 EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& mass, int n_pairs, double shift,
@@ -136,7 +129,7 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
     if (near.converged) {
       out.values = near.values.array() + shift;
       out.vectors = near.space.leftCols(n_pairs);
-      largest_entry_positive(out.vectors);
+      choose_basis(out.values, out.vectors);
       out.space = std::move(near.space);
       out.operations = spent;
       return out;
@@ -155,7 +148,7 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (a + a.transpose()), 0.5 * (b + b.transpose()));
     out.values = ritz.eigenvalues().array() + shift;
     out.vectors = y * ritz.eigenvectors();
-    largest_entry_positive(out.vectors);
+    choose_basis(out.values, out.vectors);
     out.space.resize(stiffness.rows(), out.vectors.cols() + found.further.cols());
     out.space << out.vectors, found.further;
   }

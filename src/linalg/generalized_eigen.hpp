@@ -11,7 +11,7 @@ namespace twindeck::linalg {
 /// Lowest eigenpairs of K x = lambda M x.
 struct EigenPairs {
   Eigen::VectorXd values;   ///< (n_pairs) ascending
-  Eigen::MatrixXd vectors;  ///< (n × n_pairs) M-orthonormal, entry of largest magnitude positive
+  Eigen::MatrixXd vectors;  ///< (n × n_pairs) M-orthonormal, signs and bases of equal values by `choose_basis`
   Eigen::MatrixXd space;    ///< (n × m), m >= n_pairs: the vectors and approximations of some further ones, lowest first
   Status status;            ///< not converged: message says how many of how many pairs
   int operations = 0;       ///< solves with the factorised matrix

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "model_io/export.hpp"
+#include "linalg/canonical_basis.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -17,13 +18,10 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 std::optional<double> known(double value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; }
 std::optional<double> percent(double ratio) { return known(100.0 * ratio); }
 
-/// 1 where it can be: the component of largest magnitude; the first of equals, so that rounding does not choose.
+/// The component that becomes 1; 1 where there is none.
 std::complex<double> largest_component(const Eigen::Ref<const Eigen::VectorXcd>& shape) {
-  Eigen::Index at = 0;
-  for (Eigen::Index i = 1; i < shape.size(); ++i) {
-    if (std::abs(shape[i]) > std::abs(shape[at]) * (1.0 + 1e-9)) at = i;
-  }
-  return shape.size() == 0 || shape[at] == 0.0 ? 1.0 : shape[at];
+  if (shape.size() == 0 || shape.isZero(0.0)) return 1.0;
+  return shape[linalg::leading_entry(shape.cwiseAbs())];
 }
 
 void write_shapes(const modal::ModeSet& modes, const std::filesystem::path& file) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/dense_instances.hpp"
 
@@ -48,9 +49,7 @@ LeadingSvd leading_svd(const Eigen::MatrixXd& a, Index n) {
     result = {svd.u.leftCols(n), svd.values.head(n), svd.vt.topRows(n).transpose()};
   }
   for (Index j = 0; j < n; ++j) {
-    Index largest = 0;
-    result.u.col(j).cwiseAbs().maxCoeff(&largest);
-    if (result.u(largest, j) < 0.0) {
+    if (result.u(linalg::leading_entry(result.u.col(j).cwiseAbs()), j) < 0.0) {
       result.u.col(j) *= -1.0;
       result.v.col(j) *= -1.0;
     }

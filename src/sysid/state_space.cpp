@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/dense_instances.hpp"
 
@@ -20,9 +21,7 @@ Eigen::VectorXcd normalised_shape(const Eigen::VectorXcd& shape) {
   if (!(length > 0.0)) return shape;
   const std::complex<double> sum = (shape.transpose() * shape).value();
   Eigen::VectorXcd turned = shape / length * std::polar(1.0, -0.5 * std::arg(sum));
-  Index largest = 0;
-  turned.cwiseAbs().maxCoeff(&largest);
-  if (turned[largest].real() < 0.0) turned = -turned;
+  if (turned[linalg::leading_entry(turned.cwiseAbs())].real() < 0.0) turned = -turned;
   return turned;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -26,11 +25,11 @@ std::vector<int> nodes_of(const BridgeState& state, const std::vector<LayoutPoin
   return nodes_at(state.chains.model, places, 0.05);
 }
 
-/// Adds density² · phi' phi of one node's three translations.
-void add_load(MatrixXd& covariance, const MatrixXd& full, int node, double density) {
-  const MatrixXd phi = full.middleRows(6 * node, 3);
-  covariance.noalias() += density * density * phi.transpose() * phi;
-}
+/// A node that is loaded in its three directions, and how much.
+struct LoadedNode {
+  int node;
+  double density;  ///< square root of the one-sided spectral density [N/sqrt(Hz)]
+};
 
 int head_of_mast(const fe::Model& model) {
   int head = 0;
@@ -39,6 +38,41 @@ int head_of_mast(const fe::Model& model) {
   }
   return head;
 }
+
+/// Decks in the order of the layout, head of the mast, inner nodes of the hanging stays by name.
+std::vector<LoadedNode> loaded_nodes(const ConditionSettings& condition, const BridgeState& state, const std::vector<LayoutPoint>& points) {
+  std::vector<LoadedNode> loaded;
+  for (const int node : nodes_of(state, points)) loaded.push_back({node, condition.force_deck});
+  loaded.push_back({head_of_mast(state.chains.model), condition.force_mast});
+  for (const auto& [name, nodes] : state.chains.nodes) {
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) loaded.push_back({nodes[k], condition.force_stay});
+  }
+  return loaded;
+}
+
+/// Modal loads from sample to sample: white loads where they act, projected. A stretch of samples is projected at once.
+class AmbientLoads {
+ public:
+  /// @param intensity  standard deviation of a load of density 1 [sqrt(Hz)]
+  AmbientLoads(const MatrixXd& loads, double intensity, std::uint64_t seed, std::uint64_t stream)
+      : loads_(intensity * loads), seed_(seed), stream_(stream), drawn_(loads.cols(), kStretch), modal_(loads.rows(), kStretch) {}
+  /// @param step  from 0, one after the other
+  auto at(Index step) {
+    if (step % kStretch == 0) draw(step);
+    return modal_.col(step % kStretch);
+  }
+
+ private:
+  static constexpr Index kStretch = 128;
+  void draw(Index first) {
+    const auto begin = static_cast<std::uint64_t>(first * drawn_.rows());
+    for (Index i = 0; i < drawn_.size(); ++i) drawn_.data()[i] = white_number(seed_, stream_, begin + static_cast<std::uint64_t>(i));
+    modal_.noalias() = loads_ * drawn_;
+  }
+  MatrixXd loads_;
+  std::uint64_t seed_, stream_;
+  MatrixXd drawn_, modal_;  // (n_loads × stretch), (n_modes × stretch)
+};
 
 void fit_dampers(const CampaignSettings& settings, ConditionModel& out, MatrixXd& loads) {
   const fe::Model& model = out.state->chains.model;
@@ -92,19 +126,14 @@ ConditionModel condition_model(const CampaignSettings& settings, const Condition
   out.damping.head(n) = imposed_damping(state, settings);
 
   const MatrixXd full = state.system.expand(out.basis.vectors.leftCols(n));
-  MatrixXd covariance = MatrixXd::Zero(n, n);
-  for (const int node : nodes_of(state, points)) add_load(covariance, full, node, condition.force_deck);
-  add_load(covariance, full, head_of_mast(state.chains.model), condition.force_mast);
-  for (const auto& [name, nodes] : state.chains.nodes) {
-    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) add_load(covariance, full, nodes[k], condition.force_stay);
-  }
-  covariance.diagonal() *= 1.0 + 1e-9;  // many modes at fewer points: singular but for rounding
-  const Eigen::LLT<MatrixXd> factor(covariance);
-  if (factor.info() != Eigen::Success)
+  const std::vector<LoadedNode> loaded = loaded_nodes(condition, state, points);
+  out.loads.resize(n, 3 * std::ssize(loaded));
+  for (std::size_t i = 0; i < loaded.size(); ++i)
+    out.loads.middleCols(3 * static_cast<Index>(i), 3) = loaded[i].density * full.middleRows(6 * loaded[i].node, 3).transpose();
+  if ((out.loads.rowwise().squaredNorm().array() <= 0.0).any())
     throw InputError({"", 0, "force.deck"}, "leaves modes without load", "give a force on decks, stays and mast");
   out.load_covariance = MatrixXd::Zero(r, r);
-  out.load_covariance.topLeftCorner(n, n) = covariance;
-  out.load_factor = factor.matrixL();
+  out.load_covariance.topLeftCorner(n, n) = out.loads * out.loads.transpose();
   return out;
 }
 
@@ -159,13 +188,12 @@ Motion simulate(const ConditionModel& model, const CampaignSettings& settings, c
 
   // A force of density S [N²/Hz, one-sided] sampled at f has the variance S f / 2.
   const double intensity = std::sqrt(0.5 * settings.rate_Hz);
-  VectorXd normal(n), before = VectorXd::Zero(r), after = VectorXd::Zero(r);
+  AmbientLoads loads(model.loads, intensity, seed, stream);
+  VectorXd before = VectorXd::Zero(r), after = VectorXd::Zero(r);
   MotionRecorder recorder(model, settings, seen, n_samples);
   for (Index sample = -warm_up; sample < n_samples; ++sample) {
-    for (Index i = 0; i < n; ++i)
-      normal[i] = normal_number(seed, stream, static_cast<std::uint64_t>((sample + warm_up) * n + i));
     before = after;
-    after.head(n).noalias() = model.load_factor * (intensity * normal);
+    after.head(n) = loads.at(sample + warm_up);
     for (long k = 0; k < settings.substeps; ++k) {
       const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
       stepper.step((1.0 - part) * before + part * after);

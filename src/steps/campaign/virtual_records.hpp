@@ -21,8 +21,11 @@ struct ConditionModel {
   std::vector<std::string> damper_names;
   std::vector<dynamics::SlidingDamper> dampers;  ///< empty where none are fitted
   Eigen::MatrixXd at_dampers;                    ///< (n_dampers × r)
-  Eigen::MatrixXd load_covariance;               ///< (r × r) of the modal loads per Hz, one-sided [N²/Hz over kg]
-  Eigen::MatrixXd load_factor;                   ///< its Cholesky factor
+  /// (n_modes × n_loads) modal loads of loads of 1 where they act: nodes of decks, mast and stays, three directions each, in the order
+  /// of the layout and of the stays' names; times their density [N/sqrt(Hz)]. Drawn there, a record hangs neither on signs of modes nor
+  /// on how modes of one frequency are turned.
+  Eigen::MatrixXd loads;
+  Eigen::MatrixXd load_covariance;  ///< (r × r) of the modal loads per Hz, one-sided [N²/Hz over kg]
 };
 [[nodiscard]] ConditionModel condition_model(const CampaignSettings& settings, const ConditionSettings& condition,
                                              const BridgeState& state, const std::vector<LayoutPoint>& points);
@@ -53,7 +56,7 @@ class MotionRecorder {
 
 /// Ambient: the loads of the condition from rest, its first 100 s left out. Free decay: the static displacement under the hung
 /// mass, let go at the first sample, loads as before. Trapezoidal rule, settings.substeps steps a sample; loads are white
-/// normal numbers at the sampling rate, joined by straight lines.
+/// numbers at the sampling rate, one a node and direction, joined by straight lines.
 /// @param stream  of random numbers: one a record
 [[nodiscard]] Motion simulate(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
                               const std::vector<LayoutChannel>& channels, const std::vector<LayoutPoint>& points,

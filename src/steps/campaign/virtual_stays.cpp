@@ -27,7 +27,7 @@ constexpr double kLeastLambda = 0.01;  // a chain without axial stiffness would 
 struct Chain {
   std::vector<Eigen::Vector3d> x_m;  // kPieces + 1
   double mass_per_length = 0.0, length_m = 0.0, axial_stiffness_N = 0.0;
-  Eigen::Vector3d across;  // unit vector across the chord in the vertical plane
+  Eigen::Vector3d along, across;  // unit vectors along the chord, and across it in the vertical plane
 };
 
 Chain hang(const fe::Model& model, const fe::Element& stay, const StayTest& test) {
@@ -47,12 +47,13 @@ Chain hang(const fe::Model& model, const fe::Element& stay, const StayTest& test
     const double xi = static_cast<double>(k) / kPieces;
     chain.x_m.emplace_back(ends[0] + xi * chord - 4.0 * sag * xi * (1.0 - xi) * Eigen::Vector3d::UnitZ());
   }
-  const Eigen::Vector3d along = chord.normalized();
-  chain.across = (Eigen::Vector3d::UnitZ() - along.z() * along).normalized();
+  chain.along = chord.normalized();
+  chain.across = (Eigen::Vector3d::UnitZ() - chain.along.z() * chain.along).normalized();
   return chain;
 }
 
-/// In-plane modes: omega, and shapes across the chord at the inner nodes, mass-normalised.
+/// In-plane modes: omega, and shapes across the chord at the inner nodes, mass-normalised. Motion out of the plane is left out: it has
+/// modes of nearly the same frequencies, with which those of the plane would mix by rounding.
 void solve(const Chain& chain, double pull_N, VectorXd& omega, MatrixXd& shapes) {
   const Index n = kPieces - 1;
   MatrixXd k = MatrixXd::Zero(3 * (kPieces + 1), 3 * (kPieces + 1)), mass = k;
@@ -66,17 +67,18 @@ void solve(const Chain& chain, double pull_N, VectorXd& omega, MatrixXd& shapes)
     mass.diagonal(3).segment<3>(3 * i).array() += piece_kg / 12.0;
     mass.diagonal(-3).segment<3>(3 * i).array() += piece_kg / 12.0;
   }
-  const MatrixXd inner = k.block(3, 3, 3 * n, 3 * n);
-  const MatrixXd inner_mass = mass.block(3, 3, 3 * n, 3 * n);
+  MatrixXd in_plane = MatrixXd::Zero(3 * n, 2 * n);
+  for (Index i = 0; i < n; ++i) in_plane.block<3, 2>(3 * i, 2 * i) << chain.along, chain.across;
+  const MatrixXd inner = in_plane.transpose() * k.block(3, 3, 3 * n, 3 * n) * in_plane;
+  const MatrixXd inner_mass = in_plane.transpose() * mass.block(3, 3, 3 * n, 3 * n) * in_plane;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eig(inner, inner_mass);
   const MatrixXd& phi = eig.eigenvectors();
   omega.resize(kModes);
   shapes.resize(n, kModes);
   Index found = 0;
   for (Index j = 0; j < phi.cols() && found < kModes; ++j) {
-    VectorXd across(n);
-    for (Index i = 0; i < n; ++i) across[i] = chain.across.dot(phi.col(j).segment<3>(3 * i));
-    // Modes are in the plane or out of it; of those in it the ones that go along the chord lie higher.
+    const VectorXd across = phi.col(j)(Eigen::seqN(1, n, 2));
+    // Those that go along the chord lie higher.
     if (across.squaredNorm() * piece_kg < 0.5) continue;
     omega[found] = std::sqrt(eig.eigenvalues()[j]);
     shapes.col(found++) = across;

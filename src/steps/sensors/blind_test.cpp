@@ -21,19 +21,22 @@ namespace {
 
 constexpr int kFrameStride = 1000;  // keeps the orders of different frames apart in one list
 
-/// Modal accelerations under white noise of 1 (N²/kg)/Hz, one row a sample.
-MatrixXd modal_accelerations(const SensorsConfig& config, const VectorXd& frequency_Hz, std::uint64_t seed) {
+/// Modal accelerations under white loads at all candidates, alike and independent, drawn there and projected; their density gives the
+/// modes 1 (N²/kg)/Hz in the mean. One row a sample.
+MatrixXd modal_accelerations(const SensorsConfig& config, const VectorXd& frequency_Hz, const MatrixXd& phi, std::uint64_t seed) {
   constexpr std::uint64_t kStream = 1000000;  // beyond those of the draws of setups
   const Index n = frequency_Hz.size(), samples = std::lround(config.duration_s * config.rate_Hz);
   const Index warm_up = std::lround(config.warm_up_s * config.rate_Hz);
-  const double load = std::sqrt(0.5 * config.rate_Hz);
+  const double density = std::sqrt(static_cast<double>(n)) / phi.norm();
+  const MatrixXd load = std::sqrt(0.5 * config.rate_Hz) * density * phi.transpose();
   dynamics::TrapezoidalStepper stepper(2.0 * std::numbers::pi * frequency_Hz, VectorXd::Constant(n, config.damping_ratio),
                                        1.0 / config.rate_Hz);
   MatrixXd out(samples, n);
-  VectorXd normal(n);
+  VectorXd white(phi.rows());
   for (Index t = -warm_up; t < samples; ++t) {
-    for (Index i = 0; i < n; ++i) normal[i] = normal_number(seed, kStream, static_cast<std::uint64_t>((t + warm_up) * n + i));
-    stepper.step(load * normal);
+    const auto first = static_cast<std::uint64_t>((t + warm_up) * white.size());
+    for (Index i = 0; i < white.size(); ++i) white[i] = white_number(seed, kStream, first + static_cast<std::uint64_t>(i));
+    stepper.step(load * white);
     if (t >= 0) out.row(t) = stepper.acceleration();
   }
   return out;
@@ -68,7 +71,7 @@ BlindTest identify_frames(const SensorsConfig& config, const ScoredSetup& setup,
 BlindTestResult blind_test(const SensorsConfig& config, const VectorXd& frequency_Hz, const std::vector<ScoredSetup>& setups,
                            const MatrixXd& phi, std::uint64_t seed) {
   // The filter is linear, so that the modes are downsampled once and for all setups.
-  const MatrixXd modal = signal::decimated(modal_accelerations(config, frequency_Hz, seed), config.downsample);
+  const MatrixXd modal = signal::decimated(modal_accelerations(config, frequency_Hz, phi, seed), config.downsample);
   const double rate_Hz = config.rate_Hz / static_cast<double>(config.downsample);
   std::vector<const ScoredSetup*> chosen;
   for (const std::string& name : config.blind_setups) {

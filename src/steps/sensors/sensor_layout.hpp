@@ -63,9 +63,8 @@ struct BlindTestResult {
   std::vector<Eigen::MatrixXd> psd_m2_s3;  ///< one a test (n_frequencies × n_channels)
 };
 
-/// Section 3.1: white noise in three directions all over the bridge, in proportion to mass and independent from place to place,
-/// so that modal loads are independent and alike; the model's modes by the trapezoidal rule, every `downsample`-th sample,
-/// frames, SSI of each frame at all orders, criteria of stabilisation, cleaning over all frames.
+/// Section 3.1: white noise all over the bridge, independent from candidate to candidate; the model's modes by the trapezoidal
+/// rule, every `downsample`-th sample, frames, SSI of each frame at all orders, criteria of stabilisation, cleaning over all frames.
 /// @param frequency_Hz (n_modes)
 [[nodiscard]] BlindTestResult blind_test(const SensorsConfig& config, const Eigen::VectorXd& frequency_Hz,
                                          const std::vector<ScoredSetup>& setups, const Eigen::MatrixXd& phi,

@@ -44,6 +44,20 @@ TEST(Random, NormalNumbersHaveTheirMoments) {
   EXPECT_NEAR(fourth, 3.0, 4.0 * std::sqrt(96.0 / n));
 }
 
+TEST(Random, WhiteNumbersHaveTheirMoments) {
+  const int n = 100000;
+  double mean = 0.0, square = 0.0, fourth = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double x = white_number(5, 0, static_cast<std::uint64_t>(i));
+    mean += x / n;
+    square += x * x / n;
+    fourth += x * x * x * x / n;
+  }
+  EXPECT_NEAR(mean, 0.0, 4.0 / std::sqrt(n));
+  EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt(0.8 / n));     // 9/5 - 1
+  EXPECT_NEAR(fourth, 9.0 / 5.0, 4.0 * std::sqrt(5.76 / n));  // 81/9 - 81/25
+}
+
 TEST(Random, SameArgumentsSameNumber) {
   EXPECT_EQ(uniform_number(1, 2, 3), uniform_number(1, 2, 3));
   EXPECT_NE(uniform_number(1, 2, 3), uniform_number(3, 2, 1));
