@@ -23,7 +23,7 @@ else
 include workflows/steps.mk
 endif
 
-.PHONY: paper blind-trials help all look deps build test unit steps tables figures report verify smoke bench calibrate why new reference clean FORCE
+.PHONY: paper blind-trials help all look deps build test unit steps tables figures report verify smoke bench processors calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -106,6 +106,10 @@ batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as i
 bench: build ## ratios against peers: modes, derivatives, identification, wind (results/bench/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field
 	@workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
+
+processors: build ## the study and the tests under the kernels of other processors: tests failed, columns that move (results/processors/*.csv)
+	@cmake --build $(BUILD) -j $(JOBS)
+	@workflows/python.sh tests/processors/run.py $(BUILD) $(STUDY) $(if $(KERNELS),--kernels $(KERNELS))
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "linalg/canonical_basis.hpp"
 #include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
@@ -79,7 +80,9 @@ ReducedBasis reduced_basis(const linalg::SparseMatrix& stiffness, const linalg::
   MatrixXd k = all.transpose() * times(stiffness, all), m = all.transpose() * times(mass, all);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()));
   TWINDECK_ASSERT(ritz.info() == Eigen::Success);
-  return {ritz.eigenvalues().cwiseMax(0.0).cwiseSqrt(), all * ritz.eigenvectors()};
+  MatrixXd vectors = all * ritz.eigenvectors();
+  linalg::choose_basis(ritz.eigenvalues(), vectors);
+  return {ritz.eigenvalues().cwiseMax(0.0).cwiseSqrt(), std::move(vectors)};
 }
 
 }  // namespace twindeck::dynamics

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "linalg/canonical_basis.hpp"
 
 namespace twindeck::dynamics {
 using Eigen::Index;
@@ -66,7 +67,9 @@ LinearisedModes linearised_modes(const VectorXd& omega_rad_s, const VectorXd& da
     const auto at = static_cast<Index>(i);
     modes.frequency_Hz[at] = std::abs(lambda) / (2.0 * std::numbers::pi);
     modes.damping_ratio[at] = -lambda.real() / std::abs(lambda);
-    modes.shapes.col(at) = eig.eigenvectors().col(kept[i]).head(r);
+    const Eigen::VectorXcd shape = eig.eigenvectors().col(kept[i]).head(r);
+    const std::complex<double> leading = shape[linalg::leading_entry(shape.cwiseAbs())];
+    modes.shapes.col(at) = shape * (std::conj(leading) / std::abs(leading));
   }
   return modes;
 }

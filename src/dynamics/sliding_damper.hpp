@@ -32,7 +32,7 @@ struct SlidingDamper {
 struct LinearisedModes {
   Eigen::VectorXd frequency_Hz;   ///< ascending, |lambda|/(2 pi)
   Eigen::VectorXd damping_ratio;  ///< [-]
-  Eigen::MatrixXcd shapes;        ///< (r × n) in modal coordinates
+  Eigen::MatrixXcd shapes;        ///< (r × n) in modal coordinates, the leading entry real and positive
 };
 /// @param omega_rad_s, damping_ratio (r) @param at_dampers B (n_dampers × r) @param slip s (n_dampers)
 /// @return modes below `highest_Hz`

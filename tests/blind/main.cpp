@@ -1,6 +1,6 @@
-/// blind_trials N [first seed]: runs sealed cases, scores them, prints the table with 95 % intervals. Exit code 1 when an
-/// interval lies wholly on the wrong side of a target, or one of the first sixty nulls is an
-/// alarm; 0 otherwise. A signal, or the seconds of TWINDECK_BLIND_SECONDS, ends the run with the table of what was done.
+/// blind_trials N [first seed]: runs sealed cases, scores them, prints the table with 95 % intervals. From 400 trials on the
+/// targets are judged: exit code 1 when an interval lies wholly on the wrong side of one. Fewer trials are held against the method's own
+/// rates: exit code 1 for what these give once in a thousand runs. 0 otherwise. A signal, or the seconds of TWINDECK_BLIND_SECONDS, ends the run with the table of what was done.
 /// blind_trials --nulls N: calibration of the residual test.
 /// blind_trials --count N: what N trials hide, by family, without a diagnosis.
 /// blind_trials --explain SEED …: the evidence of single cases.
@@ -213,10 +213,11 @@ int main(int argc, char** argv) {
   for (const std::string& family : catalogue) alone[family] = families[family][0];
   const bool shared_out = scores.size() < 400 || print_shares(alone, 5);
   const auto effect = [](const Score& s) { return s.kind == "effect"; };
-  const auto null = [](const Score& s) { return s.kind == "null"; };
   const auto found = [&](const Score& s) { return effect(s) && s.detected; };
+  // Fewer trials settle no target: of 19 effects the family of 16 is named once in six runs of a method that names 93 %.
+  const auto judge = scores.size() < 400 ? twindeck::blind::Judge::own_rates : twindeck::blind::Judge::targets;
   fmt::print("\nscore, exact 95 % intervals\n");
-  bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores) && shared_out;
+  bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores, judge) && shared_out;
   double sizes = 0.0, squares = 0.0, seconds = 0.0, slowest = 0.0;
   int sets = 0, limits = 0;
   std::vector<double> ratios, with_truth;
@@ -236,7 +237,7 @@ int main(int argc, char** argv) {
   }
   if (sets > 1) {
     const double mean = sizes / sets, half = 1.96 * std::sqrt(std::max(squares / sets - mean * mean, 0.0) / (sets - 1));
-    const bool wrong = mean - half > 1.5;
+    const bool wrong = mean - half > 1.5 && judge == twindeck::blind::Judge::targets;
     held = held && !wrong;
     fmt::print("  mean size of the reported set {:.2f} [{:.2f}, {:.2f}], target <= 1.5  {}\n", mean, mean - half, mean + half,
                wrong ? "MISSED" : "held");
@@ -248,15 +249,11 @@ int main(int argc, char** argv) {
   fmt::print("median relative error of the magnitude, where the entry is exact:");
   for (const auto& [family, values] : errors) fmt::print(" {} {:.1f} % ({})", family, 100.0 * median(values), values.size());
   fmt::print("; {} more have a limit on one side only\n", limits);
-  const auto alarms = std::count_if(scores.begin(), scores.end(), [&](const Score& s) { return null(s) && s.detected; });
-  if (first == 1 && count <= 60 && alarms > 0) {
-    held = false;
-    fmt::print("{} false alarm(s) among the fixed nulls\n", alarms);
-  }
   if (std::getenv("TWINDECK_FRESH") != nullptr) {
     const std::uint64_t seed = std::random_device{}();
     fmt::print("\none trial with a fresh seed, {}:\n{}\n", seed, line_of(seed, run(seed)));
   }
-  fmt::print("{}\n", held ? "no target is missed" : "a target is missed");
+  const char* what = judge == twindeck::blind::Judge::targets ? "target is missed" : "count is worse than the method's own rate gives in a thousand runs";
+  fmt::print("{} {}\n", held ? "no" : "a", what);
   return held ? 0 : 1;
 }

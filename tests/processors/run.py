@@ -1,0 +1,141 @@
+"""The study and the tests as other processors compute them: `make processors`.
+
+OpenBLAS picks its kernels by the processor, twindeck its own instruction set; both can be asked for. For each the study is run into
+results/processors/NAME/STUDY and the tests are run. Then every numeric column of every table and of every step's CSV is compared with the
+same under the first kernel: results/processors/columns.csv (kernel, file, column, change relative to the column's largest number, the
+row where) and tests.csv (kernel, tests, failed). The report shows both with its provenance.
+
+run.py BUILD STUDY [--kernels A,B] [--no-tests] [--no-study]. Exit code 1 if a test fails.
+"""
+import argparse
+import csv
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import pandas as pd
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OUT = pathlib.Path("results") / "processors"
+# Name -> (environment, flags of /proc/cpuinfo that the kernels need). OpenBLAS takes one of a lesser machine, never of a greater.
+KERNELS = {
+    "Nehalem": ({"OPENBLAS_CORETYPE": "Nehalem"}, {"sse4_2"}),
+    "Sandybridge": ({"OPENBLAS_CORETYPE": "Sandybridge"}, {"avx"}),
+    "Haswell": ({"OPENBLAS_CORETYPE": "Haswell"}, {"avx2", "fma"}),
+    "Zen": ({"OPENBLAS_CORETYPE": "Zen"}, {"avx2", "fma"}),
+    "SkylakeX": ({"OPENBLAS_CORETYPE": "SkylakeX"}, {"avx512f", "avx512dq", "avx512vl"}),
+    # The product's own: what a processor without AVX-512, or without AVX2, runs.
+    "own_plain": ({"TWINDECK_INSTRUCTIONS": "plain"}, set()),
+    "own_avx2": ({"TWINDECK_INSTRUCTIONS": "avx2"}, {"avx2", "fma"}),
+}
+# Not results: what a run took and where it was.
+NOT_COMPARED = {"seconds", "manifest"}
+TESTS_LINE = re.compile(r"(\d+)% tests passed, (\d+) tests failed out of (\d+)")
+
+
+def runnable():
+    flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M).group(1).split())
+    return [name for name, (_, needed) in KERNELS.items() if needed <= flags]
+
+
+def environment(name):
+    own = {k: v for k, v in os.environ.items() if k not in ("OPENBLAS_CORETYPE", "TWINDECK_INSTRUCTIONS")}
+    return {**own, **KERNELS[name][0]}
+
+
+def run_study(name, study):
+    """The steps, tables and figures of the study under this kernel; the report is not needed."""
+    results = OUT / name / study
+    subprocess.run(["make", "--no-print-directory", "tables", "NO_BUILD=1", f"STUDY={study}", f"RESULTS={results}"], cwd=ROOT, env=environment(name),
+                   check=True, stdout=subprocess.DEVNULL)
+
+
+def run_tests(name, build):
+    """(tests, names of those that failed). A failed one is run once more alone, so that a time limit on a busy machine is no verdict."""
+    done = subprocess.run(["ctest", "-j2"], cwd=build, env=environment(name), capture_output=True, text=True)
+    counts = TESTS_LINE.search(done.stdout)
+    if not counts:
+        raise SystemExit(f"processors: ctest under {name} printed no result:\n{done.stdout[-2000:]}")
+    failed = []
+    if int(counts[2]):
+        again = subprocess.run(["ctest", "--rerun-failed", "--output-on-failure"], cwd=build, env=environment(name), capture_output=True, text=True)
+        failed = re.findall(r"^\s*\d+ - (\S+) \(", again.stdout, re.M)
+    return int(counts[3]), failed
+
+
+def changes(reference, other):
+    """(file, column, relative change, row) of every numeric column of every CSV below the two folders; a file or row count that differs
+    is a change without a number."""
+    for file in sorted(reference.rglob("*.csv")):
+        name = file.relative_to(reference)
+        if "records" in name.parts:
+            continue
+        a = pd.read_csv(file)
+        b = pd.read_csv(other / name) if (other / name).exists() else None
+        if b is None or list(a.columns) != list(b.columns) or len(a) != len(b):
+            yield str(name), "", float("inf"), "rows or columns differ"
+            continue
+        for column in a.columns:
+            if column in NOT_COMPARED or a[column].equals(b[column]):
+                continue
+            x, y = pd.to_numeric(a[column], errors="coerce"), pd.to_numeric(b[column], errors="coerce")
+            text = a[column].astype(str)[x.isna() | y.isna()] != b[column].astype(str)[x.isna() | y.isna()]
+            if text.any():
+                yield str(name), column, float("inf"), f"row {text.idxmax() + 1}: {a[column][text.idxmax()]} / {b[column][text.idxmax()]}"
+                continue
+            # An imaginary part is judged by the size of the whole number: beside a real one it may be rounding alone.
+            whole = pd.to_numeric(a[column.removesuffix("_imag")], errors="coerce") if column.endswith("_imag") else x
+            largest = max(x.abs().max(), whole.abs().max())
+            difference = (x - y).abs()
+            if largest > 0 and difference.max() > 0:
+                yield str(name), column, difference.max() / largest, f"row {difference.idxmax() + 1}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("study")
+    parser.add_argument("--kernels", default="")
+    parser.add_argument("--no-tests", action="store_true")
+    parser.add_argument("--no-study", action="store_true")
+    options = parser.parse_args()
+    able = runnable()
+    names = [n for n in options.kernels.split(",") if n] or able
+    for name in names:
+        if name not in able:
+            print(f"processors: {name} is not for this processor: skipped" if name in KERNELS
+                  else f"processors: unknown kernel '{name}'; known are {', '.join(KERNELS)}", file=sys.stderr)
+    names = [n for n in names if n in able]
+    out = ROOT / OUT
+    out.mkdir(parents=True, exist_ok=True)
+    bad = False
+    tests = []
+    for name in names:
+        if not options.no_study:
+            print(f"processors: {options.study} under {name}", flush=True)
+            run_study(name, options.study)
+        if not options.no_tests:
+            print(f"processors: tests under {name}", flush=True)
+            count, failed = run_tests(name, options.build)
+            tests.append([name, count, len(failed), " ".join(failed)])
+            print(f"processors: {name}: {count} tests, {len(failed)} failed {' '.join(failed)}", flush=True)
+            bad = bad or bool(failed)
+            with open(out / "tests.csv", "w", newline="") as f:
+                csv.writer(f).writerows([["kernel", "tests", "failed", "names"], *tests])
+    here = [n for n in able if (out / n / options.study / "tables" / "manifest.json").exists()]
+    rows = [[name, *change] for name in here[1:] for change in changes(out / here[0] / options.study, out / name / options.study)]
+    with open(out / "columns.csv", "w", newline="") as f:
+        csv.writer(f).writerows([["kernel", "file", "column", "relative_change", "where"], *rows])
+    for name in here[1:]:
+        own = [r for r in rows if r[0] == name]
+        worst = max(own, key=lambda r: r[3], default=None)
+        large = [r for r in own if r[3] > 1e-6]
+        print(f"processors: {name} against {here[0]}: {len(own)} columns move, {len(large)} by more than 1e-6"
+              + (f", most {worst[1]} {worst[2]} by {worst[3]:.2g} ({worst[4]})" if worst else ""))
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
