@@ -64,7 +64,8 @@ steps: $(STEP_MANIFESTS) ## every step of the study
 
 tables: $(RESULTS)/tables/manifest.json ## tables as CSV, TeX, HTML
 figures: $(RESULTS)/figures/manifest.json ## figures as PDF, PNG and their data
-report: $(RESULTS)/report/report.html ## one self-contained page
+report: $(RESULTS)/report/report.html ## one self-contained page; refused where a file was changed after it was written
+	@$(REPORT) unchanged $(REPORT_ARGUMENTS)
 
 REPORT_SOURCES := $(shell find paper data/$(STUDY) -type f -not -path '*/__pycache__/*' -not -path 'paper/article/*' 2>/dev/null)
 REPORT_ARGUMENTS = --study $(STUDY) --results $(RESULTS) --data $(PAPER)

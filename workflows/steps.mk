@@ -46,11 +46,14 @@ endif
 MEASURED := $(if $(MODES),--modes $(MODES)) $(if $(FEATURES),--features $(FEATURES))
 OPTIONS_s4_refinement := $(MEASURED)
 OPTIONS_s6_updating := $(MEASURED)
-# Which modes the results rest on is kept beside them, so that the steps run again when that changes, and only then.
+# Which modes the results rest on is kept beside them, so that the steps run again when that changes, and only then. It is written by a
+# recipe, so that `make -n` writes nothing.
 MEASURED_STAMP := $(RESULTS)/.measured
 ifneq ($(strip $(MEASURED) $(wildcard $(MEASURED_STAMP))),)
-$(shell mkdir -p $(RESULTS); [ "$$(cat $(MEASURED_STAMP) 2>/dev/null)" = "measured: $(MEASURED)" ] || \
-  echo "measured: $(MEASURED)" > $(MEASURED_STAMP))
+ifneq ($(strip $(shell cat $(MEASURED_STAMP) 2>/dev/null)),$(strip measured: $(MEASURED)))
+$(MEASURED_STAMP): FORCE
+	@mkdir -p $(@D) && echo "measured: $(strip $(MEASURED))" > $@
+endif
 INPUTS_s4_refinement += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
 INPUTS_s6_updating += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
 endif

@@ -1,4 +1,4 @@
-"""python3 -m twindeck_report tables|figures|report|verify|article|ratchet --study S [--results DIR] [--data DIR] [--workflow DIR]"""
+"""python3 -m twindeck_report tables|figures|report|unchanged|verify|article|ratchet --study S [--results DIR] [--data DIR] [--workflow DIR]"""
 import argparse
 import sys
 from pathlib import Path
@@ -9,6 +9,7 @@ from .errors import InputError
 from .own_study import is_own, verify_own, write_own_report, write_own_tables
 from .ratchet import write_ratchet
 from .study import Study
+from .unchanged import changed_pages, changed_steps, refuse_changed
 
 EXAMPLES = """examples:
   PYTHONPATH=paper python3 -m twindeck_report tables --study ponte_del_mare
@@ -34,6 +35,7 @@ def main(arguments) -> int:
 def _tables(study: Study) -> int:
     from .tables.writer import write_tables
 
+    refuse_changed(study, changed_steps(study))
     written = write_own_tables(study) if is_own(study) else write_tables(study)
     print(f"{len(written)} tables in {study.results / 'tables'}")
     return 0
@@ -42,6 +44,7 @@ def _tables(study: Study) -> int:
 def _figures(study: Study) -> int:
     from .figures.writer import write_figures
 
+    refuse_changed(study, changed_steps(study))
     written = write_figures(study)
     print(f"{len(written)} figures in {study.results / 'figures'}: {', '.join(written)}")
     return 0
@@ -57,7 +60,13 @@ def _figure(study: Study, name: str) -> int:
 def _report(study: Study) -> int:
     from .report import write_report
 
+    _unchanged(study)
     print(f"{write_own_report(study) if is_own(study) else write_report(study)} written")
+    return 0
+
+
+def _unchanged(study: Study) -> int:
+    refuse_changed(study, changed_steps(study) + changed_pages(study))
     return 0
 
 
@@ -105,6 +114,7 @@ COMMANDS = {
     "tables": (_tables, "tables as CSV, LaTeX and HTML, ours beside the paper's"),
     "figures": (_figures, "figures as PDF and PNG with the plotted data beside them"),
     "report": (_report, "report.html, one self-contained page"),
+    "unchanged": (_unchanged, "refuse files that were changed after they were written (make report)"),
     "verify": (_verify, "compare the tables with the paper as printed"),
     "article": (_article, "our article as PDF (needs LaTeX)"),
     "ratchet": (_ratchet, "hold the present deviations as those of a release"),

@@ -13,6 +13,7 @@ from .page.pieces import image, quantities, render, text
 from .page.source import read_source
 from .study import Study
 from .tables.writer import heading, write_csv
+from .unchanged import changed_steps
 
 # file of a step -> (name of the table, what it shows)
 TABLES = {
@@ -89,7 +90,7 @@ def write_own_report(study: Study):
     page = render(
         "own_report.html.j2", **common_parts(study, settings), paper_sections=False, source=read_source(study), tables=tables,
         figures=figures, tiles=[], model=quantities(study, "s1_model/summary.csv"), updating=quantities(study, "s6_updating/summary.csv"),
-        bounds=_on_bounds(study), stale=_stale(study))
+        bounds=_on_bounds(study))
     target = study.results / "report" / "report.html"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(page, encoding="utf-8")
@@ -103,14 +104,7 @@ def _on_bounds(study: Study) -> list:
     return [f"{r['parameter']} ({r['bound']})" for r in table.to_dict("records") if r["bound"] in ("lower", "upper")]
 
 
-def _stale(study: Study) -> list:
-    found = stale_outputs(study.results / "tables") + stale_inputs(study.results / "tables")
-    for folder in sorted(study.results.glob("s[0-9]_*")):
-        if folder.is_dir() and not folder.name.endswith(".unconverged"):
-            found += stale_outputs(folder)
-    return [f"{path}: {problem}" for path, problem in found]
-
-
 def verify_own(study: Study) -> list:
     """What is wrong with the files, a line each; there are no printed tables to compare with."""
-    return _stale(study)
+    found = stale_outputs(study.results / "tables") + stale_inputs(study.results / "tables") + changed_steps(study)
+    return [f"{path}: {problem}" for path, problem in found]

@@ -7,6 +7,7 @@ from .study import Study
 from .tables import TABLES, table_name
 from .tables.writer import full_table
 from .tolerances import Tolerances
+from .unchanged import changed_steps
 
 
 def find_stale(study: Study, tolerances: Tolerances) -> list:
@@ -14,10 +15,7 @@ def find_stale(study: Study, tolerances: Tolerances) -> list:
     tables = study.results / "tables"
     found = [(path, problem + _edited(study, path, tolerances)) for path, problem in stale_outputs(tables)]
     found += stale_inputs(tables)
-    for folder in sorted(study.results.glob("s[0-9]_*")):
-        if folder.is_dir() and not folder.name.endswith(".unconverged"):
-            found += stale_outputs(folder)
-    return found
+    return found + changed_steps(study)
 
 
 def _edited(study: Study, path, tolerances: Tolerances) -> str:

@@ -223,7 +223,27 @@ class PaperCheck(unittest.TestCase):
         (self.results / "s6_updating/comparison.csv").unlink()
         code, _, err = self.run_command("tables")
         self.assertEqual(code, 2)
+        self.assertRegex(err, r"s6_updating/comparison\.csv: missing, but its manifest names it; .* run `make s6 STUDY=made_up`\n\Z")
+        (self.results / "s6_updating/manifest.json").unlink()
+        made_up_study.write_manifest(self.results / "s6_updating")
+        code, _, err = self.run_command("tables")
+        self.assertEqual(code, 2)
         self.assertRegex(err, r"s6_updating/comparison\.csv: missing; run `make s6 STUDY=made_up` first\n\Z")
+
+    def test_changed_files_are_refused_before_anything_is_made_of_them(self):
+        """As verify does: a step's table, then one of tables/, each changed in one digit; put back, all is well."""
+        for name, command in (("s4_refinement/comparison.csv", "tables"), ("s4_refinement/comparison.csv", "figures"),
+                              ("s1_model/modes.csv", "report"), ("tables/table_04.csv", "report"), ("tables/table_04.csv", "unchanged")):
+            path = self.results / name
+            before = path.read_text(encoding="utf-8")
+            path.write_text(before.replace("1", "2", 1), encoding="utf-8")
+            code, _, err = self.run_command(command)
+            self.assertEqual(code, 2, f"{command} with {name} changed")
+            self.assertRegex(err, rf"\Atwindeck_report {command}: .*{re.escape(name)}: stale hash: .* run `make .*`\n\Z")
+            path.write_text(before, encoding="utf-8")
+        self.assertEqual(self.run_command("unchanged"), (0, "", ""))
+        (self.results / "s1_model.partial-17").mkdir()  # what a step is writing is no result yet
+        self.assertEqual(self.run_command("unchanged"), (0, "", ""))
 
     def test_broken_order_fails(self):
         """Mean error of Table 9 above Table 7's: every updated mode may be 2 points worse than the paper's, the order may not."""

@@ -80,6 +80,31 @@ class WhatIsCompiled(unittest.TestCase):
     def test_a_step_and_those_before_it(self):
         self.assertEqual(self.compiled("s2", "s6"), {"s1_model", "s2_sensors", "s4_refinement", "s5_sensitivity", "s6_updating"})
 
+    def test_a_dry_run_writes_nothing(self):
+        """Not even which measured modes were asked for; what it prints is what a run would do."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        measured, results = folder / "measured", folder / "results"
+        measured.mkdir()
+        (measured / "modes.csv").write_text("mode,frequency_Hz,frequency_std_Hz\n1,1.0,0.01\n")
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+
+        def make(*arguments):
+            return subprocess.run(["make", "--no-print-directory", "NO_BUILD=1", f"BIN={BIN}", f"RESULTS={results}", *arguments], cwd=ROOT,
+                                  capture_output=True, text=True, env=environment).stdout
+
+        self.assertIn(f"--modes {measured}", make("-n", "s4", f"MODES={measured}"))
+        self.assertFalse(results.exists())
+        make(f"{results}/.measured", f"MODES={measured}")
+        stamp = results / ".measured"
+        self.assertEqual(stamp.read_text(), f"measured: --modes {measured}\n")
+        before = stamp.stat().st_mtime_ns
+        make(f"{results}/.measured", f"MODES={measured}")
+        self.assertEqual(stamp.stat().st_mtime_ns, before, "written again though nothing changed")
+        self.assertIn("measured:", make("-n", f"{results}/.measured"))
+        self.assertEqual(stamp.stat().st_mtime_ns, before)
+        make(f"{results}/.measured")
+        self.assertEqual(stamp.read_text().strip(), "measured:")
+
     def test_everything_when_something_else_is_asked_for_too(self):
         for goals in (["build"], ["s1", "tables"], ["all"]):
             self.assertEqual(self.compiled(*goals), {"executables"}, goals)

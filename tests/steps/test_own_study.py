@@ -98,9 +98,13 @@ class OwnStudy(unittest.TestCase):
         before = file.read_text()
         file.write_text(before.replace("m_floor", "m_flour"))
         done = self.make("verify", "STUDY=mine")
+        page = self.make("report", "STUDY=mine")
         file.write_text(before)
         self.assertEqual(done.returncode, 2)
         self.assertIn("parameters.csv: stale hash", done.stderr)
+        self.assertEqual(page.returncode, 2)
+        self.assertIn("parameters.csv: stale hash", page.stderr)
+        self.assertEqual(self.make("report", "STUDY=mine").returncode, 0)
         self.assertEqual(self.make("verify", "STUDY=mine").returncode, 0)
 
     def test_the_same_frame_as_an_inp_file_gives_the_same_parameters(self):
