@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <exception>
 #include <numbers>
 #include <utility>
+
+#include "core/parallel.hpp"
 
 namespace twindeck::buffeting {
 
@@ -42,31 +43,25 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
   const bool is_frozen = options.frozen_omega > 0.0;
   const aero::AeroelasticSystem::Block frozen =
       is_frozen ? system.self_excited(speed_m_s, options.frozen_omega) : aero::AeroelasticSystem::Block();
-  std::exception_ptr failure;  // a table that does not reach so far
-#pragma omp parallel for schedule(dynamic)
-  for (Index k = 0; k < f_Hz.size(); ++k) try {
-      const double omega = 2.0 * std::numbers::pi * f_Hz[k];
-      // Few sensors and many loads: solved for the sensors, with the transpose.
-      const MatrixXcd z =
-          impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
-              .transpose();
-      const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
-      const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
-      const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
-      for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
-        // The drift is a phase of each point and the coherence real: real and imaginary parts go through it by themselves.
-        const Eigen::VectorXcd point = wind::spectra(*field, f_Hz[k]).cwiseSqrt().cwiseProduct(wind::drift(*field, f_Hz[k]));
-        const MatrixXcd part = transfer.middleCols(first, strips) * point.asDiagonal();
-        MatrixXd split(2 * sensors.rows(), strips);
-        split << part.real(), part.imag();
-        const VectorXd square = (split * wind::coherence(*field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
-        spectra.row(k) += chi * (square.head(sensors.rows()) + square.tail(sensors.rows())).transpose();
-      }
-    } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
+  parallel_for(f_Hz.size(), [&](Index k) {
+    const double omega = 2.0 * std::numbers::pi * f_Hz[k];
+    // Few sensors and many loads: solved for the sensors, with the transpose.
+    const MatrixXcd z =
+        impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
+            .transpose();
+    const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
+    const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
+    const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
+    for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
+      // The drift is a phase of each point and the coherence real: real and imaginary parts go through it by themselves.
+      const Eigen::VectorXcd point = wind::spectra(*field, f_Hz[k]).cwiseSqrt().cwiseProduct(wind::drift(*field, f_Hz[k]));
+      const MatrixXcd part = transfer.middleCols(first, strips) * point.asDiagonal();
+      MatrixXd split(2 * sensors.rows(), strips);
+      split << part.real(), part.imag();
+      const VectorXd square = (split * wind::coherence(*field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
+      spectra.row(k) += chi * (square.head(sensors.rows()) + square.tail(sensors.rows())).transpose();
     }
-  if (failure) std::rethrow_exception(failure);
+  });
   return spectra;
 }
 

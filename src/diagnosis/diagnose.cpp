@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -153,12 +154,12 @@ void check_backwards(const Inference& inference, Fit& current, std::vector<Effec
   std::size_t held = 0;  // up to here no cause can go
   while (held + 1 < effects.size()) {
     std::vector<Fit> without(effects.size() - 1);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t i = held; i < without.size(); ++i) {
+    parallel_for(without.size() - held, [&](std::size_t after_held) {
+      const std::size_t i = held + after_held;
       std::vector<Cause> rest = current.causes;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
       without[i] = inference.fit(rest, current.map.x.head(static_cast<Index>(inference.map().nuisances().size())));
-    }
+    });
     const auto dispensable = [&](std::size_t i) {
       const double cost = 0.5 * (without[i].chi_squared - current.chi_squared) + effects[i].cause.candidate->log_prior;
       return cost < std::max(options.threshold, options.least_log_odds) - 1.0;
@@ -177,8 +178,7 @@ Fit lowest_from(const Inference& inference, const Fit& current, const std::vecto
   for (const Scored& scored : ranking)
     if (scored.x.size() > 0 && starts.size() < 3) starts.push_back(&scored.x);
   std::vector<Fit> again(starts.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < starts.size(); ++i) again[i] = inference.fit(current.causes, *starts[i]);
+  parallel_for(starts.size(), [&](std::size_t i) { again[i] = inference.fit(current.causes, *starts[i]); });
   Fit lowest = current;
   for (Fit& fit : again)
     if (fit.chi_squared < lowest.chi_squared) lowest = std::move(fit);
@@ -198,8 +198,7 @@ Fit extended_by_first(const Inference& inference, const Fit& current, std::vecto
     std::vector<VectorXd> starts{current.map.x.head(n)};
     if (first.x.size() > 0) starts.push_back(first.x);
     std::vector<Fit> extended(starts.size());
-#pragma omp parallel for schedule(static, 1)
-    for (std::size_t i = 0; i < starts.size(); ++i) extended[i] = inference.fit(causes, starts[i]);
+    parallel_for(starts.size(), [&](std::size_t i) { extended[i] = inference.fit(causes, starts[i]); });
     // By what the fits minimise: the whitened misfit looks past the bounds that hold a fit back.
     Fit& lowest = extended.back().map.chi_squared <= extended.front().map.chi_squared ? extended.back() : extended.front();
     if (lowest.chi_squared < current.chi_squared) return std::move(lowest);

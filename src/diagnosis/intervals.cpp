@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "diagnosis/diagnose.hpp"
 
 namespace twindeck::diagnosis {
@@ -38,8 +39,7 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
     const double from = std::max(low, centre - reach), to = std::min(high, centre + reach);
     constexpr int points = 25;
     std::vector<double> at_a(points), log_likelihood(points, -1e300);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int p = 0; p < points; ++p) {
+    parallel_for(points, [&](int p) {
       const double value = from + (to - from) * p / (points - 1);
       std::vector<Cause> causes = fit.causes;
       // The other unknowns of this cause follow along the ridge.
@@ -52,7 +52,7 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
       causes[which].a[i] = value;
       const Prediction moved = inference.map().predict(fit.base, causes, false);
       at_a[static_cast<std::size_t>(p)] = value;
-      if (!moved.valid) continue;
+      if (!moved.valid) return;
       // x follows too: what it can take up is in Sigma_tot, from which the cause's own part is removed (Woodbury).
       VectorXd change(static_cast<Index>(inference.training().size()));
       for (std::size_t r = 0; r < inference.training().size(); ++r)
@@ -64,7 +64,7 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
       const double distance = c.squaredNorm() + projected.dot(capacity.ldlt().solve(projected));
       // About the optimum the residual is orthogonal to what the cause can do.
       log_likelihood[static_cast<std::size_t>(p)] = -0.5 * distance / misfit;
-    }
+    });
     const double top = *std::max_element(log_likelihood.begin(), log_likelihood.end());
     std::vector<double> cumulative(points, 0.0);
     for (int p = 1; p < points; ++p) {

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <random>
 
+#include "core/parallel.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "linalg/dense_instances.hpp"
 
@@ -40,8 +42,8 @@ NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, cons
   result.log_odds.assign(static_cast<std::size_t>(count), 0.0);
   result.chi_squared.assign(static_cast<std::size_t>(count), 0.0);
   int done = 0;
-#pragma omp parallel for schedule(dynamic)
-  for (int i = 0; i < count; ++i) {
+  std::mutex counting;
+  parallel_for(count, [&](int i) {
     Normal normal(seed * 1000003u +
                   static_cast<std::uint64_t>(i));  // each its own stream: the number of threads changes nothing
     Eigen::VectorXd x(static_cast<Eigen::Index>(original.nuisances().size()));
@@ -65,9 +67,9 @@ NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, cons
       result.log_odds[static_cast<std::size_t>(i)] =
           ranking.empty() ? -20.0 : tempered_log_odds(ranking.front(), inference.dof());
     }
-#pragma omp critical
+    const std::scoped_lock lock(counting);
     if (progress) progress(++done);
-  }
+  });
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/free_structure.hpp"
 #include "linalg/cholesky.hpp"
@@ -163,11 +164,10 @@ MatrixXd corrections(const Basis& basis, const linalg::Cholesky& factor, const f
     }
   const double least = 1e-6 * squares[squares.size() - 1];  // modes of a free structure have none
   std::vector<Basis::Held> found(changes.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < changes.size(); ++i) {
+  parallel_for(changes.size(), [&](std::size_t i) {
     const MatrixXd load = changes[i]() * squares.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal();
     found[i] = basis.strongest({factor.solve(load), load}, 6);
-  }
+  });
   Index columns = 0;
   for (const Basis::Held& block : found) columns += block.vectors.cols();
   Basis::Held all{MatrixXd(low.rows(), columns), MatrixXd(low.rows(), columns)};
@@ -238,8 +238,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
         count.push_back(served ? 0 : options.vectors_per_place);
       }
     std::vector<MatrixXd> vectors(all.size());
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t i = 0; i < all.size(); ++i) vectors[i] = own_vectors(basis, factor, *all[i], low, count[i]);
+    parallel_for(all.size(), [&](std::size_t i) { vectors[i] = own_vectors(basis, factor, *all[i], low, count[i]); });
     Index size = common;
     for (const MatrixXd& block : vectors) size += block.cols();
     v.resize(n, size);
@@ -292,8 +291,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     }
   }
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.size > b.size; });
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < jobs.size(); ++i) jobs[i].run();
+  parallel_for(jobs.size(), [&](std::size_t i) { jobs[i].run(); });
   sensors = structure.sensors(v);
   // modes = V q with q from the K inner product (V is K-orthonormal), or the modes themselves.
   mode_coordinates = whole ? modes.shapes : MatrixXd(v.transpose() * (stiffness_now * modes.shapes));

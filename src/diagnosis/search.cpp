@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "core/parallel.hpp"
 #include "diagnosis/inference.hpp"
 #include "linalg/dense.hpp"
 
@@ -31,13 +32,12 @@ std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& can
 
 ScreenTable Inference::screen_table(const Fit& base) const {
   std::vector<std::vector<VectorXd>> changes(candidates_.size());
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+  parallel_for(candidates_.size(), [&](std::size_t i) {
     const Candidate& candidate = *candidates_[i];
     // Where a stay's own frequency was measured, its starts are those of one data set: they are always computed anew.
-    if (candidate.tuned >= 0 && (candidate.high - candidate.low)[candidate.tuned] < 0.25) continue;
+    if (candidate.tuned >= 0 && (candidate.high - candidate.low)[candidate.tuned] < 0.25) return;
     for (const VectorXd& a : starts_at(base, candidate)) changes[i].push_back(change(base, candidate, a));
-  }
+  });
   ScreenTable table;
   for (std::size_t i = 0; i < candidates_.size(); ++i)
     if (!changes[i].empty()) table.change[candidates_[i]->id()] = std::move(changes[i]);
@@ -105,8 +105,7 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
     return everything;
   }
   std::vector<std::pair<double, Promise>> ranked(all.size());
-#pragma omp parallel for schedule(dynamic, 8)
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  parallel_for(all.size(), [&](std::size_t i) {
     const Candidate* candidate = all[i];
     Promise promise{candidate, {}};
     const auto known = known_changes->change.find(candidate->id());
@@ -115,10 +114,11 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
       std::vector<std::pair<double, std::size_t>> by_start;
       t = screen(base, promise, &known->second, &by_start, nullptr).screen;
       if (candidate->tuned >= 0)
-        for (std::size_t k = 0; k < std::min<std::size_t>(2, by_start.size()); ++k) promise.starts.push_back(by_start[k].second);
+        for (std::size_t k = 0; k < std::min<std::size_t>(2, by_start.size()); ++k)
+          promise.starts.push_back(by_start[k].second);
     }
     ranked[i] = {0.5 * t + candidate->log_prior, std::move(promise)};
-  }
+  });
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::map<std::string, int> of_family, starts;
   for (const Candidate* candidate : all) starts[candidate->hypothesis->id] += static_cast<int>(candidate->starts.size());
@@ -161,14 +161,13 @@ void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchO
   std::stable_sort(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return a.promise > b.promise; });
   if (static_cast<int>(probes.size()) > options.probes) probes.resize(static_cast<std::size_t>(options.probes));
   std::vector<Scored> looked(probes.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t k = 0; k < probes.size(); ++k) {
+  parallel_for(probes.size(), [&](std::size_t k) {
     looked[k] = found[probes[k].at];
     looked[k].a = probes[k].a;
     looked[k].log_odds = -1e300;
     // From the prior's mean: the base's x has taken up what the cause should, and may have paired modes by it.
     refine(base, looked[k], {}, options.probe_iterations);
-  }
+  });
   for (std::size_t k = 0; k < probes.size(); ++k) {
     if (looked[k].log_odds > found[probes[k].at].log_odds) found[probes[k].at] = looked[k];
     best = std::max(best, found[probes[k].at].log_odds);
@@ -190,8 +189,7 @@ void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchO
     again.push_back({probes[k].at, looked[k], {}});
     again.back().scored.a = looked[k].other_starts.front();
   }
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < again.size(); ++i) refine(base, again[i].scored, again[i].x, 3 * options.probe_iterations);
+  parallel_for(again.size(), [&](std::size_t i) { refine(base, again[i].scored, again[i].x, 3 * options.probe_iterations); });
   for (const Again& a : again)
     if (a.scored.log_odds > found[a.at].log_odds) found[a.at] = a.scored;
 }
@@ -204,9 +202,8 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   std::vector<Scored> all(chosen.size());
   std::vector<std::vector<VectorXd>> changes(chosen.size());
   const bool records = record != nullptr && table == nullptr;
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t i = 0; i < chosen.size(); ++i)
-    all[i] = screen(base, chosen[i], nullptr, nullptr, records ? &changes[i] : nullptr);
+  parallel_for(chosen.size(),
+               [&](std::size_t i) { all[i] = screen(base, chosen[i], nullptr, nullptr, records ? &changes[i] : nullptr); });
   if (records)
     for (std::size_t i = 0; i < chosen.size(); ++i) record->change[chosen[i].candidate->id()] = std::move(changes[i]);
   std::vector<Scored> found;
@@ -229,18 +226,16 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
       families.insert(scored.candidate->hypothesis->id);
     }
   }
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < list.size(); ++i) fit_linearised(base, *list[i]);
+  parallel_for(list.size(), [&](std::size_t i) { fit_linearised(base, *list[i]); });
   probe(base, found, options);
   const auto by_odds = [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; };
   std::stable_sort(found.begin(), found.end(), by_odds);
   if (!found.empty() && found.front().log_odds > -2.0) {
     const auto refine_all = [&](const std::vector<Scored*>& these) {
-#pragma omp parallel for schedule(dynamic, 1)
-      for (std::size_t i = 0; i < these.size(); ++i) {
+      parallel_for(these.size(), [&](std::size_t i) {
         if (these[i]->stage == 1) fit_linearised(base, *these[i]);
         refine(base, *these[i], these[i]->x.size() > 0 ? Eigen::VectorXd(these[i]->x) : base.map.x);
-      }
+      });
     };
     // Odds on the linearised base are a promise: who leads must have been refitted, or the next one does.
     for (int round = 0; round < options.most_rounds && (round == 0 || found.front().stage == 2); ++round) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/modal_forces.hpp"
 #include "linalg/dense.hpp"
@@ -136,8 +137,7 @@ std::vector<MatrixXd> channel_shape_derivatives(const fe::ParametricSystem& syst
   const MatrixXd measured = product(channels, modes.shapes, true);
   const auto count = static_cast<int>(system.parameters.size());
   std::vector<MatrixXd> all(static_cast<std::size_t>(count));
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int p = 0; p < count; ++p) {
+  parallel_for(count, [&](int p) {
     const ModalForces forces = modal_forces(system, theta, modes, p, cluster_gap);
     const std::vector<Index> rows = rows_in_use(forces.force);
     MatrixXd derivative, share;
@@ -153,7 +153,7 @@ std::vector<MatrixXd> channel_shape_derivatives(const fe::ParametricSystem& syst
     for (Index i = 0; i < derivative.cols(); ++i)
       derivative.col(i) += adjoint.z[static_cast<std::size_t>(i)].transpose() * share.col(i);
     all[static_cast<std::size_t>(p)] = std::move(derivative);
-  }
+  });
   return all;
 }
 

@@ -2,6 +2,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
 #include "linalg/dense_instances.hpp"
 
@@ -51,12 +52,9 @@ VectorXd quadratic_forms(const linalg::SparseMatrix& pattern, const fe::Term& te
 void add_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const std::vector<int>& column,
                const VectorXd& theta, const MatrixXd& shapes_by_dof, const VectorXd& sign, MatrixXd& sum) {
   std::vector<VectorXd> forms(terms.size());
-  const auto count = static_cast<int>(terms.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int t = 0; t < count; ++t) {
-    const auto at = static_cast<std::size_t>(t);
-    if (!terms[at].coefficient.factors.empty()) forms[at] = quadratic_forms(system.pattern, terms[at], column, shapes_by_dof);
-  }
+  parallel_for(terms.size(), [&](std::size_t t) {
+    if (!terms[t].coefficient.factors.empty()) forms[t] = quadratic_forms(system.pattern, terms[t], column, shapes_by_dof);
+  });
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (forms[t].size() == 0) continue;
     for (Index p = 0; p < sum.cols(); ++p) {

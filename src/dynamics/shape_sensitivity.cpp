@@ -1,6 +1,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/modal_forces.hpp"
@@ -147,10 +148,8 @@ MatrixXd ShapeSensitivity::derivative(int parameter) const {
 }
 
 std::vector<MatrixXd> ShapeSensitivity::derivatives() const {
-  const auto count = static_cast<int>(system_.parameters.size());
-  std::vector<MatrixXd> all(static_cast<std::size_t>(count));
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int p = 0; p < count; ++p) all[static_cast<std::size_t>(p)] = derivative(p);
+  std::vector<MatrixXd> all(system_.parameters.size());
+  parallel_for(all.size(), [&](std::size_t p) { all[p] = derivative(static_cast<int>(p)); });
   return all;
 }
 

@@ -1,8 +1,8 @@
 #include "fe/assembly_terms.hpp"
 
 #include <algorithm>
-#include <exception>
 
+#include "core/parallel.hpp"
 #include "fe/assembly_pattern.hpp"
 
 namespace twindeck::fe {
@@ -56,27 +56,14 @@ void TermGroups::add_element(const Model& model, int i, const std::string& label
 std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans, const linalg::SparseMatrix& pattern,
                                  const DofMap& map) {
   std::vector<Term> terms(plans.size());
-  const auto n_plans = static_cast<int>(plans.size());
-  std::exception_ptr failure;
-#pragma omp parallel if (n_plans > 1)
-  {
-    Scatter scatter(pattern, map);  // one a thread
-#pragma omp for schedule(dynamic, 1)
-    for (int i = 0; i < n_plans; ++i) {
-      const TermPlan& plan = plans[static_cast<std::size_t>(i)];
-      Term& term = terms[static_cast<std::size_t>(i)];
-      try {
-        term.label = plan.label;
-        term.coefficient = plan.coefficient;
-        for (const int part : plan.parts) scatter.add(plan.matrix(model, part));
-        scatter.take(term);
-      } catch (...) {  // must not leave the parallel region
-#pragma omp critical(twindeck_assemble_terms)
-        if (!failure) failure = std::current_exception();
-      }
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  const auto scatter_of_thread = [&] { return Scatter(pattern, map); };
+  parallel_for_with(plans.size(), scatter_of_thread, [&](Scatter& scatter, std::size_t i) {
+    const TermPlan& plan = plans[i];
+    terms[i].label = plan.label;
+    terms[i].coefficient = plan.coefficient;
+    for (const int part : plan.parts) scatter.add(plan.matrix(model, part));
+    scatter.take(terms[i]);
+  });
   std::erase_if(terms, [](const Term& term) { return term.position.empty(); });
   return terms;
 }

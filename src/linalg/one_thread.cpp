@@ -1,7 +1,6 @@
 #include "linalg/one_thread.hpp"
 
 #include <dlfcn.h>
-#include <omp.h>
 
 #include <Eigen/Core>
 
@@ -15,7 +14,22 @@ void use_one_thread() {
   Eigen::setNbThreads(1);
 }
 
-SerialScope::SerialScope() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-SerialScope::~SerialScope() { omp_set_max_active_levels(levels_); }
+namespace {
+
+// Looked up at run time, too: CHOLMOD brings the OpenMP runtime that it was built with, and our own loops may use none.
+int max_active_levels() {
+  static const auto get = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
+  return get != nullptr ? get() : 1;
+}
+
+void set_max_active_levels(int levels) {
+  static const auto set = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+  if (set != nullptr) set(levels);
+}
+
+}  // namespace
+
+SerialScope::SerialScope() : levels_(max_active_levels()) { set_max_active_levels(0); }
+SerialScope::~SerialScope() { set_max_active_levels(levels_); }
 
 }  // namespace twindeck::linalg

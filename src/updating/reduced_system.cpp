@@ -1,9 +1,9 @@
 #include "updating/reduced_system.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/dense_instances.hpp"
 #include "linalg/symmetric_product.hpp"
@@ -53,23 +53,13 @@ std::vector<Shared> project_all(const fe::ParametricSystem& system, const std::v
   for (int j = 0; j < system.pattern.outerSize(); ++j)
     std::fill(column.begin() + system.pattern.outerIndexPtr()[j], column.begin() + system.pattern.outerIndexPtr()[j + 1], j);
   std::vector<Shared> out(terms.size());
-  const auto count = static_cast<int>(terms.size());
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    try {
-      if (known_terms != nullptr && at < known_terms->size() && same_term(terms[at], (*known_terms)[at])) {
-        out[at] = (*known)[at];
-      } else {
-        out[at] = std::make_shared<const MatrixXd>(project(system.pattern, column, terms[at], basis));
-      }
-    } catch (...) {  // must not leave the parallel region
-#pragma omp critical(twindeck_project)
-      failure = std::current_exception();
+  parallel_for(terms.size(), [&](std::size_t at) {
+    if (known_terms != nullptr && at < known_terms->size() && same_term(terms[at], (*known_terms)[at])) {
+      out[at] = (*known)[at];
+    } else {
+      out[at] = std::make_shared<const MatrixXd>(project(system.pattern, column, terms[at], basis));
     }
-  }
-  if (failure) std::rethrow_exception(failure);
+  });
   return out;
 }
 

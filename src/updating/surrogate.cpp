@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <numbers>
 
+#include "core/parallel.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dense_instances.hpp"
 
@@ -47,20 +47,12 @@ std::shared_ptr<const MatrixXd> modal_basis(const std::shared_ptr<const fe::Para
   const auto n_points = static_cast<int>(points.cols());
   std::vector<dynamics::EigenModes> modes(static_cast<std::size_t>(n_points));
   MatrixXd answers;
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int k = 0; k < n_points; ++k) {
-    try {
-      dynamics::ModalSolver solver(*system);
-      const VectorXd theta = definition.theta(points.col(k));
-      modes[static_cast<std::size_t>(k)] = solver.solve(theta, definition.n_modes);
-      if (k == 0) answers = static_answers(*system, definition, theta, modes.front());
-    } catch (...) {  // must not leave the parallel region
-#pragma omp critical(twindeck_modal_basis)
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  parallel_for(n_points, [&](int k) {
+    dynamics::ModalSolver solver(*system);
+    const VectorXd theta = definition.theta(points.col(k));
+    modes[static_cast<std::size_t>(k)] = solver.solve(theta, definition.n_modes);
+    if (k == 0) answers = static_answers(*system, definition, theta, modes.front());
+  });
   if (!modes.front().status.converged) return nullptr;
   MatrixXd vectors = answers;
   for (const dynamics::EigenModes& one : modes) {

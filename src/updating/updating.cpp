@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <memory>
+#include <mutex>
 
+#include "core/parallel.hpp"
 #include "updating/multi_start.hpp"
 #include "updating/optimality.hpp"
 #include "updating/residuals.hpp"
@@ -80,23 +81,13 @@ std::vector<SearchEnd> run_starts(const Search& search, const Eigen::MatrixXd& p
                                   const std::function<void(int, int)>& progress) {
   const auto starts = static_cast<int>(points.cols());
   std::vector<SearchEnd> ends(static_cast<std::size_t>(starts));
-  std::exception_ptr failure;
+  std::mutex counting;
   int done = 0;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int k = 0; k < starts; ++k) {
-    try {
-      SearchEnd end = run_start(search, points.col(k), k);
-#pragma omp critical(twindeck_updating_start)
-      {
-        ends[static_cast<std::size_t>(k)] = std::move(end);
-        if (progress) progress(++done, starts);
-      }
-    } catch (...) {  // must not leave the parallel region
-#pragma omp critical(twindeck_updating_start)
-      if (!failure) failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  parallel_for(starts, [&](int k) {
+    ends[static_cast<std::size_t>(k)] = run_start(search, points.col(k), k);
+    const std::scoped_lock lock(counting);
+    if (progress) progress(++done, starts);
+  });
   return ends;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "signal/fft.hpp"
 #include "wind/unit_wave.hpp"
@@ -107,55 +108,54 @@ void Simulator::put_waves(std::uint64_t seed, MatrixXd& velocity) const {
     Drift& own = lane_drift[static_cast<std::size_t>(j)];
     drifts(VectorXd::LinSpaced(kLanes, 0.0, (kLanes - 1) * turns[j]).eval().data(), own.real, own.imaginary);
   }
-#pragma omp parallel
-  {
-    std::vector<double> wave(static_cast<std::size_t>(2 * kLanes * n));
+  struct Room {
+    std::vector<double> wave;
     Drift first;
-#pragma omp for schedule(dynamic, 8)
-    for (std::size_t k = 0; k < stretch_.size(); ++k) {
-      const Stretch& at = stretch_[k];
-      for (Index m = 0; m < n; ++m) {
-        double* own = wave.data() + 2 * kLanes * m;
-        waves(seed, m, at.first, own, own + kLanes);
-      }
-      std::optional<FactorPair> made;  // a factor at every frequency: twice the memory for pairs would be no good
-      if (pair_.empty()) made.emplace(factor_[at.pair], factor_[at.pair + 1]);
-      const FactorPair& factor = made ? *made : pair_[at.pair];
-      WaveLanes lanes{};
-      for (Index i = 0; i < at.count; ++i) lanes.share[i] = share_[at.first - 1 + i];
-      for (Index j = 0; j < n; ++j) {
-        if (j == 0 || kind_[static_cast<std::size_t>(j)] != kind_[static_cast<std::size_t>(j - 1)]) {
-          const double* amplitude = &amplitude_(at.first - 1, kind_[static_cast<std::size_t>(j)]);
-          for (Index i = 0; i < at.count; ++i) lanes.amplitude[i] = 0.5 * amplitude[i];
-        }
-        const auto lane = static_cast<std::size_t>(j % kLanes);
-        if (lane == 0) {
-          double turn[kLanes] = {};
-          for (Index i = j; i < std::min<Index>(n, j + kLanes); ++i) turn[i - j] = turns[i] * static_cast<double>(at.first);
-          drifts(turn, first.real, first.imaginary);
-        }
-        double sums[2 * kLanes];
-        wave_sums(factor, j, wave.data(), lanes, {first.real[lane], first.imaginary[lane]},
-                  lane_drift[static_cast<std::size_t>(j)], sums);
-        std::copy(sums, sums + 2 * at.count, &velocity(2 * (at.first - 1), j));
-      }
+  };
+  const auto room = [n] { return Room{std::vector<double>(static_cast<std::size_t>(2 * kLanes * n)), {}}; };
+  constexpr std::ptrdiff_t kStretches = 8;  // at a time: neighbours write side by side
+  const auto put_stretch = [&](Room& own_room, std::size_t k) {
+    auto& [wave, first] = own_room;
+    const Stretch& at = stretch_[k];
+    for (Index m = 0; m < n; ++m) {
+      double* own = wave.data() + 2 * kLanes * m;
+      waves(seed, m, at.first, own, own + kLanes);
     }
-  }
+    std::optional<FactorPair> made;  // a factor at every frequency: twice the memory for pairs would be no good
+    if (pair_.empty()) made.emplace(factor_[at.pair], factor_[at.pair + 1]);
+    const FactorPair& factor = made ? *made : pair_[at.pair];
+    WaveLanes lanes{};
+    for (Index i = 0; i < at.count; ++i) lanes.share[i] = share_[at.first - 1 + i];
+    for (Index j = 0; j < n; ++j) {
+      if (j == 0 || kind_[static_cast<std::size_t>(j)] != kind_[static_cast<std::size_t>(j - 1)]) {
+        const double* amplitude = &amplitude_(at.first - 1, kind_[static_cast<std::size_t>(j)]);
+        for (Index i = 0; i < at.count; ++i) lanes.amplitude[i] = 0.5 * amplitude[i];
+      }
+      const auto lane = static_cast<std::size_t>(j % kLanes);
+      if (lane == 0) {
+        double turn[kLanes] = {};
+        for (Index i = j; i < std::min<Index>(n, j + kLanes); ++i) turn[i - j] = turns[i] * static_cast<double>(at.first);
+        drifts(turn, first.real, first.imaginary);
+      }
+      double sums[2 * kLanes];
+      wave_sums(factor, j, wave.data(), lanes, {first.real[lane], first.imaginary[lane]},
+                lane_drift[static_cast<std::size_t>(j)], sums);
+      std::copy(sums, sums + 2 * at.count, &velocity(2 * (at.first - 1), j));
+    }
+  };
+  parallel_for_with(stretch_.size(), room, put_stretch, kStretches);
 }
 
 MatrixXd Simulator::sample(std::uint64_t seed) const {
   if (options_.indexing == Indexing::double_index) return sample_double_index(seed);
   MatrixXd velocity(n_samples_, field_.size());
   put_waves(seed, velocity);
-#pragma omp parallel
-  {
-    signal::RealFft fft(n_samples_);
-#pragma omp for schedule(static)
-    for (Index j = 0; j < field_.size(); ++j) {
-      double* own = velocity.col(j).data();
-      fft.sum_of_waves(reinterpret_cast<const std::complex<double>*>(own), 1, n_waves_, own);
-    }
-  }
+  parallel_for_with(
+      field_.size(), [this] { return signal::RealFft(n_samples_); },
+      [&](signal::RealFft& fft, Index j) {
+        double* own = velocity.col(j).data();
+        fft.sum_of_waves(reinterpret_cast<const std::complex<double>*>(own), 1, n_waves_, own);
+      });
   return velocity;
 }
 

@@ -87,6 +87,12 @@ class Layers(unittest.TestCase):
         files = [f.name for f in (ROOT / "src").rglob("*.[hc]pp") if re.search(r"#\s*include\s*<ceres", f.read_text())]
         self.assertEqual(len(files), 1, files)
 
+    def test_parallel_regions_stay_in_one_file(self):
+        """An exception that leaves a parallel region ends the program; core/parallel.cpp carries it out."""
+        files = [str(f.relative_to(ROOT)) for f in (ROOT / "src").rglob("*.[hc]pp")
+                 if re.search(r"#\s*pragma\s+omp\b|#\s*include\s*<omp\.h>|\bstd::j?thread\s+\w|std::async\b", f.read_text())]
+        self.assertEqual(sorted(files), ["src/core/parallel.cpp", "src/steps/shared/run_step_signals.cpp"])  # one waits for signals
+
     def test_libraries_neither_print_nor_exit(self):
         bad = []
         for file in (ROOT / "src").rglob("*.[hc]pp"):

@@ -5,7 +5,6 @@
 ///     bench_modes bridge [FILE]     the study's bridge: assembly, a solve after a change of parameters, derivatives
 ///     bench_modes machine           the machine's bandwidth and arithmetic on one thread, for the bound
 #include <cholmod.h>
-#include <omp.h>
 #include <sys/resource.h>
 
 #include <Eigen/Dense>
@@ -16,6 +15,7 @@
 #include <functional>
 #include <string>
 
+#include "core/parallel.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
@@ -162,7 +162,7 @@ int bridge(const std::string& file) {
     if (std::ssize(all) != theta.size()) std::printf("shape_jacobian_is_missing 1\n");
   };
   std::printf("shape_jacobian_s %.6f\n", seconds(shape_jacobian));
-  omp_set_num_threads(2);
+  set_thread_count(2);
   const auto begin = std::chrono::steady_clock::now();
   shape_jacobian();
   std::printf("shape_jacobian_two_threads_s %.6f\n",

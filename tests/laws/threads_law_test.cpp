@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
@@ -18,7 +18,7 @@ struct Result {
 };
 
 Result with_threads(int threads) {
-  omp_set_num_threads(threads);
+  twindeck::set_thread_count(threads);
   const auto model =
       twindeck::ponte::generate_compatible(TWINDECK_SOURCE_DIR "/data/ponte_del_mare/prototype.toml", "preliminary");
   const Eigen::VectorXd theta = twindeck::fe::initial_parameters(model);
@@ -36,9 +36,9 @@ Result with_threads(int threads) {
 // Law: the number of threads changes the time, not one bit of the result; prestress, assembly, modes and derivatives of the
 // bridge.
 TEST(ThreadsLaw, ResultsHaveTheSameBits) {
-  const int before = omp_get_max_threads();
+  const int before = twindeck::thread_count();
   const Result one = with_threads(1), three = with_threads(3);
-  omp_set_num_threads(before);
+  twindeck::set_thread_count(before);
   ASSERT_TRUE(one.modes.status.converged);
   EXPECT_TRUE(one.pulls == three.pulls);
   EXPECT_TRUE(one.modes.eigenvalue == three.modes.eigenvalue);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 
+#include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
 #include "linalg/symmetric_product.hpp"
@@ -48,7 +48,7 @@ class Fit {
   /// Relative frequency errors, then the weak pull to the start.
   bool residual(const VectorXd& part, VectorXd& r) {
     std::vector<Solved> solved(calibration_.targets.size());
-    for_each(std::ssize(solved), [&](Index t) { solved[static_cast<std::size_t>(t)] = solve(part, t); });
+    parallel_for(std::ssize(solved), [&](Index t) { solved[static_cast<std::size_t>(t)] = solve(part, t); });
     solved_ = std::move(solved);
     r.resize(n_frequencies_ + part.size());
     frequencies.resize(n_frequencies_);
@@ -69,7 +69,7 @@ class Fit {
     MatrixXd j = MatrixXd::Zero(n_frequencies_ + part.size(), part.size());
     j.bottomRows(part.size()).diagonal().setConstant(calibration_.whole_range_costs);
     const Index n_targets = std::ssize(calibration_.targets);
-    for_each(part.size() * n_targets, [&](Index work) {
+    parallel_for(part.size() * n_targets, [&](Index work) {
       const Index v = work / n_targets, t = work % n_targets;
       const CalibrationTarget& target = calibration_.targets[static_cast<std::size_t>(t)];
       if (!acts(calibration_.values[static_cast<std::size_t>(v)], target.variant)) return;
@@ -102,20 +102,6 @@ class Fit {
 
  private:
   static constexpr double kStep = 1e-5;  ///< part of a range
-
-  static void for_each(Index count, const std::function<void(Index)>& work) {
-    std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1)
-    for (Index i = 0; i < count; ++i) {
-      try {
-        work(i);
-      } catch (...) {  // must not leave the parallel region
-#pragma omp critical(twindeck_calibration)
-        failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
-  }
 
   fe::Model model(const VectorXd& part, const std::string& variant) const {
     return ponte::generate_with_values(file_, variant, mesh_, bridge_values(calibration_, part));

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "io/csv.hpp"
 #include "io/npy.hpp"
 #include "sensors/logger.hpp"
@@ -96,23 +96,15 @@ Status run_test_campaign(StepContext& context, const CampaignSettings& settings)
   for (const RecordSettings& record : settings.records) {
     if (record.kind == "wind" && !wind) wind = read_virtual_wind(context, settings);
   }
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < settings.records.size(); ++i) {
-    try {
-      const RecordSettings& record = settings.records[i];
-      const std::vector<LayoutChannel> channels = channels_of(layout, record.setup);
-      Motion motion = record.kind == "wind"
-                          ? simulate_wind(model_of(record.condition), settings, record, *wind, channels, context.seed, i)
-                          : simulate(model_of(record.condition), settings, record, channels, points, context.seed, i);
-      io::write_npy_single(logged_record(motion, settings, context.seed, i), context.out / files[i].file);
-      simulated[i] = {std::move(motion.damper_force_N), std::move(motion.rms_displacement_m)};
-    } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  parallel_for(settings.records.size(), [&](std::size_t i) {
+    const RecordSettings& record = settings.records[i];
+    const std::vector<LayoutChannel> channels = channels_of(layout, record.setup);
+    Motion motion = record.kind == "wind"
+                        ? simulate_wind(model_of(record.condition), settings, record, *wind, channels, context.seed, i)
+                        : simulate(model_of(record.condition), settings, record, channels, points, context.seed, i);
+    io::write_npy_single(logged_record(motion, settings, context.seed, i), context.out / files[i].file);
+    simulated[i] = {std::move(motion.damper_force_N), std::move(motion.rms_displacement_m)};
+  });
 
   // 3. Records of single stays.
   std::vector<StayRecord> stays;

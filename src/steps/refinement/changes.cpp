@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "io/csv.hpp"
 #include "modal/mac.hpp"
 #include "modal/pairing.hpp"
@@ -39,22 +39,6 @@ std::map<std::array<long, 3>, Index> nodes_by_place(const fe::Model& model) {
     at.try_emplace({std::lround(x[0]), std::lround(x[1]), std::lround(x[2])}, static_cast<Index>(i));
   }
   return at;
-}
-
-/// Work that may throw, side by side; the first exception in the order of the items is thrown again.
-void in_parallel(int count, const std::function<void(int)>& work) {
-  std::vector<std::exception_ptr> failed(static_cast<std::size_t>(count));
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i) {
-    try {
-      work(i);
-    } catch (...) {
-      failed[static_cast<std::size_t>(i)] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& one : failed) {
-    if (one) std::rethrow_exception(one);
-  }
 }
 
 }  // namespace
@@ -125,8 +109,9 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::s
   }
   const auto count = static_cast<int>(switched.size());
   std::vector<SolvedModel> models(switched.size());
-  std::atomic<int> done = 0;
-  in_parallel(count, [&](int i) {
+  std::mutex counting;
+  int done = 0;
+  parallel_for(count, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     SolvedModel& solved = models[at];
     solved = solve_modes(from_model(ponte::generate_with_changes(bridge_toml, switched[at], mesh)), n_modes + extra_modes);
@@ -134,9 +119,8 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::s
     solved.loaded.model = std::make_shared<const fe::Model>(*solved.loaded.model);
     solved.loaded.structure.reset();
     solved.loaded.system.stiffness_terms = solved.loaded.system.mass_terms = {};
-    const int now = ++done;
-#pragma omp critical(twindeck_progress)
-    progress(now, count);
+    const std::scoped_lock lock(counting);
+    progress(++done, count);
   });
 
   ChangeStudy study;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <mutex>
 
+#include "core/parallel.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "updating/mode_following.hpp"
@@ -99,23 +100,18 @@ Sensitivities frequency_sensitivities(const fe::ParametricSystem& system, const 
   const updating::ModeFollower follower(solver.mass(), modes);
   const Eigen::MatrixXd relative = out.relative();
 
-  std::exception_ptr failure;
+  std::vector<Status> of_parameter(static_cast<std::size_t>(n_parameters));
+  std::mutex counting;
   int done = 0;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int p = 0; p < n_parameters; ++p) {
-    try {
-      const Status status = differentiate(system, follower, n_solved, p, central_step(out, relative, p, options), options, out);
-#pragma omp critical(twindeck_sensitivity)
-      {
-        if (!status.converged) out.status = status;
-        if (progress) progress(++done, n_parameters);
-      }
-    } catch (...) {  // must not leave the parallel region
-#pragma omp critical(twindeck_sensitivity)
-      if (!failure) failure = std::current_exception();
-    }
+  parallel_for(n_parameters, [&](int p) {
+    of_parameter[static_cast<std::size_t>(p)] =
+        differentiate(system, follower, n_solved, p, central_step(out, relative, p, options), options, out);
+    const std::scoped_lock lock(counting);
+    if (progress) progress(++done, n_parameters);
+  });
+  for (const Status& status : of_parameter) {
+    if (!status.converged && out.status.converged) out.status = status;
   }
-  if (failure) std::rethrow_exception(failure);
   return out;
 }
 

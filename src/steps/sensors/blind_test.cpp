@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "dynamics/trapezoidal.hpp"
 #include "signal/condition.hpp"
@@ -87,14 +88,13 @@ BlindTestResult blind_test(const SensorsConfig& config, const VectorXd& frequenc
   BlindTestResult result;
   result.tests.resize(chosen.size());
   result.psd_m2_s3.resize(chosen.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
+  parallel_for(chosen.size(), [&](std::size_t i) {
     const MatrixXd data = modal * phi(chosen[i]->rows, Eigen::all).transpose();
     result.tests[i] = identify_frames(config, *chosen[i], data, rate_Hz);
     const signal::PowerSpectra spectra = signal::power_spectra(data, rate_Hz, {config.welch_segment, 0.5});
     result.psd_m2_s3[i] = spectra.density;
     if (i == 0) result.psd_frequency_Hz = spectra.frequency_Hz;
-  }
+  });
   return result;
 }
 

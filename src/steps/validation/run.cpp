@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <exception>
+#include <mutex>
 #include <numbers>
 
 #include "buffeting/loads.hpp"
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"
+#include "core/parallel.hpp"
 #include "steps/shared/turbulence_sets.hpp"
 #include "steps/validation/outputs.hpp"
 #include "steps/validation/validation.hpp"
@@ -93,30 +94,23 @@ Status run_validation(StepContext& context, const ValidationConfig& config) {
       prepared.push_back(prepare(bridge, config, event, run, along.field(), vertical.field()));
     FieldStatistics statistics(event.name, along, vertical, config.seeds);
 
-    std::exception_ptr failure;
+    std::mutex counting;
     Index done = 0;
-#pragma omp parallel for schedule(dynamic)
-    for (long seed = 0; seed < config.seeds; ++seed) {
-      try {
-        const std::uint64_t own = context.seed * 1000003 + static_cast<std::uint64_t>(seed);
-        const Index strips = along.field().size();
-        MatrixXd gusts(along.n_samples(), 2 * strips);
-        gusts << along.sample(own), vertical.sample(own);
-        statistics.add(seed, gusts);
-        for (Prepared& run : prepared) {
-          const buffeting::Response response =
-              buffeting::respond(run.newmark, run.load, gusts, config.step_s, bridge.sensors.motion, {config.lead_in_s});
-          run.result.rms.col(seed) = buffeting::root_mean_squares(response.acceleration_m_s2);
-          run.result.peak.col(seed) = response.acceleration_m_s2.cwiseAbs().colwise().maxCoeff().transpose();
-        }
-      } catch (...) {
-#pragma omp critical
-        failure = std::current_exception();
+    parallel_for(config.seeds, [&](long seed) {
+      const std::uint64_t own = context.seed * 1000003 + static_cast<std::uint64_t>(seed);
+      const Index strips = along.field().size();
+      MatrixXd gusts(along.n_samples(), 2 * strips);
+      gusts << along.sample(own), vertical.sample(own);
+      statistics.add(seed, gusts);
+      for (Prepared& run : prepared) {
+        const buffeting::Response response =
+            buffeting::respond(run.newmark, run.load, gusts, config.step_s, bridge.sensors.motion, {config.lead_in_s});
+        run.result.rms.col(seed) = buffeting::root_mean_squares(response.acceleration_m_s2);
+        run.result.peak.col(seed) = response.acceleration_m_s2.cwiseAbs().colwise().maxCoeff().transpose();
       }
-#pragma omp critical
+      const std::scoped_lock lock(counting);
       context.progress(event.name, static_cast<double>(++done), static_cast<double>(config.seeds));
-    }
-    if (failure) std::rethrow_exception(failure);
+    });
     for (Prepared& run : prepared) results.push_back(std::move(run.result));
     const std::vector<FieldCheck> found = statistics.checks();
     checks.insert(checks.end(), found.begin(), found.end());

@@ -3,13 +3,13 @@
 #include "updating/updating.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <limits>
 #include <map>
 
 #include "chain.hpp"
+#include "core/parallel.hpp"
 
 namespace twindeck::updating {
 namespace {
@@ -150,12 +150,12 @@ TEST(Update, RefreshesTheFrozenPartUntilParametersRest) {
 TEST(Update, CostNeverRisesWithinASolveAndThreadsDoNotMatter) {
   const SmallSystem small = chain(0.9, 1.1);
   const auto targets = targets_of(dense_frequencies(small.system(), Eigen::Vector3d(1.4, 0.7, 1.6)), {0, 1, 2, 3, 4});
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
+  const int threads = thread_count();
+  set_thread_count(1);
   const UpdatingResult one = update(small.system(), {}, {0, 1, 2}, targets, starts(6), {});
-  omp_set_num_threads(3);
+  set_thread_count(3);
   const UpdatingResult three = update(small.system(), {}, {0, 1, 2}, targets, starts(6), {});
-  omp_set_num_threads(threads);
+  set_thread_count(threads);
   std::map<std::pair<int, int>, double> last;
   for (const IterationRecord& record : one.history) {
     const auto [at, first] = last.try_emplace({record.start, record.outer}, record.cost);

@@ -1,13 +1,13 @@
 /// Oracles: the sums that Eq. (15) implies, statistics with their theoretical scatter, sameness over
 /// threads.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "signal/fft.hpp"
 #include "signal/welch.hpp"
 #include "two_arcs.hpp"
@@ -124,12 +124,12 @@ TEST(Simulation, DoubleIndexHasTheVarianceOfTheBandInEachSample) {
 
 TEST(Simulation, IsTheSameWhateverTheThreads) {
   const Simulator simulator(test::two_arcs(Component::across, 8), {.duration_s = 60.0});
-  const int before = omp_get_max_threads();
-  omp_set_num_threads(1);
+  const int before = thread_count();
+  set_thread_count(1);
   const Eigen::MatrixXd one = simulator.sample(11);
-  omp_set_num_threads(3);
+  set_thread_count(3);
   const Eigen::MatrixXd three = simulator.sample(11);
-  omp_set_num_threads(before);
+  set_thread_count(before);
   EXPECT_EQ((one - three).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_GT((one - simulator.sample(12)).cwiseAbs().maxCoeff(), 0.1);
 }
