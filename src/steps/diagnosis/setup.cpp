@@ -17,6 +17,7 @@
 #include "io/csv.hpp"
 #include "io/manifest.hpp"
 #include "io/toml_value.hpp"
+#include "modal/pair_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/shared/measured_tables.hpp"
@@ -172,14 +173,13 @@ std::vector<diagnosis::DamperMove> read_damper_places(const std::filesystem::pat
   return moves;
 }
 
-std::map<std::string, int> bound_modes(const std::vector<std::string>& pairs) {
+/// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
+std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs) {
   std::map<std::string, int> bound;
-  for (const std::string& pair : pairs) {
-    const auto dash = pair.find("X-");
-    if (dash == std::string::npos || !pair.ends_with('N'))
-      throw InputError({"", 0, "pairs"}, fmt::format("'{}' is no pair", pair), "write \"7X-8N\"");
-    bound[pair.substr(0, dash)] = std::atoi(pair.substr(dash + 2).c_str()) - 1;
-  }
+  for (const modal::NamedPair& pair :
+       modal::read_pairs(config.pairs, inputs.reduced->mode_coordinates.cols(), {"", 0, "pairs"}, "raise modes"))
+    for (const diagnosis::Row& row : inputs.features.rows)
+      if (modal::experimental_label(row.mode) == pair.experimental) bound[row.mode] = static_cast<int>(pair.numerical);
   return bound;
 }
 
@@ -333,7 +333,7 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   const auto nulls = diagnosis::run_nulls(
       *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, search, static_cast<int>(config.nulls), context.seed + 17,
       [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); },
-      bound_modes(config.pairs));
+      bound_modes(config, inputs));
   std::vector<double> sorted = nulls.log_odds;
   std::sort(sorted.begin(), sorted.end());
   const auto at = static_cast<std::size_t>(std::ceil((1.0 - config.alpha) * static_cast<double>(sorted.size()))) - 1;
@@ -348,7 +348,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   const DiagnosisInputs inputs = read_diagnosis_inputs(config, context);
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
-  map.bind_modes(bound_modes(config.pairs));
+  map.bind_modes(bound_modes(config, inputs));
   const diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
   const diagnosis::Inference inference(map, entries.candidates);
   context.say(fmt::format("{} rows ({} held out), {} unknowns, {} entries of {} families, basis of {}",

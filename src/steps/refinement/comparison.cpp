@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
-#include <set>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
@@ -24,8 +22,6 @@ const std::string& label(const Measured& measured, Index i) { return measured.la
 
 }  // namespace
 
-std::string numerical_label(Index position) { return fmt::format("{}N", position + 1); }
-
 Pairing pair_by_order(const Measured& measured, Index n_numerical, const std::vector<bool>& keep) {
   Pairing pairing;
   pairing.method = "order";
@@ -39,26 +35,10 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
                           const Place& place) {
   Pairing pairing;
   pairing.method = "published";
-  static const std::regex form("([^ -]+)-([1-9][0-9]{0,5})N");
-  std::set<std::string> seen;
-  for (const std::string& entry : published) {
-    std::smatch parts;
-    if (!std::regex_match(entry, parts, form)) {
-      throw InputError(place, fmt::format("'{}' is no pair, expected for example \"7X-8N\"", entry),
-                       "name the measured mode, a dash, and the numerical mode");
-    }
-    const std::string experimental = parts[1];
-    const Index numerical = std::stol(parts[2]) - 1;
-    if (!seen.insert(experimental).second || !seen.insert(numerical_label(numerical)).second) {
-      throw InputError(place, fmt::format("pair '{}' names a mode that another pair names too", entry), "pair each mode once");
-    }
-    if (numerical >= n_numerical) {
-      throw InputError(place, fmt::format("pair '{}' asks for numerical mode {} of {}", entry, numerical + 1, n_numerical),
-                       "raise n_modes");
-    }
-    const auto at = std::find(measured.labels.begin(), measured.labels.end(), experimental);
+  for (const modal::NamedPair& pair : modal::read_pairs(published, n_numerical, place, "raise n_modes")) {
+    const auto at = std::find(measured.labels.begin(), measured.labels.end(), pair.experimental);
     if (at != measured.labels.end())
-      pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), numerical, kUnknown, false});
+      pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), pair.numerical, kUnknown, false});
   }
   std::sort(pairing.pairs.begin(), pairing.pairs.end(),
             [](const auto& a, const auto& b) { return a.experimental < b.experimental; });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
+#include "modal/pair_name.hpp"
 #include "modal/pairing.hpp"
 #include "steps/shared/measured.hpp"
 #include "steps/shared/model_source.hpp"
@@ -14,8 +15,7 @@
 /// Measured against computed modes: shared by s4_refinement and s6_updating.
 namespace twindeck::steps {
 
-/// "8N": numerical modes are named by their position in the model, from 1.
-[[nodiscard]] std::string numerical_label(Eigen::Index position);
+using modal::numerical_label;
 
 /// How measured modes were given their numerical partners.
 struct Pairing {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "modal/pair_name.hpp"
 #include "model_io/export.hpp"
 #include "steps/shared/measured_tables.hpp"
 #include "steps/shared/study.hpp"
@@ -17,8 +18,6 @@ namespace twindeck::steps {
 namespace {
 
 using Eigen::Index;
-
-std::string label_of(const std::string& mode) { return mode.ends_with('X') ? mode : mode + "X"; }
 
 /// What rows.csv says of one mode.
 struct MeasuredMode {
@@ -85,7 +84,7 @@ Measured assemble_measured(const io::CsvTable& table, const std::vector<std::str
     const std::string& name = order[static_cast<std::size_t>(i)];
     const MeasuredMode& mode = found.at(name);
     modes.names.push_back(name);
-    measured.labels.push_back(label_of(name));
+    measured.labels.push_back(modal::experimental_label(name));
     modes.frequency_Hz[i] = mode.frequency;
     modes.frequency_std_Hz[i] = mode.frequency_std;
     modes.damping_ratio[i] = mode.damping;
@@ -158,7 +157,7 @@ Measured read_measured_modes(const std::filesystem::path& folder) {
       throw InputError({(folder / "modes.csv").string(), i + 2, "frequency_Hz"},
                        fmt::format("mode {} has no frequency above 0 Hz", name), "");
     }
-    measured.labels.push_back(label_of(name));
+    measured.labels.push_back(modal::experimental_label(name));
   }
   if (std::filesystem::exists(folder / "channels.csv")) measured.channels = read_channels(folder / "channels.csv");
   return measured;
