@@ -3,19 +3,25 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/printable.hpp"
+
 namespace twindeck {
 namespace {
+
+/// What of an input is echoed at most [bytes]: a line of a terminal holds some hundred letters, a list of known names some
+/// more.
+constexpr std::size_t kLongestName = 300, kLongestPart = 1500;
 
 std::string compose(const Place& place, const std::string& problem, const std::string& mend) {
   std::string text;
   if (!place.file.empty()) {
-    text += place.file;
+    text += printable(place.file, kLongestPart);
     if (place.line > 0) text += ":" + std::to_string(place.line);
     text += ": ";
   }
-  if (!place.key.empty()) text += place.key + ": ";
-  text += problem;
-  if (!mend.empty()) text += "; " + mend;
+  if (!place.key.empty()) text += printable(place.key, kLongestName) + ": ";
+  text += printable(problem, kLongestPart);
+  if (!mend.empty()) text += "; " + printable(mend, kLongestPart);
   return text;
 }
 

@@ -17,7 +17,8 @@ struct Place {
 
 /// Bad input: the user can mend it. Caught once, in `run_step`, printed on one line, exit code 2.
 ///
-/// `what()` reads "file:line: key: problem; mend", leaving out what is unknown.
+/// `what()` reads "file:line: key: problem; mend", leaving out what is unknown. It is one line of valid UTF-8 whatever the
+/// input holds: control characters are escaped and long texts are cut (core/printable.hpp).
 class InputError : public std::runtime_error {
  public:
   /// @param place    where it stands

@@ -11,6 +11,7 @@
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "io/atomic.hpp"
+#include "io/regular_file.hpp"
 
 namespace twindeck::io {
 namespace fs = std::filesystem;
@@ -149,6 +150,7 @@ bool is_step_folder(const fs::path& folder) {
 }
 
 std::string sha256(const fs::path& file) {
+  require_regular_file(file);  // a pipe would be waited for without an end
   std::ifstream in(file, std::ios::binary);
   if (!in || fs::is_directory(file)) throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path");
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);

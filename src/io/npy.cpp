@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <regex>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
+#include "io/regular_file.hpp"
 
 namespace twindeck::io {
 namespace fs = std::filesystem;
@@ -22,6 +25,7 @@ static_assert(std::endian::native == std::endian::little, "NPY data are read and
 namespace {
 
 constexpr char kMagic[] = "\x93NUMPY";
+constexpr std::size_t kLongestHeader = 1000000;  ///< [bytes] NumPy writes some hundred; a longer one is no header
 
 struct Header {
   std::string type;  // "f8", "f4", "i2", "i4"
@@ -41,29 +45,91 @@ std::string header_text(std::ifstream& in, const fs::path& file) {
   unsigned char digits[4] = {};
   in.read(reinterpret_cast<char*>(digits), size_bytes);
   const std::size_t length = digits[0] + 256UL * digits[1] + 65536UL * digits[2] + 16777216UL * digits[3];
-  if (!in || length > 1000000) refuse(file, "ends within its header, or has none", "write the file again");
+  if (!in || length > kLongestHeader) refuse(file, "ends within its header, or has none", "write the file again");
   std::string text(length, ' ');
   if (!in.read(text.data(), static_cast<std::streamsize>(length))) refuse(file, "ends within its header", "write the file again");
   return text;
 }
 
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n"), last = text.find_last_not_of(" \t\r\n");
+  return first == std::string_view::npos ? std::string_view{} : text.substr(first, last - first + 1);
+}
+
+/// What follows `'key':` in the header, a Python dictionary; empty if the key is not there.
+std::string_view value_of_key(std::string_view header, const std::string& key) {
+  const std::size_t at = header.find("'" + key + "'");
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = without_blanks(header.substr(at + key.size() + 2));
+  return rest.starts_with(':') ? without_blanks(rest.substr(1)) : std::string_view{};
+}
+
+/// "(12, 3)" or "(12,)" as numbers; empty for any other number of dimensions or a size that no file can have.
+std::vector<std::uintmax_t> shape_of(std::string_view text) {
+  std::vector<std::uintmax_t> shape;
+  const std::size_t close = text.find(')');
+  if (!text.starts_with('(') || close == std::string_view::npos) return {};
+  text = text.substr(1, close - 1);
+  while (!without_blanks(text).empty()) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const std::string_view cell = without_blanks(text.substr(0, comma));
+    std::uintmax_t size = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), size);
+    if (error != std::errc() || end != cell.data() + cell.size() || shape.size() == 2) return {};
+    if (size > static_cast<std::uintmax_t>(std::numeric_limits<Index>::max())) return {};
+    shape.push_back(size);
+    text = text.substr(std::min(comma + 1, text.size()));
+  }
+  return shape;
+}
+
 Header parse(const std::string& text, const fs::path& file) {
-  std::smatch match;
   Header header;
-  if (!std::regex_search(text, match, std::regex("'descr':\\s*'([^']*)'"))) refuse(file, "has a header without 'descr'", "give a plain array");
-  const std::string type = match[1];
+  const std::string_view description = value_of_key(text, "descr");
+  const std::size_t quote = description.find('\'', 1);
+  if (!description.starts_with('\'') || quote == std::string_view::npos)
+    refuse(file, "has a header without 'descr'", "give a plain array");
+  const std::string type(description.substr(1, quote - 1));
   if (type != "<f8" && type != "<f4" && type != "<i2" && type != "<i4") {
     refuse(file, fmt::format("holds type '{}', expected '<f8', '<f4', '<i2' or '<i4'", type), "convert it with array.astype('<f8')");
   }
   header.type = type.substr(1);
   header.item_size = static_cast<std::size_t>(type.back() - '0');
-  header.fortran_order = std::regex_search(text, std::regex("'fortran_order':\\s*True"));
-  if (!std::regex_search(text, match, std::regex("'shape':\\s*\\(\\s*(\\d+)\\s*,\\s*(?:(\\d+)\\s*,?\\s*)?\\)"))) {
+  header.fortran_order = value_of_key(text, "fortran_order").starts_with("True");
+  const std::vector<std::uintmax_t> shape = shape_of(value_of_key(text, "shape"));
+  if (shape.empty())
     refuse(file, "has an array of another shape than one or two dimensions", "reshape it to samples x channels");
-  }
-  header.rows = std::stol(match[1]);
-  if (match[2].matched) header.columns = std::stol(match[2]);
+  header.rows = static_cast<Index>(shape[0]);
+  if (shape.size() == 2) header.columns = static_cast<Index>(shape[1]);
   return header;
+}
+
+/// An open file, its header read and its size held against the header's, so that no size in a header is ever asked of the
+/// memory.
+struct OpenArray {
+  std::ifstream in;
+  Header header;
+};
+
+OpenArray open_array(const fs::path& file) {
+  const std::uintmax_t bytes = require_regular_file(file);
+  OpenArray array{std::ifstream(file, std::ios::binary), {}};
+  if (!array.in) refuse(file, "cannot be read", "check its name and your permissions");
+  array.header = parse(header_text(array.in, file), file);
+  const Header& header = array.header;
+  const auto rows = static_cast<std::uintmax_t>(header.rows), columns = static_cast<std::uintmax_t>(header.columns);
+  if (rows == 0 || columns == 0) {
+    refuse(file, fmt::format("holds an array of {} x {}, without any value", rows, columns), "write the file again");
+  }
+  const std::uintmax_t found = bytes - static_cast<std::uintmax_t>(array.in.tellg());
+  if (columns > found / header.item_size / rows || rows * columns * header.item_size != found) {
+    refuse(file,
+           fmt::format("holds {} bytes of data, expected {:.0f} for {} x {} values", found,
+                       static_cast<double>(rows) * static_cast<double>(columns) * static_cast<double>(header.item_size), rows,
+                       columns),
+           "the file was cut off or is damaged; copy it again");
+  }
+  return array;
 }
 
 template <typename T>
@@ -82,22 +148,19 @@ double value_of(const std::string& type, const char* at) {
 }  // namespace
 
 std::pair<Index, Index> visit_npy(const fs::path& file, const BlockVisitor& visit) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(file, "cannot be read", "check its name and your permissions");
-  const Header header = parse(header_text(in, file), file);
-  const auto found = static_cast<std::uintmax_t>(fs::file_size(file) - static_cast<std::uintmax_t>(in.tellg()));
-  const auto expected = static_cast<std::uintmax_t>(header.rows) * static_cast<std::uintmax_t>(header.columns) * header.item_size;
-  if (found != expected) {
-    refuse(file, fmt::format("holds {} bytes of data, expected {} for {} x {} values", found, expected, header.rows, header.columns),
-           "the file was cut off or is damaged; copy it again");
-  }
+  OpenArray array = open_array(file);
+  std::ifstream& in = array.in;
+  const Header& header = array.header;
   constexpr Index kValues = 131072;
   std::vector<char> buffer;
   const auto read = [&](Index values) {
     buffer.resize(static_cast<std::size_t>(values) * header.item_size);
-    in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    if (!in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())))
+      refuse(file, "cannot be read to its end", "copy it again");
   };
-  const auto value = [&](Index k) { return value_of(header.type, buffer.data() + static_cast<std::size_t>(k) * header.item_size); };
+  const auto value = [&](Index k) {
+    return value_of(header.type, buffer.data() + static_cast<std::size_t>(k) * header.item_size);
+  };
   Eigen::MatrixXd block;
   if (header.fortran_order) {
     for (Index column = 0; column < header.columns; ++column) {
@@ -125,14 +188,8 @@ std::pair<Index, Index> visit_npy(const fs::path& file, const BlockVisitor& visi
 }
 
 Eigen::MatrixXd read_npy(const fs::path& file) {
-  Eigen::MatrixXd array;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(file, "cannot be read", "check its name and your permissions");
-  const Header header = parse(header_text(in, file), file);
-  in.close();
-  // The size is checked before anything is asked of the memory: a damaged header must not ask for all of it.
-  const auto least = static_cast<std::uintmax_t>(header.rows) * static_cast<std::uintmax_t>(header.columns) * header.item_size;
-  if (least <= fs::file_size(file)) array.resize(header.rows, header.columns);
+  const Header header = open_array(file).header;
+  Eigen::MatrixXd array(header.rows, header.columns);
   visit_npy(file, [&](Index row, Index column, const Eigen::MatrixXd& block) { array.block(row, column, block.rows(), block.cols()) = block; });
   return array;
 }

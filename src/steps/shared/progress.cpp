@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "core/printable.hpp"
 #include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
@@ -33,7 +34,7 @@ void StepContext::say(const std::string& line) const {
   if (quiet) return;
   const std::lock_guard lock(screen());
   const char* clear = ::isatty(STDERR_FILENO) ? "\r\033[K" : "";  // a progress line may stand there
-  std::fputs(fmt::format("{}{}: {}\n", clear, token_, line).c_str(), stderr);
+  std::fputs(fmt::format("{}{}: {}\n", clear, token_, printable(line)).c_str(), stderr);
 }
 
 void StepContext::progress(const std::string& what, double done, double total) const {

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/build_info.hpp"
+#include "core/printable.hpp"
 #include "io/atomic.hpp"
 #include "io/manifest.hpp"
 #include "model_io/model_folder.hpp"
@@ -19,11 +20,9 @@ namespace twindeck::steps {
 namespace fs = std::filesystem;
 namespace {
 
-/// One line whatever was thrown: line ends inside a message become blanks.
-int failure(const std::string& token, const std::string& kind, std::string message, int code) {
-  std::replace_if(
-      message.begin(), message.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
-  std::fputs(fmt::format("{}: {}{}\n", token, kind, message).c_str(), stderr);
+/// One line whatever was thrown.
+int failure(const std::string& token, const std::string& kind, const std::string& message, int code) {
+  std::fputs(fmt::format("{}: {}{}\n", token, kind, printable(message)).c_str(), stderr);
   return code;
 }
 

@@ -2,6 +2,7 @@
 #include "io/npy.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 
@@ -53,6 +54,50 @@ TEST_F(Npy, RefusesWhatItCannotRead) {
   EXPECT_NE(refusal([&] { (void)read_npy(cube); }).find("one or two dimensions"), std::string::npos);
   const auto cut = write("s.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (4, 1), }", {1, 2, 3}));
   EXPECT_NE(refusal([&] { (void)read_npy(cut); }).find("holds 24 bytes of data, expected 32 for 4 x 1 values"), std::string::npos);
+}
+
+// Oracle: the sizes that the file has. A header that claims more is refused before anything is allocated.
+TEST_F(Npy, SizesInTheHeaderAreHeldAgainstTheFile) {
+  const auto said = [&](const std::string& shape) {
+    const auto file =
+        write("h.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }", {1, 2, 3}));
+    return refusal([&] { (void)read_npy(file); });
+  };
+  EXPECT_NE(said("(1000000000000, 1000000)").find("h.npy: holds 24 bytes of data, expected 8000000000000000000"),
+            std::string::npos);
+  EXPECT_NE(said("(2305843009213693955, 8)").find("holds 24 bytes"),
+            std::string::npos);  // 2^61 + 3: the product of bytes wraps to 24 * 8
+  EXPECT_NE(said("(2305843009213693955,)").find("holds 24 bytes"), std::string::npos);
+  EXPECT_NE(said("(99999999999999999999, 3)").find("another shape"), std::string::npos);
+  EXPECT_NE(said("(1000000000000, 0)").find("without any value"), std::string::npos);
+  EXPECT_NE(said("(-3, 1)").find("another shape"), std::string::npos);
+  EXPECT_NE(said("(3, 1").find("another shape"), std::string::npos);
+  EXPECT_EQ(said("( 3 , 1 )"), "");
+}
+
+// A regular expression on this header overflowed the stack.
+TEST_F(Npy, ALongDescriptorIsRefusedInOneLine) {
+  std::string header = "{'descr': '" + std::string(60000, 'f') + "', 'fortran_order': False, 'shape': (1,), }";
+  std::string content = std::string("\x93NUMPY\x01\x00", 8);
+  content += static_cast<char>(header.size() % 256);
+  content += static_cast<char>(header.size() / 256);
+  const auto file = write("l.npy", content + header);
+  const std::string said = refusal([&] { (void)read_npy(file); });
+  EXPECT_TRUE(said.starts_with("l.npy: holds type 'ffff")) << said.substr(0, 80);
+  EXPECT_LT(said.size(), 4000U);
+  const std::string blanks = "{'descr':" + std::string(60000, ' ') + "x}";
+  content[8] = static_cast<char>(blanks.size() % 256);
+  content[9] = static_cast<char>(blanks.size() / 256);
+  const auto blank = write("b.npy", content + blanks);
+  EXPECT_NE(refusal([&] { (void)read_npy(blank); }).find("without 'descr'"), std::string::npos);
+}
+
+TEST_F(Npy, APipeOrADeviceIsRefused) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.npy").c_str(), 0600), 0);
+  EXPECT_NE(refusal([&] { (void)read_npy(folder_ / "pipe.npy"); }).find("pipe.npy: is a pipe"), std::string::npos);
+  EXPECT_NE(refusal([&] { (void)read_npy("/dev/zero"); }).find("/dev/zero: is a pipe, a socket or a device"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { (void)read_npy(folder_); }).find("is a folder"), std::string::npos);
 }
 
 }  // namespace
