@@ -1,6 +1,8 @@
 """Steps 0 and 3 of the study, scored: Table 4 in each state, Table 5, free decays, dampers that begin to slide.
 
 Oracle: the truth folder of the virtual campaign (campaign_score.py says what counts as found), the closed-form expectations of each test.
+One campaign is one draw of half hours of noise. LIMITS hold what the method can do: each is passed by 999 campaigns of 1,000, by what 30
+campaigns gave (seeds 201 to 230, none of them looked at before). The rates themselves are held over 30 campaigns, with TWINDECK_SLOW=1.
 With TWINDECK_SLOW=1 also 30 campaigns of other seeds: calibration of the standard deviations, recall, the paper's own rule beside the
 automatic one; what they show is written to results/scoring/ as CSV and figure, seed by seed: a run that was broken off goes on.
 """
@@ -28,6 +30,25 @@ BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resol
 STUDY = ROOT / "workflows" / "ponte_del_mare"
 SCORING = ROOT / "results" / "scoring"
 STATES = ("without_dampers", "with_dampers", "with_dampers_high")
+# Behind each limit: what the 30 campaigns gave, and the law by which one in a thousand exceeds the limit.
+LIMITS = {
+    # Named modes lost: 2 in 30 campaigns without dampers, 2 with, 24 on the windy day (modes 6 and 8 above all, whose damping of some
+    # 3 % half an hour hardly settles). Poisson.
+    "lost": {"without_dampers": 2, "with_dampers": 2, "with_dampers_high": 5},
+    # Modes that are none: 2, 1 and 6 in 30 campaigns. Poisson.
+    "spurious": {"without_dampers": 2, "with_dampers": 2, "with_dampers_high": 3},
+    # Harmonics of stays: one of 900 was not found, the worst of the others was 0.47 % off.
+    "stay_harmonics_lost": 1, "stay_frequency": 0.008,
+    # Intervals of 99 % that miss: 2 of 180. Poisson.
+    "stay_intervals_missed": 2,
+    # ERA against SSI, and against the truth, in standard deviations: 482 and 392 values, largest 3.8 and 4.0. Student's law of 30 blocks.
+    "decay": 5.0,
+    # From the calm to the windy day, in standard deviations of the change (mean, deviation of 30): frequency of mode 1 -1.0, 0.6; its
+    # damping 4.4, 1.0; frequency of mode 7 -0.7, 0.8. Normal.
+    "mode_1_frequency_rises": 1.0, "mode_1_damping_rises": 1.0, "mode_7_frequency_moves": 3.2,
+    # Of 8 dampings that are compared 5 to 9 rise, 83 % in the mean. Binomial.
+    "share_of_dampings_that_rise": 1.0 / 3.0,
+}
 
 
 def run(step, *arguments):
@@ -63,54 +84,54 @@ class Study(unittest.TestCase):
 
     def test_named_modes_are_found_within_their_limits(self):
         # The tenth mode leaves the tests' range when the dampers' anchorages hold it (3.4 Hz): nine are left below 2.6 Hz.
-        for state, named, wanted in (("without_dampers", 10, 10), ("with_dampers", 9, 9), ("with_dampers_high", 9, 8)):
+        for state, named in (("without_dampers", 10), ("with_dampers", 9), ("with_dampers_high", 9)):
             with self.subTest(state):
                 score = self.scores[state]
                 self.assertEqual(len(score.named), named)
-                self.assertGreaterEqual(len(score.good), wanted, [m for m in score.named if not m.good])
+                self.assertLessEqual(named - len(score.good), LIMITS["lost"][state], [m for m in score.named if not m.good])
 
-    def test_nothing_else_below_2_6_Hz(self):
+    def test_little_else_below_2_6_Hz(self):
         for state in STATES:
-            self.assertEqual([m["frequency_Hz"] for m in self.scores[state].spurious], [], state)
+            self.assertLessEqual(len(self.scores[state].spurious), LIMITS["spurious"][state], self.scores[state].spurious)
 
     def test_stays(self):
         truth = {(r["condition"], r["stay"]): r for r in rows(self.campaign / "truth" / "stays.csv")}
         found = rows(self.out / "stays.csv")
-        self.assertEqual(len(found), 30)  # 6 x 5 harmonics
+        self.assertGreaterEqual(len(found), 30 - LIMITS["stay_harmonics_lost"])  # 6 x 5 harmonics
         for r in found:
             f = float(truth[r["condition"], r["stay"]][f"f{r['harmonic']}_Hz"])
-            self.assertLess(abs(float(r["frequency_Hz"]) / f - 1.0), 0.005, r)
+            self.assertLess(abs(float(r["frequency_Hz"]) / f - 1.0), LIMITS["stay_frequency"], r)
         covered = covered_intervals(truth, rows(self.out / "stay_tensions.csv"))
-        # At the study's level of 99 %: six of six with a probability of 0.94; 30 seeds of the slow test say how often the interval holds.
-        self.assertEqual([name for name, error, holds in covered if not holds], [])
         self.assertEqual(len(covered), 6)
+        missed = [name for name, error, holds in covered if not holds]
+        self.assertLessEqual(len(missed), LIMITS["stay_intervals_missed"], missed)
 
     def test_free_decays_agree_with_ambient_records(self):
-        """ERA against SSI without dampers, the structure being linear: frequencies of the modes that both find within three standard deviations
-        of their difference, and of ERA's own from a true mode; with dampers a decay starts where they slide."""
+        """ERA against SSI without dampers, the structure being linear: frequencies of the modes that both find, by the standard deviation of
+        their difference, and of ERA's own from a true mode; with dampers a decay starts where they slide."""
         found = [r for r in rows(self.out / "decays.csv") if r["condition"] == "without_dampers"]
         both = [r for r in found if r["ambient_mode"]]
         self.assertGreaterEqual(len(both), 12)
         for r in both:
             deviation = math.hypot(float(r["frequency_std_Hz"]), float(r["ambient_frequency_std_Hz"]))
-            self.assertLess(abs(float(r["frequency_Hz"]) - float(r["ambient_frequency_Hz"])), 3.0 * deviation, r)
+            self.assertLess(abs(float(r["frequency_Hz"]) - float(r["ambient_frequency_Hz"])), LIMITS["decay"] * deviation, r)
         true = [float(r["frequency_Hz"]) for r in rows(self.campaign / "truth" / "modes.csv") if r["condition"] == "without_dampers"]
         for r in (r for r in found if float(r["frequency_Hz"]) < campaign_score.BAND_HZ):
-            self.assertLess(min(abs(float(r["frequency_Hz"]) - f) for f in true), 3.0 * float(r["frequency_std_Hz"]), r)
+            self.assertLess(min(abs(float(r["frequency_Hz"]) - f) for f in true), LIMITS["decay"] * float(r["frequency_std_Hz"]), r)
 
     def test_dampers_that_begin_to_slide(self):
-        """Mode 1, which the dampers hold: from the calm to the windy day its frequency falls and its damping rises, by more than the data
-        leave open; mode 7, which they hardly touch, keeps its frequency."""
+        """Mode 1, which the dampers hold: from the calm to the windy day its damping rises by more than the data leave open and its frequency
+        does not; mode 7, which they hardly touch, keeps its frequency."""
         calm, windy = ({m.name: m.found for m in self.scores[s].named if m.found} for s in ("with_dampers", "with_dampers_high"))
 
         def change(name, value, deviation):
             return (windy[name][value] - calm[name][value]) / math.hypot(windy[name][deviation], calm[name][deviation])
-        self.assertLess(windy["1"]["frequency_Hz"], calm["1"]["frequency_Hz"])
-        self.assertGreater(change("1", "damping_ratio_pct", "damping_ratio_std_pct"), 2.0)
-        self.assertLess(abs(change("7", "frequency_Hz", "frequency_std_Hz")), 3.0)
+        self.assertLess(change("1", "frequency_Hz", "frequency_std_Hz"), LIMITS["mode_1_frequency_rises"])
+        self.assertGreater(change("1", "damping_ratio_pct", "damping_ratio_std_pct"), LIMITS["mode_1_damping_rises"])
+        self.assertLess(abs(change("7", "frequency_Hz", "frequency_std_Hz")), LIMITS["mode_7_frequency_moves"])
         names = [n for n in calm if n in windy]
         rises = sum(windy[n]["damping_ratio_pct"] > calm[n]["damping_ratio_pct"] for n in names)
-        self.assertGreater(rises, len(names) / 2)
+        self.assertGreater(rises, LIMITS["share_of_dampings_that_rise"] * len(names))
 
 
 @unittest.skipUnless(os.environ.get("TWINDECK_SLOW") == "1", "TWINDECK_SLOW=1 identifies 30 campaigns (about ten minutes on two idle cores)")

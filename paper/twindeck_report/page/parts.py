@@ -1,7 +1,7 @@
 """What every report page shows, ready for templates/parts/."""
 from ..figures.flow import flow
 from ..study import Study
-from . import diagnosis, flowchart, model_facts, places, poles, provenance, scripts, shapes, still
+from . import diagnosis, flowchart, model_facts, places, poles, processors, provenance, scripts, shapes, still
 
 
 def common_parts(study: Study, settings: dict) -> dict:
@@ -30,6 +30,7 @@ def common_parts(study: Study, settings: dict) -> dict:
         "seconds": sum(s.seconds for s in timed),
         "slowest": sorted(timed, key=lambda s: -s.seconds)[:3],
         "provenance": provenance.provenance(study, steps),
+        "processors": processors.processors(study),
         "pulls": model_facts.pulls(study),
         "convergence": model_facts.convergence(study),
         "diagnosis": told,

@@ -1,0 +1,99 @@
+"""Runs that are killed at random moments: steps and make, by SIGKILL, SIGTERM and SIGINT.
+
+Oracles: whatever lies in a step's folder afterwards is what its manifest says, byte by byte; the make that follows completes, leaves no
+partial folder behind, and ends with the bytes of a run that was never disturbed. TWINDECK_KILLS=200 kills that often (about a quarter of an
+hour); TWINDECK_KILLS_SEED draws other moments.
+"""
+import hashlib
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
+KILLS = int(os.environ.get("TWINDECK_KILLS", "6"))
+SEED = int(os.environ.get("TWINDECK_KILLS_SEED", "1"))
+SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
+
+
+def digest(file):
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def content(results):
+    """Every file's hash; of a manifest, which holds seconds and hashes of inputs with their manifests', the outputs' hashes."""
+    out = {}
+    for file in sorted(results.rglob("*")):
+        if file.is_file() and file.name != ".measured":
+            out[str(file.relative_to(results))] = json.loads(file.read_text())["outputs"] if file.name == "manifest.json" else digest(file)
+    return out
+
+
+class Kills(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.workflow = cls.folder / "smoke"
+        shutil.copytree(ROOT / "workflows" / "smoke", cls.workflow)
+        begin = time.monotonic()
+        cls.finish(cls.folder / "undisturbed")
+        cls.seconds = time.monotonic() - begin
+        cls.wanted = content(cls.folder / "undisturbed")
+
+    @classmethod
+    def command(cls, results):
+        return ["make", "--no-print-directory", "steps", "STUDY=smoke", "NO_BUILD=1", f"BIN={BIN}", f"RESULTS={results}", f"WORKFLOW={cls.workflow}"]
+
+    @classmethod
+    def finish(cls, results):
+        done = subprocess.run(cls.command(results), cwd=ROOT, capture_output=True, text=True)
+        if done.returncode:
+            raise AssertionError(done.stderr)
+
+    def kill_once(self, results, chance):
+        """Starts make with every step stale and ends the whole process group, or the step that runs alone, at some moment."""
+        for file in self.workflow.glob("*.toml"):
+            if chance.random() < 0.5:
+                os.utime(file)
+        process = subprocess.Popen(self.command(results), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        time.sleep(chance.uniform(0.0, self.seconds))
+        try:
+            os.killpg(process.pid, chance.choice(SIGNALS))
+        except ProcessLookupError:
+            pass
+        process.wait(timeout=60)
+
+    def whole(self, results):
+        """Every step's folder that is there holds what its manifest says, and nothing else."""
+        for folder in results.iterdir():
+            if not folder.is_dir() or ".partial-" in folder.name or ".unconverged" in folder.name:
+                continue
+            self.assertTrue((folder / "manifest.json").exists(), folder)
+            outputs = json.loads((folder / "manifest.json").read_text())["outputs"]
+            there = {str(f.relative_to(folder)) for f in folder.rglob("*") if f.is_file() and f.name != "manifest.json"}
+            self.assertEqual(there, set(outputs), folder)
+            for name, wanted in outputs.items():
+                self.assertEqual(digest(folder / name), wanted, folder / name)
+
+    def test_results_stay_whole_and_make_goes_on(self):
+        chance = random.Random(SEED)
+        results = self.folder / "killed"
+        results.mkdir()
+        for kill in range(KILLS):
+            with self.subTest(kill):
+                self.kill_once(results, chance)
+                self.whole(results)
+        self.finish(results)
+        self.assertEqual(content(results), self.wanted)
+        self.assertEqual([f.name for f in results.iterdir() if ".partial-" in f.name], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
