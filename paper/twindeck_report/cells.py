@@ -34,3 +34,8 @@ def shown(value, printed: str) -> str:
         return csv_text(found)
     text = f"{found:.{decimals(printed)}f}"
     return text[1:] if float(text) == 0 and text.startswith("-") else text
+
+
+def truth(value) -> bool:
+    """0/1, true/false, yes/no as a step writes them."""
+    return str(value).strip().lower() in ("1", "1.0", "true", "yes")

@@ -1,13 +1,14 @@
-"""python3 -m twindeck_report tables|figures|report|unchanged|verify|article|ratchet --study S [--results DIR] [--data DIR] [--workflow DIR]"""
+"""python3 -m twindeck_report tables|figures|report|unchanged|verify|article|baseline|moves --study S [--results DIR] [--data DIR] [--workflow DIR]"""
 import argparse
 import sys
 from pathlib import Path
 
 from .check import run_check
+from .checksums import write_checksums
 from .deviations import write_deviations
 from .errors import InputError
 from .own_study import is_own, verify_own, write_own_report, write_own_tables
-from .ratchet import write_ratchet
+from .ratchet import add_moves, write_baseline
 from .study import Study
 from .unchanged import changed_pages, changed_steps, refuse_changed
 
@@ -26,6 +27,8 @@ def main(arguments) -> int:
     try:
         if getattr(options, "only", None):
             return _figure(study, options.only)
+        if options.command == "moves":
+            return _moves(study, options.reason)
         return COMMANDS[options.command][0](study)
     except InputError as problem:
         print(f"twindeck_report {options.command}: {problem}", file=sys.stderr)
@@ -97,16 +100,30 @@ def _article(study: Study) -> int:
     return 0
 
 
-def _ratchet(study: Study) -> int:
-    """Sets ratchet.csv from results that pass; results that fail are not worth holding on to."""
+def _baseline(study: Study) -> int:
+    """Sets ratchet_baseline.csv from results that pass but for the ratchet itself; results that fail are not worth holding on to."""
     result = run_check(study)
-    if not result.passed:
-        for line in result.failures:
+    failures = [line for line in result.failures if line not in result.held_back]
+    if failures:
+        for line in failures:
             print(f"paper check: {line}", file=sys.stderr)
-        print(f"{study.data / 'ratchet.csv'} left as it was: the paper check fails")
+        print(f"{study.data / 'ratchet_baseline.csv'} left as it was: the paper check fails")
         return 1
-    write_ratchet(study, result.cells)
-    print(f"{study.data / 'ratchet.csv'}: {sum(not cell.shown for cell in result.cells)} cells")
+    write_baseline(study, result.held)
+    print(f"{study.data / 'ratchet_baseline.csv'}: {len(result.held)} cells; ratchet_moves.csv emptied")
+    return 0
+
+
+def _checksums(study: Study) -> int:
+    print(f"{write_checksums(study)} listed")
+    return 0
+
+
+def _moves(study: Study, reason: str) -> int:
+    if len(reason.split()) < 3:
+        raise InputError("moves: --reason TEXT: say in a sentence why these cells have to move")
+    result = run_check(study)
+    print(f"{study.data / 'ratchet_moves.csv'}: {add_moves(study, result.ratchet, reason)} cells added")
     return 0
 
 
@@ -117,7 +134,9 @@ COMMANDS = {
     "unchanged": (_unchanged, "refuse files that were changed after they were written (make report)"),
     "verify": (_verify, "compare the tables with the paper as printed"),
     "article": (_article, "our article as PDF (needs LaTeX)"),
-    "ratchet": (_ratchet, "hold the present deviations as those of a release"),
+    "baseline": (_baseline, "hold every computed cell where it is now (ratchet_baseline.csv), and empty ratchet_moves.csv"),
+    "moves": (_moves, "list the cells that moved since the baseline in ratchet_moves.csv, with a reason"),
+    "checksums": (_checksums, "list the study's input files with their SHA-256 (data/SHA256SUMS)"),
 }
 
 
@@ -132,5 +151,7 @@ def _parse(arguments):
         command.add_argument("--data", type=Path, help="the paper as printed and the rules (default data/<study>)")
         if name == "figures":
             command.add_argument("--only", metavar="NAME", help="this figure alone, e.g. fig_05, into results/<study>/look")
+        if name == "moves":
+            command.add_argument("--reason", required=True, metavar="TEXT", help="why these cells have to move")
         command.add_argument("--workflow", type=Path, help="study.toml and the steps' configs (default workflows/<study>)")
     return parser.parse_args(arguments)

@@ -5,15 +5,13 @@ import pandas as pd
 
 from .cells import csv_text, decimals, number
 from .errors import InputError
-from .identifiability import allowed_changes
 from .study import Study
-from .tolerances import Column, Tolerances
+from .tolerances import CARRIED, Column, Tolerances
 
 
 @dataclass
 class Cell:
-    """One compared cell. `deviation` and `allowed` are in the column's unit; for the rule `measurement` the deviation is how
-    much further than the paper ours is from the measurement (negative: closer)."""
+    """One cell beside the paper's. `deviation` and `allowed` are in the column's unit."""
 
     table: str
     row: str
@@ -26,8 +24,10 @@ class Cell:
     kind: str
     basis: str
     verdict: str = ""  # inside | outside | known | stale entry | shown
-    one_sided: bool = False
     shown: bool = False  # beside the paper's, no claim of agreement: never judged
+    repeats: str = ""  # name of the cell that says the same number; "" for a number of its own
+    null: str = ""  # what the null puts in this cell's place; "" where the column has none
+    null_passes: bool = False  # the null would be inside the tolerance too
 
     @property
     def name(self) -> str:
@@ -40,19 +40,14 @@ class Cell:
             return float("inf")
         if self.deviation is None or self.allowed is None:
             return 0.0 if self.inside else float("inf")
-        deviation = max(0.0, self.deviation) if self.one_sided else abs(self.deviation)
         if self.allowed == 0.0:
-            return 0.0 if deviation == 0.0 else float("inf")
-        return 100.0 * deviation / self.allowed
+            return 0.0 if self.deviation == 0.0 else float("inf")
+        return 100.0 * abs(self.deviation) / self.allowed
 
     @property
-    def deviation_pct(self) -> float:
-        """What the ratchet watches: points for columns in percent, else percent of the paper's value."""
-        if self.deviation is None:
-            return 0.0 if self.inside else 100.0
-        deviation = max(0.0, self.deviation) if self.one_sided else abs(self.deviation)
-        paper = number(self.paper)
-        return deviation if self.column.endswith("_pct") or not paper else 100.0 * deviation / abs(paper)
+    def independent(self) -> bool:
+        """A computed number of its own that is compared."""
+        return not self.shown and self.kind not in CARRIED and not self.repeats
 
 
 def load_table(study: Study, table: str, key: str) -> pd.DataFrame:
@@ -89,53 +84,44 @@ def compare_table(study: Study, table: str, tolerances: Tolerances) -> list:
     lacking = [c for c in rules if c not in paper.columns]
     if lacking:
         raise InputError(f"{study.data / 'tolerances.toml'}: {table}.columns.{lacking[0]}: no such column in the paper's table")
-    changes = allowed_changes(study, _scatter(rules)) if any(r.rule == "identifiability" for r in rules.values()) else {}
+    said_before = {column: _said_before(study, tolerances, rule) for column, rule in rules.items()}
     cells = []
     for row in paper.index:
         for column, rule in rules.items():
             printed = paper.at[row, column]
             found = ours.at[row, column] if row in ours.index and column in ours.columns else ""
             if printed or found:
-                cells.append(_cell(rule, rules, row, printed, found, paper, changes))
+                cells.append(judge(rule, rules, row, printed, found, paper))
+                cells[-1].repeats = said_before[column].get(row, "")
     for row in ours.index.difference(paper.index, sort=False):
         cells.append(Cell(table, row, key, "", row, None, None, False, "input", "rows are the paper's"))
     return cells
 
 
-def _scatter(rules) -> float:
-    return next(r.tolerance for r in rules.values() if r.rule == "identifiability")
+def _said_before(study: Study, tolerances: Tolerances, rule: Column) -> dict:
+    """{row: name of the cell whose number this column says again}: the rows that the column named by `repeats` has too."""
+    if not rule.repeats:
+        return {}
+    table, _, column = rule.repeats.partition(".")
+    if column not in tolerances.columns.get(table, {}):
+        raise InputError(f"{study.data / 'tolerances.toml'}: {rule.table}.columns.{rule.name}: repeats {rule.repeats!r}, "
+                         f"which is no column with a rule")
+    return {row: f"{table} row {row} column {column}" for row in load_paper(study, table, tolerances.keys[table]).index}
 
 
-def _cell(rule: Column, rules, row, printed, found, paper, changes) -> Cell:
-    def cell(deviation, allowed, inside, basis=rule.basis, one_sided=False):
-        return Cell(rule.table, row, rule.name, printed, found, deviation, allowed, inside, rule.kind_of(row), basis, "", one_sided)
+def judge(rule: Column, rules: dict, row: str, printed: str, found: str, paper: pd.DataFrame) -> Cell:
+    """What is found (ours, or a null's) in a cell held against what is printed there."""
+    def cell(deviation, allowed, inside, shown=False):
+        return Cell(rule.table, row, rule.name, printed, found, deviation, allowed, inside, rule.kind_of(row), rule.basis, shown=shown)
 
     theirs, value = number(printed), number(found)
     if rule.rule == "shown":
-        deviation = None if theirs is None or value is None else value - theirs
-        return Cell(rule.table, row, rule.name, printed, found, deviation, None, True, rule.kind_of(row), rule.basis, shown=True)
-    if rule.rule == "exact":
+        return cell(None if theirs is None or value is None else value - theirs, None, True, shown=True)
+    if rule.rule == "exact" or theirs is None or value is None:
         return cell(None, None, printed == found)
-    if theirs is None or value is None:
-        return cell(None, None, printed == found)
-    if rule.rule == "measurement":
-        measured, error = number(paper.at[row, rule.measured]), number(paper.at[row, rule.error])
-        points = abs(value) if rule.name == rule.error else 100.0 * abs(value / measured - 1.0)
-        further = points - abs(error)
-        return cell(further, rule.tolerance, further <= rule.tolerance, one_sided=True)
-    deviation = value - theirs
-    basis = rule.basis
-    if rule.rule == "identifiability":
-        if row not in changes:
-            raise InputError(f"s6_updating/parameters.csv: no parameter {row}, a row of {rule.table}")
-        points, words = changes[row]
-        initial = number(paper.at[row, "initial_value"])
-        allowed = points if rule.name.endswith("_pct") else points / 100.0 * initial
-        basis = f"{words}. {basis}"
-    else:
-        allowed = _allowed(rule, rules, row, printed, paper)
+    deviation, allowed = value - theirs, _allowed(rule, rules, row, printed, paper)
     # 12 digits are written: a deviation of that size is not one
-    return cell(deviation, allowed, abs(deviation) <= allowed * (1.0 + 1e-9) + 1e-12 * abs(theirs), basis)
+    return cell(deviation, allowed, abs(deviation) <= allowed * (1.0 + 1e-9) + 1e-12 * abs(theirs))
 
 
 def _allowed(rule: Column, rules, row, printed, paper) -> float:
@@ -152,13 +138,16 @@ def _allowed(rule: Column, rules, row, printed, paper) -> float:
     return 100.0 / number(paper.at[row, rule.measured]) * _allowed(source, rules, row, paper.at[row, rule.of], paper)
 
 
-def rms_of(cells, table: str, column: str) -> float | None:
-    """Root mean square of (ours - paper) / paper over the cells of a column; None if there is nothing to take it of."""
-    squares = []
-    for cell in cells:
-        paper, ours = number(cell.paper), number(cell.ours)
-        if cell.table == table and cell.column == column and paper and ours is not None:
-            squares.append((ours / paper - 1.0) ** 2)
+def relative_deviation(cell: Cell, found: str) -> float | None:
+    """(found - paper) / paper; None where one of them is no number."""
+    paper, value = number(cell.paper), number(found)
+    return value / paper - 1.0 if paper and value is not None else None
+
+
+def rms_of(cells, table: str, column: str, null: bool = False) -> float | None:
+    """Root mean square of the relative deviations of a column's cells, ours or its null's; None if there is nothing to take it of."""
+    found = [relative_deviation(c, c.null if null else c.ours) for c in cells if c.table == table and c.column == column]
+    squares = [d * d for d in found if d is not None]
     return (sum(squares) / len(squares)) ** 0.5 if squares else None
 
 

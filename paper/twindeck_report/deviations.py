@@ -1,4 +1,5 @@
-"""report/deviations.csv, claims.csv, statements.csv, deviations.md and junit.xml: the check's result for a spreadsheet, a reader and a CI server."""
+"""report/deviations.csv, nulls.csv, claims.csv, statements.csv, deviations.md and junit.xml: the check's result for a spreadsheet, a
+reader and a CI server."""
 import csv
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,6 +11,7 @@ from .compare import row_for_csv
 HEADER = ["table", "row", "column", "paper", "ours", "deviation", "allowed", "used_pct", "kind", "verdict", "basis"]
 STATEMENTS = ["statement", "where", "found", "verdict"]
 
+NULLS = ["table", "column", "null", "meaning", "cells", "passed", "rms", "limit", "verdict"]
 CLAIM_HEADER = ["claim", "section", "unit", "paper", "ours", "deviation", "allowed", "kind", "verdict", "basis"]
 
 
@@ -20,12 +22,21 @@ def claim_row(claim) -> list:
             claim.verdict, claim.basis]
 
 
+def null_row(verdict) -> list:
+    return [verdict.table, verdict.column, verdict.null, verdict.meaning, verdict.cells, verdict.passed, csv_text(verdict.rms),
+            csv_text(verdict.limit), "shown" if verdict.passes else "compared"]
+
+
 def write_deviations(result: CheckResult, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "deviations.csv").open("w", encoding="utf-8", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(HEADER)
         writer.writerows(row_for_csv(cell) for cell in result.cells)
+    with (folder / "nulls.csv").open("w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(NULLS)
+        writer.writerows(null_row(verdict) for verdict in result.nulls)
     with (folder / "claims.csv").open("w", encoding="utf-8", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(CLAIM_HEADER)
@@ -46,7 +57,10 @@ def markdown(result: CheckResult) -> str:
     lines += ["## Root mean square of relative deviations", ""]
     lines += table(["table", "column", "ours", "limit", "verdict", "basis"],
                    [[r.rule.table, r.rule.column, percent(r.value), percent(r.rule.limit),
-                     "inside" if r.inside else "outside", r.rule.basis] for r in result.rms])
+                     r.verdict, r.known or r.rule.basis] for r in result.rms])
+    lines += ["## What stands in a column's place, and how far it gets", "",
+              "A column whose null passes is shown and not compared: it neither goes beyond the rms limit nor misses a third of the cells.", ""]
+    lines += table(NULLS, [[_short(str(text)) for text in null_row(v)] for v in result.nulls])
     lines += ["## Orderings and signs that carry conclusions", ""]
     lines += table(["order", "statement", "found", "verdict", "basis"],
                    [[o.name, o.statement, o.found, "holds" if o.holds else "does not hold", o.basis] for o in result.orders])
@@ -56,7 +70,8 @@ def markdown(result: CheckResult) -> str:
     lines += ["## Statements of the text on wind", "", "Ours rest on synthetic aerodynamic data: a miss is a finding and fails nothing.", ""]
     lines += table(STATEMENTS, [[s.statement, s.source, s.found, s.verdict] for s in result.statements])
     lines += ["## Printed numbers of the tables", ""] + [f"- {line}" for line in result.coverage()] + [""]
-    lines += ["## Ratchet", "", result.ratchet, ""]
+    lines += ["## Ratchet", "", result.ratchet.told, ""]
+    lines += table(["cell", "baseline", "now", "reason"], [[*move] for move in result.ratchet.excused])
     lines += ["## Every cell, worst first, then what is only shown", ""]
     lines += table(HEADER, [[_short(text) for text in row_for_csv(cell)] for cell in result.cells])
     return "\n".join(lines)
@@ -80,10 +95,11 @@ def _short(text: str) -> str:
 
 def junit(result: CheckResult) -> ElementTree.ElementTree:
     cases = [(c.table, f"{c.row} {c.column}", c.verdict in ("inside", "known", "shown"), explain(c)) for c in result.cells]
-    cases += [(r.rule.table, f"rms {r.rule.column}", r.inside, percent(r.value)) for r in result.rms]
+    cases += [(r.rule.table, f"rms {r.rule.column}", r.verdict in ("inside", "known"), percent(r.value)) for r in result.rms]
     cases += [("orders", o.name, o.holds, o.found) for o in result.orders]
     cases += [("claims", c.name, c.verdict in ("inside", "known"), c.shown) for c in result.claims if c.allowed is not None]
-    cases += [("ratchet", c.name, False, problem) for c, problem in result.grown]
+    cases += [("ratchet", c.name, False, problem) for c, _, problem in result.ratchet.moved]
+    cases += [("ratchet", line, False, line) for line in result.ratchet.stale]
     cases += [("hashes", str(path), False, problem) for path, problem in result.stale]
     cases += [("tables", name, False, "missing") for name in result.missing]
     failures = sum(not ok for *_, ok, _ in cases)

@@ -58,14 +58,29 @@ def stale_outputs(folder: Path) -> list:
     return found
 
 
-def stale_inputs(folder: Path) -> list:
-    """[(input, what is wrong)] for inputs that changed after `folder` was made; inputs that lie elsewhere now are skipped."""
-    manifest = read_manifest(folder) or {}
-    return [
-        (Path(name), f"stale hash: changed since {folder.name} was made from it")
-        for name, recorded in manifest.get("inputs", {}).items()
-        if Path(name).is_file() and sha256(Path(name)) != recorded
-    ]
+def stale_inputs(folders: list) -> list:
+    """[(folder, what is wrong)] for every folder that was made from inputs which changed since, or from a folder that is itself named
+    here. Inputs that lie elsewhere now are skipped."""
+    inputs = {folder: (read_manifest(folder) or {}).get("inputs", {}) for folder in folders}
+    found = {}
+    for folder, read in inputs.items():
+        changed = [name for name, recorded in read.items() if Path(name).is_file() and sha256(Path(name)) != recorded]
+        if changed:
+            more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
+            found[folder] = f"stale: {', '.join(changed[:3])}{more} changed since {folder.name} was made; run `make {_target(folder.name)}`"
+    while True:  # what was made from something stale is stale too
+        later = {folder: next((f for f in found if any(Path(name).is_relative_to(f) for name in read)), None)
+                 for folder, read in inputs.items() if folder not in found}
+        later = {folder: before for folder, before in later.items() if before is not None}
+        if not later:
+            return list(found.items())
+        found |= {folder: f"stale: made from {before.name}, which is stale; run `make {_target(folder.name)}`"
+                  for folder, before in later.items()}
+
+
+def _target(name: str) -> str:
+    """s8_validation is made by `make s8`, tables by `make tables`."""
+    return name.split("_")[0]
 
 
 def _versions() -> dict:

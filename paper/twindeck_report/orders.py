@@ -34,7 +34,11 @@ def _check(study: Study, keys: dict, where: str, entry: dict) -> Order:
 
 
 def _values(study: Study, keys: dict, where: str, reference) -> dict:
-    """{row: number} of "table_09.error_pct"."""
+    """{row: number} of "table_09.error_pct", or of a step's file: "s6_updating/costs.csv point cost", its key and its column."""
+    if ".csv " in str(reference):
+        file, key, column = str(reference).split()
+        rows = study.step_csv(file, [key, column], text=True)
+        return {row: number(text) for row, text in zip(rows[key], rows[column]) if number(text) is not None}
     table, _, column = str(reference).partition(".")
     if table not in keys:
         raise InputError(f"{where}: {reference!r}: expected \"table_NN.column\" of a compared table")

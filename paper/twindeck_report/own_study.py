@@ -13,7 +13,7 @@ from .page.pieces import image, quantities, render, text
 from .page.source import read_source
 from .study import Study
 from .tables.writer import heading, write_csv
-from .unchanged import changed_steps
+from .unchanged import changed_steps, step_folders
 
 # file of a step -> (name of the table, what it shows)
 TABLES = {
@@ -106,5 +106,6 @@ def _on_bounds(study: Study) -> list:
 
 def verify_own(study: Study) -> list:
     """What is wrong with the files, a line each; there are no printed tables to compare with."""
-    found = stale_outputs(study.results / "tables") + stale_inputs(study.results / "tables") + changed_steps(study)
+    tables = study.results / "tables"
+    found = stale_outputs(tables) + changed_steps(study) + stale_inputs([*step_folders(study), tables])
     return [f"{path}: {problem}" for path, problem in found]

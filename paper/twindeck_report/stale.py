@@ -1,4 +1,5 @@
-"""Files that are no longer what their manifest says, and, for an edited table, the cells that were edited."""
+"""Files that are no longer what their manifest says, steps whose inputs changed since they ran, and, for an edited table, the cells that
+were edited."""
 from .cells import csv_text
 from .compare import row_names
 from .errors import InputError
@@ -7,15 +8,14 @@ from .study import Study
 from .tables import TABLES, table_name
 from .tables.writer import full_table
 from .tolerances import Tolerances
-from .unchanged import changed_steps
+from .unchanged import changed_steps, step_folders
 
 
 def find_stale(study: Study, tolerances: Tolerances) -> list:
     """[(file, what is wrong)] over tables/ and every step's folder."""
     tables = study.results / "tables"
     found = [(path, problem + _edited(study, path, tolerances)) for path, problem in stale_outputs(tables)]
-    found += stale_inputs(tables)
-    return found + changed_steps(study)
+    return found + changed_steps(study) + stale_inputs([*step_folders(study), tables])
 
 
 def _edited(study: Study, path, tolerances: Tolerances) -> str:

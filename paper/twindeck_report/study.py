@@ -14,9 +14,8 @@ class Study:
 
     name: str
     results: Path  # results/<study>: step folders, tables/, figures/, report/
-    data: Path  # data/<study>: paper/, tolerances.toml, known_deviations.toml, errata.toml, orders.toml, ratchet.csv
+    data: Path  # data/<study>: paper/, tolerances.toml, known_deviations.toml, errata.toml, orders.toml, ratchet_baseline.csv
     workflow: Path  # workflows/<study>: study.toml, one config a step
-    changelog: Path = Path("CHANGELOG.md")
     used: set = field(default_factory=set)  # every file read so far: the inputs of a manifest
 
     def read_csv(self, path: Path, columns=(), text=False) -> pd.DataFrame:

@@ -4,15 +4,14 @@ from dataclasses import dataclass
 from .errors import InputError
 from .study import Study
 
-KINDS = ("input", "identity", "calibrated", "predicted", "recovered", "virtual", "unavailable")
+KINDS = ("input", "identity", "calibrated", "fit", "predicted", "recovered", "virtual", "unavailable")
+CARRIED = ("input", "identity")  # kinds that nothing of ours was computed for
 RULES = {
     "exact": "text equals the paper's text",
     "rounding": "inside half a unit of the last printed digit (times `tolerance`)",
     "absolute": "|ours - paper| <= tolerance, in the column's unit",
     "relative": "|ours - paper| <= tolerance |paper|",
     "error_of": "propagated: 100 / measured x what the column `of` may deviate",
-    "measurement": "not further from the measurement than the paper's plus `tolerance` percentage points",
-    "identifiability": "range of the bounds, less what the data resolve (identifiability.py)",
     "shown": "beside the paper's, not compared: no claim of agreement",
 }
 
@@ -28,9 +27,10 @@ class Column:
     tolerance: float
     basis: str
     of: str = ""  # error_of: the column it is computed from
-    measured: str = ""  # error_of, measurement: the column with the measured value
-    error: str = ""  # measurement: the column with the paper's error in percent
+    measured: str = ""  # error_of: the column with the measured value
     row_kinds: tuple = ()  # ((row, kind), ...) of rows of another kind than the column's
+    repeats: str = ""  # "table_NN.column": rows that it has too are one number with ours, and are counted once
+    null: str = ""  # what the column is judged with in place of ours (nulls.py)
 
     def kind_of(self, row: str) -> str:
         return dict(self.row_kinds).get(row, self.kind)
@@ -78,15 +78,19 @@ def _column(path, table, name, rule) -> Column:
     tolerance = rule.get("tolerance", 1.0 if rule["rule"] in ("rounding", "exact", "error_of", "shown") else None)
     if not isinstance(tolerance, (int, float)) or isinstance(tolerance, bool) or not 0 <= tolerance < float("inf"):
         raise InputError(f"{where}: tolerance {tolerance!r}; expected a number of at least 0")
-    needed = {"error_of": ("of", "measured"), "measurement": ("measured", "error")}.get(rule["rule"], ())
-    for key in needed:
+    for key in ("of", "measured") if rule["rule"] == "error_of" else ():
         if not isinstance(rule.get(key), str):
             raise InputError(f"{where}: the rule {rule['rule']} needs {key} = \"<column>\"")
     row_kinds = rule.get("row_kinds", {})
     if not isinstance(row_kinds, dict) or any(kind not in KINDS for kind in row_kinds.values()):
         raise InputError(f"{where}: row_kinds {row_kinds!r}; expected {{ <row> = \"<kind>\" }} with one of {', '.join(KINDS)}")
-    return Column(table, name, rule["kind"], rule["rule"], float(tolerance), basis,
-                  rule.get("of", ""), rule.get("measured", ""), rule.get("error", ""), tuple(row_kinds.items()))
+    repeats, null = rule.get("repeats", ""), rule.get("null", "")
+    if not isinstance(repeats, str) or (repeats and repeats.count(".") != 1):
+        raise InputError(f'{where}: repeats {repeats!r}; expected "table_NN.column", the numbers that this column says again')
+    if rule["rule"] != "shown" and rule["kind"] not in CARRIED and not null and not repeats:
+        raise InputError(f"{where}: no null; name what the column is judged with in place of ours, or the column that it repeats")
+    return Column(table, name, rule["kind"], rule["rule"], float(tolerance), basis, rule.get("of", ""), rule.get("measured", ""),
+                  tuple(row_kinds.items()), repeats, null)
 
 
 def _rms(path, table, rule) -> RmsRule:

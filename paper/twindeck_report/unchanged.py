@@ -18,7 +18,7 @@ def changed_pages(study: Study) -> list:
     """[(file, what is wrong)] over tables/, figures/ and what the tables were made from."""
     made = [study.results / part for part in ("tables", "figures") if (study.results / part / "manifest.json").is_file()]
     found = [finding for folder in made for finding in stale_outputs(folder)]
-    return found + (stale_inputs(study.results / "tables") if made else [])
+    return found + (stale_inputs([study.results / "tables"]) if made else [])
 
 
 def refuse_changed(study: Study, found: list) -> None:

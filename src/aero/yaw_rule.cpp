@@ -30,17 +30,17 @@ const std::vector<YawRule>& published_yaw_rules() {
       {"D", cosine_group, "Static application of the cosine rule and dynamic application of the skew wind theory", cosine, 1,
        all(2), ForceAxes::deck},
       {"G", wind_group, "NS #1", cosine, 1, all(2), ForceAxes::wind},
-      {"H", wind_group, "NS #2", oblique_strip, 1, on_oblique_strip(), ForceAxes::wind},
+      {"H", wind_group, "NS #2", oblique_strip, 1, all(0), ForceAxes::wind},
       {"I", wind_group, "NS #3", oblique_strip, 1, all(2), ForceAxes::wind},
   };
   return rules;
 }
 
-YawRule literal_rule_H() {
+YawRule oblique_rule_H() {
   YawRule rule = published_yaw_rule("H");
-  rule.name = "H_literal";
-  rule.description = "NS #2, derivatives unchanged";
-  rule.inverse_power = all(0);
+  rule.name = "H_oblique";
+  rule.description = "NS #2, derivatives on the oblique strip";
+  rule.inverse_power = on_oblique_strip();
   return rule;
 }
 

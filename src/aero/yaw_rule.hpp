@@ -30,11 +30,13 @@ struct YawRule {
   ForceAxes axes = ForceAxes::deck;
 };
 
-/// Models A, C, D, G, H, I of Table 11. H's block is on the oblique strip as its static part is: B'²L' gives 1/cos for forces
-/// due to y and z, 1/cos² across to alpha, 1/cos³ for the moment due to alpha.
+/// Models A, C, D, G, H, I of Table 11 as printed. H has derivatives H*(alpha, 0, K') with factor 1, B' and L' in its static
+/// part alone.
 [[nodiscard]] const std::vector<YawRule>& published_yaw_rules();
-/// H as printed to the letter: derivatives H*(alpha, 0, K') with factor 1, B' and L' in the static part alone.
-[[nodiscard]] YawRule literal_rule_H();
+/// Another reading of H, which is not the printed one: its block on the oblique strip as its static part is. B'²L' gives 1/cos
+/// for forces due to y and z, 1/cos² across to alpha, 1/cos³ for the moment due to alpha. The printed speeds of C, H and G form
+/// a geometric ladder, as factors 1, 1/cos and 1/cos² give.
+[[nodiscard]] YawRule oblique_rule_H();
 /// @throws InputError  for an unknown name, naming the known ones
 [[nodiscard]] const YawRule& published_yaw_rule(const std::string& name);
 

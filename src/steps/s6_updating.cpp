@@ -27,9 +27,11 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   const steps::Pairing pairing = steps::pair_for_updating(config, before, modes_before, *measured);
 
   // 3. The update.
+  updating::UpdatingOptions options = config.options(context.seed);
+  options.elsewhere = steps::published_values(config, parameters, active, context);
   const updating::UpdatingResult result =
       updating::update(before.system, steps::prestress_refresh(before), active, steps::frequency_targets(*measured, pairing),
-                       config.options(context.seed), [&](int done, int of) { context.progress("starts", done, of); });
+                       options, [&](int done, int of) { context.progress("starts", done, of); });
   if (result.starts.empty() || result.mode_after.empty()) return result.status;
 
   // 4. The updated model, in balance, with its modes and the same pairs.
@@ -46,6 +48,8 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   steps::write_smooth_bounds(parameters, active, result, context.out / "smooth_bounds.csv");
   steps::write_history(parameters, active, result, context.out / "history.csv");
   steps::write_starts(parameters, active, result, context.out / "starts.csv");
+  steps::write_costs(result, context.out / "costs.csv");
+  steps::write_leave_one_out(comparison, pairing.pairs.size(), result, context.out / "leave_one_out.csv");
   steps::write_updating_summary(comparison, config.common_pairs, result, context.out / "summary.csv");
   steps::write_mac(*measured, followed, context.out);
   model_io::write_modes(steps::published_modes(after.fe_model(), after.system, modes_after), context.out);

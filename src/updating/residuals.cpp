@@ -51,7 +51,7 @@ void FrequencyResiduals::solve(Evaluation& evaluation) {
     evaluation.mode[static_cast<std::size_t>(i)] = mode;
     evaluation.mac(i) = followed.mac(target.reference_mode);
     evaluation.frequency_Hz(i) = modes_.frequency_Hz(mode);
-    evaluation.residual(i) = evaluation.frequency_Hz(i) / target.measured_Hz - 1.0;
+    evaluation.residual(i) = target.fitted ? evaluation.frequency_Hz(i) / target.measured_Hz - 1.0 : 0.0;
   }
   evaluation.valid = true;
 }
@@ -64,9 +64,10 @@ void FrequencyResiduals::differentiate(Evaluation& evaluation) {
   }
   const Eigen::MatrixXd all = dynamics::frequency_jacobian(*system_, definition_.theta(evaluation.x), modes_);
   const auto n = static_cast<Eigen::Index>(definition_.targets.size());
-  evaluation.jacobian.resize(n, static_cast<Eigen::Index>(definition_.active.size()));
+  evaluation.jacobian.setZero(n, static_cast<Eigen::Index>(definition_.active.size()));
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto target = static_cast<std::size_t>(i);
+    if (!definition_.targets[target].fitted) continue;
     for (std::size_t j = 0; j < definition_.active.size(); ++j) {
       const auto column = static_cast<Eigen::Index>(j);
       evaluation.jacobian(i, column) = all(evaluation.mode[target], definition_.active[j]) * definition_.scale(column) /

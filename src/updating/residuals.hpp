@@ -29,7 +29,7 @@ struct ResidualDefinition {
 struct Evaluation {
   bool valid = false;             ///< false: modes not found here (mechanism, lost mode); the step must be refused
   Eigen::VectorXd x;              ///< (n_active)
-  Eigen::VectorXd residual;       ///< (n_targets) (f_N - f_X)/f_X [-]
+  Eigen::VectorXd residual;       ///< (n_targets) (f_N - f_X)/f_X [-]; 0 for a target that is not fitted
   Eigen::MatrixXd jacobian;       ///< (n_targets × n_active) per normalised parameter; empty until asked for
   Eigen::VectorXd frequency_Hz;   ///< (n_targets) of the followed modes
   std::vector<int> mode;          ///< (n_targets) positions of the followed modes

@@ -161,6 +161,12 @@ SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int star
   return out;
 }
 
+Evaluation evaluate_in_balance(const Search& search, const Eigen::VectorXd& x) {
+  const SharedSystem system = search.refresh ? refreshed(search, x) : search.initial_system;
+  FrequencyResiduals residuals(system, search.definition);
+  return residuals.at(x, false);
+}
+
 SmoothCheck check_by_smooth_map(const Search& search, const SearchEnd& ended) {
   const auto n_targets = static_cast<int>(search.definition.targets.size());
   const SharedSystem system = search.refresh ? refreshed(search, ended.end.x) : search.initial_system;

@@ -45,6 +45,9 @@ struct SearchEnd {
 /// solves on the full system at frozen prestress, the prestress found anew in between, until the parameters stay.
 [[nodiscard]] SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start);
 
+/// Residuals at normalised parameters x, with the prestress of x.
+[[nodiscard]] Evaluation evaluate_in_balance(const Search& search, const Eigen::VectorXd& x);
+
 /// The problem of a search that has ended, from its first point by the smooth map of the bounds, at the prestress of its end: on
 /// the reduced system corrected to agree with the full one there, or on the full one where there is no reduced one.
 [[nodiscard]] SmoothCheck check_by_smooth_map(const Search& search, const SearchEnd& ended);

@@ -108,13 +108,14 @@ bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, Matri
     const int at = followed.position[static_cast<std::size_t>(target.reference_mode)];
     if (at < 0 || lambda(at) <= 0.0) return false;
     mode[static_cast<std::size_t>(i)] = at;
-    residual(i) = std::sqrt(lambda(at)) / (2.0 * std::numbers::pi * target.measured_Hz) - 1.0;
+    residual(i) = target.fitted ? std::sqrt(lambda(at)) / (2.0 * std::numbers::pi * target.measured_Hz) - 1.0 : 0.0;
   }
   if (jacobian == nullptr) return true;
   const MatrixXd slope =
       reduced_.eigenvalue_derivatives(theta, definition_.active, lambda(mode), MatrixXd(z(Eigen::all, mode)));
-  jacobian->resize(n, definition_.scale.size());
+  jacobian->setZero(n, definition_.scale.size());
   for (Index i = 0; i < n; ++i) {
+    if (!definition_.targets[static_cast<std::size_t>(i)].fitted) continue;
     const double frequency = std::sqrt(lambda(mode[static_cast<std::size_t>(i)])) / (2.0 * std::numbers::pi);
     const double per_eigenvalue = 1.0 / (8.0 * std::numbers::pi * std::numbers::pi * frequency *
                                          definition_.targets[static_cast<std::size_t>(i)].measured_Hz);

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "core/parallel.hpp"
+#include "updating/leave_one_out.hpp"
 #include "updating/multi_start.hpp"
 #include "updating/optimality.hpp"
 #include "updating/residuals.hpp"
@@ -166,6 +167,16 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   if (start.size() >= options.surrogate_from_size) search.surrogate = make_surrogate(search, points);
   std::vector<SearchEnd> ends = run_starts(search, points, progress);
   collect(search, ends, result);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const double residual = result.frequency_before_Hz(static_cast<Eigen::Index>(i)) / targets[i].measured_Hz - 1.0;
+    result.cost_before += targets[i].fitted ? 0.5 * residual * residual : 0.0;
+  }
+  for (const Eigen::VectorXd& values : options.elsewhere) {
+    const Evaluation there = evaluate_in_balance(search, values.cwiseQuotient(definition.scale));
+    result.elsewhere.push_back({there.valid ? there.cost() : 0.0, there.frequency_Hz, there.valid});
+  }
+  const SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
+  if (options.leave_one_out && best.result.converged) result.left_out = leave_each_out(search, x0, best.end.x);
   return result;
 }
 

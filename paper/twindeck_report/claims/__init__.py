@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 from ..cells import decimals, number
 from ..errors import InputError
-from ..known import LARGEST_SHARE, entries_of
 from ..study import Study
-from ..tolerances import KINDS
+from ..tolerances import CARRIED, KINDS
 from . import bridge, identification, updating, wind
+from .nulls import NULLS, REPEATS
 
 # claim -> (ours from the study's results, deviation that the printed text allows or None, why)
 COMPUTED = {**bridge.COMPUTED, **identification.COMPUTED, **updating.COMPUTED, **wind.COMPUTED}
@@ -25,10 +25,21 @@ class Claim:
     allowed: float | None  # None: shown beside the paper's, no claim of agreement
     basis: str  # why that much is allowed; of what is not computed, why not
     known: bool = False  # listed in known_deviations.toml
+    repeats: str = ""  # the cell of a table, or the claim, that says the same number
+    null: float | None = None  # what stands in the number's place if nothing is computed for it
+    null_passes: bool = False
 
     @property
     def inside(self) -> bool:
-        return abs(self.ours - number(self.paper)) <= self.allowed * (1.0 + 1e-9)
+        return self.holds(self.ours)
+
+    def holds(self, value: float) -> bool:
+        return abs(value - number(self.paper)) <= self.allowed * (1.0 + 1e-9)
+
+    @property
+    def independent(self) -> bool:
+        """A computed number of its own that is compared."""
+        return self.ours is not None and self.allowed is not None and self.kind not in CARRIED and not self.repeats
 
     @property
     def verdict(self) -> str:
@@ -54,9 +65,7 @@ def check_claims(study: Study) -> list:
     repeated = table["claim"][table["claim"].duplicated()]
     if len(repeated):
         raise InputError(f"{path}: claim {repeated.iloc[0]} stands twice")
-    claims = [_claim(study, path, row) for row in table.to_dict("records")]
-    _mark_known(study, claims)
-    return claims
+    return [_judged(study, _claim(study, path, row)) for row in table.to_dict("records")]
 
 
 def _claim(study: Study, path, row: dict) -> Claim:
@@ -72,19 +81,16 @@ def _claim(study: Study, path, row: dict) -> Claim:
     ours = compute(study) if compute else None
     allowed = None if ours is None or tolerance is None else tolerance(row["value"])
     return Claim(name, row["source"], row["kind"], row["unit"], row["value"], ours, allowed,
-                 basis if ours is not None else note or "The step that gives it is not part of this study, or did not find it.")
+                 basis if ours is not None else note or "The step that gives it is not part of this study, or did not find it.",
+                 repeats=REPEATS.get(name, ""))
 
 
-def _mark_known(study: Study, claims: list) -> None:
-    path = study.data / "known_deviations.toml"
-    by_name = {claim.name: claim for claim in claims if claim.allowed is not None}
-    entries = entries_of(study, claims=True)
-    for entry in entries:
-        if entry["row"] not in by_name or entry["column"] != "value":
-            raise InputError(f"{path}: claims {entry['row']} {entry['column']}: no compared claim of that name (column = \"value\")")
-        claim = by_name[entry["row"]]
-        claim.known, claim.basis = True, entry["reason"]
-    comparable = sum(claim.kind != "input" for claim in by_name.values())
-    if len(entries) > max(2, LARGEST_SHARE * comparable):
-        raise InputError(f"{path}: {len(entries)} entries on claims; at most two, or a tenth of the {comparable} compared ones that are not "
-                         f"inputs, may be listed")
+def _judged(study: Study, claim: Claim) -> Claim:
+    """Its null in its place; a claim that the null meets too is shown."""
+    if claim.independent and claim.name in NULLS:
+        value, meaning = NULLS[claim.name]
+        claim.null = value(study) if callable(value) else value
+        claim.null_passes = claim.null is not None and claim.holds(claim.null)
+        if claim.null_passes:
+            claim.allowed, claim.basis = None, f"Shown, not compared: {meaning} would pass. {claim.basis}"
+    return claim

@@ -3,7 +3,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..study import Study
-from ..identifiability import truth
+from ..cells import truth
 from .style import ACCENT, INK, plt
 
 NAME = "sensitivity_map"

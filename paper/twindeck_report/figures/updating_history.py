@@ -2,7 +2,7 @@
 import numpy as np
 
 from ..errors import InputError
-from ..identifiability import truth
+from ..cells import truth
 from ..study import Study
 from .sensitivity_map import symbol
 from .style import ACCENT, INK, PALE, WARN, plt

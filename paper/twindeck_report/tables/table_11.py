@@ -45,8 +45,7 @@ def static_coefficients(statics: str) -> str:
 def derivatives(k: str, powers: tuple, axes: str) -> str:
     if powers not in (PLAIN, SKEW, OBLIQUE):
         raise InputError(f"rules.csv: powers {powers}: no words for them; expected {PLAIN}, {SKEW} or {OBLIQUE}")
-    # on the oblique strip B' and L' carry the factor, so the derivatives stand as they are
-    factor = "/cos^2(theta)" if powers == SKEW else ""
+    factor = {PLAIN: "", SKEW: "/cos^2(theta)", OBLIQUE: " on B', L' in place of B, L"}[powers]
     prime = "'" if powers == SKEW and axes == "deck" else ""  # so printed for D alone
     return "; ".join(f"{x}_i*{prime} = {x}_i*(alpha,0,{k}){factor}" for x in "HA")
 

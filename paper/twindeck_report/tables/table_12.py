@@ -2,6 +2,7 @@
 import pandas as pd
 
 from ..errors import InputError
+from ..ladder import set_level
 from ..study import Study
 
 TITLE = "Critical velocity and frequency of the simulations (synthetic aerodynamic set standin, fitted to this table)"
@@ -10,6 +11,11 @@ NAMES = ["set", "model", "group", "description", "dampers", "structural_damping_
 
 def build(study: Study) -> pd.DataFrame:
     return critical(study, "standin")
+
+
+def note(study: Study) -> str:
+    level = set_level(study, "standin")
+    return "" if level is None else f"; all its self-excited forces multiplied by {level:.4f}, so that row A is met"
 
 
 def critical(study: Study, aerodynamic_set: str) -> pd.DataFrame:

@@ -26,7 +26,7 @@ def write_tables(study: Study) -> list:
     written = []
     for number_, table in built.items():
         printed = study.paper_table(paper_number(number_))
-        title = f"Table {str(number_).replace('_', ' ')}. {TABLES[number_].TITLE}"
+        title = f"Table {str(number_).replace('_', ' ')}. {TABLES[number_].TITLE}{_note(study, TABLES[number_])}"
         name = folder / table_name(number_)
         write_csv(table, name.with_suffix(".csv"))
         name.with_suffix(".tex").write_text(latex(table, printed, title, f"tab:{table_name(number_)}", _numbered(number_)),
@@ -35,6 +35,11 @@ def write_tables(study: Study) -> list:
         written += [name.with_suffix(suffix) for suffix in (".csv", ".tex", ".html")]
     write_manifest("tables", folder, study.used, written, started)
     return [table_name(n) for n in built]
+
+
+def _note(study: Study, module) -> str:
+    """What a table's module has to add to its title from the results, in words that begin with a blank or a mark."""
+    return module.note(study) if hasattr(module, "note") else ""
 
 
 def full_table(study: Study, number_, tolerances: Tolerances) -> pd.DataFrame:

@@ -85,7 +85,7 @@ aero::Equations AerodynamicsConfig::equation_choice() const {
 std::vector<aero::Deployment> AerodynamicsConfig::deployments() const {
   std::vector<aero::Deployment> list;
   for (const std::string& name : models) {
-    list.push_back(aero::everywhere(name == "H_literal" ? aero::literal_rule_H() : aero::published_yaw_rule(name)));
+    list.push_back(aero::everywhere(name == "H_oblique" ? aero::oblique_rule_H() : aero::published_yaw_rule(name)));
   }
   if (!hybrid.empty()) {
     aero::Deployment mixed = aero::everywhere(aero::published_yaw_rule(hybrid_inner));

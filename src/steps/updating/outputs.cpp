@@ -34,6 +34,10 @@ std::vector<std::string> with_parameter_names(std::vector<std::string> columns, 
   return columns;
 }
 
+double error_left_out_pct(const updating::LeftOut& left, double measured_Hz) {
+  return 100.0 * (left.frequency_Hz / measured_Hz - 1.0);
+}
+
 // Position of a start's optimum among the distinct ones, from 1; 0 where it did not converge.
 int optimum_number(const updating::UpdatingResult& result, const updating::StartResult& start) {
   const auto at = std::find(result.optima.begin(), result.optima.end(), start.optimum);
@@ -101,6 +105,32 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
   csv.save(file);
 }
 
+void write_costs(const updating::UpdatingResult& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"point", "cost"});
+  csv.row({"start", result.cost_before});
+  for (const updating::CostElsewhere& there : result.elsewhere) {
+    if (there.valid) csv.row({"published", there.cost});
+  }
+  csv.row({"optimum", result.starts.at(static_cast<std::size_t>(result.best)).cost});
+  csv.save(file);
+}
+
+void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs, const updating::UpdatingResult& result,
+                         const std::filesystem::path& file) {
+  if (result.left_out.empty()) return;
+  io::CsvWriter csv({"experimental_mode", "numerical_mode", "measured_Hz", "before_Hz", "fitted_Hz", "predicted_Hz",
+                     "error_before_pct", "error_fitted_pct", "error_predicted_pct", "range_pct", "parameters_on_bounds",
+                     "followed_mac", "converged"});
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const ComparisonRow &before = comparison.at(i), &after = comparison.at(pairs + i);
+    const updating::LeftOut& left = result.left_out.at(i);
+    csv.row({before.experimental, before.numerical, before.measured_Hz, before.computed_Hz, after.computed_Hz,
+             left.frequency_Hz, before.error_pct(), after.error_pct(), error_left_out_pct(left, before.measured_Hz),
+             100.0 * left.range_Hz / before.measured_Hz, left.on_bounds, left.followed_mac, left.converged ? 1 : 0});
+  }
+  csv.save(file);
+}
+
 void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
                             const updating::UpdatingResult& result, const std::filesystem::path& file) {
   std::vector<ComparisonRow> alike;
@@ -115,6 +145,12 @@ void write_updating_summary(const std::vector<ComparisonRow>& comparison, const 
     csv.row({"mean_abs_error_common_before_pct", mean_abs_error_pct(alike, "before"), "%"});
     csv.row({"mean_abs_error_common_after_pct", mean_abs_error_pct(alike, "after"), "%"});
     csv.row({"pairs_common", alike.size() / 2, "-"});
+  }
+  if (!result.left_out.empty()) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < result.left_out.size(); ++i)
+      sum += std::abs(error_left_out_pct(result.left_out[i], comparison.at(i).measured_Hz));
+    csv.row({"mean_abs_error_left_out_pct", sum / static_cast<double>(result.left_out.size()), "%"});
   }
   const updating::StartResult& best = result.starts.at(static_cast<std::size_t>(result.best));
   csv.row({"cost", best.cost, "-"});

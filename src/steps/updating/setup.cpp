@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
@@ -59,7 +60,11 @@ io::FieldTable UpdatingConfig::fields() {
               "pairing by MAC: a pair further apart in frequency (relative) is not admitted")
       .number("cluster_gap", cluster_gap, "", io::non_negative(),
               "pairing by MAC: relative gap below which modes count as close")
-      .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(), "largest distance of a sensor from its node");
+      .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(), "largest distance of a sensor from its node")
+      .boolean("leave_one_out", leave_one_out,
+               "afterwards each pair is left out in turn and predicted by an update to the others (leave_one_out.csv)")
+      .text("published_values", published_values,
+            "file with another updating's result (parameter,unit,final_value), whose cost in this model is told (costs.csv)");
   return table;
 }
 
@@ -72,6 +77,7 @@ updating::UpdatingOptions UpdatingConfig::options(std::uint64_t seed) const {
   options.outer_iterations = static_cast<int>(outer_iterations);
   options.optimality_tolerance = optimality_tolerance;
   options.seed = seed;
+  options.leave_one_out = leave_one_out;
   return options;
 }
 
@@ -127,6 +133,28 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedMod
                      "define parameters with lower < upper in model.toml");
   }
   return active;
+}
+
+std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, const std::vector<fe::Parameter>& parameters,
+                                              const std::vector<int>& active, StepContext& context) {
+  if (config.published_values.empty()) return {};
+  const io::CsvTable table = io::CsvTable::read(context.input(config.published_values), {"parameter", "unit", "final_value"}, {}, true);
+  std::vector<std::string> updated;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(active.size()));
+  for (std::size_t j = 0; j < active.size(); ++j) {
+    updated.push_back(parameters[static_cast<std::size_t>(active[j])].name);
+    values(static_cast<Eigen::Index>(j)) = parameters[static_cast<std::size_t>(active[j])].initial;
+  }
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string name = table.text(row, "parameter");
+    const auto at = std::find(updated.begin(), updated.end(), name);
+    if (at == updated.end()) table.fail(row, "parameter", "is not updated here" + did_you_mean(name, updated), "take the row out");
+    const auto j = at - updated.begin();
+    const std::string unit = table.text(row, "unit"), own = parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])].unit;
+    const auto plain = [](const std::string& text) { return text == "-" ? std::string() : text; };
+    values(j) = parse_quantity(table.text(row, "final_value") + " " + plain(unit), plain(own), {table.file().string(), 0, name});
+  }
+  return {values};
 }
 
 Pairing pair_for_updating(const UpdatingConfig& config, const LoadedModel& loaded, const dynamics::EigenModes& modes,

@@ -69,7 +69,8 @@ TEST(Forces, NodalBlocksThroughTheModesAreTheModalMatrices) {
 
 TEST(Forces, TurningBridgeAndWindTogetherChangesNothing) {
   const aero::Deployment hybrid{"hybrid", aero::published_yaw_rule("A"), {{"a", 0.5, aero::published_yaw_rule("D")}}};
-  for (const aero::Deployment& deployment : {hybrid, aero::everywhere(aero::published_yaw_rule("H"))}) {
+  for (const aero::Deployment& deployment :
+       {hybrid, aero::everywhere(aero::published_yaw_rule("H")), aero::everywhere(aero::oblique_rule_H())}) {
     const auto a = some_system(deployment), b = some_system(deployment, 1.1);
     EXPECT_TRUE(a.self_excited(20.0, 4.0).damping.isApprox(b.self_excited(20.0, 4.0).damping, 1e-12));
     EXPECT_TRUE(a.static_force(20.0).isApprox(b.static_force(20.0), 1e-12));
