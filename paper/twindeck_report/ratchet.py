@@ -17,7 +17,7 @@ MARGIN = 1e-3
 # The same for columns that are differences in percent, which pass through zero: a tenth of a point is what a thousandth of one of the
 # two numbers makes of it.
 MARGIN_POINTS = 0.1
-DIFFERENCES = ("error_pct", "err_pct", "change_pct")
+DIFFERENCES = ("error", "err_pct", "change")  # in the names of such columns, which end in _pct
 
 BASELINE = ["table", "row", "column", "kind", "value"]
 MOVES = ["table", "row", "column", "old", "new", "reason"]
@@ -67,7 +67,8 @@ def held_cells(cells: list, claims: list, own: list) -> list:
 
 
 def margin_of(column: str, old: float, new: float) -> float:
-    return MARGIN_POINTS if column.endswith(DIFFERENCES) else MARGIN * max(abs(old), abs(new))
+    difference = column.endswith("_pct") and any(word in column for word in DIFFERENCES)
+    return MARGIN_POINTS if difference else MARGIN * max(abs(old), abs(new))
 
 
 def what_moved(cell: Held, old: str) -> str:

@@ -4,14 +4,16 @@ import numpy as np
 
 SETUPS = (("String 1", "ST1"), ("String 2", "ST2"), ("Carpet 1", "CP1"), ("Carpet 2", "CP2"), ("Dec 1", "DC1"), ("Dec 2", "DC2"))
 STAYS = (("NE8", 80.0, 0.8), ("NE7", 70.0, 1.0), ("NE5", 55.0, 1.6))
-CASES = ("without_sleeves", "with_sleeves")
+CASES = {"without_sleeves": 1.0, "with_sleeves": 1.1}  # sleeves raise frequencies and damping by a tenth
+DAMPING = (0.2, 0.5, 1.4)
 CHANNELS = [(f"P{i}", 5.0 * i, 3.0 * (i % 2)) for i in range(4, 12)]
 
 
 def write_paper(write_rows, folder):
     write_rows(folder / "table_03.csv", ["setup", "abbreviation", "R_k"], [[n, a, f"{0.1 + 0.01 * i:.4f}"] for i, (n, a) in enumerate(SETUPS)])
     write_rows(folder / "table_05.csv", ["case", "cable", "L_m", *(f"f{n}_Hz" for n in range(1, 6)), "damping_ratio_pct"],
-               [[case, stay, f"{length:.2f}", *(f"{n * f:.2f}" for n in range(1, 6)), "0.50"] for case in CASES for stay, length, f in STAYS])
+               [[case, stay, f"{length:.2f}", *(f"{n * f * up:.2f}" for n in range(1, 6)), f"{zeta * up:.2f}"]
+                for case, up in CASES.items() for (stay, length, f), zeta in zip(STAYS, DAMPING)])
 
 
 def write_sensors(write_rows, folder):
@@ -49,5 +51,6 @@ def write_identification(write_rows, read_rows, paper, folder):
     write_rows(folder / "features/channels.csv", ["channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz"],
                [[f"{p}z", p, x, y, 10.0, 0, 0, 1] for p, x, y in CHANNELS])
     write_rows(folder / "stays.csv", ["stay", "condition", "harmonic", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"],
-               [[stay, case, n, repr(1.001 * n * f), 0.001, 0.52, 0.05] for case in CASES for stay, _, f in STAYS for n in range(1, 6)])
+               [[stay, case, n, repr(1.001 * n * f * up), 0.001, 1.04 * zeta * up, 0.05]
+                for case, up in CASES.items() for (stay, _, f), zeta in zip(STAYS, DAMPING) for n in range(1, 6)])
     write_rows(folder / "stay_tensions.csv", ["stay", "condition", "length_m"], [[stay, case, length] for case in CASES for stay, length, _ in STAYS])

@@ -5,9 +5,11 @@ import json
 from ..cells import decimals, number, shown
 from ..check import CheckResult
 from ..claims import COMPUTED
+from ..ladder import set_level
 from ..study import Study
 from ..tables.writer import tex
 from ..tolerances import KINDS
+from ..updating import costs, left_out
 
 ABSENT = "n/a"
 DIGITS = ("Zero", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine")
@@ -32,9 +34,12 @@ def names() -> list:
     """Every macro that numbers() defines, whatever the study holds."""
     claims = [f"{who}{camel(name)}" for name in COMPUTED for who in ("val", "paper")]
     check = ["valCellsCompared", "valCellsInside", "valCellsKnown", "valCellsShown", "valPrintedNumbers", "valClaims", "valClaimsComputed", "valClaimsCompared",
+             "valIndependent", "valIndependentInside", "valIndependentKnown", "valNullToo", "valRepetitions", "valRatchetHeld", "valRatchetExcused",
              "valOrdersHolding", "valOrders", "valRmsTableTwo", "valRmsTableSeven", "valRmsTableOneTwo"]
     kinds = [f"valKind{camel(kind)}" for kind in KINDS]
-    errors = [f"{who}MeanError{camel(str(n))}" for n in ERROR_TABLES for who in ("val", "paper")] + ["valMeanErrorCommonBefore", "valMeanErrorCommonAfter"]
+    errors = [f"{who}MeanError{camel(str(n))}" for n in ERROR_TABLES for who in ("val", "paper")] + ["valMeanErrorCommonBefore", "valMeanErrorCommonAfter", "valMeanErrorNotUpdated",
+                                                                                               "valMeanErrorLeftOut", "valCostPublished", "valCostOptimum",
+                                                                                               "valCostStart", "valStandInLevel"]
     critical = [f"{who}Critical{model}" for model in MODELS for who in ("val", "paper")] + ["valQuasiSteadyD"]
     rest = ["valParametersOnBounds", "valParametersOnBoundsList", "valParametersUpdatedCount", "valVerdict", "valDiagnosisMessage", "valDiagnosisCause",
             "valDiagnosisProbability", "valGainBefore", "valGainAfter", "valGainReduction"]
@@ -64,6 +69,9 @@ def _check(result: CheckResult) -> dict:
              "valCellsKnown": result.count("known"), "valCellsShown": result.count("shown"),
              "valPrintedNumbers": sum(printed for _, printed, *_ in result.numbers), "valClaims": len(result.claims),
              "valClaimsComputed": len(computed), "valClaimsCompared": sum(c.allowed is not None for c in computed),
+             "valIndependent": result.counts.independent, "valIndependentInside": result.counts.inside, "valIndependentKnown": result.counts.known,
+             "valNullToo": result.counts.null_too, "valRepetitions": result.counts.repetitions, "valRatchetHeld": result.ratchet.held or 0,
+             "valRatchetExcused": len(result.ratchet.excused),
              "valOrdersHolding": sum(o.holds for o in result.orders), "valOrders": len(result.orders)}
     for kind in KINDS:
         found[f"valKind{camel(kind)}"] = sum(kinds.get(kind, 0) for *_, kinds in result.numbers)
@@ -85,6 +93,10 @@ def _errors(study: Study) -> dict:
             by_pair[n] = table.set_index("experimental_mode")["error_pct"].abs()
     common = by_pair[7].index.intersection(by_pair[9].index)
     found["valMeanErrorCommonBefore"], found["valMeanErrorCommonAfter"] = (f"{by_pair[n][common].mean():.2f}" for n in (7, 9))
+    predicted = left_out(study)
+    if predicted:
+        found["valMeanErrorNotUpdated"], found["valMeanErrorLeftOut"] = (f"{predicted['means'][name]:.2f}" for name in ("before", "predicted"))
+    found |= {f"valCost{camel(point)}": f"{cost:.5f}" for point, cost in costs(study).items()}
     return found
 
 
@@ -94,6 +106,9 @@ def _critical(study: Study) -> dict:
     found |= {f"valCritical{m}": shown(table.at[m, "V_cr_m_per_s"], table.at[m, "V_cr_m_per_s_paper"]) for m in MODELS if m in table.index}
     steady = study.step_csv("tables/table_12_quasi_steady.csv", text=True).set_index("ns")
     found["valQuasiSteadyD"] = shown(steady.at["D", "V_cr_m_per_s"], "0.00")
+    level = set_level(study, "standin")
+    if level is not None:
+        found["valStandInLevel"] = f"{level:.4f}"
     return found
 
 

@@ -62,7 +62,7 @@ COMPUTED = {
     "E_s_on_bound": (_side("E_s"), exact, ON_BOUND),
     "E_s_stay_44_on_bound": (_side("E_s_stay_44"), exact, ON_BOUND),
     "rho_2_on_bound": (_side("rho_2"), exact, ON_BOUND),
-    "parameters_on_bounds": (quantity("s6_updating", "parameters_on_bounds"), None, "A count that follows from the model; shown beside the paper's, "
+    "parameters_ending_on_bounds": (quantity("s6_updating", "parameters_on_bounds"), None, "A count that follows from the model; shown beside the paper's, "
                              "and the four bounds that the paper ends on are compared one by one."),
     "mean_error_after_updating": (quantity("s6_updating", "mean_abs_error_common_after_pct"), lambda text: GAIN_SHARE,
                                   "Over the eight pairs that Tables 7 and 9 share. The paper's updating gains 0.88 points there: within half of "
