@@ -23,7 +23,8 @@ else
 include workflows/steps.mk
 endif
 
-.PHONY: paper blind-trials help all look deps build test unit steps tables figures report verify smoke bench processors calibrate why new reference clean FORCE
+.PHONY: baseline moves checksums check-power paper blind-trials help all look deps build test unit steps tables figures report verify \
+  smoke bench processors calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -76,7 +77,7 @@ $(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) workflows/p
 $(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(wildcard results/scoring/*.csv) workflows/python.sh
 	@$(REPORT) figures $(REPORT_ARGUMENTS)
 
-$(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json
+$(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json $(wildcard results/check_power/power.csv)
 	@$(REPORT) report $(REPORT_ARGUMENTS)
 
 paper: $(RESULTS)/paper/paper.pdf ## our article as PDF, with the generated tables, figures and numbers (needs LaTeX; says how to get it)
@@ -86,6 +87,20 @@ $(RESULTS)/paper/paper.pdf: $(RESULTS)/report/report.html $(shell find paper/art
 
 verify: $(RESULTS)/report/report.html ## hold the tables, as they lie there, against the paper within the declared tolerances
 	@$(REPORT) verify $(REPORT_ARGUMENTS)
+
+baseline: ## hold every computed cell of the study where it is now (ratchet_baseline.csv); empties the list of excused moves
+	@$(REPORT) baseline $(REPORT_ARGUMENTS)
+
+REASON ?=
+moves: ## make moves REASON="...": excuse the cells that moved since the baseline, each with its old and new value
+	@$(REPORT) moves $(REPORT_ARGUMENTS) --reason "$(REASON)"
+
+checksums: ## list the input files anew in data/SHA256SUMS
+	@$(REPORT) checksums $(REPORT_ARGUMENTS)
+
+ONLY ?=
+check-power: build ## change the inputs one at a time and see what the check notices (ONLY=name for one; results/check_power/power.csv)
+	@workflows/python.sh -m twindeck_power --study $(STUDY) --bin $(BIN) $(ONLY:%=--only %)
 
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke

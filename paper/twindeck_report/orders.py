@@ -16,10 +16,17 @@ class Order:
     found: str  # the numbers that decide
 
 
-def check_orders(study: Study, keys: dict) -> list:
+def check_orders(study: Study, keys: dict, skip_missing: bool = False) -> list:
+    """@param skip_missing  leave out an order whose table or file is not there"""
     path = study.data / "orders.toml"
-    return [_check(study, keys, f"{path}: order {i}", entry)
-            for i, entry in enumerate(study.read_toml(path).get("order", []), 1)]
+    orders = []
+    for i, entry in enumerate(study.read_toml(path).get("order", []), 1):
+        try:
+            orders.append(_check(study, keys, f"{path}: order {i}", entry))
+        except InputError:
+            if not skip_missing:
+                raise
+    return orders
 
 
 def _check(study: Study, keys: dict, where: str, entry: dict) -> Order:

@@ -104,4 +104,13 @@ DerivativeTable DerivativeTable::scaled(double factor) const {
   return out;
 }
 
+std::pair<double, double> DerivativeTable::range_v_over_omegaB() const {
+  std::pair<double, double> range = {curves_[0].v_over_omegaB.front(), curves_[0].v_over_omegaB.back()};
+  for (const DerivativeCurve& curve : curves_) {
+    range.first = std::max(range.first, curve.v_over_omegaB.front());
+    range.second = std::min(range.second, curve.v_over_omegaB.back());
+  }
+  return range;
+}
+
 }  // namespace twindeck::aero

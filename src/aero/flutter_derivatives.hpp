@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "aero/derivatives.hpp"
@@ -43,6 +44,10 @@ class DerivativeTable : public FlutterDerivatives {
   /// The same table with all eighteen derivatives multiplied: self-excited forces at another level, as another ratio of air to
   /// deck mass would give them; signs and shapes over the reduced velocity are kept.
   [[nodiscard]] DerivativeTable scaled(double factor) const;
+  [[nodiscard]] const std::vector<double>& alpha_rad() const { return alpha_rad_; }
+  /// Lowest and highest reduced velocity that all eighteen curves cover.
+  [[nodiscard]] std::pair<double, double> range_v_over_omegaB() const;
+  [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
   Convention convention_;

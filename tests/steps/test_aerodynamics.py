@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin"))
 NAMES = [g + str(i) for g in "hpa" for i in range(1, 7)]
 LENGTH, PANELS, WIDTH, CHORD, XI, H1 = 60.0, 24, 3.0, 4.0, 0.005, -3.0
+EXCEPTIONS = '["quasi_steady: all derivatives but h1 are zero"]'
 
 
 def write_model(folder):
@@ -52,13 +53,13 @@ class Aerodynamics(unittest.TestCase):
         write_flutter(self.folder / "flutter.csv")
         (self.folder / "polar.csv").write_text("alpha_deg,C_D,C_L,C_M\n-10,0.1,0.54105,0\n0,0.1,0,0\n10,0.1,-0.54105,0\n")  # C_L' = -3.1
 
-    def run_step(self, *options, direction=90.0, models='["A"]', status=0):
+    def run_step(self, *options, direction=90.0, models='["A"]', status=0, exceptions=EXCEPTIONS):
         study = self.folder / "study"
         study.mkdir(exist_ok=True)
         (study / "s7_aerodynamics.toml").write_text(
             f'direction_deg = {direction}\nnodes_per_deck = 40\nmodels = {models}\nsets = ["standin"]\nstructural_damping = {XI}\n'
             'n_modes = 6\nfollowed_modes = 2\nmax_speed = 150.0\nspeed_step = 5.0\n'
-            f'[[deck]]\nname = "deck"\ncross_group = "deck_floor"\nchord = {CHORD}\n'
+            f'[[deck]]\nname = "deck"\ncross_group = "deck_floor"\nchord = {CHORD}\nexceptions = {exceptions}\n'
             f'polar = "{self.folder}/polar.csv"\nflutter = "{self.folder}/flutter.csv"\n')
         done = subprocess.run([BIN / "s7_aerodynamics", "--study", study, "--model", self.folder / "model", "--out", self.folder / "out", "--quiet",
                                *options], capture_output=True, text=True, cwd=ROOT)
@@ -124,7 +125,7 @@ class Aerodynamics(unittest.TestCase):
         write_flutter(self.folder / "flutter.csv", column="V_star")
         self.assertIn("does not say which reduced velocity", self.run_step(status=2))
         write_flutter(self.folder / "flutter.csv", high=3.0)
-        message = self.run_step(status=2)
+        message = self.run_step(status=2, exceptions="[]")
         self.assertIn("flutter.csv", message)
         self.assertIn("V/(f B) 0.1 to 3", message)
         write_flutter(self.folder / "flutter.csv")
@@ -134,9 +135,56 @@ class Aerodynamics(unittest.TestCase):
 
     def test_holding_the_end_values_must_be_asked_for(self):
         write_flutter(self.folder / "flutter.csv", high=3.0)
-        self.run_step(status=2)
-        self.run_step("--set", "above_range=hold")
+        self.run_step(status=2, exceptions="[]")
+        self.run_step("--set", "above_range=hold", exceptions="[]")
         self.assertGreater(self.critical("A"), 0.0)
+
+
+class Laws(unittest.TestCase):
+    """Aerodynamic data of the Ponte del Mare with one sign turned. Oracle: the set as it is passes its laws (the step goes on to look for a
+    model), a turned sign is refused with file, place and law before anything is computed."""
+
+    STUDY = ROOT / "workflows/ponte_del_mare"
+    AERO = "data/ponte_del_mare/aero"
+
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def turned(self, file, *columns, exceptions=""):
+        """What step 7 says of the study with these columns of one file multiplied by -1."""
+        with open(ROOT / self.AERO / file, newline="", encoding="utf-8") as lines:
+            rows = list(csv.DictReader(lines))
+        with open(self.folder / file, "w", newline="", encoding="utf-8") as out:
+            writer = csv.DictWriter(out, rows[0])
+            writer.writeheader()
+            writer.writerows({name: str(-float(v)) if name in columns else v for name, v in row.items()} for row in rows)
+        text = (self.STUDY / "s7_aerodynamics.toml").read_text(encoding="utf-8").replace(f"{self.AERO}/{file}", str(self.folder / file))
+        if exceptions:
+            text = text.replace("chord = 4.5", f"exceptions = {exceptions}\nchord = 4.5")
+        (self.folder / "s7_aerodynamics.toml").write_text(text, encoding="utf-8")
+        done = subprocess.run([BIN / "s7_aerodynamics", "--study", self.folder, "--results", self.folder / "none", "--out", self.folder / "out", "--quiet"],
+                              capture_output=True, text=True, cwd=ROOT)
+        self.assertEqual(done.returncode, 2)
+        return done.stderr
+
+    def test_the_set_as_it_is_passes(self):
+        self.assertIn("s6_updating/model: is not there", self.turned("foot_flutter.csv"))
+
+    def test_each_turned_sign_is_refused(self):
+        for file, column, law in (("foot_flutter.csv", "a3", "quasi_steady"), ("foot_flutter.csv", "h1", "quasi_steady"), ("foot_flutter.csv", "h3", "quasi_steady"),
+                                  ("foot_flutter.csv", "a2", "pitching_damping"), ("cycle_flutter.csv", "a3", "quasi_steady"), ("foot_polar.csv", "C_D", "drag"),
+                                  ("foot_polar.csv", "dC_M_per_rad", "slopes"), ("foot_polar.csv", "dC_L_per_rad", "slopes"), ("cycle_polar.csv", "dC_M_per_rad", "slopes")):
+            message = self.turned(file, column)
+            self.assertIn(f"breaks the law '{law}'", message, (file, column))
+            self.assertIn(file, message)
+        self.assertIn("dC_M/dalpha is -0.25", self.turned("foot_polar.csv", "C_M", "dC_M_per_rad"), "coefficient and slope together")
+
+    def test_an_exception_needs_a_reason_and_a_broken_law(self):
+        named = '["quasi_steady: a3 was measured at another axis"]'
+        self.assertIn("s6_updating/model: is not there", self.turned("foot_flutter.csv", "a3", exceptions=named))
+        self.assertIn("'quasi_steady' is excepted, but holds", self.turned("foot_flutter.csv", exceptions=named))
+        self.assertIn("gives no reason for 'quasi_steady'", self.turned("foot_flutter.csv", "a3", exceptions='["quasi_steady"]'))
+        self.assertIn("did you mean 'quasi_steady'", self.turned("foot_flutter.csv", "a3", exceptions='["quasi_stedy: a3 was measured elsewhere"]'))
 
 
 if __name__ == "__main__":

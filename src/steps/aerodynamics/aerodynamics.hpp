@@ -23,6 +23,7 @@ struct DeckWind {
   double chord_m = 0.0;
   std::string polar, flutter;                               ///< files
   double arm_drag = 0.0, arm_lift = 0.0, arm_moment = 0.0;  ///< mu/B of quasi-steady derivatives of the rotational rate
+  std::vector<std::string> exceptions;                      ///< "law: reason" of laws (aero/laws.hpp) that the data break
 };
 
 struct HybridZone {
@@ -63,6 +64,8 @@ struct DeckAerodynamics {
   std::shared_ptr<const aero::DerivativeTable> flutter;
 };
 /// @param context  registers the files as inputs
+/// @throws InputError  also for data that break a law of aero/laws.hpp without an exception that says why, and for an exception
+///                     whose law holds
 [[nodiscard]] std::vector<DeckAerodynamics> read_deck_aerodynamics(const AerodynamicsConfig& config, StepContext& context);
 
 /// Aerodynamic sections of a set at a level. "standin": tables and polars, all self-excited forces multiplied by `level`

@@ -28,7 +28,9 @@ io::FieldTable AerodynamicsConfig::fields() {
                 .text("flutter", deck.flutter, "file of flutter derivatives", true)
                 .number("arm_drag", deck.arm_drag, "", {}, "quasi-steady p2*/p1*")
                 .number("arm_lift", deck.arm_lift, "", {}, "quasi-steady h2*/h1*")
-                .number("arm_moment", deck.arm_moment, "", {}, "quasi-steady a2*/a1*");
+                .number("arm_moment", deck.arm_moment, "", {}, "quasi-steady a2*/a1*")
+                .texts("exceptions", deck.exceptions,
+                       "laws that the data break, each with its reason: \"quasi_steady: only h1 was measured\"");
             return d;
           },
           "a deck's aerodynamic data")

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "aero/laws.hpp"
 #include "core/error.hpp"
 
 namespace {
@@ -102,6 +103,7 @@ TEST_F(AeroFiles, TheStandInSetIsConsistent) {
     EXPECT_NEAR(d[14], c.moment_slope, 1e-6);
     EXPECT_NEAR(d[10], 2 * c.drag, 1e-6);
     EXPECT_NEAR(d[4], 2 * c.lift, 1e-6);
+    EXPECT_TRUE(aero::broken_laws(polar, table, {}).empty());
   }
 }
 

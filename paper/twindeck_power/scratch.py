@@ -1,0 +1,89 @@
+"""A copy of the study for one changed input: every file a link to the original but the one that is changed, and the steps that read it
+run anew, as far as the change reaches. A step is run if the contents of something that it read are another than its manifest says."""
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+from twindeck_report.manifests import sha256
+
+STEPS = ("s0_campaign", "s1_model", "s2_sensors", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating", "s7_aerodynamics",
+         "s8_validation")  # those that the tables of the paper rest on
+
+
+class Scratch:
+    def __init__(self, root: Path, origin: Path, study: str, binaries: Path, quick: dict):
+        """@param root  is emptied  @param origin  the repository, with the finished results of the study"""
+        self.root, self.origin, self.study, self.binaries, self.quick = root, origin, study, binaries, quick
+        self.results = root / "results" / study
+        shutil.rmtree(root, ignore_errors=True)
+        for folder in ("data", "workflows"):
+            link_tree(origin / folder, root / folder)
+        self.results.mkdir(parents=True)
+        self.steps = [s for s in STEPS if (origin / "results" / study / s / "manifest.json").is_file()]
+        for step in self.steps:
+            (self.results / step).symlink_to(origin / "results" / study / step)
+        self.done = []
+
+    def own(self, file: str) -> None:
+        """Makes a file a copy of its own, so that it can be changed."""
+        path = self.root / file
+        text = path.read_bytes()
+        path.unlink()
+        path.write_bytes(text)
+
+    def waiting(self) -> list:
+        """Steps that have to run, in order: an input changed, or one that they read is itself to be run. Their old results are out of
+        sight until then."""
+        out = []
+        for step in self.steps:
+            if step not in self.done and (self._changed(step) or any(before in out for before in self.reads(step))):
+                out.append(step)
+        for step in out:
+            if (self.results / step).is_symlink():
+                (self.results / step).unlink()
+        for step in self.steps:  # a step before it came out the same: what was out of sight is right after all
+            if step not in out and step not in self.done and not (self.results / step).exists():
+                (self.results / step).symlink_to(self.origin / "results" / self.study / step)
+        return out
+
+    def run(self, step: str) -> str:
+        """"" or, if it fails, its last line."""
+        options = [f for setting in self.quick.get(step, []) for f in ("--set", setting)]
+        command = [str(self.binaries / step), "--study", f"workflows/{self.study}", "--results", f"results/{self.study}", "--out",
+                   f"results/{self.study}/{step}", "--quiet", *options]
+        done = subprocess.run(command, cwd=self.root, capture_output=True, text=True)
+        self.done.append(step)
+        return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+
+    def inputs(self, step: str) -> dict:
+        manifest = self.origin / "results" / self.study / step / "manifest.json"
+        return json.loads(manifest.read_text(encoding="utf-8"))["inputs"]
+
+    def reads(self, step: str) -> set:
+        """Earlier steps whose files it reads."""
+        prefix = f"results/{self.study}/"
+        return {name[len(prefix):].split("/")[0] for name in self.inputs(step) if name.startswith(prefix)}
+
+    def seconds(self, step: str) -> float:
+        manifest = self.origin / "results" / self.study / step / "manifest.json"
+        return float(json.loads(manifest.read_text(encoding="utf-8")).get("seconds", 0.0))
+
+    def _changed(self, step: str) -> bool:
+        """Files that are links, or lie in a step's folder that is one, are the originals."""
+        return any(self._own(self.root / name) and sha256(self.root / name) != digest for name, digest in self.inputs(step).items())
+
+    def _own(self, path: Path) -> bool:
+        return path.is_file() and not path.is_symlink() and not any(p.is_symlink() for p in path.parents if p.is_relative_to(self.root))
+
+
+def link_tree(origin: Path, to: Path) -> None:
+    """The folders of `origin` below `to`, their files as links."""
+    for folder, names, files in os.walk(origin):
+        names[:] = [n for n in names if n != "__pycache__"]
+        here = to / Path(folder).relative_to(origin)
+        here.mkdir(parents=True, exist_ok=True)
+        for name in files:
+            (here / name).symlink_to(Path(folder) / name)
+
