@@ -36,12 +36,13 @@ class Caught:
 
 
 class Judge:
-    def __init__(self, unchanged: Study, result):
-        """@param result  of run_check on the unchanged study"""
-        self.shown = {(c.table, c.column) for c in result.cells if c.shown}
+    def __init__(self, unchanged: Study, result=None):
+        """@param result  of run_check on the unchanged study; without it every column that has a tolerance counts as compared, and every
+        order as one that holds"""
         self.known = {(e["table"], e.get("row", ""), e["column"]) for e in entries_of(unchanged)}
-        self.holding = {o.name for o in result.orders if o.holds}
-        self.claims = {c.name for c in result.claims if c.verdict == "shown, not compared"}
+        self.shown = {(c.table, c.column) for c in result.cells if c.shown} if result else set()
+        self.failing = {o.name for o in result.orders if not o.holds} if result else set()
+        self.claims = {c.name for c in result.claims if c.verdict == "shown, not compared"} if result else set()
 
     def look(self, study: Study, prints: tuple) -> Caught:
         tolerances = read_tolerances(study)
@@ -76,7 +77,7 @@ class Judge:
             if rms.value is not None and (rule.table, "", rule.column) not in self.known and (rule.table, rule.column) not in self.shown:
                 found.paper[f"{rule.table} column {rule.column} rms"] = rms.value / rule.limit
         orders = check_orders(study, {table: tolerances.keys[table] for table in tables}, skip_missing=True)
-        found.paper |= {f"order {o.name}": BEYOND for o in orders if o.name in self.holding and not o.holds}
+        found.paper |= {f"order {o.name}": BEYOND for o in orders if not o.holds and o.name not in self.failing}
 
     def _ratchet(self, study, cells, claims, found: Caught) -> None:
         held = held_cells([c for c in cells if c.kind not in CARRIED], claims, own_numbers(study))

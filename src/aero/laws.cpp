@@ -13,16 +13,16 @@
 namespace twindeck::aero {
 namespace {
 
-/// [V/(f B)] from here on derivatives are held against their limit in size: a thin plate's are within a fifth of it (Theodorsen's
-/// C(k) at k = 0.16 is 0.80 - 0.19i).
+/// [V/(f B)] from here on derivatives are held against their limit in size: a thin plate's are within a fifth of it
+/// (Theodorsen's C(k) at k = 0.16 is 0.80 - 0.19i).
 constexpr double steady_from = 20.0;
-/// [-] share of the limit by which a derivative may differ from it: bluff decks are further from it than a plate, a wrong sign is
-/// off by twice the limit.
+/// [-] share of the limit by which a derivative may differ from it: bluff decks are further from it than a plate, a wrong sign
+/// is off by twice the limit.
 constexpr double share_of_limit = 0.5;
 /// [-] and by this much at least: what a wind tunnel leaves of coefficients that nearly vanish.
 constexpr double least_difference = 0.15;
-/// [-] share of the largest slope by which a slope may differ from the coefficients' differences, which rows 5 degrees apart on a
-/// stalling polar come near.
+/// [-] share of the largest slope by which a slope may differ from the coefficients' differences, which rows 5 degrees apart on
+/// a stalling polar come near.
 constexpr double share_of_slope = 0.25;
 constexpr double least_slope = 0.05;  ///< [1/rad] the rounding of coefficients with three decimals, half a degree apart
 
@@ -59,8 +59,9 @@ std::optional<std::string> slopes(const Polar& polar) {
           (polar.at(alpha[i + 1]).*column.value - polar.at(alpha[i - 1]).*column.value) / (alpha[i + 1] - alpha[i - 1]);
       const double said = polar.at(alpha[i]).*column.slope;
       if (std::abs(said - found) > share_of_slope * largest + least_slope) {
-        return fmt::format("{}: d{}/dalpha is given as {:.4g} per radian at {:.3g} degrees, the coefficients beside it rise by {:.4g}",
-                           polar.source(), column.name, said, alpha[i] * degrees, found);
+        return fmt::format(
+            "{}: d{}/dalpha is given as {:.4g} per radian at {:.3g} degrees, the coefficients beside it rise by {:.4g}",
+            polar.source(), column.name, said, alpha[i] * degrees, found);
       }
     }
   }
@@ -70,9 +71,10 @@ std::optional<std::string> slopes(const Polar& polar) {
 std::optional<std::string> moment_slope(const Polar& polar) {
   const double alpha = nearest_to_zero(polar.alpha_rad()), slope = polar.at(alpha).moment_slope;
   if (slope >= 0.0) return std::nullopt;
-  return fmt::format("{}: dC_M/dalpha is {:.4g} per radian at {:.3g} degrees, expected one that is not negative (nose-up moment, pressure "
-                     "upwind of mid-chord)",
-                     polar.source(), slope, alpha * degrees);
+  return fmt::format(
+      "{}: dC_M/dalpha is {:.4g} per radian at {:.3g} degrees, expected one that is not negative (nose-up moment, pressure "
+      "upwind of mid-chord)",
+      polar.source(), slope, alpha * degrees);
 }
 
 Derivatives18 zasso_at(const FlutterDerivatives& derivatives, double alpha, double v) {
@@ -84,9 +86,10 @@ std::optional<std::string> pitching_damping(const DerivativeTable& table) {
   const double alpha = nearest_to_zero(table.alpha_rad()), v = table.range_v_over_omegaB().first;
   const double found = zasso_at(table, alpha, v)[a2];
   if (found >= 0.0) return std::nullopt;
-  return fmt::format("{}: a2 is {:.4g} at V/(f B) = {:.3g} and {:.3g} degrees, expected a damping of pitching that is not negative "
-                     "(a2 >= 0, A2 <= 0)",
-                     table.source(), found, 2.0 * std::numbers::pi * v, alpha * degrees);
+  return fmt::format(
+      "{}: a2 is {:.4g} at V/(f B) = {:.3g} and {:.3g} degrees, expected a damping of pitching that is not negative "
+      "(a2 >= 0, A2 <= 0)",
+      table.source(), found, 2.0 * std::numbers::pi * v, alpha * degrees);
 }
 
 // Which derivatives have a quasi-steady limit: all but those of displacements, and those of the rotational rate with their arm.
@@ -113,8 +116,9 @@ std::optional<std::string> quasi_steady(const Polar& polar, const DerivativeTabl
       const bool of_rotation = i % 6 == 2;
       const bool other_sign = found[i] * limit[i] < 0.0 && std::abs(found[i] - limit[i]) > least_difference;
       if (by_size ? std::abs(found[i] - limit[i]) <= allowed : !(of_rotation && other_sign)) continue;
-      return fmt::format("{}: {} is {:.4g} at V/(f B) = {:.3g} and {:.3g} degrees, where the polar gives {:.4g} by quasi-steady theory",
-                         table.source(), names[i], found[i], v_f, alpha * degrees, limit[i]);
+      return fmt::format(
+          "{}: {} is {:.4g} at V/(f B) = {:.3g} and {:.3g} degrees, where the polar gives {:.4g} by quasi-steady theory",
+          table.source(), names[i], found[i], v_f, alpha * degrees, limit[i]);
     }
   }
   return std::nullopt;
@@ -128,8 +132,8 @@ const std::vector<std::string>& law_names() {
 }
 
 std::vector<BrokenLaw> broken_laws(const Polar& polar, const DerivativeTable& table, const QuasiSteady::Arms& arms) {
-  const std::array<std::optional<std::string>, 5> told = {drag(polar), slopes(polar), moment_slope(polar), pitching_damping(table),
-                                                          quasi_steady(polar, table, arms)};
+  const std::array<std::optional<std::string>, 5> told = {drag(polar), slopes(polar), moment_slope(polar),
+                                                          pitching_damping(table), quasi_steady(polar, table, arms)};
   std::vector<BrokenLaw> broken;
   for (std::size_t i = 0; i < told.size(); ++i) {
     if (told[i]) broken.push_back({law_names()[i], *told[i]});

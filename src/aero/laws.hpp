@@ -6,8 +6,8 @@
 #include "aero/flutter_derivatives.hpp"
 #include "aero/polar.hpp"
 
-/// Laws that the aerodynamic data of a deck section obey unless there is a reason: what a wrong sign in a file breaks. They hold
-/// the polar and the flutter derivatives against each other and against the signs of any deck; they do not judge sizes.
+/// Laws that the aerodynamic data of a deck section obey unless there is a reason: what a wrong sign in a file breaks. They
+/// hold the polar and the flutter derivatives against each other and against the signs of any deck; they do not judge sizes.
 namespace twindeck::aero {
 
 /// A law that a set of data breaks.
@@ -18,17 +18,18 @@ struct BrokenLaw {
 
 /// drag: C_D > 0 at every angle.
 /// slopes: the polar's slopes are those of its own coefficients (central differences).
-/// moment_slope: C_M' is not negative at the angle nearest to zero: pressure acts upwind of mid-chord, where it acts on a thin plate
+/// moment_slope: C_M' is not negative at the angle nearest to zero. Pressure acts upwind of mid-chord, as on a thin plate
 ///   (C_M' = π/2) and on bridge decks, so that wind takes stiffness from pitching.
-/// pitching_damping: a2* is not negative (A2* not positive) at the lowest reduced velocity and the angle nearest to zero: still air
-///   takes energy from pitching.
+/// pitching_damping: a2* is not negative (A2* not positive) at the lowest reduced velocity and the angle nearest to zero. Air
+///   that is nearly still takes energy from pitching.
 /// quasi_steady: at the highest reduced velocity the derivatives of velocities and rotation tend to what the polar gives by
-///   quasi-steady theory (QuasiSteady); those of the rotational rate where their arm is known. From V/(f B) = 20 on in size and
-///   sign, below only the sign of those of rotation.
+///   quasi-steady theory (QuasiSteady), those of the rotational rate where their arm is known: from V/(f B) = 20 on in size and
+///   sign, below that the sign of those of rotation alone.
 [[nodiscard]] const std::vector<std::string>& law_names();
 
 /// @param arms  of the quasi-steady rotational rate; 0 where it is not known
 /// @return the laws that are broken, each once, in the order of law_names()
-[[nodiscard]] std::vector<BrokenLaw> broken_laws(const Polar& polar, const DerivativeTable& table, const QuasiSteady::Arms& arms);
+[[nodiscard]] std::vector<BrokenLaw> broken_laws(const Polar& polar, const DerivativeTable& table,
+                                                 const QuasiSteady::Arms& arms);
 
 }  // namespace twindeck::aero

@@ -7,8 +7,8 @@
 
 namespace twindeck::updating {
 
-/// How well an updated model predicts: each target is left out of the updating in turn, the others are fitted, and the frequency
-/// of the left-out one at that optimum is a prediction, since nothing of it entered.
+/// How well an updated model predicts: each target is left out of the updating in turn, the others are fitted, and the
+/// frequency of the left-out one at that optimum is a prediction, since nothing of it entered.
 ///
 /// Each update is searched from two points: from the initial values, and from the optimum of all targets, which lies near. The
 /// cheaper end is taken; where both ends cost the same to 0.1 % (the fitted targets leave directions open along which the cost

@@ -17,7 +17,7 @@ struct FrequencyTarget {
   int reference_mode = 0;       ///< 0-based position in the modes of the start model
   double measured_Hz = 0.0;
   double std_Hz = 0.0;
-  bool fitted = true;           ///< false: followed and reported, but no residual of the search
+  bool fitted = true;  ///< false: followed and reported, but no residual of the search
 };
 
 struct UpdatingOptions {
@@ -31,7 +31,7 @@ struct UpdatingOptions {
   double bound_tolerance = 1e-6;        ///< of the range, within which a parameter counts as on its bound
   Eigen::Index surrogate_from_size = 1000;  ///< degrees of freedom from which a reduced system makes the steps (see `update`)
   std::uint64_t seed = 1;
-  bool leave_one_out = false;           ///< afterwards each target is left out in turn and predicted (leave_one_out.hpp)
+  bool leave_one_out = false;              ///< afterwards each target is left out in turn and predicted (leave_one_out.hpp)
   std::vector<Eigen::VectorXd> elsewhere;  ///< (n_active each) values at which the cost is told as well
 };
 
@@ -60,20 +60,20 @@ struct SmoothCheck {
 
 /// A target that was left out of the updating, and what the others make of it.
 struct LeftOut {
-  Eigen::VectorXd theta;                ///< (n_active) in the parameters' units
-  double frequency_Hz = 0.0;            ///< of the left-out target's mode there: nothing was fitted to it
-  double cost = 0.0;                    ///< of the fitted targets
-  double followed_mac = 0.0;            ///< of the left-out mode with the start model's
-  double range_Hz = 0.0;                ///< between the predictions of the searches that end at the same cost
-  int on_bounds = 0;                    ///< parameters that end on a bound
+  Eigen::VectorXd theta;      ///< (n_active) in the parameters' units
+  double frequency_Hz = 0.0;  ///< of the left-out target's mode there: nothing was fitted to it
+  double cost = 0.0;          ///< of the fitted targets
+  double followed_mac = 0.0;  ///< of the left-out mode with the start model's
+  double range_Hz = 0.0;      ///< between the predictions of the searches that end at the same cost
+  int on_bounds = 0;          ///< parameters that end on a bound
   bool converged = false;
 };
 
 /// Cost and frequencies at given parameter values, with the prestress of those values.
 struct CostElsewhere {
   double cost = 0.0;
-  Eigen::VectorXd frequency_Hz;         ///< (n_targets) of the followed modes
-  bool valid = false;                   ///< false: the modes were not found there
+  Eigen::VectorXd frequency_Hz;  ///< (n_targets) of the followed modes
+  bool valid = false;            ///< false: the modes were not found there
 };
 
 struct UpdatingResult {
@@ -87,9 +87,9 @@ struct UpdatingResult {
   Eigen::VectorXd followed_mac;                             ///< (n_targets) MAC of the followed mode with the start model's
   std::vector<IterationRecord> history;
   SmoothCheck smooth;
-  double cost_before = 0.0;                                 ///< at the initial values
-  std::vector<LeftOut> left_out;                            ///< (n_targets) where options.leave_one_out, else empty
-  std::vector<CostElsewhere> elsewhere;                     ///< one a point of options.elsewhere
+  double cost_before = 0.0;              ///< at the initial values
+  std::vector<LeftOut> left_out;         ///< (n_targets) where options.leave_one_out, else empty
+  std::vector<CostElsewhere> elsewhere;  ///< one a point of options.elsewhere
   Status status;
 };
 

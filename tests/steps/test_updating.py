@@ -134,6 +134,36 @@ class Updating(OwnMatrices):
         summary = {row["quantity"]: row["value"] for row in read(self.folder / "again" / "summary.csv")}
         self.assertLess(float(summary["mean_abs_error_before_pct"]), 1e-6)
 
+    def test_pairs_left_out_are_predicted(self):
+        """Four frequencies of one set of three parameters: any three of them give the fourth."""
+        done = self.run_step("s6_updating", *self.features(self.TRUTH), "--set", "leave_one_out=true")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = read(self.folder / "out" / "leave_one_out.csv")
+        self.assertEqual(len(rows), N)
+        for row in rows:
+            self.assertLess(abs(float(row["error_predicted_pct"])), 1e-3)
+            self.assertLess(abs(float(row["error_fitted_pct"])), 1e-6)
+            self.assertGreater(abs(float(row["error_before_pct"])), 0.1)
+            self.assertEqual(row["converged"], "1")
+        self.assertEqual(self.run_step("s6_updating", *self.features(self.TRUTH, name="again")).returncode, 0)
+        self.assertFalse((self.folder / "out" / "leave_one_out.csv").exists(), "only where it was asked for")
+
+    def test_what_another_updating_s_values_cost(self):
+        values = self.folder / "published.csv"
+        values.write_text("parameter,unit,final_value\nlower_storey,-,1.21\nupper_storey,-,0.83\nequipment,-,0.45\n")
+        option = f"published_values={values}"
+        done = self.run_step("s6_updating", *self.features(self.TRUTH), "--set", option)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        costs = {row["point"]: float(row["cost"]) for row in read(self.folder / "out" / "costs.csv")}
+        self.assertLess(costs["published"], 1e-15)
+        measured, before = modes_at(self.TRUTH)[0], modes_at(START)[0]
+        self.assertAlmostEqual(costs["start"], 0.5 * float(np.sum((before / measured - 1.0) ** 2)), places=12)
+        self.assertLess(costs["optimum"], 1e-12)
+        values.write_text("parameter,unit,final_value\nlower_story,-,1.21\n")
+        done = self.run_step("s6_updating", *self.features(self.TRUTH, name="again"), "--set", option)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"published\.csv.*lower_story.*did you mean 'lower_storey'")
+
     def test_truth_outside_the_bounds_ends_on_them(self):
         done = self.run_step("s6_updating", *self.features({**self.TRUTH, "upper_storey": 0.4}))
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from test_aerodynamics import BIN, CHORD, PANELS, ROOT, write_flutter, write_model  # noqa: E402
+from test_aerodynamics import BIN, CHORD, EXCEPTIONS, PANELS, ROOT, write_flutter, write_model  # noqa: E402
 
 MIDDLE = 2 * (PANELS // 2) + 1
 SETS = "set,roughness_m,minimum_height_m,kappa,sigma_u_over_v,sigma_w_over_v,scale_u_over_v,scale_w_over_v,"
@@ -35,7 +35,7 @@ class Validation(unittest.TestCase):
         (study / "s7_aerodynamics.toml").write_text(
             'direction_deg = 90.0\nnodes_per_deck = 20\nmodels = ["A", "C"]\nsets = ["standin"]\nstructural_damping = 0.02\nn_modes = 6\n'
             'followed_modes = 1\nmax_speed = 20.0\nspeed_step = 5.0\n'
-            f'[[deck]]\nname = "deck"\ncross_group = "deck_floor"\nchord = {CHORD}\n'
+            f'[[deck]]\nname = "deck"\ncross_group = "deck_floor"\nchord = {CHORD}\nexceptions = {EXCEPTIONS}\n'
             f'polar = "{self.folder}/polar.csv"\nflutter = "{self.folder}/flutter.csv"\n')
         (study / "s8_validation.toml").write_text(
             f'turbulence_file = "{self.folder}/sets.csv"\nturbulence_set = "calm"\nheight = 10.0\nseeds = 6\nduration = 120.0\nlead_in = 20.0\n'

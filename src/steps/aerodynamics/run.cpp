@@ -141,8 +141,8 @@ double least_damping(const DampingCurves& curves, double up_to_m_s) {
 }  // namespace
 
 Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config) {
-  // 1. The aerodynamic data, then the updated model with its aerodynamic nodes, modes, and the angles of attack of its shape under
-  // dead load.
+  // 1. The aerodynamic data, then the updated model with its aerodynamic nodes, modes, and the angles of attack of its shape
+  // under dead load.
   const std::vector<DeckAerodynamics> data = read_deck_aerodynamics(config, context);
   const LoadedModel loaded = load_model(context, context.results / "s6_updating" / "model");
   if (!loaded.state.status.converged) return loaded.state.status;

@@ -47,8 +47,8 @@ void check_laws(const DeckWind& deck, const DeckAerodynamics& data) {
     }
   }
   if (!exceptions.empty()) {
-    throw InputError({"", 0, "deck " + deck.name + ": exceptions"}, "'" + exceptions.begin()->first + "' is excepted, but holds",
-                     "take the entry out");
+    throw InputError({"", 0, "deck " + deck.name + ": exceptions"},
+                     "'" + exceptions.begin()->first + "' is excepted, but holds", "take the entry out");
   }
 }
 

@@ -115,8 +115,8 @@ void write_costs(const updating::UpdatingResult& result, const std::filesystem::
   csv.save(file);
 }
 
-void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs, const updating::UpdatingResult& result,
-                         const std::filesystem::path& file) {
+void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs,
+                         const updating::UpdatingResult& result, const std::filesystem::path& file) {
   if (result.left_out.empty()) return;
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "measured_Hz", "before_Hz", "fitted_Hz", "predicted_Hz",
                      "error_before_pct", "error_fitted_pct", "error_predicted_pct", "range_pct", "parameters_on_bounds",

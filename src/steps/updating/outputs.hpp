@@ -30,16 +30,16 @@ void write_history(const std::vector<fe::Parameter>& parameters, const std::vect
 void write_starts(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                   const updating::UpdatingResult& result, const std::filesystem::path& file);
 
-/// `costs.csv`: point,cost: what the initial values (`start`), another updating's values (`published`, where they are given) and the
-/// best start's end (`optimum`) cost in this model, each in balance.
+/// `costs.csv`: point,cost: what the initial values (`start`), another updating's values (`published`, where they are given)
+/// and the best start's end (`optimum`) cost in this model, each in balance.
 void write_costs(const updating::UpdatingResult& result, const std::filesystem::path& file);
 
 /// `leave_one_out.csv`: experimental_mode,numerical_mode,measured_Hz,before_Hz,fitted_Hz,predicted_Hz,error_before_pct,
-/// error_fitted_pct,error_predicted_pct,range_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without updating,
-/// fitted with all pairs, and predicted by an update to the other pairs. No file where no pair was left out.
+/// error_fitted_pct,error_predicted_pct,range_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without
+/// updating, fitted with all pairs, and predicted by an update to the other pairs. No file where no pair was left out.
 /// @param comparison  rows of the stages `before` and `after`, `pairs` of each, in the order of the targets
-void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs, const updating::UpdatingResult& result,
-                         const std::filesystem::path& file);
+void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs,
+                         const updating::UpdatingResult& result, const std::filesystem::path& file);
 
 /// `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over the
 /// measured modes `common` (those that an earlier table compares too), so that means are over like and like; of left-out

@@ -138,7 +138,8 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedMod
 std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, const std::vector<fe::Parameter>& parameters,
                                               const std::vector<int>& active, StepContext& context) {
   if (config.published_values.empty()) return {};
-  const io::CsvTable table = io::CsvTable::read(context.input(config.published_values), {"parameter", "unit", "final_value"}, {}, true);
+  const io::CsvTable table =
+      io::CsvTable::read(context.input(config.published_values), {"parameter", "unit", "final_value"}, {}, true);
   std::vector<std::string> updated;
   Eigen::VectorXd values(static_cast<Eigen::Index>(active.size()));
   for (std::size_t j = 0; j < active.size(); ++j) {
@@ -148,11 +149,14 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string name = table.text(row, "parameter");
     const auto at = std::find(updated.begin(), updated.end(), name);
-    if (at == updated.end()) table.fail(row, "parameter", "is not updated here" + did_you_mean(name, updated), "take the row out");
+    if (at == updated.end())
+      table.fail(row, "parameter", "is not updated here" + did_you_mean(name, updated), "take the row out");
     const auto j = at - updated.begin();
-    const std::string unit = table.text(row, "unit"), own = parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])].unit;
+    const std::string unit = table.text(row, "unit"),
+                      own = parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])].unit;
     const auto plain = [](const std::string& text) { return text == "-" ? std::string() : text; };
-    values(j) = parse_quantity(table.text(row, "final_value") + " " + plain(unit), plain(own), {table.file().string(), 0, name});
+    values(j) =
+        parse_quantity(table.text(row, "final_value") + " " + plain(unit), plain(own), {table.file().string(), 0, name});
   }
   return {values};
 }

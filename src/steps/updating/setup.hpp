@@ -31,7 +31,7 @@ struct UpdatingConfig {
   double cluster_gap = 0.02;
   double sensor_tolerance_m = 0.5;
   bool leave_one_out = false;
-  std::string published_values;           ///< file with somebody else's result: the cost of its parameters is told
+  std::string published_values;  ///< file with somebody else's result: the cost of its parameters is told
 
   [[nodiscard]] io::FieldTable fields();
   [[nodiscard]] updating::UpdatingOptions options(std::uint64_t seed) const;
@@ -48,10 +48,11 @@ struct UpdatingConfig {
 /// @throws InputError  for a name that is no parameter, is listed twice or has no range
 [[nodiscard]] std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedModel& loaded, StepContext& context);
 
-/// Values of the updated parameters in somebody else's result: `parameter,unit,final_value`, in units of its own; a parameter that
-/// it does not name stays at its initial value. Empty where none is given.
+/// Values of the updated parameters in somebody else's result: `parameter,unit,final_value`, in units of its own; a parameter
+/// that it does not name stays at its initial value. Empty where none is given.
 /// @throws InputError  for a name that is not updated, or a unit of another kind
-[[nodiscard]] std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, const std::vector<fe::Parameter>& parameters,
+[[nodiscard]] std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config,
+                                                            const std::vector<fe::Parameter>& parameters,
                                                             const std::vector<int>& active, StepContext& context);
 
 /// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order.
