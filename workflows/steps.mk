@@ -29,9 +29,8 @@ INPUTS_s0_campaign := $(wildcard data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)
 INPUTS_s2_sensors := $(wildcard data/$(STUDY)/layout/*)
 INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
 
-# Records of one's own: data/<study>/campaign/.
+# Records of one's own, which step 3 reads by itself: data/<study>/campaign/.
 ifneq ($(wildcard data/$(STUDY)/campaign/campaign.toml),)
-OPTIONS_s3_identification := --campaign data/$(STUDY)/campaign
 INPUTS_s3_identification := $(wildcard data/$(STUDY)/campaign/* data/$(STUDY)/campaign/records/*)
 endif
 

@@ -249,7 +249,13 @@ double parse_quantity(std::string_view text, std::string_view field_unit, const 
                      "write it like \"" + example + "\"");
   }
   const std::string_view rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
-  if (rest.empty()) return value;
+  const auto checked = [&](double result) {
+    if (!(std::abs(result) <= largest_number)) {
+      throw InputError(place, "is " + quoted + ", larger than any quantity of a structure", "correct the value or its unit");
+    }
+    return result;
+  };
+  if (rest.empty()) return checked(value);
   if (rest.front() == ',') throw InputError(place, "is " + quoted + ", which has a decimal comma", "write a decimal point");
   const Unit given = parse_unit(rest, place);
   const Unit wanted = parse_unit(field_unit);
@@ -259,8 +265,8 @@ double parse_quantity(std::string_view text, std::string_view field_unit, const 
                          (field_unit.empty() ? std::string("a plain number") : "\"" + std::string(field_unit) + "\""),
                      "give it in " + proposals(wanted, field_unit));
   }
-  if (given.factor == wanted.factor && given.offset == wanted.offset) return value;  // no rounding where nothing is converted
-  return (value * given.factor + given.offset - wanted.offset) / wanted.factor;
+  if (given.factor == wanted.factor && given.offset == wanted.offset) return checked(value);  // no rounding where nothing is converted
+  return checked((value * given.factor + given.offset - wanted.offset) / wanted.factor);
 }
 
 }  // namespace twindeck

@@ -8,6 +8,10 @@
 
 namespace twindeck {
 
+/// [SI] Largest absolute value of a number in a file or a configuration. No quantity of a structure comes near it; and products of
+/// five such numbers are finite still, so that what is computed from them is a number.
+constexpr double largest_number = 1e60;
+
 /// A unit of measurement: value in SI base units = factor * value + offset.
 ///
 /// The angle is kept as a dimension of its own, so that "rad/s" given where "Hz" is expected is refused instead of being wrong
@@ -31,7 +35,7 @@ struct Unit {
 /// @param text        as written by the user
 /// @param field_unit  unit in which the program wants it; a number without unit is taken to be in it
 /// @param place       where it stands, for the message
-/// @throws InputError  if it is no finite number, the unit is unknown, or has another dimension than `field_unit`
+/// @throws InputError  if it is no finite number or beyond largest_number, the unit is unknown, or has another dimension than `field_unit`
 [[nodiscard]] double parse_quantity(std::string_view text, std::string_view field_unit, const Place& place = {});
 
 }  // namespace twindeck

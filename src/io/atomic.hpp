@@ -6,7 +6,7 @@
 namespace twindeck::io {
 
 /// Writes a whole file under a temporary name beside it and renames it, so that a reader sees the old content or the new, never
-/// half of it. Makes the folder if it is not there.
+/// half of it. Makes the folder if it is not there. Where `file` is a link, its target is replaced and the link stays.
 /// @throws InputError  if it cannot be written (no permission, disk full)
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
@@ -16,7 +16,8 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 ///     ... write into replacement.partial() ...
 ///     replacement.publish();                                 // swaps; only now are the earlier results removed
 ///
-/// Without `publish` the partial folder is removed and the earlier results stay whole.
+/// Without `publish` the partial folder is removed and the earlier results stay whole. What a killed process of this machine has left
+/// beside the place is removed first. Where the place is a link, its target is replaced and the link stays.
 class FolderReplacement {
  public:
   /// @throws InputError  if the folder cannot be made
@@ -33,6 +34,8 @@ class FolderReplacement {
   void publish(const std::filesystem::path& elsewhere);
 
  private:
+  void bring_beside(const std::filesystem::path& place);
+
   std::filesystem::path final_;
   std::filesystem::path partial_;
 };

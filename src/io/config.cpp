@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "io/config_field.hpp"
+#include "io/path_name.hpp"
 
 namespace twindeck::io {
 namespace {
@@ -100,6 +101,19 @@ FieldTable& FieldTable::text(const std::string& key, std::string& target, const 
   field.read = [&target](const TomlValue& node, const Place& place) { target = read_text(node, place); };
   field.write = [&target] { return toml_text(target); };
   field.default_value = field.write();
+  return *this;
+}
+
+FieldTable& FieldTable::path_name(const std::string& key, std::string& target, const std::string& what, const std::string& meaning,
+                                  bool required) {
+  text(key, target, meaning, required);
+  Field& field = *fields_.back();
+  field.allowed = "no slash";
+  field.read = [&target, what](const TomlValue& node, const Place& place) {
+    const std::string name = read_text(node, place);
+    check_path_name(name, what, place);
+    target = name;
+  };
   return *this;
 }
 

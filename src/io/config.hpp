@@ -4,8 +4,13 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+namespace twindeck {
+struct Place;
+}
 
 namespace twindeck::io {
 
@@ -37,6 +42,9 @@ class FieldTable {
   FieldTable& integer(const std::string& key, long& target, Range range, const std::string& meaning, bool required = false);
   FieldTable& boolean(const std::string& key, bool& target, const std::string& meaning);
   FieldTable& text(const std::string& key, std::string& target, const std::string& meaning, bool required = false);
+  /// A name that becomes part of a path below the step's folder (io/path_name.hpp). @param what  "condition", for the message
+  FieldTable& path_name(const std::string& key, std::string& target, const std::string& what, const std::string& meaning,
+                        bool required = false);
   /// A text that must be one of `allowed`.
   FieldTable& choice(const std::string& key, std::string& target, const std::vector<std::string>& allowed,
                      const std::string& meaning);
@@ -55,6 +63,10 @@ class FieldTable {
   void set(const std::string& key_equals_value);
   /// For a run without a file: @throws InputError  if a required key was given neither by `load` nor by `set`.
   void require() const;
+  /// Where a key was given last: file and line, or "--set"; an empty file where it was not given. An element ("pairs[2]"), a key of an
+  /// array of tables ("record.point") and the last part of a dotted key ("maximum_order" of "decay.maximum_order") count as the key.
+  /// @return  nothing where no such key is known
+  [[nodiscard]] std::optional<Place> place_of(const std::string& key) const;
   /// The resolved configuration as TOML, in SI units. `load` reads it back to the same values.
   [[nodiscard]] std::string print() const;
   /// Meaning, unit, range and default of one key, or of all.

@@ -20,6 +20,7 @@ struct FieldTable::Field {
   std::string default_value;  ///< as TOML, taken when the key is bound
   bool required = false;
   bool given = false;
+  Place place;              ///< where it was given last
   bool takes_text = false;                                   ///< a bare word of --set is its value as it stands
   std::function<void(const TomlValue&, const Place&)> read;  ///< checks and stores
   std::function<std::string()> write;                        ///< the present value as TOML
@@ -27,6 +28,10 @@ struct FieldTable::Field {
   std::vector<std::vector<std::string>> elements;            ///< of an array of tables: each element's lines as printed
 };
 
+/// Refuses a key: names what was meant by it, or else the keys that are known here.
+/// @param above  what stands before the key in an array of tables ("damper[2].")
+[[noreturn]] void refuse_unknown_key(const std::string& file, long line, const std::string& above, const std::string& key,
+                                     const std::vector<std::string>& known);
 /// "> 0", "in [0, 1]", "in ]0, 1]" or "".
 [[nodiscard]] std::string range_text(const Range& range);
 [[nodiscard]] bool inside(const Range& range, double value);

@@ -38,15 +38,7 @@ struct Reader {
   [[noreturn]] void unknown(const std::string& key, long line) const {
     std::vector<std::string> known;
     for (const auto& field : fields) known.push_back(field->key);
-    const std::string listed = fmt::format("known keys: {}", fmt::join(known, ", "));
-    std::string guess = did_you_mean(key, known);
-    if (guess.empty()) {  // the right word in the wrong table: "max_iterations" for "solver.max_iterations"
-      const std::string last = key.substr(key.rfind('.') == std::string::npos ? 0 : key.rfind('.') + 1);
-      for (const std::string& name : known) {
-        if (guess.empty() && (name == last || name.ends_with("." + last))) guess = " (did you mean '" + name + "'?)";
-      }
-    }
-    throw InputError({file, line, above + key}, "is no known key" + guess, known.empty() ? "no key is known here" : listed);
+    refuse_unknown_key(file, line, above, key, known);
   }
 
   void table(const TomlValue::Table& values, const std::string& prefix) const {
@@ -56,10 +48,22 @@ struct Reader {
         read(*field, node, {file, line, above + key});
       } else if (const auto* group = node.as<TomlValue::Table>(); group != nullptr && is_group(key)) {
         table(*group, key + ".");
+      } else if (is_group(key)) {
+        throw InputError({file, line, above + key}, "is " + shown(node) + ", expected a table", "write [" + key + "] and its keys below it");
       } else {
-        unknown(key, line);
+        unknown(first_key_below(key, node), line);
       }
     }
+  }
+
+  /// "doglegg.radius" of an unknown table [doglegg]: a key in it tells better than the table which one was meant.
+  [[nodiscard]] static std::string first_key_below(std::string key, const TomlValue& value) {
+    const TomlValue* node = &value;
+    for (const auto* inner = node->as<TomlValue::Table>(); inner != nullptr && !inner->empty(); inner = node->as<TomlValue::Table>()) {
+      key += "." + inner->front().key;
+      node = &inner->front().value;
+    }
+    return key;
   }
 
   void read(FieldTable::Field& field, const TomlValue& node, const Place& place) const {
@@ -69,6 +73,7 @@ struct Reader {
       field.read(node, place);
     }
     field.given = true;
+    field.place = place;
   }
 
   void elements(FieldTable::Field& field, const TomlValue& node, const Place& place) const;
@@ -128,6 +133,18 @@ void FieldTable::set(const std::string& key_equals_value) {
   TomlValue parsed = toml_of_command_line(value);
   if (field->takes_text && parsed.as<std::string>() == nullptr) parsed = {value, 0};  // --set version=5: the text "5"
   reader.read(*field, parsed, {"--set", 0, key});
+}
+
+std::optional<Place> FieldTable::place_of(const std::string& key) const {
+  const std::string asked = key.substr(0, key.find('['));
+  const Field* found = nullptr;
+  for (const auto& field : fields_) {
+    if (field->key == asked || (field->add && asked.starts_with(field->key + "."))) return field->place;
+    const bool ends_so = field->key.ends_with("." + asked);
+    if (ends_so && (found == nullptr || (!found->given && field->given))) found = field.get();
+  }
+  if (found == nullptr) return std::nullopt;
+  return found->place;
 }
 
 void FieldTable::require() const { Reader{fields_, "", ""}.require(0); }

@@ -61,8 +61,7 @@ std::string FieldTable::describe(const std::string& key) const {
     text += field->required ? ", required\n" : ", default " + field->default_value + "\n";
   }
   if (text.empty() && !key.empty()) {
-    throw InputError({"--describe", 0, key}, "is no known key" + did_you_mean(key, known),
-                     fmt::format("known keys: {}", fmt::join(known, ", ")));
+    refuse_unknown_key("--describe", 0, "", key, known);
   }
   return text;
 }

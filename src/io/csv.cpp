@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/atomic.hpp"
 
 namespace twindeck::io {
@@ -136,8 +137,9 @@ CsvTable CsvTable::read(const std::filesystem::path& file, const std::vector<std
       throw InputError({file.string(), line, column}, "column stands twice", "remove or rename one of them");
     }
     if (!allow_other && !known_set.contains(column)) {
-      throw InputError({file.string(), line, column}, "is no known column" + did_you_mean(column, known),
-                       "known columns: " + joined(known));
+      const std::string nearest = nearest_name(column, known);
+      throw InputError({file.string(), line, ""}, "unknown column '" + column + "'",
+                       nearest.empty() ? fmt::format("known columns are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
     }
   }
   for (const std::string& column : required) {
@@ -172,7 +174,7 @@ std::optional<double> CsvTable::number_if(std::size_t row, const std::string& co
   double value = 0.0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range) {
-    fail(row, column, "is \"" + cell + "\", beyond what a number can hold", "give a number between 1e-300 and 1e300");
+    fail(row, column, "is \"" + cell + "\", beyond what a number can hold", "give a number between 1e-300 and 1e60");
   }
   if (error != std::errc{} || stop != end) {
     fail(row, column, "is \"" + cell + "\", expected a number",
@@ -180,6 +182,8 @@ std::optional<double> CsvTable::number_if(std::size_t row, const std::string& co
   }
   if (!std::isfinite(value))
     fail(row, column, "is \"" + cell + "\", expected a finite number", "leave the row out or mend the value");
+  if (std::abs(value) > largest_number)
+    fail(row, column, "is \"" + cell + "\", larger than any quantity of a structure", "correct the value or its unit");
   return value;
 }
 

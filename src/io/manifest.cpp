@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
@@ -71,6 +72,26 @@ void check_file(const Manifest& manifest, const fs::path& folder, const fs::path
     throw InputError({file.string(), 0, ""},
                      "was changed after " + manifest.step + " wrote it (its SHA-256 is not the manifest's)", rerun);
   }
+}
+
+std::string sha256_of_stream(std::istream& in) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+  TWINDECK_ASSERT(context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1);
+  std::vector<char> block(1 << 16);
+  do {
+    in.read(block.data(), static_cast<std::streamsize>(block.size()));
+    TWINDECK_ASSERT(EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(in.gcount())) == 1);
+  } while (in);
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  TWINDECK_ASSERT(EVP_DigestFinal_ex(context.get(), digest.data(), &length) == 1);
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    constexpr const char* digits = "0123456789abcdef";
+    text += digits[digest[i] >> 4];
+    text += digits[digest[i] & 15];
+  }
+  return text;
 }
 
 }  // namespace
@@ -153,23 +174,12 @@ std::string sha256(const fs::path& file) {
   require_regular_file(file);  // a pipe would be waited for without an end
   std::ifstream in(file, std::ios::binary);
   if (!in || fs::is_directory(file)) throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path");
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
-  TWINDECK_ASSERT(context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1);
-  std::vector<char> block(1 << 16);
-  do {
-    in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    TWINDECK_ASSERT(EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(in.gcount())) == 1);
-  } while (in);
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  TWINDECK_ASSERT(EVP_DigestFinal_ex(context.get(), digest.data(), &length) == 1);
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    constexpr const char* digits = "0123456789abcdef";
-    text += digits[digest[i] >> 4];
-    text += digits[digest[i] & 15];
-  }
-  return text;
+  return sha256_of_stream(in);
+}
+
+std::string sha256_of_text(const std::string& text) {
+  std::istringstream in(text);
+  return sha256_of_stream(in);
 }
 
 }  // namespace twindeck::io

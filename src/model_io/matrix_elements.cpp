@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/path_name.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/matrix_market.hpp"
@@ -17,17 +18,11 @@ InputError at(const std::filesystem::path& folder, const std::string& anchor, co
   return InputError({file.string(), line_of(file, "\"" + anchor + "\""), "matrix_element " + name}, problem, mend);
 }
 
-/// Names become names of files.
-bool is_plain(const std::string& name) {
-  return !name.empty() &&
-         name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
-}
-
 }  // namespace
 
 io::FieldTable MatrixElementEntry::fields() {
   io::FieldTable table;
-  table.text("name", name, "name of the element: letters, digits, _ and -", true)
+  table.path_name("name", name, "matrix element", "name of the element, and of the files of its matrices", true)
       .text("group", group, "group, as of other elements")
       .texts("dofs", dofs, "degrees of freedom in the order of the matrices: \"node:direction\"")
       .integer("internal", internal, {0.0, 10000.0}, "unknowns of its own that follow them")
@@ -39,9 +34,6 @@ io::FieldTable MatrixElementEntry::fields() {
 
 fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const NameIndex& index,
                                     const MatrixElementEntry& entry) {
-  if (!is_plain(entry.name))
-    throw at(folder, entry.name, entry.name, "the name is empty or holds other characters than letters, digits, _ and -",
-             "its matrices are stored in files of this name");
   fe::MatrixElement element;
   element.name = entry.name;
   element.group = entry.group;
@@ -82,7 +74,7 @@ std::string write_matrix_elements(const fe::Model& model, const std::filesystem:
   std::string text;
   if (!model.matrix_elements.empty()) std::filesystem::create_directories(folder / "matrices");
   for (const fe::MatrixElement& element : model.matrix_elements) {
-    TWINDECK_ASSERT(is_plain(element.name));
+    io::check_path_name(element.name, "matrix element", {model.source, 0, "matrix_element"});
     std::string dofs;
     for (const fe::MatrixElement::Dof& dof : element.dofs)
       dofs += fmt::format("{}\"{}:{}\"", dofs.empty() ? "" : ", ", model.nodes[static_cast<std::size_t>(dof.node)].id,

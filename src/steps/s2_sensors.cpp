@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
       "s2_sensors --model my_bridge/model --out my_bridge/sensors --set points=my_points.csv --set setups=my_setups.csv",
   };
   step.fields = config.fields();
+  step.configured_inputs = {"model"};
   step.run = [&](StepContext& context) { return run_sensors(context, config); };
   return run_step(argc, argv, std::move(step));
 }

@@ -9,9 +9,16 @@ namespace {
 
 using namespace twindeck;
 
+/// data/<study>/campaign where somebody has put records of their own, else what s0_campaign wrote.
+std::filesystem::path default_campaign(const steps::StepContext& context) {
+  const std::filesystem::path own = std::filesystem::path("data") / context.study.lexically_normal().filename() / "campaign";
+  const bool is_there = !context.study.empty() && std::filesystem::exists(own / "campaign.toml");
+  return is_there ? own : context.results / "s0_campaign";
+}
+
 Status run(const steps::IdentificationConfig& config, steps::StepContext& context) {
   // 1. The campaign: a user's own, or what s0_campaign wrote. Read are its lists and records, and nothing else that lies there.
-  const auto folder = context.campaign ? *context.campaign : context.results / "s0_campaign";
+  const auto folder = context.campaign ? *context.campaign : default_campaign(context);
   if (!std::filesystem::exists(folder)) context.input(folder);
   const steps::Campaign campaign = steps::read_campaign(folder);
   for (const char* name : {"campaign.toml", "channels.csv", "conditions.toml"}) {
@@ -60,6 +67,7 @@ int main(int argc, char** argv) {
   step.flags = {{"inspect", true, "tell what a record file holds (CSV, NPY, MAT, HDF5, universal file) and end",
                  [](const std::string& file) { return records::describe(records::inspect(file)); }}};
   step.fields = config.fields();
+  step.configured_inputs = {"campaign"};
   step.run = [&config](steps::StepContext& context) { return run(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
       "s4_refinement --model my_bridge/model --modes my_bridge/measured --out my_bridge/comparison",
   };
   step.fields = config.fields();
+  step.configured_inputs = {"model"};
   step.run = [&](StepContext& context) { return run_refinement(context, config); };
   return run_step(argc, argv, std::move(step));
 }

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   step.examples = {"s5_sensitivity --study workflows/ponte_del_mare --out results/ponte_del_mare/s5_sensitivity",
                    "s5_sensitivity --model my_bridge --out results/my_bridge/s5_sensitivity --set n_modes=8"};
   step.fields = config.fields();
+  step.configured_inputs = {"model"};
   step.run = [&config](steps::StepContext& context) { return run(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

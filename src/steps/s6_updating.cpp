@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
   step.examples = {"s6_updating --study workflows/ponte_del_mare --out results/ponte_del_mare/s6_updating",
                    "s6_updating --model my_bridge/model --features my_bridge/features --out my_bridge/updated --set starts=4"};
   step.fields = config.fields();
+  step.configured_inputs = {"model"};
   step.run = [&config](steps::StepContext& context) { return run(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

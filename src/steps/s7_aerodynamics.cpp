@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
                    "s7_aerodynamics --study workflows/ponte_del_mare --model my_bridge/model --out my_bridge/s7_aerodynamics "
                    "--set nodes_per_deck=60"};
   step.fields = config.fields();
+  step.configured_inputs = {"model"};
   step.run = [&](StepContext& context) { return run_aerodynamics(context, config); };
   return run_step(argc, argv, std::move(step));
 }

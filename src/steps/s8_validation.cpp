@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
                    "s8_validation --study workflows/ponte_del_mare --out calm --results results/ponte_del_mare --set seeds=4 "
                    "--set turbulence_set='\"EN 0\"'"};
   step.fields = config.fields();
+  step.configured_inputs = {"model", "campaign"};
   step.run = [&config](steps::StepContext& context) { return steps::run_validation(context, config); };
   return steps::run_step(argc, argv, std::move(step));
 }

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
                    "s9_diagnosis --model my_bridge/model --features my_bridge/features --out my_bridge/diagnosis",
                    "s9_diagnosis --model my_bridge/model --features planned/features --plan --out my_bridge/plan"};
   step.fields = config.fields();
+  step.configured_inputs = {"model"};
   step.flags = {{"catalogue", true, "folder of hypotheses, one TOML file each"},
                 {"plan", false, "only say what these rows would see: plan.csv"}};
   step.run = [&config](steps::StepContext& context) { return steps::run_diagnosis(config, context); };

@@ -48,7 +48,7 @@ class Refusals(unittest.TestCase):
 
     def test_unknown_option_names_the_nearest(self):
         line = self.refused("--out", NEVER, "--thread", "2")
-        self.assertIn("--thread: is no known option (did you mean '--threads'?)", line)
+        self.assertIn("command line: unknown option '--thread'; did you mean '--threads'?", line)
 
     def test_word_that_belongs_to_no_option(self):
         self.assertIn("'stray'", self.refused("stray"))
@@ -67,7 +67,7 @@ class Refusals(unittest.TestCase):
     def test_unknown_key_of_set_names_the_nearest(self):
         key = max(described_keys(), key=len)
         line = self.refused("--out", NEVER, "--set", key[:-1] + "=1")
-        self.assertIn(f"(did you mean '{key}'?)", line)
+        self.assertIn(f"--set: unknown key '{key[:-1]}'; did you mean '{key}'?", line)
 
     def test_unknown_key_in_configuration_names_file_line_and_nearest(self):
         key = max((k for k in described_keys() if "." not in k), key=len)
@@ -75,7 +75,7 @@ class Refusals(unittest.TestCase):
             config = pathlib.Path(folder) / "s1_model.toml"
             config.write_text(f"# a comment\n{key[:-1]} = 1\n")
             line = self.refused("--study", folder, "--out", folder + "/out")
-            self.assertIn(f"{config}:2: {key[:-1]}: is no known key (did you mean '{key}'?)", line)
+            self.assertIn(f"{config}:2: unknown key '{key[:-1]}'; did you mean '{key}'?", line)
             self.assertFalse((pathlib.Path(folder) / "out").exists())
 
     def test_broken_toml_names_file_and_line(self):

@@ -80,7 +80,7 @@ class OwnStudy(unittest.TestCase):
         line = next(i for i, text in enumerate(lines, 1) if text.startswith("n_modes"))
         done = self.make("all", "STUDY=faulty")
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn(f"s1_model.toml:{line}: n_mode: is no known key (did you mean 'n_modes'?)", done.stderr)
+        self.assertIn(f"s1_model.toml:{line}: unknown key 'n_mode'; did you mean 'n_modes'?", done.stderr)
         config.write_text("\n".join(lines) + "\n")
         masses = self.root / "data/faulty/model/masses.csv"
         masses.write_text(masses.read_text().replace("floor,5,", "floor,500,", 1))

@@ -1,7 +1,6 @@
 # Records that lie elsewhere: DATA=dir names their folder. The channels that are used are copied under results/; nothing of them is kept
 # here.
 CAMPAIGN := $(RESULTS)/campaign
-OPTIONS_s3_identification += --campaign $(CAMPAIGN)
 
 $(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
 
@@ -15,7 +14,6 @@ INPUTS := $(RESULTS)/inputs
 WEAK_FIT := $(RESULTS)/weak_fit
 STRONG := nov1987_237 oct1979_484 dec2009_498
 comma := ,
-OPTIONS_s9_diagnosis += --model $(INPUTS)/fitted_model
 
 $(RESULTS)/s9_diagnosis/manifest.json: $(WEAK_FIT)/manifest.json $(wildcard $(WORKFLOW)/hypotheses/*)
 

@@ -1,7 +1,5 @@
 # The same diagnosis within the authors' bounds, and of a model that bends as a whole too.
 BESIDE := $(RESULTS)/as_published $(RESULTS)/with_bending
-OPTIONS_s4_refinement += --model $(RESULTS)/inputs/model
-OPTIONS_s9_diagnosis += --model $(RESULTS)/inputs/model
 
 $(RESULTS)/s9_diagnosis/manifest.json: $(BESIDE:%=%/manifest.json)
 

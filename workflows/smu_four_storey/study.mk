@@ -1,8 +1,6 @@
 # The updating as its authors did it (their bounds, modes 1 and 2) runs beside the diagnosis: how well it says what it did not see is what
 # the diagnosis is held against. Then the changes of stiffness that it ends with, for the report.
 PUBLISHED := $(RESULTS)/as_published
-OPTIONS_s4_refinement += --model $(RESULTS)/inputs/model
-OPTIONS_s9_diagnosis += --model $(RESULTS)/inputs/model
 
 $(RESULTS)/s9_diagnosis/manifest.json: $(PUBLISHED)/manifest.json
 

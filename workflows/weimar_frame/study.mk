@@ -1,7 +1,6 @@
 # Records that lie elsewhere: DATA=dir names their folder. A small campaign that points at them is written under results/; nothing of
 # them is kept here.
 CAMPAIGN := $(RESULTS)/campaign
-OPTIONS_s3_identification += --campaign $(CAMPAIGN)
 
 $(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
 
@@ -12,7 +11,6 @@ $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DAT
 # Steps 4 and 6 take what is written at its word. Step 9 does not, and not what was fitted to these frequencies before either: a first
 # look from the open model, with room for two causes, then the diagnosis from the model that it leaves.
 FIRST_LOOK := $(RESULTS)/first_look
-OPTIONS_s9_diagnosis += --model $(FIRST_LOOK)/extended_model
 INPUTS_s9_diagnosis += $(FIRST_LOOK)/manifest.json $(wildcard $(WORKFLOW)/hypotheses/*.toml)
 
 $(FIRST_LOOK)/manifest.json: $(STUDY_INPUTS) $(wildcard $(WORKFLOW)/hypotheses/*.toml) $(WORKFLOW)/s9_diagnosis.toml $(BIN)/s9_diagnosis \

@@ -208,14 +208,14 @@ Campaign read_campaign(const fs::path& folder) {
         r.record.condition = "as_measured";
         r.record.kind = "ambient";
         io::FieldTable table;
-        table.text("setup", r.record.setup, "name of the setup", true)
+        table.path_name("setup", r.record.setup, "setup", "name of the setup", true)
             .choice("kind", r.record.kind, kKinds, "what was recorded")
             .text("file", r.file,
                   "samples: CSV as loggers write it, NPY, MAT 5 or 7.3, HDF5, universal file; relative to campaign.toml", true)
             .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", io::positive(), "samples a second of each channel",
                     true)
             .texts("channels", r.record.channels, "columns, names of channels.csv")
-            .text("condition", r.record.condition, "table of conditions.toml");
+            .path_name("condition", r.record.condition, "condition", "table of conditions.toml");
         return table;
       },
       "a record");

@@ -24,7 +24,7 @@ std::function<io::FieldTable()> appending(std::vector<T>& list, std::function<vo
 constexpr std::size_t kMost = 256;
 
 void bind_condition(io::FieldTable& t, ConditionSettings& c) {
-  t.text("name", c.name, "name, as records refer to it", true)
+  t.path_name("name", c.name, "condition", "name, as records refer to it", true)
       .boolean("dampers", c.dampers, "whether the dampers are fitted")
       .number("temperature", c.temperature_C, "degC", {-30.0, 60.0}, "of the structure")
       .number("wind", c.wind_m_s, "m/s", io::non_negative(), "mean wind, for conditions.toml alone")
@@ -36,10 +36,10 @@ void bind_condition(io::FieldTable& t, ConditionSettings& c) {
 }
 
 void bind_record(io::FieldTable& t, RecordSettings& r) {
-  t.text("setup", r.setup, "setup of the layout file", true)
+  t.path_name("setup", r.setup, "setup", "setup of the layout file", true)
       .choice("kind", r.kind, {"ambient", "free_decay", "wind"},
               "ambient, the decay after a hung mass is let go, or a wind event")
-      .text("condition", r.condition, "condition", true)
+      .path_name("condition", r.condition, "condition", "condition", true)
       .number("duration", r.duration_s, "s", io::positive(), "length", true)
       .number("mass", r.mass_kg, "kg", io::non_negative(), "free_decay: mass that is let go")
       .text("point", r.point, "free_decay: point that it hangs from")
@@ -48,8 +48,8 @@ void bind_record(io::FieldTable& t, RecordSettings& r) {
 }
 
 void bind_stay(io::FieldTable& t, StayTest& s) {
-  t.text("stay", s.stay, "name of the stay", true)
-      .text("condition", s.condition, "condition of the record", true)
+  t.path_name("stay", s.stay, "stay", "name of the stay", true)
+      .path_name("condition", s.condition, "condition", "condition of the record", true)
       .number("pull", s.pull_N, "N", io::positive(), "T", true)
       .number("lambda_squared", s.lambda_squared, "", io::non_negative(),
               "Irvine's parameter; the axial stiffness follows from it", true)

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/toml_value.hpp"
 
 namespace twindeck::steps {
@@ -53,23 +55,28 @@ class Reader {
     throw InputError({file_.string(), line, key}, problem, mend);
   }
   [[noreturn]] void unknown(const io::TomlEntry& entry, const std::vector<std::string>& known) const {
-    fail(entry.line, entry.key, "is not a known key" + did_you_mean(entry.key, known),
-         fmt::format("use {}", fmt::join(known, ", ")));
+    const std::string nearest = nearest_name(entry.key, known);
+    fail(entry.line, "", "unknown key '" + entry.key + "'",
+         nearest.empty() ? fmt::format("known keys are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
   }
   const Table& table(const io::TomlEntry& entry) const {
     const auto* found = entry.value.as<Table>();
-    if (found == nullptr) fail(entry.line, entry.key, "is no table", "");
+    if (found == nullptr) fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a table", "write [" + entry.key + "]");
     return *found;
   }
   template <typename Use>
   void each(const io::TomlEntry& entry, Use use) const {
     const auto* list = entry.value.as<io::TomlValue::Array>();
-    if (list == nullptr) fail(entry.line, entry.key, "is no array of tables", "write [[" + entry.key + "]]");
-    for (const io::TomlValue& value : *list) use(*value.as<Table>());
+    if (list == nullptr) fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected tables", "write [[" + entry.key + "]]");
+    for (const io::TomlValue& value : *list) {
+      const auto* entries = value.as<Table>();
+      if (entries == nullptr) fail(entry.line, entry.key, "holds " + io::shown(value) + ", expected tables", "write [[" + entry.key + "]]");
+      use(*entries);
+    }
   }
   std::string text(const io::TomlEntry& entry) const {
     const auto* found = entry.value.as<std::string>();
-    if (found == nullptr) fail(entry.line, entry.key, "is no text", "");
+    if (found == nullptr) fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected text", "write it in quotes");
     return *found;
   }
   Expression expression(const io::TomlEntry& entry) const { return expression(entry.value, entry.line, entry.key); }
@@ -89,9 +96,17 @@ class Reader {
           fail(line, key, fmt::format("is '{}', expected a number, a name or \"number*name\"", *t), "");
       }
     } else {
-      fail(line, key, "is neither a number nor a text", "");
+      fail(line, key, "is " + io::shown(value) + ", expected a number or a text", "write 1.5, a name, or \"1.5*name\"");
     }
+    if (!(std::abs(e.factor) <= largest_number)) fail(line, key, "is " + io::shown(value) + ", expected a finite number", "correct the value");
     return e;
+  }
+  /// A number that must be above 0.
+  double positive(const io::TomlEntry& entry) const {
+    const Expression e = expression(entry);
+    if (!e.name.empty() || !(e.factor > 0.0))
+      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a number above 0", "1 is the weight of most causes");
+    return e.factor;
   }
 
   void hypothesis(const Table& entries) {
@@ -106,7 +121,7 @@ class Reader {
           fail(e.line, "side", fmt::format("is '{}', expected model or measurement", side), "");
         h_.measurement = side == "measurement";
       } else if (e.key == "prior_weight")
-        h_.prior_weight = expression(e).factor;
+        h_.prior_weight = positive(e);
       else
         unknown(e, {"id", "title", "side", "prior_weight"});
     }
@@ -140,7 +155,7 @@ class Reader {
         u.high = expression(e);
         high = true;
       } else if (e.key == "scale")
-        u.log = text(e) == "log";
+        u.log = is_log(e);
       else if (e.key == "start") {
         const auto* list = e.value.as<io::TomlValue::Array>();
         if (list == nullptr) fail(e.line, "start", "is no list", "");
@@ -151,6 +166,11 @@ class Reader {
     if (u.name.empty() || !low || !high)
       fail(entries.empty() ? 0 : entries.front().line, "parameter", "lacks name, low or high", "");
     h_.unknowns.push_back(u);
+  }
+  bool is_log(const io::TomlEntry& entry) const {
+    const std::string scale = text(entry);
+    if (scale != "log" && scale != "linear") fail(entry.line, "scale", "is '" + scale + "', expected linear or log", "");
+    return scale == "log";
   }
   void action(const Table& entries) {
     diagnosis::ActionSpec a;
@@ -172,7 +192,7 @@ class Reader {
     if (found == kinds.end()) {
       std::vector<std::string> names;
       for (const auto& [name, numbers] : kinds) names.push_back(name);
-      fail(a.line, "action.kind", fmt::format("'{}' is no known primitive{}", a.kind, did_you_mean(a.kind, names)),
+      fail(a.line, "action.kind", fmt::format("unknown primitive '{}'{}", a.kind, did_you_mean(a.kind, names)),
            fmt::format("use one of {}", fmt::join(names, ", ")));
     }
     for (const std::string& name : found->second)

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "diagnosis/same_modes.hpp"
@@ -20,6 +19,7 @@
 #include "modal/pair_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/outputs.hpp"
+#include "steps/diagnosis/threshold_file.hpp"
 #include "steps/shared/measured_tables.hpp"
 #include "steps/shared/study.hpp"
 
@@ -183,35 +183,6 @@ std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const Diag
   return bound;
 }
 
-/// What a threshold depends on, in words: hashed into the name of its file.
-std::string threshold_key(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference) {
-  std::ostringstream key;
-  key.precision(8);
-  key << "4|" << config.alpha << '|' << config.nulls << '|';
-  const diagnosis::ScatterOptions& scatter = config.scatter;
-  for (const double v : {scatter.element_stiffness, scatter.element_mass, scatter.node_mass, scatter.stay_stiffness,
-                         scatter.stay_pull, scatter.gain, scatter.frequency_floor, scatter.damping_floor, scatter.shape_floor,
-                         scatter.load_model, scatter.fine, scatter.noise})
-    key << v << ',';
-  if (scatter.model_form > 0.0) key << "form " << scatter.model_form << ',';
-  if (config.most_refined != 3) key << "refined " << config.most_refined << ' ' << config.search.refine_within << ',';
-  if (scatter.damping_by_state) key << "damping by state,";
-  for (const auto& p : inputs.reduced->parameters) key << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial << '|';
-  key << inputs.reduced->frequency_Hz.head(std::min<Eigen::Index>(5, inputs.reduced->frequency_Hz.size())).transpose() << '|';
-  for (const auto& row : inputs.features.rows)
-    key << name_of(row.type) << row.mode << ',' << row.channel << row.stay << ',' << row.condition << ',' << row.std << ','
-        << row.held_out << '|';
-  for (const auto& candidate : inference.candidates())
-    key << candidate->id() << candidate->low.transpose() << candidate->high.transpose() << candidate->starts.size() << '|';
-  return key.str();
-}
-
-std::string hash_of(const std::string& text) {  // FNV-1a, 64 bits: a name, not a seal
-  std::uint64_t h = 1469598103934665603ull;
-  for (const unsigned char c : text) h = (h ^ c) * 1099511628211ull;
-  return fmt::format("{:016x}", h);
-}
-
 }  // namespace
 
 io::FieldTable DiagnosisConfig::fields() {
@@ -321,11 +292,13 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
                          StepContext& context) {
   std::filesystem::path folder = config.threshold_cache;
   if (folder.empty()) folder = (context.results.empty() ? context.out.parent_path() : context.results) / "thresholds";
-  const auto file = folder / (hash_of(threshold_key(config, inputs, inference)) + ".toml");
-  if (std::filesystem::exists(file)) {
-    for (const io::TomlEntry& entry : io::read_toml(file))
-      if (entry.key == "threshold" && entry.value.as<double>())
-        return {*entry.value.as<double>(), "nulls cached in " + file.filename().string()};
+  const std::string key = threshold_key(config, inputs, inference, context.seed);
+  const auto file = threshold_file(folder, key);
+  // The same words whether they were kept or run now: a second run gives the same bytes.
+  const std::string from = fmt::format("{} nulls, {}", config.nulls, file.filename().string());
+  if (const auto kept = read_threshold(file, key)) {
+    context.input(file);
+    return {*kept, from};
   }
   if (config.nulls <= 0) return {diagnosis::analytic_threshold(inference, config.alpha), "analytic tail"};
   diagnosis::SearchOptions search = config.search;
@@ -337,10 +310,10 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   std::vector<double> sorted = nulls.log_odds;
   std::sort(sorted.begin(), sorted.end());
   const auto at = static_cast<std::size_t>(std::ceil((1.0 - config.alpha) * static_cast<double>(sorted.size()))) - 1;
-  std::filesystem::create_directories(folder);
-  io::write_file_atomically(file, fmt::format("# {} null data sets, quantile {} of the largest log odds\nthreshold = {:.6f}\n",
-                                              sorted.size(), 1.0 - config.alpha, sorted[std::min(at, sorted.size() - 1)]));
-  return {sorted[std::min(at, sorted.size() - 1)], fmt::format("{} nulls", sorted.size())};
+  const double threshold = sorted[std::min(at, sorted.size() - 1)];
+  write_threshold(threshold, config.nulls, 1.0 - config.alpha, file, key);
+  context.input(file);
+  return {read_threshold(file, key).value_or(threshold), from};  // as it is kept, to six decimals
 }
 
 Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
@@ -391,8 +364,8 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   for (const Finding& finding : inputs.account) context.say(finding.text);
   context.say(fmt::format("{}: {}", result.verdict, result.message));
   for (const auto& effect : result.effects)
-    context.say(fmt::format("  {} (log odds {:.1f}); either of {}", effect.cause.candidate->id(), effect.log_odds,
-                            fmt::join(effect.cluster, ", ")));
+    context.say(fmt::format("  {} (log odds {:.1f}){}", effect.cause.candidate->id(), effect.log_odds,
+                            effect.cluster.size() < 2 ? "" : fmt::format("; one of {}", fmt::join(effect.cluster, ", "))));
   if (result.gain.rows > 0)
     context.say(fmt::format("  held out {} rows: {:.2f} -> {:.2f} standard deviations, {:.0f} % less ({:.0f} to {:.0f})",
                             result.gain.rows, result.gain.before, result.gain.after, result.gain.reduction_pct,

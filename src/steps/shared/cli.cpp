@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/build_info.hpp"
+#include "io/atomic.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -26,8 +27,9 @@ std::string help_footer(const Step& step) {
   }
   const std::string option = word.substr(0, word.find('='));
   if (option.starts_with("-")) {
-    throw InputError({"command line", 0, option}, "is no known option" + did_you_mean(option, known),
-                     "--help lists the options");
+    const std::string nearest = nearest_name(option, known);
+    throw InputError({"command line", 0, ""}, "unknown option '" + option + "'",
+                     nearest.empty() ? "--help lists the options" : "did you mean '" + nearest + "'?");
   }
   throw InputError({"command line", 0, ""}, "has '" + word + "', which belongs to no option", "--help shows two examples");
 }
@@ -100,7 +102,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
   if (const auto extras = app.remaining(); !extras.empty()) refuse(app, extras.front());
 
   const auto optional_path = [](const std::string& text) { return text.empty() ? std::optional<fs::path>() : fs::path(text); };
-  line.study = study;
+  line.study = io::without_trailing_slash(study);
   line.out = out;
   line.results = results;
   line.model = optional_path(model);

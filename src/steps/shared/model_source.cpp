@@ -50,7 +50,7 @@ LoadedModel load_model(StepContext& context, const std::filesystem::path& defaul
   if (!std::filesystem::is_directory(folder)) {
     const std::string step = default_folder.parent_path().filename().string();
     throw InputError({folder.string(), 0, ""}, "is not there, expected a model folder",
-                     context.model ? "give --model the folder that holds model.toml"
+                     context.model ? "give --model (or the key `model`) the folder that holds model.toml"
                                    : "run " + step + " first, or give a model folder by --model DIR");
   }
   return read_model_folder(context.input(folder));

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 
 #include "core/build_info.hpp"
 #include "core/printable.hpp"
@@ -12,6 +15,7 @@
 #include "io/manifest.hpp"
 #include "model_io/model_folder.hpp"
 #include "steps/shared/cli.hpp"
+#include "steps/shared/configured_inputs.hpp"
 #include "steps/shared/run_step_signals.hpp"
 #include "steps/shared/run_step_threads.hpp"
 #include "steps/shared/study.hpp"
@@ -24,6 +28,11 @@ namespace {
 int failure(const std::string& token, const std::string& kind, const std::string& message, int code) {
   std::fputs(fmt::format("{}: {}{}\n", token, kind, printable(message)).c_str(), stderr);
   return code;
+}
+
+/// What a size in a file or the configuration asks for that no machine has.
+InputError too_large() {
+  return {{}, "asks for more memory than there is", "look for a size, a duration or a number of modes that is too large"};
 }
 
 /// The step's configuration: its own file in the study, then --set in order.
@@ -65,6 +74,19 @@ std::map<std::string, std::string> hashes_below(const fs::path& folder) {
   return hashes;
 }
 
+io::Manifest manifest_of(const Status& status, const Step& step, const StepContext& context) {
+  io::Manifest manifest;
+  manifest.step = step.token;
+  manifest.status = status.converged ? "converged" : "unconverged";
+  manifest.message = status.message;
+  manifest.config_toml = step.fields.print();
+  manifest.seed = context.seed;
+  manifest.threads = context.threads;
+  for (const auto& [path, hash] : context.input_hashes_) manifest.inputs[path] = hash;
+  manifest.outputs = hashes_below(context.out);
+  return manifest;
+}
+
 /// A key of the step's configuration, or all; or all of one of the files that are no step's own.
 std::string describe(const Step& step, const std::string& key) {
   if (key == "study.toml") return describe_study();
@@ -72,7 +94,19 @@ std::string describe(const Step& step, const std::string& key) {
   return step.fields.describe(key);
 }
 
-int compute(int argc, char** argv, const CommandLine& line, Step& step, StepContext& context) {
+/// The line of an InputError that names no file: a key of the configuration stands where it was given, anything else concerns the
+/// study or the model that the step was run on.
+std::string located(const InputError& error, const Step& step, const StepContext& context) {
+  if (!error.place().file.empty()) return error.what();
+  const std::optional<Place> given = error.place().key.empty() ? std::nullopt : step.fields.place_of(error.place().key);
+  if (given && !given->file.empty()) {
+    return given->file + (given->line > 0 ? ":" + std::to_string(given->line) : "") + ": " + error.what();
+  }
+  const std::string source = context.model ? context.model->string() : context.study.string();
+  return (source.empty() ? "command line" : source) + ": " + error.what();
+}
+
+int compute(int argc, char** argv, const CommandLine& line, Step& step, const ConfiguredInputs& configured, StepContext& context) {
   const auto start = std::chrono::steady_clock::now();
   const fs::path out = io::without_trailing_slash(line.out);
   const fs::path unconverged = unconverged_place(out);
@@ -89,6 +123,7 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, StepCont
   context.modes = line.modes;
   context.features = line.features;
   context.flags_ = line.flags;
+  configured.apply(step, context);
   context.threads = set_threads(line.threads);
 
   // 2. The step computes and writes beside its place.
@@ -98,16 +133,8 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, StepCont
   const Status status = step.run(context);
 
   // 3. The manifest comes last.
-  io::Manifest manifest;
-  manifest.step = step.token;
-  manifest.status = status.converged ? "converged" : "unconverged";
-  manifest.message = status.message;
-  manifest.config_toml = step.fields.print();
+  io::Manifest manifest = manifest_of(status, step, context);
   manifest.command_line.assign(argv, argv + argc);
-  manifest.seed = context.seed;
-  manifest.threads = context.threads;
-  for (const auto& [path, hash] : context.input_hashes_) manifest.inputs[path] = hash;
-  manifest.outputs = hashes_below(context.out);
   manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   io::write_manifest(manifest, context.out);
 
@@ -133,6 +160,11 @@ std::optional<std::string> StepContext::flag(const std::string& name) const {
     if (given == wanted) return value;
   }
   return std::nullopt;
+}
+
+fs::path StepContext::resolved(const std::string& path) const {
+  constexpr std::string_view below_results = "{results}/";
+  return path.starts_with(below_results) ? results / path.substr(below_results.size()) : fs::path(path);
 }
 
 bool StepContext::has_flag(const std::string& name) const { return flag(name).has_value(); }
@@ -165,6 +197,7 @@ int run_step(int argc, char** argv, Step step) {
   StepContext context;
   context.token_ = step.token;
   try {
+    const ConfiguredInputs configured(step);
     const CommandLine line = parse_command_line(argc, argv, step);
     context.quiet = line.quiet;
     switch (line.action) {
@@ -185,13 +218,17 @@ int run_step(int argc, char** argv, Step step) {
         std::fputs(step.fields.print().c_str(), stdout);
         return 0;
       case CommandLine::Action::run:
-        return compute(argc, argv, line, step, context);
+        return compute(argc, argv, line, step, configured, context);
     }
     throw InternalError("the command line asks for nothing known");
   } catch (const InputError& error) {
-    return failure(step.token, "", error.what(), 2);
+    return failure(step.token, "", located(error, step, context), 2);
   } catch (const fs::filesystem_error& error) {
     return failure(step.token, "", error.what(), 2);
+  } catch (const std::bad_alloc&) {
+    return failure(step.token, "", located(too_large(), step, context), 2);
+  } catch (const std::length_error&) {
+    return failure(step.token, "", located(too_large(), step, context), 2);
   } catch (const std::exception& error) {
     return failure(step.token, "internal error: ", error.what(), 3);
   } catch (...) {

@@ -30,6 +30,8 @@ class StepContext {
   /// Registers a file, or every file of a folder, as an input for the manifest, checks it against its own step's manifest,
   /// returns it.
   std::filesystem::path input(const std::filesystem::path& path);
+  /// The path that a configuration names: "{results}/…" lies below --results, another is taken as it stands, from the current folder.
+  [[nodiscard]] std::filesystem::path resolved(const std::string& path) const;
   /// A line for people on stderr, prefixed with the step's token; nothing with --quiet.
   void say(const std::string& line) const;
   /// Progress with remaining time on anything over two seconds (terminal: one line rewritten; otherwise a line every ten
@@ -57,6 +59,8 @@ struct Step {
   std::string summary;                ///< one sentence
   std::vector<std::string> examples;  ///< at least two full command lines
   io::FieldTable fields;              ///< bound to the step's configuration struct
+  /// Folders that the configuration can name as the command line can: "model", "campaign". The command line goes first.
+  std::vector<std::string> configured_inputs;
   std::vector<Flag> flags;
   std::function<Status(StepContext&)> run;
 };

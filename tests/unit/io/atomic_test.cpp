@@ -1,5 +1,7 @@
 #include "io/atomic.hpp"
 
+#include <sys/wait.h>
+
 #include "temporary_folder.hpp"
 
 namespace twindeck::io {
@@ -58,6 +60,82 @@ TEST_F(AtomicTest, PublishElsewhereKeepsEarlierResults) {
   replacement.publish(folder_ / "out.unconverged");
   EXPECT_EQ(content(folder_ / "out" / "old.csv"), "old");
   EXPECT_EQ(content(folder_ / "out.unconverged" / "new.csv"), "new");
+}
+
+// Oracle: the link is still a link, to the folder that holds the new results; nothing is left beside either.
+TEST_F(AtomicTest, AReplacedLinkStaysALink) {
+  write("disk/results/old.csv", "old");
+  fs::create_directory_symlink("disk/results", folder_ / "hop");
+  fs::create_directory_symlink(folder_ / "hop", folder_ / "out");
+  {
+    FolderReplacement replacement(folder_ / "out/");
+    EXPECT_EQ(replacement.partial(), FolderReplacement::partial_place(folder_ / "out"));
+    std::ofstream(replacement.partial() / "new.csv") << "new";
+    replacement.publish();
+  }
+  EXPECT_TRUE(fs::is_symlink(folder_ / "out"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "hop"));
+  EXPECT_EQ(content(folder_ / "disk" / "results" / "new.csv"), "new");
+  EXPECT_FALSE(fs::exists(folder_ / "disk" / "results" / "old.csv"));
+  EXPECT_EQ(entries(folder_ / "disk"), 1u);
+  EXPECT_EQ(entries(folder_), 3u);
+  fs::create_symlink("disk/a.txt", folder_ / "a.txt");
+  write_file_atomically(folder_ / "a.txt", "one");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "a.txt"));
+  EXPECT_EQ(content(folder_ / "disk" / "a.txt"), "one");
+}
+
+/// The number of a process that has ended.
+long ended_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+// Oracle: of six leftovers the next run removes the two that are a dead process's and made here; it keeps a living process's, another
+// machine's, another step's and what has no process number. A folder that a dead process had moved aside comes back.
+TEST_F(AtomicTest, LeftoversOfDeadProcessesAreRemoved) {
+  const std::string dead = std::to_string(ended_process());
+  const auto leave = [&](const std::string& name, const char* owner) {
+    fs::create_directories(folder_ / name);
+    if (owner != nullptr) fs::create_symlink(owner, folder_ / name / ".owner");
+  };
+  leave("out.partial-" + dead, nullptr);
+  leave("out.partial-" + std::to_string(::getppid()), nullptr);
+  leave("out2.partial-" + dead, nullptr);
+  leave("out.partial-x" + dead, nullptr);
+  { const FolderReplacement replacement(folder_ / "out"); }
+  EXPECT_FALSE(fs::exists(folder_ / ("out.partial-" + dead)));
+  leave("out.partial-" + dead, "another-machine pid:[1]");
+  write("out.old-" + dead + "/old.csv", "old");
+  { const FolderReplacement replacement(folder_ / "out"); }
+  EXPECT_EQ(entries(folder_), 5u);
+  EXPECT_TRUE(fs::exists(folder_ / ("out.partial-" + dead)));
+  EXPECT_EQ(content(folder_ / "out" / "old.csv"), "old");
+  write("out.old-" + dead + "/older.csv", "older");
+  { const FolderReplacement replacement(folder_ / "out"); }
+  EXPECT_EQ(entries(folder_), 5u);
+  EXPECT_EQ(content(folder_ / "out" / "old.csv"), "old");
+}
+
+// Oracle: a process that is killed in the middle leaves its folder, as the name in the manual says; the next one removes it.
+TEST_F(AtomicTest, AKilledProcessIsCleanedUpAfter) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const FolderReplacement replacement(folder_ / "out");
+    ::_exit(1);  // no destructor runs
+  }
+  ::waitpid(child, nullptr, 0);
+  const fs::path left = folder_ / ("out.partial-" + std::to_string(child));
+  EXPECT_TRUE(fs::exists(left));
+  {
+    FolderReplacement replacement(folder_ / "out");
+    EXPECT_FALSE(fs::exists(left));
+    replacement.publish();
+  }
+  EXPECT_EQ(entries(folder_ / "out"), 0u) << "the mark of the owner is no result";
+  EXPECT_EQ(entries(folder_), 1u);
 }
 
 }  // namespace

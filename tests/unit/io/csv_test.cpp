@@ -56,7 +56,8 @@ TEST_F(CsvTest, RefusesWrongHeaders) {
   };
   EXPECT_EQ(read("mode\n"), "a.csv:1: frequency_Hz: column is missing; expected columns: mode,frequency_Hz");
   EXPECT_EQ(read("mode,frequencyHz\n"),
-            "a.csv:1: frequencyHz: is no known column (did you mean 'frequency_Hz'?); known columns: mode,frequency_Hz,note");
+            "a.csv:1: unknown column 'frequencyHz'; did you mean 'frequency_Hz'?");
+  EXPECT_EQ(read("mode,frequency_Hz,zeta\n"), "a.csv:1: unknown column 'zeta'; known columns are mode, frequency_Hz, note");
   EXPECT_EQ(read("mode,frequency_Hz,mode\n"), "a.csv:1: mode: column stands twice; remove or rename one of them");
   EXPECT_EQ(read(""), "a.csv:1: is empty, expected a header row; start the file with: mode,frequency_Hz");
   EXPECT_NE(read("mode;frequency_Hz\n").find("separated by semicolons"), std::string::npos);
@@ -82,6 +83,11 @@ TEST_F(CsvTest, RefusesWhatIsNoFiniteNumber) {
   for (const std::size_t row : {0, 1, 2, 3, 4, 5, 7, 8})
     EXPECT_THROW(static_cast<void>(table.number(row, "x")), InputError) << row;
   EXPECT_EQ(table.number(6, "x"), 2.5);
+  const CsvTable large = CsvTable::read(write("b.csv", "x\n1e300\n-1e61\n1e60\n"), {"x"});
+  EXPECT_EQ(refusal([&] { static_cast<void>(large.number(0, "x")); }),
+            "b.csv:2: x: is \"1e300\", larger than any quantity of a structure; correct the value or its unit");
+  EXPECT_THROW(static_cast<void>(large.number(1, "x")), InputError);
+  EXPECT_EQ(large.number(2, "x"), 1e60);
   EXPECT_EQ(refusal([&] { static_cast<void>(table.number(0, "x")); }),
             "a.csv:2: x: is \"nan\", expected a finite number; leave the row out or mend the value");
   EXPECT_EQ(refusal([&] { static_cast<void>(table.number(7, "x")); }),
