@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+
+#include "core/parallel.hpp"
 
 namespace twindeck::updating {
 namespace {
@@ -40,18 +41,10 @@ std::vector<LeftOut> leave_each_out(const Search& search, const Eigen::VectorXd&
   const auto count = static_cast<int>(search.definition.targets.size());
   if (count < 2) return {};
   std::vector<SearchEnd> ends(2 * static_cast<std::size_t>(count));
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int k = 0; k < 2 * count; ++k) {
-    try {
-      const auto target = static_cast<std::size_t>(k / 2);
-      ends[static_cast<std::size_t>(k)] = run_start(without(search, target), k % 2 == 0 ? initial : optimum, k);
-    } catch (...) {  // must not leave the parallel region
-#pragma omp critical(twindeck_leave_one_out)
-      if (!failure) failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  parallel_for(2 * count, [&](int k) {
+    const auto target = static_cast<std::size_t>(k / 2);
+    ends[static_cast<std::size_t>(k)] = run_start(without(search, target), k % 2 == 0 ? initial : optimum, k);
+  });
   std::vector<LeftOut> out;
   for (std::size_t target = 0; target < static_cast<std::size_t>(count); ++target) {
     out.push_back(predicted(search, target, ends[2 * target], ends[2 * target + 1]));
