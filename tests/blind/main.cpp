@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <random>
 #include <string>
@@ -24,6 +25,7 @@
 #include "blind/explain.hpp"
 #include "blind/score_table.hpp"
 #include "blind/trial.hpp"
+#include "core/parallel.hpp"
 
 namespace {
 
@@ -52,18 +54,16 @@ std::vector<Score> run_all(int count, double seconds, const std::function<Score(
   std::vector<std::optional<Score>> done(static_cast<std::size_t>(count));
   std::size_t printed = 0;
   const auto begin = std::chrono::steady_clock::now();
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i) {
-    if (stopped || std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > seconds) continue;
+  std::mutex printing;
+  twindeck::parallel_for(count, [&](int i) {
+    if (stopped || std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > seconds) return;
     Score score = work(i);
-#pragma omp critical
-    {
-      done[static_cast<std::size_t>(i)] = std::move(score);
-      for (; printed < done.size() && done[printed]; ++printed)
-        fmt::print("{}\n", line(static_cast<int>(printed), *done[printed]));
-      std::fflush(stdout);
-    }
-  }
+    const std::scoped_lock lock(printing);
+    done[static_cast<std::size_t>(i)] = std::move(score);
+    for (; printed < done.size() && done[printed]; ++printed)
+      fmt::print("{}\n", line(static_cast<int>(printed), *done[printed]));
+    std::fflush(stdout);
+  });
   std::vector<Score> scores;
   for (const auto& s : done) {
     if (!s) break;
@@ -75,13 +75,12 @@ std::vector<Score> run_all(int count, double seconds, const std::function<Score(
 /// Nulls alone: how often the residual test rejects, and what is named when the noise is understated.
 int null_calibration(const twindeck::blind::Bench& bench, int count, std::uint64_t first) {
   std::vector<double> p(static_cast<std::size_t>(count), 1.0), block(p), ratio(p);
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i) {
+  twindeck::parallel_for(count, [&](int i) {
     const auto test = twindeck::blind::residual_test(bench, first + static_cast<std::uint64_t>(i));
     p[static_cast<std::size_t>(i)] = test.p_value;
     block[static_cast<std::size_t>(i)] = test.block_p_value;
     ratio[static_cast<std::size_t>(i)] = test.chi_squared / test.dof;
-  }
+  });
   double mean = 0.0;
   for (const double r : ratio) mean += r / count;
   bool held = true;
@@ -147,9 +146,9 @@ int print_coverage(const twindeck::blind::Bench& bench, int campaigns, const std
 /// What `count` trials hide: kinds, families, sizes.
 int dry_run(const twindeck::blind::Bench& bench, const std::vector<std::string>& catalogue, int count, std::uint64_t first) {
   std::vector<twindeck::blind::Sealed> seals(static_cast<std::size_t>(count));
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i)
+  twindeck::parallel_for(count, [&](int i) {
     seals[static_cast<std::size_t>(i)] = twindeck::blind::hide(bench, first + static_cast<std::uint64_t>(i), {}).seal;
+  });
   std::map<std::string, int> kinds, hidden;
   for (const std::string& family : catalogue) hidden[family] = 0;
   int strong = 0;

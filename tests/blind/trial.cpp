@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "blind/explain.hpp"
+#include "core/parallel.hpp"
 
 namespace twindeck::blind {
 
@@ -352,8 +353,7 @@ Coverage coverage(const Bench& bench, std::uint64_t seed, int campaigns) {
   Coverage out{seal.text(), 0, 0};
   if (seal.kind != "effect" || seal.magnitudes[0].empty()) return out;
   std::vector<char> covered(static_cast<std::size_t>(campaigns), 0);
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < campaigns; ++i) {
+  parallel_for(campaigns, [&](int i) {
     const Case hidden = make_case(bench, seed, 1.0, false, static_cast<std::uint64_t>(i) + 1);
     covered[static_cast<std::size_t>(i)] = on_inference(bench, hidden, [&](auto& inference) {
       const auto& all = inference.candidates();
@@ -366,7 +366,7 @@ Coverage coverage(const Bench& bench, std::uint64_t seed, int campaigns) {
       const double value = seal.magnitudes[0][0];
       return value >= std::min(size.low, size.high) && value <= std::max(size.low, size.high);
     });
-  }
+  });
   out.campaigns = campaigns;
   out.covered = static_cast<int>(std::count(covered.begin(), covered.end(), 1));
   return out;
