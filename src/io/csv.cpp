@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/atomic.hpp"
+#include "io/regular_file.hpp"
 
 namespace twindeck::io {
 namespace {
@@ -93,6 +94,8 @@ class RecordReader {
 };
 
 std::string read_whole(const std::filesystem::path& file) {
+  // A pipe is refused before it is opened, which would wait for a writer.
+  if (std::filesystem::exists(file) && !std::filesystem::is_directory(file)) require_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file)) {
     throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path and that the file is readable");

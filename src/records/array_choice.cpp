@@ -1,8 +1,9 @@
 #include "records/array_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <regex>
+#include <string_view>
 
 #include "core/error.hpp"
 
@@ -18,9 +19,44 @@ std::string bare(const std::string& name) {
   return text;
 }
 
+template <std::size_t n>
+bool is_one_of(const std::array<std::string_view, n>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 bool is_time(const std::string& name) {
-  static const std::regex pattern("t|time|time_?s|times|tempo|zeit|time_?vector|tvec");
-  return std::regex_match(bare(name), pattern);
+  static constexpr std::array<std::string_view, 9> names = {"t",    "time",        "times",      "time_s", "tempo",
+                                                            "zeit", "time_vector", "timevector", "tvec"};
+  return is_one_of(names, bare(name));
+}
+
+bool is_rate(const std::string& name) {
+  static constexpr std::array<std::string_view, 10> names = {"fs",  "f_s",       "sf",   "sr",    "rate",
+                                                             "sps", "frequency", "freq", "fsamp", "fs_hz"};
+  static constexpr std::array<std::string_view, 4> counts = {"sample", "samples", "sample_count",
+                                                             "samplecount"};                // how many there are
+  return is_one_of(names, name) || (name.starts_with("samp") && !is_one_of(counts, name));  // "samplingrate", "sample_rate_hz"
+}
+
+bool is_step(const std::string& name) {
+  static constexpr std::array<std::string_view, 17> names = {"dt",
+                                                             "ts",
+                                                             "t_s",
+                                                             "delta_t",
+                                                             "deltat",
+                                                             "step",
+                                                             "time_step",
+                                                             "timestep",
+                                                             "sampling_interval",
+                                                             "sampling_period",
+                                                             "sampling_time",
+                                                             "samplinginterval",
+                                                             "samplingperiod",
+                                                             "samplingtime",
+                                                             "interval",
+                                                             "xincrement",
+                                                             "wf_increment"};
+  return is_one_of(names, name);
 }
 
 }  // namespace
@@ -44,6 +80,9 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::stri
   if (arrays[best].shorter() > 1) {
     choice.data = {best};
     choice.transposed = arrays[best].columns > arrays[best].rows;
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+      if (i != best && arrays[i].shorter() > 1 && arrays[i].longer() == samples) choice.left_out.push_back(i);
+    }
   } else {
     for (std::size_t i = 0; i < arrays.size(); ++i) {
       if (arrays[i].shorter() == 1 && arrays[i].longer() == samples && !is_time(arrays[i].name)) choice.data.push_back(i);
@@ -56,12 +95,10 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::stri
 }
 
 double rate_of(const std::string& name, double value) {
-  static const std::regex rate("fs|f_s|sf|sr|rate|sps|samp\\w*|sampling_?(rate|frequency|freq)(_?hz)?|sample_?rate(_?hz)?|frequency|freq|fsamp|fs_hz");
-  static const std::regex step("dt|ts|t_s|delta_?t|step|time_?step|sampling_?(interval|period|time)|interval|xincrement|wf_increment");
   if (!(value > 0.0) || !std::isfinite(value)) return 0.0;
   const std::string text = bare(name);
-  if (std::regex_match(text, step)) return 1.0 / value;
-  return std::regex_match(text, rate) ? value : 0.0;
+  if (is_step(text)) return 1.0 / value;
+  return is_rate(text) ? value : 0.0;
 }
 
 double rate_of_times(const Eigen::VectorXd& times) {

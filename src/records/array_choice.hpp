@@ -22,6 +22,7 @@ struct ArrayChoice {
   bool transposed = false;           ///< channels × samples
   int time = -1;                     ///< vector of times
   std::vector<std::size_t> scalars;  ///< single numbers, that may say the rate
+  std::vector<std::size_t> left_out;  ///< further matrices of as many samples
 };
 
 /// The largest matrix is the record, its longer side the samples; vectors of one length are channels of their own. A vector of that

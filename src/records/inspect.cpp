@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "core/printable.hpp"
+#include "records/recorded_unit.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -68,14 +70,16 @@ Inspection inspect(const fs::path& file) {
   Inspection result;
   std::vector<ChannelStatistics> statistics;
   Index samples = 0;
-  result.info = scan(file, [&](Index first_sample, Index first_channel, const Eigen::MatrixXd& block) {
+  const Visitor look = [&](Index first_sample, Index first_channel, const Eigen::MatrixXd& block) {
     statistics.resize(std::max(statistics.size(), static_cast<std::size_t>(first_channel + block.cols())));
     samples = std::max(samples, first_sample + block.rows());
     for (Index c = 0; c < block.cols(); ++c) {
       ChannelStatistics& channel = statistics[static_cast<std::size_t>(first_channel + c)];
       for (Index t = 0; t < block.rows(); ++t) channel.add(block(t, c));
     }
-  });
+  };
+  // Whoever asks what a file holds is told of stray lines, not turned away.
+  result.info = scan(file, look, {.skip_stray_lines = true});
   for (const ChannelStatistics& channel : statistics) result.channels.push_back(channel.summary(samples));
   result.channels.resize(result.info.channels.size());
   return result;
@@ -83,33 +87,8 @@ Inspection inspect(const fs::path& file) {
 
 namespace {
 
-/// Lower case without blanks and brackets; µ, ², ° in any spelling as u, 2, deg.
-std::string plain(const std::string& unit) {
-  static const std::map<std::string, std::string> spellings = {{"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xC2\xB2", "2"}, {"\xC2\xB0", "deg"}, {"^", ""},
-                                                               {"**", ""}, {" ", ""}, {"[", ""}, {"]", ""}, {"(", ""}, {")", ""}};
-  std::string text = unit;
-  for (const auto& [from, to] : spellings) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
-  }
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-struct Unit {
-  double factor;
-  const char* quantity;
-};
-
-const std::map<std::string, Unit>& units() {
-  static const std::map<std::string, Unit> known = {
-      {"m/s2", {1.0, "acceleration"}},      {"m/s/s", {1.0, "acceleration"}},   {"ms-2", {1.0, "acceleration"}},  {"m*s-2", {1.0, "acceleration"}},
-      {"m/sec2", {1.0, "acceleration"}},    {"mm/s2", {1e-3, "acceleration"}},  {"cm/s2", {1e-2, "acceleration"}}, {"cm/s/s", {1e-2, "acceleration"}},
-      {"gal", {1e-2, "acceleration"}},      {"cm/sec2", {1e-2, "acceleration"}}, {"g", {9.80665, "acceleration"}}, {"gn", {9.80665, "acceleration"}},
-      {"mg", {9.80665e-3, "acceleration"}}, {"ug", {9.80665e-6, "acceleration"}}, {"m/s", {1.0, "velocity"}},      {"mm/s", {1e-3, "velocity"}},
-      {"cm/s", {1e-2, "velocity"}},         {"um/s", {1e-6, "velocity"}},       {"m", {1.0, "displacement"}},      {"mm", {1e-3, "displacement"}},
-      {"cm", {1e-2, "displacement"}},       {"um", {1e-6, "displacement"}}};
-  return known;
-}
+// Bytes of a name or unit, and of a note, that are shown.
+constexpr std::size_t kLongestShown = 100, kLongestNote = 1000;
 
 /// Ambient vibration of a structure: what size of numbers speaks for which unit.
 std::string guess(const ChannelSummary& channel) {
@@ -126,24 +105,16 @@ std::string guess(const ChannelSummary& channel) {
 
 }  // namespace
 
-double si_factor(const std::string& unit) {
-  const auto at = units().find(plain(unit));
-  return at == units().end() ? 0.0 : at->second.factor;
-}
-
-std::string quantity_of(const std::string& unit) {
-  const auto at = units().find(plain(unit));
-  return at == units().end() ? "" : at->second.quantity;
-}
-
 std::vector<std::string> describe(const Inspection& inspection) {
   const RecordInfo& info = inspection.info;
-  std::vector<std::string> lines = {fmt::format("format    {}", info.format)};
+  std::vector<std::string> lines = {printable(fmt::format("format    {}", info.format))};
   Index samples = 0;
   for (const ChannelSummary& channel : inspection.channels) samples = std::max(samples, channel.samples);
   lines.push_back(fmt::format("channels  {}, {} samples{}", info.channels.size(), samples,
                               info.rate_Hz > 0.0 ? fmt::format(", {:.6g} s", static_cast<double>(samples) / info.rate_Hz) : ""));
-  lines.push_back(info.rate_Hz > 0.0 ? fmt::format("rate      {:.9g} Hz, from the {}", info.rate_Hz, info.rate_source) : "rate      unknown");
+  lines.push_back(info.rate_Hz > 0.0
+                      ? fmt::format("rate      {:.9g} Hz, from the {}", info.rate_Hz, printable(info.rate_source))
+                      : "rate      unknown");
   lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12} {:>12}", "channel", "unit", "samples", "missing", "longest", "clipped", "mean",
                               "rms"));
   std::vector<std::string> missing;
@@ -161,10 +132,12 @@ std::vector<std::string> describe(const Inspection& inspection) {
       unknown_unit = true;
     }
     if (s.clipped > 0) remark += fmt::format("  stays at {:.6g} or {:.6g}", s.lowest, s.highest);
-    lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12.5g} {:>12.5g}{}", channel.name, channel.unit.empty() ? "?" : channel.unit,
-                                s.samples, s.missing, s.longest_gap, s.clipped, s.mean, s.rms, remark));
+    lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12.5g} {:>12.5g}{}",
+                                printable(channel.name, kLongestShown),
+                                channel.unit.empty() ? "?" : printable(channel.unit, kLongestShown), s.samples, s.missing,
+                                s.longest_gap, s.clipped, s.mean, s.rms, remark));
   }
-  for (const std::string& note : info.notes) lines.push_back("note      " + note);
+  for (const std::string& note : info.notes) lines.push_back("note      " + printable(note, kLongestNote));
   if (info.rate_Hz == 0.0) missing.push_back("the sampling rate (campaign.toml: sampling_rate_Hz)");
   if (unknown_unit) missing.push_back("units (channels.csv: unit and gain to SI)");
   missing.push_back("positions and directions of the sensors (channels.csv)");

@@ -38,12 +38,6 @@ struct Inspection {
 /// One pass through the file.
 [[nodiscard]] Inspection inspect(const std::filesystem::path& file);
 
-/// Unit of an acceleration, velocity or displacement as a factor to SI; 0 where it is not known.
-/// "g" 9.80665, "mg", "m/s²", "mm/s", "µm" … in the spellings of loggers, latin-1 or UTF-8.
-[[nodiscard]] double si_factor(const std::string& unit);
-/// What the unit measures: "acceleration", "velocity", "displacement", or "".
-[[nodiscard]] std::string quantity_of(const std::string& unit);
-
 /// The inspection for people: format, rate and where it comes from, channels with unit (or a guess from the size of the numbers), gaps,
 /// clipping, dead channels, what is missing for an identification.
 [[nodiscard]] std::vector<std::string> describe(const Inspection& inspection);

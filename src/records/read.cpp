@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
 #include "io/npy.hpp"
+#include "io/regular_file.hpp"
+#include "records/mat_file.hpp"
 #include "records/record.hpp"
 
 namespace twindeck::records {
@@ -14,13 +17,21 @@ using Eigen::Index;
 namespace {
 
 std::string beginning(const fs::path& file) {
+  io::require_regular_file(file);
   std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file))
-    throw InputError({file.string(), 0, ""}, "cannot be read", "check its name and your permissions");
+  if (!in) throw InputError({file.string(), 0, ""}, "cannot be read", "check its name and your permissions");
   std::string text(4096, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
   return text;
+}
+
+/// The signature at the beginning, or behind a user block (512 bytes in MAT 7.3).
+bool is_hdf5(std::string_view text) {
+  for (const std::size_t at : {0UL, 512UL, 1024UL, 2048UL}) {
+    if (text.size() > at && text.substr(at).starts_with("\x89HDF\r\n\x1a\n")) return true;
+  }
+  return false;
 }
 
 /// The first line that is not empty is -1, alone in the first columns.
@@ -43,9 +54,11 @@ bool is_universal(const std::string& text) {
 RecordInfo scan_npy(const fs::path& file, const Visitor& visit) {
   RecordInfo info;
   info.format = "NPY";
+  info.has_header = false;
   const auto [rows, columns] = io::visit_npy(file, visit);
   for (Index c = 0; c < columns; ++c) {
     ChannelInfo channel;
+    channel.position = c + 1;
     channel.name = "column " + std::to_string(c + 1);
     channel.samples = rows;
     info.channels.push_back(channel);
@@ -54,14 +67,14 @@ RecordInfo scan_npy(const fs::path& file, const Visitor& visit) {
   return info;
 }
 
-RecordInfo scan(const fs::path& file, const Visitor& visit) {
+RecordInfo scan(const fs::path& file, const Visitor& visit, const ReadOptions& options) {
   const std::string text = beginning(file);
   if (text.empty()) throw InputError({file.string(), 0, ""}, "is empty", "check the record");
   if (text.starts_with("\x93NUMPY")) return scan_npy(file, visit);
-  if (text.starts_with("MATLAB 5.0") || text.starts_with("MATLAB 7.3")) return scan_mat(file, visit);
-  if (text.starts_with("\x89HDF\r\n\x1a\n")) return scan_hdf5(file, visit);
+  if (is_hdf5(text)) return scan_hdf5(file, visit);
+  if (is_mat_4(text) || is_mat_5(text)) return scan_mat(file, visit);
   if (is_universal(text)) return scan_universal(file, visit);
-  return scan_text(file, visit);
+  return scan_text(file, visit, options);
 }
 
 namespace {
@@ -95,23 +108,25 @@ class Gathered {
 
 }  // namespace
 
-Record read(const fs::path& file) {
+Record read(const fs::path& file, const ReadOptions& options) {
   Record record;
   Gathered gathered;
-  record.info = scan(file, [&](Index row, Index column, const Eigen::MatrixXd& block) { gathered.add(row, column, block); });
+  const auto gather = [&](Index row, Index column, const Eigen::MatrixXd& block) { gathered.add(row, column, block); };
+  record.info = scan(file, gather, options);
   record.samples = gathered.take();
   return record;
 }
 
-Record read(const fs::path& file, const std::vector<Index>& columns) {
+Record read(const fs::path& file, const std::vector<Index>& columns, const ReadOptions& options) {
   Record record;
   Gathered gathered;
-  record.info = scan(file, [&](Index row, Index column, const Eigen::MatrixXd& block) {
+  const auto gather = [&](Index row, Index column, const Eigen::MatrixXd& block) {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const Index at = columns[k] - column;
       if (at >= 0 && at < block.cols()) gathered.add(row, static_cast<Index>(k), block.col(at));
     }
-  });
+  };
+  record.info = scan(file, gather, options);
   record.samples = gathered.take();
   return record;
 }

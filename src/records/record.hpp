@@ -20,6 +20,7 @@ struct ChannelInfo {
   std::string direction;  ///< "+x" … of a universal file
   double rate_Hz = 0.0;   ///< where it may differ between channels
   Eigen::Index samples = 0;
+  Eigen::Index position = 0;  ///< of its column or series in the file, from 1; the time column of a text file counts too
 };
 
 /// Everything but the samples.
@@ -29,34 +30,49 @@ struct RecordInfo {
   double rate_Hz = 0.0;            ///< 0 where it is not known or not one
   std::string rate_source;         ///< where the rate comes from
   std::vector<std::string> notes;  ///< what was odd and how it was read; what is missing
+  bool names_channels = false;     ///< the file names its channels itself; otherwise they are called "column 3"
+  bool has_header = true;          ///< the format has places for names, so that their absence is worth a word
+  std::vector<std::string>
+      unaligned_header;     ///< cells of a text file's header line that has another number of them than the rows
+  long unaligned_line = 0;  ///< that line
+};
+
+/// How a file is to be read.
+struct ReadOptions {
+  /// Text files: a line below the header that is no row of numbers is left out and counted in a note, instead of refused.
+  bool skip_stray_lines = false;
 };
 
 /// Called with parts of the record in the order of the file: first sample, first channel, values (samples × channels).
 using Visitor = std::function<void(Eigen::Index first_sample, Eigen::Index first_channel, const Eigen::MatrixXd& block)>;
 
-/// Walks through a file in bounded memory (some megabytes, whatever its size; MAT and HDF5 one variable's part at a time).
-/// Missing samples (empty cells, gaps in the time stamps) are NaN.
-/// Formats: CSV and its kin, NPY, MAT 5 and 7.3, HDF5, universal files with sets 58 and 58b.
-/// @throws InputError  with file and line: an unknown format, no numbers, a file that breaks off
-RecordInfo scan(const std::filesystem::path& file, const Visitor& visit);
+/// Walks through a file in bounded memory (some megabytes, whatever its size). Sizes that a header claims are held against the
+/// file's length, or where data are compressed against the most that compression can do, before they are used. Missing samples
+/// (empty cells, gaps in the time stamps) are NaN. Formats: CSV and its kin, NPY, MAT 4, 5 and 7.3, HDF5, universal files with
+/// sets 58 and 58b.
+/// @throws InputError  with file and line: an unknown format, no numbers, a file that breaks off, a line below the header that
+/// is no
+///                     row of numbers (see ReadOptions), a pipe or device
+RecordInfo scan(const std::filesystem::path& file, const Visitor& visit, const ReadOptions& options = {});
 
 /// A whole record.
 struct Record {
   RecordInfo info;
   Eigen::MatrixXd samples;  ///< (n_samples × n_channels); NaN beyond the end of shorter channels
 };
-[[nodiscard]] Record read(const std::filesystem::path& file);
+[[nodiscard]] Record read(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Some columns of it. Memory: samples × chosen columns, however wide the file.
-/// @param columns  positions in the file, ascending or not @return samples (n_samples × n_chosen) in the order asked for;
-/// `info` of all
-[[nodiscard]] Record read(const std::filesystem::path& file, const std::vector<Eigen::Index>& columns);
+/// @param columns  positions in RecordInfo::channels, ascending or not @return samples (n_samples × n_chosen) in the order
+/// asked for; `info` of all
+[[nodiscard]] Record read(const std::filesystem::path& file, const std::vector<Eigen::Index>& columns,
+                          const ReadOptions& options = {});
 
 // The formats, each with the same contract as `scan`.
-RecordInfo scan_text(const std::filesystem::path& file, const Visitor& visit);
+RecordInfo scan_text(const std::filesystem::path& file, const Visitor& visit, const ReadOptions& options = {});
 RecordInfo scan_npy(const std::filesystem::path& file, const Visitor& visit);
-RecordInfo scan_mat(const std::filesystem::path& file, const Visitor& visit);
-RecordInfo scan_hdf5(const std::filesystem::path& file, const Visitor& visit);
+RecordInfo scan_mat(const std::filesystem::path& file, const Visitor& visit);   ///< MAT 4 and 5
+RecordInfo scan_hdf5(const std::filesystem::path& file, const Visitor& visit);  ///< MAT 7.3 too
 RecordInfo scan_universal(const std::filesystem::path& file, const Visitor& visit);
 
 }  // namespace twindeck::records

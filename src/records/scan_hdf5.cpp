@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <functional>
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
 #include "records/record.hpp"
+#include "records/text_cells.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -32,35 +35,101 @@ class Handle {
   Close close_;
 };
 
-/// Numbers of at most two dimensions.
-bool shape_of(hid_t dataset, NamedArray& array) {
+/// No error of HDF5's own goes to stderr while this lives: each becomes one of our messages.
+class QuietErrors {
+ public:
+  QuietErrors() {
+    H5Eget_auto(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~QuietErrors() { H5Eset_auto(H5E_DEFAULT, print_, data_); }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+
+ private:
+  H5E_auto_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+[[noreturn]] void refuse(const std::string& file, const std::string& problem, const std::string& mend = "") {
+  throw InputError({file, 0, ""}, problem, mend.empty() ? "the file was cut off or is damaged; copy it again" : mend);
+}
+
+/// A text attribute of MATLAB's, "" if there is none.
+std::string text_attribute(hid_t object, const char* name) {
+  if (H5Aexists(object, name) <= 0) return "";
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  constexpr std::size_t most = 64;  // the longest name of a class is "double"
+  const std::size_t size = H5Tget_size(type.get());
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || size > most) return "";
+  std::string text(size, '\0');
+  if (H5Aread(attribute.get(), type.get(), text.data()) < 0) return "";
+  return text.c_str();
+}
+
+/// Whether all of a dataset's values stand in this file: what was never written would be read as zeros.
+/// @return the problem, "" for none
+std::string what_is_missing(hid_t dataset, std::uint64_t values, std::uint64_t item) {
+  const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
+  const H5D_layout_t layout = H5Pget_layout(settings.get());
+  if (layout == H5D_VIRTUAL || H5Pget_external_count(settings.get()) > 0) return "keeps its values in other files";
+  const std::uint64_t stored = H5Dget_storage_size(dataset);
+  if (stored == 0) return "was never written";
+  if (layout != H5D_CHUNKED) return values > stored / item ? "has fewer values than it says" : "";
+  hsize_t chunk[2] = {1, 1}, size[2] = {1, 1}, found = 0;
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (H5Pget_chunk(settings.get(), rank, chunk) != rank || H5Sget_simple_extent_dims(space.get(), size, nullptr) < 0)
+    return "cannot be read";
+  hsize_t wanted = 1;
+  for (int k = 0; k < rank; ++k) wanted *= size[k] / chunk[k] + (size[k] % chunk[k] == 0 ? 0 : 1);
+  if (H5Dget_num_chunks(dataset, space.get(), &found) < 0) return "cannot be read";
+  if (found < wanted) return fmt::format("was written in {} of {} parts only", found, wanted);
+  constexpr std::uint64_t most_compression = 1032;  // of deflate
+  std::uint64_t in_a_chunk = 1;
+  for (int k = 0; k < rank; ++k) in_a_chunk *= chunk[k];
+  const std::uint64_t most = (stored / item + 1) * most_compression;
+  return values > most || in_a_chunk > most ? "has fewer values than it says" : "";
+}
+
+/// Numbers of at most two dimensions. A dataset of MATLAB's has the other order of dimensions and may be text.
+bool shape_of(hid_t dataset, bool matlab, NamedArray& array, std::string& problem) {
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const H5T_class_t kind = H5Tget_class(type.get());
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || rank < 0 || rank > 2) return false;
+  if (matlab && (text_attribute(dataset, "MATLAB_class") == "char" || H5Aexists(dataset, "MATLAB_empty") > 0)) return false;
   hsize_t dims[2] = {1, 1};
   H5Sget_simple_extent_dims(space.get(), dims, nullptr);
-  array.rows = static_cast<Index>(dims[0]);
-  array.columns = rank == 2 ? static_cast<Index>(dims[1]) : 1;
+  constexpr hsize_t most = hsize_t{1} << 40U;  // values; more is damage, and products stay whole numbers
+  if (dims[0] == 0 || dims[1] == 0) return false;
+  array.rows = static_cast<Index>(std::min(dims[0], most));
+  array.columns = rank == 2 ? static_cast<Index>(std::min(dims[1], most)) : 1;
+  problem = dims[0] > most / dims[1] ? "has fewer values than it says"
+                                     : what_is_missing(dataset, dims[0] * dims[1], H5Tget_size(type.get()));
   return true;
 }
 
 /// Values of a part, in C order.
-Eigen::MatrixXd part(hid_t dataset, Index row, Index column, Index rows, Index columns, const std::string& what) {
+Eigen::MatrixXd part(hid_t dataset, Index row, Index column, Index rows, Index columns, const std::string& file) {
   const Handle space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.get());
-  const hsize_t start[2] = {static_cast<hsize_t>(row), static_cast<hsize_t>(column)}, count[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
+  const hsize_t start[2] = {static_cast<hsize_t>(row), static_cast<hsize_t>(column)},
+                count[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
   const Handle memory(H5Screate_simple(2, count, nullptr), H5Sclose);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block(rows, columns);
   if (rank > 0) H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr);
-  if (H5Dread(dataset, H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, block.data()) < 0) {
-    throw InputError({what, 0, ""}, "cannot be read", "the file was cut off or is damaged; copy it again");
-  }
+  if (H5Dread(dataset, H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, block.data()) < 0)
+    refuse(file, "has values that cannot be read");
   return block;
 }
 
 struct Found {
+  bool matlab = false;
   std::vector<NamedArray> arrays;
+  std::vector<std::string> problems;  ///< of each array: why its values cannot be had, "" for none
+  std::vector<std::string> cells;     ///< MATLAB's cell arrays
   std::vector<std::pair<std::string, double>> attributes;
 };
 
@@ -78,65 +147,61 @@ herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void* d
 
 herr_t visit_object(hid_t file, const char* name, const H5O_info_t* info, void* data) {
   auto& found = *static_cast<Found*>(data);
+  if (found.matlab && name[0] == '#') return 0;  // what cells and objects refer to
   const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
   if (!object) return 0;
   hsize_t index = 0;
   H5Aiterate(object.get(), H5_INDEX_NAME, H5_ITER_NATIVE, &index, read_attribute, &found);
   if (info->type != H5O_TYPE_DATASET) return 0;
   NamedArray array;
+  std::string problem;
   array.name = name;
-  if (shape_of(object.get(), array)) found.arrays.push_back(array);
+  if (shape_of(object.get(), found.matlab, array, problem)) {
+    found.arrays.push_back(array);
+    found.problems.push_back(problem);
+  } else if (found.matlab && text_attribute(object.get(), "MATLAB_class") == "cell") {
+    found.cells.emplace_back(name);
+  }
   return 0;
 }
 
-}  // namespace
+/// Texts that a cell array of MATLAB's refers to, or none.
+std::vector<std::string> texts_of(hid_t file, const std::string& name) {
+  const Handle cells(H5Dopen(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle type(H5Dget_type(cells.get()), H5Tclose), space(H5Dget_space(cells.get()), H5Sclose);
+  const hssize_t n = H5Sget_simple_extent_npoints(space.get());
+  constexpr hssize_t most = 10000;      // channels
+  constexpr Index longest_text = 4096;  // letters of a name
+  if (H5Tequal(type.get(), H5T_STD_REF_OBJ) <= 0 || n <= 0 || n > most) return {};
+  std::vector<hobj_ref_t> references(static_cast<std::size_t>(n));
+  if (H5Dread(cells.get(), H5T_STD_REF_OBJ, H5S_ALL, H5S_ALL, H5P_DEFAULT, references.data()) < 0) return {};
+  std::vector<std::string> texts;
+  for (hobj_ref_t& reference : references) {
+    const Handle object(H5Rdereference2(cells.get(), H5P_DEFAULT, H5R_OBJECT, &reference), H5Oclose);
+    if (!object || H5Iget_type(object.get()) != H5I_DATASET || text_attribute(object.get(), "MATLAB_class") != "char")
+      return {};
+    NamedArray letters;
+    std::string problem, text;
+    if (!shape_of(object.get(), false, letters, problem) || !problem.empty() || letters.rows * letters.columns > longest_text)
+      return {};
+    const Eigen::MatrixXd codes = part(object.get(), 0, 0, letters.rows, letters.columns, name);
+    for (const double code : codes.reshaped())
+      append_utf8(code >= 0.0 && code < 0x110000 ? static_cast<std::uint32_t>(code) : '?', text);
+    texts.push_back(text);
+  }
+  return texts;
+}
 
-RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
-  H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);
-  const Handle handle(H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!handle) throw InputError({file.string(), 0, ""}, "is no HDF5 file that can be opened", "it may be cut off; copy it again");
-  Found found;
-  H5Ovisit(handle.get(), H5_INDEX_NAME, H5_ITER_NATIVE, visit_object, &found);
-  const ArrayChoice choice = choose_arrays(found.arrays, file.string());
-  const auto open = [&](std::size_t at) { return H5Dopen(handle.get(), found.arrays[at].name.c_str(), H5P_DEFAULT); };
-  RecordInfo info;
-  const NamedArray& first = found.arrays[choice.data.front()];
-  const bool matrix = choice.data.size() == 1;
-  const Index channels = matrix ? first.shorter() : static_cast<Index>(choice.data.size()), samples = first.longer();
-  info.format = matrix ? fmt::format("HDF5, dataset '{}' {} x {}", first.name, first.rows, first.columns) : fmt::format("HDF5, {} datasets", channels);
-  if (choice.transposed) info.notes.push_back("channels run along the rows");
-  for (Index c = 0; c < channels; ++c) {
-    ChannelInfo channel;
-    channel.samples = samples;
-    channel.name = matrix ? "column " + std::to_string(c + 1) : found.arrays[choice.data[static_cast<std::size_t>(c)]].name;
-    info.channels.push_back(channel);
-  }
-  const Index chunk = std::max<Index>(1, 131072 / (matrix ? channels : 1));
-  for (std::size_t k = 0; k < choice.data.size(); ++k) {
-    const Handle dataset(open(choice.data[k]), H5Dclose);
-    const NamedArray& array = found.arrays[choice.data[k]];
-    const bool along_rows = array.columns > array.rows;
-    for (Index at = 0; at < samples; at += chunk) {
-      const Index n = std::min(chunk, samples - at);
-      const Index first_channel = matrix ? 0 : static_cast<Index>(k);
-      if (along_rows) {
-        visit(at, first_channel, part(dataset.get(), 0, at, array.rows, n, file.string()).transpose());
-      } else {
-        visit(at, first_channel, part(dataset.get(), at, 0, n, array.columns, file.string()));
-      }
-    }
-  }
+void read_rate(const std::function<Eigen::MatrixXd(std::size_t)>& whole, const ArrayChoice& choice, Found& found,
+               RecordInfo& info) {
   if (choice.time >= 0) {
     const auto at = static_cast<std::size_t>(choice.time);
-    const Handle dataset(open(at), H5Dclose);
-    const Eigen::MatrixXd times = part(dataset.get(), 0, 0, found.arrays[at].rows, found.arrays[at].columns, file.string());
-    info.rate_Hz = rate_of_times(times.reshaped());
+    info.rate_Hz = rate_of_times(whole(at).reshaped());
     info.rate_source = "'" + found.arrays[at].name + "'";
     if (info.rate_Hz == 0.0) info.notes.push_back(info.rate_source + " does not run evenly");
   }
   for (const std::size_t at : choice.scalars) {
-    const Handle dataset(open(at), H5Dclose);
-    found.attributes.emplace_back(found.arrays[at].name, part(dataset.get(), 0, 0, 1, 1, file.string())(0, 0));
+    if (found.problems[at].empty()) found.attributes.emplace_back(found.arrays[at].name, whole(at)(0, 0));
   }
   for (const auto& [name, value] : found.attributes) {
     const double rate = rate_of(name, value);
@@ -148,6 +213,88 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
       info.notes.push_back(fmt::format("'{}' says {} Hz, {} {} Hz", name, rate, info.rate_source, info.rate_Hz));
     }
   }
+}
+
+/// Name as a person of that program calls it: "run.acc" of the structure `run` in MATLAB.
+std::string called(std::string name, bool matlab) {
+  if (matlab) std::replace(name.begin(), name.end(), '/', '.');
+  return name;
+}
+
+/// Format and channels.
+RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
+  RecordInfo info;
+  const NamedArray& first = found.arrays[choice.data.front()];
+  const bool matrix = choice.data.size() == 1;
+  const Index channels = matrix ? first.shorter() : static_cast<Index>(choice.data.size());
+  const std::string kind = found.matlab ? "MAT 7.3" : "HDF5", item = found.matlab ? "array" : "dataset";
+  // MATLAB's first dimension is the last in the file.
+  const auto [rows, columns] = found.matlab ? std::pair(first.columns, first.rows) : std::pair(first.rows, first.columns);
+  info.format = matrix ? fmt::format("{}, {} '{}' {} x {}", kind, item, called(first.name, found.matlab), rows, columns)
+                       : fmt::format("{}, {} {}", kind, channels, found.matlab ? "vectors" : "datasets");
+  info.names_channels = info.has_header = !matrix;
+  for (const std::size_t at : choice.left_out)
+    info.notes.push_back(fmt::format("'{}' has as many samples, left out", found.arrays[at].name));
+  if (matrix && columns > rows) info.notes.emplace_back("channels run along the rows");
+  for (Index c = 0; c < channels; ++c) {
+    ChannelInfo channel;
+    channel.samples = first.longer();
+    channel.position = c + 1;
+    channel.name = channels > 1 && matrix ? "column " + std::to_string(c + 1)
+                                          : called(found.arrays[choice.data[static_cast<std::size_t>(c)]].name, found.matlab);
+    info.channels.push_back(channel);
+  }
+  return info;
+}
+
+}  // namespace
+
+RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
+  const QuietErrors quiet;
+  const Handle handle(H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!handle) refuse(file.string(), "is no HDF5 file that can be opened", "it may be cut off; copy it again");
+  Found found;
+  std::string beginning(10, '\0');
+  std::ifstream(file, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  found.matlab = beginning == "MATLAB 7.3";
+  H5Ovisit(handle.get(), H5_INDEX_NAME, H5_ITER_NATIVE, visit_object, &found);
+  const ArrayChoice choice = choose_arrays(found.arrays, file.string());
+  for (const std::size_t at : choice.data) {
+    if (found.problems[at].empty()) continue;
+    throw InputError({file.string(), 0, found.arrays[at].name}, found.problems[at],
+                     "write the file again, with all values in it");
+  }
+  RecordInfo info = info_of(found, choice);
+  const auto open = [&](std::size_t at) { return H5Dopen(handle.get(), found.arrays[at].name.c_str(), H5P_DEFAULT); };
+  const Index samples = found.arrays[choice.data.front()].longer();
+  const bool matrix = choice.data.size() == 1;
+  const Index chunk = std::max<Index>(1, 131072 / (matrix ? std::ssize(info.channels) : 1));
+  for (std::size_t k = 0; k < choice.data.size(); ++k) {
+    const Handle dataset(open(choice.data[k]), H5Dclose);
+    const NamedArray& array = found.arrays[choice.data[k]];
+    const bool along_rows = array.columns > array.rows;
+    const Index first_channel = matrix ? 0 : static_cast<Index>(k);
+    for (Index at = 0; at < samples; at += chunk) {
+      const Index n = std::min(chunk, samples - at);
+      if (along_rows) {
+        visit(at, first_channel, part(dataset.get(), 0, at, array.rows, n, file.string()).transpose());
+      } else {
+        visit(at, first_channel, part(dataset.get(), at, 0, n, array.columns, file.string()));
+      }
+    }
+  }
+  for (const std::string& cell : found.cells) {
+    const std::vector<std::string> texts = texts_of(handle.get(), cell);
+    if (texts.size() != info.channels.size()) continue;
+    for (std::size_t c = 0; c < texts.size(); ++c) info.channels[c].name = texts[c];
+    info.names_channels = info.has_header = true;
+  }
+  const auto whole = [&](std::size_t at) {
+    const Handle dataset(open(at), H5Dclose);
+    if (!found.problems[at].empty()) throw InputError({file.string(), 0, found.arrays[at].name}, found.problems[at]);
+    return part(dataset.get(), 0, 0, found.arrays[at].rows, found.arrays[at].columns, file.string());
+  };
+  read_rate(whole, choice, found, info);
   return info;
 }
 

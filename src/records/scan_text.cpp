@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "records/record.hpp"
+#include "records/text_cells.hpp"
 #include "records/text_layout.hpp"
 #include "records/time_stamp.hpp"
 
@@ -16,16 +17,18 @@ using Eigen::Index;
 
 namespace {
 
-constexpr Index kRows = 4096;          // a part
-constexpr double kLongestGap = 1e7;    // samples that a jump of the clock may leave out and still be a gap
+constexpr Index kPart = 524288;  // values that are handed on at once
+
+/// Values that gaps of the clock may add in all (0.8 GB): a clock that jumps further is no gap but another record.
+constexpr double kMostLost = 1e8;
 
 /// Collects rows into parts.
-class Parts {
+class RowParts {
  public:
-  Parts(Index columns, const Visitor& visit) : visit_(visit), block_(kRows, columns) {}
+  RowParts(Index columns, const Visitor& visit) : visit_(visit), block_(std::clamp<Index>(kPart / columns, 1, 4096), columns) {}
   void add(const std::vector<double>& row) {
     for (Index c = 0; c < block_.cols(); ++c) block_(used_, c) = row[static_cast<std::size_t>(c)];
-    if (++used_ == kRows) flush();
+    if (++used_ == block_.rows()) flush();
   }
   void flush() {
     if (used_ > 0) visit_(first_, 0, block_.topRows(used_));
@@ -75,7 +78,9 @@ double first_step(const fs::path& file, const TextLayout& layout) {
   long number = 0;
   for (std::string line; times.size() < 2000 && std::getline(in, line);) {
     if (++number < layout.first_data_line) continue;
-    if (const auto t = clock.time(cells_of(line, layout.separator))) times.push_back(*t);
+    const auto cells = cells_of(number == 1 ? without_mark(line) : std::string_view(line), layout.separator);
+    if (cells.size() != layout.columns) continue;
+    if (const auto t = clock.time(cells)) times.push_back(*t);
   }
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
@@ -94,84 +99,125 @@ double first_step(const fs::path& file, const TextLayout& layout) {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-}  // namespace
-
-RecordInfo scan_text(const fs::path& file, const Visitor& visit) {
-  const TextLayout layout = find_layout(file);
-  RecordInfo info;
-  info.format = describe(layout);
+/// Columns of the channels: all but the time's.
+std::vector<std::size_t> channel_columns(const TextLayout& layout) {
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c < layout.columns; ++c) {
-    const int from = layout.time_column, to = from + (layout.date_and_time ? 1 : 0);
-    if (from >= 0 && static_cast<int>(c) >= from && static_cast<int>(c) <= to) continue;
-    columns.push_back(c);
+    const int from = layout.time_column, to = from + (layout.date_and_time ? 1 : 0), at = static_cast<int>(c);
+    if (from < 0 || at < from || at > to) columns.push_back(c);
+  }
+  return columns;
+}
+
+RecordInfo info_of(const TextLayout& layout, const std::vector<std::size_t>& columns) {
+  RecordInfo info;
+  info.format = describe(layout);
+  info.unaligned_header = layout.unaligned;
+  info.unaligned_line = layout.unaligned_line;
+  for (const std::size_t c : columns) {
     ChannelInfo channel;
-    channel.name = layout.names.empty() || layout.names[c].empty() ? "column " + std::to_string(c + 1) : layout.names[c];
+    const bool named = !layout.names.empty() && !layout.names[c].empty();
+    info.names_channels = info.names_channels || named;
+    channel.name = named ? layout.names[c] : "column " + std::to_string(c + 1);
+    channel.position = static_cast<Index>(c) + 1;
     if (!layout.units.empty()) channel.unit = layout.units[c];
     info.channels.push_back(channel);
   }
-  if (columns.empty()) throw InputError({file.string(), layout.first_data_line, ""}, "has a time column only", "give the channels too");
+  return info;
+}
 
-  const double step = layout.time_column >= 0 ? first_step(file, layout) : 0.0;
-  std::ifstream in(file, std::ios::binary);
-  Clock clock(layout);
-  Parts parts(static_cast<Index>(columns.size()), visit);
-  std::vector<double> row(columns.size()), nothing(columns.size(), std::numeric_limits<double>::quiet_NaN());
-  std::optional<double> first_time, last_time;
-  long number = 0, gaps = 0, backwards = 0, short_rows = 0, text_cells = 0, skipped = 0, first_odd = 0;
-  double lost = 0.0;
-  for (std::string line; std::getline(in, line);) {
-    if (++number < layout.first_data_line) continue;
-    const auto cells = cells_of(line, layout.separator);
-    if (cells.empty() || (cells.size() == 1 && cells.front().empty())) continue;
+/// Reads the lines below the header one after another.
+class Rows {
+ public:
+  Rows(const TextLayout& layout, std::vector<std::size_t> columns)
+      : layout_(layout), columns_(std::move(columns)), clock_(layout), row_(columns_.size()) {}
+
+  enum class Kind { blank, row, stray };
+  /// What a line is; of a row the values and the time, of a stray line why it is no row.
+  Kind take(std::string_view line) {
+    auto cells = cells_of(line, layout_.separator);
+    if (cells.empty() || (cells.size() == 1 && cells.front().empty())) return Kind::blank;
+    if (cells.size() + 1 == layout_.columns && ends_with_separator(line, layout_.separator)) cells.emplace_back();
+    while (cells.size() > layout_.columns && cells.back().empty()) cells.pop_back();
+    if (cells.size() != layout_.columns) {
+      problem_ = fmt::format("has {} cell{}, expected {}", cells.size(), cells.size() == 1 ? "" : "s", layout_.columns);
+      return Kind::stray;
+    }
+    const auto nothing = std::numeric_limits<double>::quiet_NaN();
     bool any = false;
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const auto value = columns[k] < cells.size() ? number_in(cells[columns[k]], layout.decimal_comma) : std::optional(nothing.front());
-      row[k] = value.value_or(nothing.front());
-      any = any || (value && columns[k] < cells.size());
-      if (!value) ++text_cells;
+    long texts = 0;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const auto value = number_in(cells[columns_[k]], layout_.decimal_comma);
+      row_[k] = value.value_or(nothing);
+      any = any || value;
+      texts += value ? 0 : 1;
     }
-    if (!any) {
-      // A footer, or a second header.
-      ++skipped;
-      text_cells -= static_cast<long>(columns.size());
-      if (first_odd == 0) first_odd = number;
-      continue;
+    const bool timed = layout_.time_column >= 0;
+    time_ = timed ? clock_.time(cells) : std::nullopt;
+    const std::string_view stamp = timed ? cells[static_cast<std::size_t>(layout_.time_column)] : std::string_view{};
+    if (timed && !time_ && !number_in(stamp, layout_.decimal_comma)) {
+      problem_ = fmt::format("has the time '{}'", stamp.substr(0, 40));
+      return Kind::stray;
     }
-    if (cells.size() < layout.columns) {
-      ++short_rows;
-      if (first_odd == 0) first_odd = number;
+    if (!any && !time_) {
+      problem_ = "holds no number";
+      return Kind::stray;
     }
-    if (layout.time_column >= 0) {
-      const auto time = clock.time(cells);
-      if (time && last_time && step > 0.0) {
-        const double passed = std::round((*time - *last_time) / step);
-        if (passed < 0.0) ++backwards;
-        if (passed > 1.0 && passed < kLongestGap) {
-          ++gaps;
-          lost += passed - 1.0;
-          for (double k = 1.0; k < passed; k += 1.0) parts.add(nothing);
-        }
-      }
-      if (time) {
-        if (!first_time) first_time = time;
-        last_time = time;
-      }
-    }
-    parts.add(row);
+    text_cells_ += texts;
+    return Kind::row;
   }
-  parts.flush();
-  for (ChannelInfo& channel : info.channels) channel.samples = parts.rows();
+  [[nodiscard]] const std::vector<double>& values() const { return row_; }
+  [[nodiscard]] std::optional<double> time() const { return time_; }
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+  [[nodiscard]] long text_cells() const { return text_cells_; }
+  [[nodiscard]] long exchanged() const { return clock_.exchanged(); }
 
-  const double span = first_time && last_time ? *last_time - *first_time : 0.0;
-  if (step > 0.0 && span > 0.0 && gaps == 0 && backwards == 0) {
-    info.rate_Hz = static_cast<double>(parts.rows() - 1) / span;
+ private:
+  const TextLayout& layout_;
+  std::vector<std::size_t> columns_;
+  Clock clock_;
+  std::vector<double> row_;
+  std::optional<double> time_;
+  std::string problem_;
+  long text_cells_ = 0;
+};
+
+/// What the clock did from row to row.
+struct ClockHistory {
+  double step = 0.0, lost = 0.0;  ///< [s], [samples]
+  long gaps = 0, backwards = 0;
+  std::optional<double> first, last;
+
+  /// @return samples that are missing before this row
+  double missing_before(std::optional<double> time) {
+    double missing = 0.0;
+    if (!time) return missing;
+    if (last && step > 0.0) {
+      const double passed = std::round((*time - *last) / step);
+      if (passed < 0.0) ++backwards;
+      if (passed > 1.0) {
+        ++gaps;
+        missing = passed - 1.0;
+        lost += missing;
+      }
+    }
+    if (!first) first = time;
+    last = time;
+    return missing;
+  }
+};
+
+/// The rate by the time column, or by a line of the header; where both say one they are held against each other.
+void find_rate(const TextLayout& layout, const ClockHistory& clock, Index rows, RecordInfo& info) {
+  const double span = clock.first && clock.last ? *clock.last - *clock.first : 0.0;
+  if (clock.step > 0.0 && span > 0.0 && clock.gaps == 0 && clock.backwards == 0) {
+    info.rate_Hz = static_cast<double>(rows - 1) / span;
     info.rate_source = "time column";
-  } else if (step > 0.0) {
-    info.rate_Hz = 1.0 / step;
+  } else if (clock.step > 0.0) {
+    info.rate_Hz = 1.0 / clock.step;
     info.rate_source = "time column";
   } else if (span > 0.0 && !layout.header_rate_Hz) {
-    info.rate_Hz = static_cast<double>(parts.rows() - 1) / span;
+    info.rate_Hz = static_cast<double>(rows - 1) / span;
     info.rate_source = "number of samples over the time that they span: the time stamps are coarser than the samples";
   }
   if (info.rate_Hz > 0.0) {
@@ -179,21 +225,70 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit) {
     const double round = std::round(info.rate_Hz * 1000.0) / 1000.0;
     if (std::abs(round / info.rate_Hz - 1.0) < 1e-6) info.rate_Hz = round;
   }
-  if (layout.header_rate_Hz) {
-    if (info.rate_Hz > 0.0 && std::abs(info.rate_Hz / *layout.header_rate_Hz - 1.0) > 0.01) {
-      info.notes.push_back(fmt::format("the header says {} Hz ('{}'), the time column {:.6g} Hz", *layout.header_rate_Hz, layout.header_rate_text,
-                                       info.rate_Hz));
-    } else if (info.rate_Hz == 0.0) {
-      info.rate_Hz = *layout.header_rate_Hz;
-      info.rate_source = fmt::format("header: '{}'", layout.header_rate_text);
-    }
+  if (!layout.header_rate_Hz) return;
+  if (info.rate_Hz > 0.0 && std::abs(info.rate_Hz / *layout.header_rate_Hz - 1.0) > 0.01) {
+    info.notes.push_back(fmt::format("the header says {} Hz ('{}'), the time column {:.6g} Hz", *layout.header_rate_Hz,
+                                     layout.header_rate_text, info.rate_Hz));
+  } else if (info.rate_Hz == 0.0) {
+    info.rate_Hz = *layout.header_rate_Hz;
+    info.rate_source = fmt::format("header: '{}'", layout.header_rate_text);
   }
-  if (gaps > 0) info.notes.push_back(fmt::format("{} gaps in the time stamps, {:.0f} samples missing, read as NaN", gaps, lost));
-  if (backwards > 0) info.notes.push_back(fmt::format("time runs backwards {} times", backwards));
-  if (clock.exchanged() > 0) info.notes.push_back(fmt::format("day and month are exchanged in {} time stamps, put right by their order", clock.exchanged()));
-  if (short_rows > 0) info.notes.push_back(fmt::format("{} lines have fewer cells than the others, read as missing; first oddity on line {}", short_rows, first_odd));
-  if (skipped > 0) info.notes.push_back(fmt::format("{} lines among or after the numbers hold none and are left out; first oddity on line {}", skipped, first_odd));
-  if (text_cells > 0) info.notes.push_back(fmt::format("{} cells hold text, read as missing", text_cells));
+}
+
+}  // namespace
+
+RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptions& options) {
+  const TextLayout layout = find_layout(file);
+  const std::vector<std::size_t> columns = channel_columns(layout);
+  if (columns.empty())
+    throw InputError({file.string(), layout.first_data_line, ""}, "has a time column only", "give the channels too");
+  RecordInfo info = info_of(layout, columns);
+  ClockHistory clock;
+  clock.step = layout.time_column >= 0 ? first_step(file, layout) : 0.0;
+  Rows rows(layout, columns);
+  RowParts parts(std::ssize(columns), visit);
+  const std::vector<double> nothing(columns.size(), std::numeric_limits<double>::quiet_NaN());
+  std::ifstream in(file, std::ios::binary);
+  long number = 0, stray = 0, first_stray = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (++number < layout.first_data_line) continue;
+    const std::string_view text = number == 1 ? without_mark(line) : std::string_view(line);
+    const Rows::Kind kind = rows.take(text);
+    if (kind == Rows::Kind::blank) continue;
+    if (kind == Rows::Kind::stray) {
+      if (!options.skip_stray_lines) {
+        throw InputError(
+            {file.string(), number, ""},
+            fmt::format("'{}' is no row of the table: it {}", trimmed(text).substr(0, 60), rows.problem()),
+            "remove the line, or set skip_stray_lines = true in its [[record]] of campaign.toml to leave out such lines");
+      }
+      if (++stray == 1) first_stray = number;
+      continue;
+    }
+    const double missing = clock.missing_before(rows.time());
+    if (clock.lost * static_cast<double>(columns.size()) > kMostLost) {
+      throw InputError(
+          {file.string(), number, ""},
+          fmt::format("comes {:.6g} s after the row before it, a gap of {:.6g} samples", missing * clock.step, missing),
+          "split the record where its clock jumps");
+    }
+    for (double k = 0.0; k < missing; k += 1.0) parts.add(nothing);
+    parts.add(rows.values());
+  }
+  parts.flush();
+  for (ChannelInfo& channel : info.channels) channel.samples = parts.rows();
+  find_rate(layout, clock, parts.rows(), info);
+  const auto note = [&](long count, const std::string& one, const std::string& several) {
+    if (count > 0) info.notes.push_back(count == 1 ? one : fmt::format("{} {}", count, several));
+  };
+  note(clock.gaps, fmt::format("a gap in the time stamps, {:.0f} samples missing, read as NaN", clock.lost),
+       fmt::format("gaps in the time stamps, {:.0f} samples missing, read as NaN", clock.lost));
+  note(clock.backwards, "the time runs backwards once", "rows whose time runs backwards");
+  note(rows.exchanged(), "one time stamp has day and month exchanged, put right by its order",
+       "time stamps have day and month exchanged, put right by their order");
+  note(stray, fmt::format("line {} is no row of the table and is left out", first_stray),
+       fmt::format("lines are no rows of the table and are left out, the first is line {}", first_stray));
+  note(rows.text_cells(), "one cell holds text, read as missing", "cells hold text, read as missing");
   return info;
 }
 

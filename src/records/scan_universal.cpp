@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "records/text_cells.hpp"
 #include "records/universal.hpp"
 #include "records/universal_lines.hpp"
 
@@ -23,23 +26,40 @@ const char* direction_name(long code) {
   return code >= -6 && code <= 6 ? names[code + 6] : "";
 }
 
-void skip_set(UniversalLines& in) {
+constexpr const char* kCutOff = "the file was cut off; copy it again";
+
+void skip_set(UniversalLines& in, const std::string& set) {
   for (std::string line; in.next(line);) {
     if (is_delimiter(line)) return;
   }
+  in.fail(fmt::format("breaks off in set {}, expected -1 at its end", set), kCutOff);
 }
 
-/// The set's own end, which some writers leave out when the next one begins.
+/// The -1 after the last value. A file that ends before it was cut off, and sets may be missing.
 void expect_end(UniversalLines& in, RecordInfo& info, const std::string& set) {
   std::string line;
   while (in.next(line)) {
     if (is_delimiter(line)) return;
-    if (line.find_first_not_of(" \t") == std::string::npos) continue;
+    if (is_blank(line)) continue;
     info.notes.push_back(fmt::format("line {}: set {} is longer than it says, the rest is left out", in.number(), set));
-    skip_set(in);
-    return;
+    return skip_set(in, set);
   }
-  info.notes.push_back(fmt::format("the last set ({}) has no end", set));
+  in.fail(fmt::format("breaks off after the values of set {}, expected -1 at its end", set), kCutOff);
+}
+
+/// The next line of a set, which must not be its end.
+std::string need_inside(UniversalLines& in, const std::string& what) {
+  const std::string line = in.need(what);
+  if (is_delimiter(line)) in.fail(what + " ends too early", "write the set again");
+  return line;
+}
+
+/// A label or code: a whole number. @throws InputError  for any other
+long label_of(UniversalLines& in, double number) {
+  constexpr long most = 1L << 53U;  // whole numbers that a double tells apart
+  const auto size = count_in(std::abs(number), most);
+  if (!size) in.fail(fmt::format("holds {:.6g}, expected a whole number", number), "write the set again");
+  return number < 0.0 ? -*size : *size;
 }
 
 struct Series {
@@ -60,36 +80,41 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   if (series.binary) {
     const auto numbers = numbers_in(set_line.substr(set_line.find('b') + 1));
     if (!numbers.empty()) series.swapped = numbers[0] == 2.0;
-    if (numbers.size() >= 4) series.bytes = static_cast<std::size_t>(numbers[3]);
+    if (numbers.size() >= 4) series.bytes = static_cast<std::size_t>(count_in(numbers[3], in.size()).value_or(0));
   }
   std::string title;
   for (int i = 0; i < 5; ++i) {
-    const std::string line = in.need(what);
-    if (is_delimiter(line)) in.fail("ends within its five lines of text", "write the set again");
+    const std::string line = need_inside(in, what);
     if (i == 0) title = field(line, 0, 80);
   }
-  const std::string identity = in.need(what);
+  const std::string identity = need_inside(in, what);
   series.function = static_cast<int>(integer_or(field(identity, 0, 5), 0));
   series.channel.point = field(identity, 41, 10);
   series.channel.direction = direction_name(integer_or(field(identity, 51, 4), 0));
-  const std::string form = in.need(what);
+  const std::string form = need_inside(in, what);
   const auto numbers = numbers_in(form);
   if (numbers.size() < 5) in.fail(fmt::format("holds '{}', expected type, number of values, spacing, start and step", field(form, 0, 80)), "write the set again");
   series.data_type = static_cast<int>(integer_or(field(form, 0, 10), static_cast<long>(numbers[0])));
-  series.values = static_cast<Index>(numbers[1]);
+  const auto values = count_in(numbers[1], in.size());  // a value takes one byte at least
+  if (!values || *values == 0) {
+    in.fail(
+        fmt::format("states {:.6g} values, expected a whole number from 1 to what {} bytes can hold", numbers[1], in.size()),
+        "write the set again");
+  }
+  series.values = *values;
   series.even = numbers[2] != 0.0;
   series.start = numbers[3];
   series.step = numbers[4];
   if (series.data_type != 2 && series.data_type != 4 && !series.is_complex()) {
     in.fail(fmt::format("has data of type {}, expected 2, 4 (real), 5 or 6 (complex)", series.data_type), "write the set again");
   }
-  const std::string axis = in.need(what);
+  const std::string axis = need_inside(in, what);
   series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
-  const std::string ordinate = in.need(what);
+  const std::string ordinate = need_inside(in, what);
   series.channel.unit = field(ordinate, 47, 20);
   if (series.channel.unit == "NONE") series.channel.unit.clear();
-  in.need(what);
-  in.need(what);
+  need_inside(in, what);
+  need_inside(in, what);
   series.channel.samples = series.values;
   if (series.even && series.step > 0.0) series.channel.rate_Hz = 1.0 / series.step;
   const bool named = !title.empty() && title != "NONE";
@@ -113,7 +138,7 @@ class Parts {
  public:
   Parts(const Visitor& visit, Index channel) : visit_(visit), channel_(channel), block_(kValues, 1) {}
   void add(double value) {
-    block_(used_++, 0) = value;
+    block_(used_++, 0) = std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
     if (used_ == kValues) flush();
   }
   void flush() {
@@ -131,13 +156,32 @@ class Parts {
 /// Values a sample takes up in the file: abscissa where uneven, real and imaginary part.
 Index width(const Series& series) { return (series.even ? 0 : 1) + (series.is_complex() ? 2 : 1); }
 
+/// Numbers of a line of values; NaN for a number that the writer could not write (NaN, Inf, stars).
+std::vector<double> series_numbers(UniversalLines& in, const std::string& line) {
+  if (line.find_first_not_of("0123456789+-.eEdD \t") == std::string::npos) return numbers_in(line);
+  std::vector<double> values;
+  for (const std::string_view cell : cells_of(line, ' ')) {
+    const std::string word = lower(cell.substr(cell.starts_with('-') || cell.starts_with('+') ? 1 : 0));
+    if (word == "nan" || word == "inf" || word == "infinity" || word.find_first_not_of('*') == std::string::npos) {
+      values.push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
+    if (cell.find_first_not_of("0123456789+-.eEdD") != std::string_view::npos) {
+      in.fail(fmt::format("holds '{}', expected numbers", cell.substr(0, 40)), "write the set again");
+    }
+    const std::vector<double> numbers = numbers_in(std::string(cell));
+    values.insert(values.end(), numbers.begin(), numbers.end());
+  }
+  return values;
+}
+
 void read_text_values(UniversalLines& in, const Series& series, const std::string& what, Parts& parts, double& step) {
   const Index each = width(series), wanted = series.values * each;
   double first = 0.0;
   for (Index k = 0; k < wanted;) {
     const std::string line = in.need(fmt::format("{} after {} of {} values", what, k / each, series.values));
     if (is_delimiter(line)) in.fail(fmt::format("{} ends after {} of {} values", what, k / each, series.values), "write the set again");
-    for (const double value : numbers_in(line)) {
+    for (const double value : series_numbers(in, line)) {
       if (k >= wanted) break;
       const Index within = k % each, sample = k / each;
       if (!series.even && within == 0 && sample == 0) first = value;
@@ -164,14 +208,14 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
   };
   const std::string ahead = in.peek(0, 1);
   if (ahead == "\n" && !ends_at(expected) && ends_at(expected + 1)) {
-    in.bytes(1);
+    in.take(1);
     info.notes.push_back(what + " has a newline before its binary data");
   }
   double first = 0.0;
   Index done = 0;
   while (done < series.values) {
     const Index n = std::min(kValues, series.values - done);
-    const std::string data = in.bytes(static_cast<std::size_t>(n) * sample);
+    const std::string data = in.take(static_cast<std::size_t>(n) * sample);
     const auto complete = static_cast<Index>(data.size() / sample);
     for (Index k = 0; k < complete; ++k) {
       const char* at = data.data() + static_cast<std::size_t>(k) * sample;
@@ -190,6 +234,7 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
 void read_series(UniversalLines& in, const std::string& set_line, const Visitor& visit, RecordInfo& info, int& others) {
   const std::string what = fmt::format("set 58 number {}", info.channels.size() + static_cast<std::size_t>(others) + 1);
   Series series = read_series_header(in, set_line, what);
+  series.channel.position = std::ssize(info.channels) + others + 1;
   Parts parts(visit, series.is_time() ? static_cast<Index>(info.channels.size()) : -1);
   double step = series.step;
   if (series.binary) {
@@ -215,20 +260,21 @@ void read_nodes(UniversalLines& in, bool double_precision, UniversalData& data) 
     if (numbers.empty()) continue;
     if (!double_precision) {
       if (numbers.size() < 7) in.fail("holds fewer than a label, three codes and three coordinates", "write set 15 again");
-      data.nodes[static_cast<long>(numbers[0])] = Eigen::Vector3d(numbers[4], numbers[5], numbers[6]);
+      data.nodes[label_of(in, numbers[0])] = Eigen::Vector3d(numbers[4], numbers[5], numbers[6]);
       continue;
     }
-    const auto coordinates = numbers_in(in.need(what));
+    const long label = label_of(in, numbers[0]);
+    const auto coordinates = numbers_in(need_inside(in, what));
     if (coordinates.size() < 3) in.fail("holds fewer than three coordinates", "write set 2411 again");
-    data.nodes[static_cast<long>(numbers[0])] = Eigen::Vector3d(coordinates[0], coordinates[1], coordinates[2]);
+    data.nodes[label] = Eigen::Vector3d(coordinates[0], coordinates[1], coordinates[2]);
   }
   in.fail("breaks off in " + what, "the file was cut off; copy it again");
 }
 
 void read_lines(UniversalLines& in, UniversalData& data) {
-  const auto head = numbers_in(in.need("set 82"));
-  in.need("set 82");
-  const long count = head.size() > 1 ? static_cast<long>(head[1]) : 0;
+  const auto head = numbers_in(need_inside(in, "set 82"));
+  need_inside(in, "set 82");
+  const long count = head.size() > 1 ? count_in(head[1], in.size()).value_or(0) : 0;
   std::vector<long> chain;
   const auto finish = [&] {
     if (chain.size() > 1) data.lines.push_back(chain);
@@ -245,7 +291,7 @@ void read_lines(UniversalLines& in, UniversalData& data) {
       if (number == 0.0) {
         finish();
       } else {
-        chain.push_back(static_cast<long>(number));
+        chain.push_back(label_of(in, number));
       }
     }
   }
@@ -256,31 +302,33 @@ void read_result(UniversalLines& in, UniversalData& data) {
   const std::string what = "set 55";
   NodalResult result;
   for (int i = 0; i < 5; ++i) {
-    const std::string line = in.need(what);
+    const std::string line = need_inside(in, what);
     if (i == 0) result.title = field(line, 0, 80);
   }
-  const auto type = numbers_in(in.need(what));
+  const auto type = numbers_in(need_inside(in, what));
   if (type.size() < 6) in.fail("holds fewer than six codes of the result's type", "write set 55 again");
-  result.analysis = static_cast<int>(type[1]);
+  constexpr long most_codes = 100000;  // values a node, integers and reals of a result; a sound file has some ten
+  result.analysis = static_cast<int>(count_in(type[1], most_codes).value_or(0));
   result.complex = type[4] == 5.0 || type[4] == 6.0;
-  const auto per_node = static_cast<Index>(type[5]);
-  const auto integers = numbers_in(in.need(what));
+  const auto per_node = static_cast<Index>(count_in(type[5], most_codes).value_or(0));
+  if (per_node == 0) in.fail(fmt::format("states {:.6g} values a node", type[5]), "write set 55 again");
+  const auto integers = numbers_in(need_inside(in, what));
   // Two numbers tell how many integers and reals follow; lines of eight and six.
-  const auto n_integers = integers.empty() ? 0U : static_cast<std::size_t>(integers[0]);
-  const auto n_reals = integers.size() < 2 ? 0U : static_cast<std::size_t>(integers[1]);
+  const auto stated = [&](std::size_t k) { return integers.size() > k ? count_in(integers[k], most_codes).value_or(0) : 0; };
+  const auto n_integers = static_cast<std::size_t>(stated(0)), n_reals = static_cast<std::size_t>(stated(1));
   std::vector<double> all = integers;
   while (all.size() < 2 + n_integers) {
-    const auto more = numbers_in(in.need(what));
+    const auto more = numbers_in(need_inside(in, what));
     if (more.empty()) break;
     all.insert(all.end(), more.begin(), more.end());
   }
   std::vector<double> reals;
   while (reals.size() < n_reals) {
-    const auto more = numbers_in(in.need(what));
+    const auto more = numbers_in(need_inside(in, what));
     if (more.empty()) break;
     reals.insert(reals.end(), more.begin(), more.end());
   }
-  if (all.size() > 3) result.mode = static_cast<int>(all[3]);
+  if (all.size() > 3) result.mode = static_cast<int>(count_in(all[3], most_codes).value_or(0));
   if (result.analysis == 3 && reals.size() >= 2) {
     result.eigenvalue = {reals[0], reals[1]};
     result.frequency_Hz = std::abs(result.eigenvalue) / (2.0 * std::numbers::pi);
@@ -294,12 +342,12 @@ void read_result(UniversalLines& in, UniversalData& data) {
       data.results.push_back(std::move(result));
       return;
     }
-    if (line.find_first_not_of(" \t") == std::string::npos) continue;
+    if (is_blank(line)) continue;
     const long node = integer_or(field(line, 0, 10), 0);
     std::vector<double> values;
     const auto wanted = static_cast<std::size_t>(per_node * (result.complex ? 2 : 1));
     while (values.size() < wanted) {
-      const auto more = numbers_in(in.need(what));
+      const auto more = numbers_in(need_inside(in, what));
       if (more.empty()) break;
       values.insert(values.end(), more.begin(), more.end());
     }
@@ -315,14 +363,49 @@ void read_result(UniversalLines& in, UniversalData& data) {
 }
 
 void read_units(UniversalLines& in, UniversalData& data) {
-  in.need("set 164");
+  need_inside(in, "set 164");
   for (std::string line; in.next(line);) {
     if (is_delimiter(line)) return;
     const auto numbers = numbers_in(line);
     if (!numbers.empty() && !data.has_units) {
       data.has_units = true;
-      if (numbers[0] > 0.0) data.length_factor = numbers[0];
+      if (numbers[0] > 0.0 && std::isfinite(numbers[0])) data.length_factor = numbers[0];
     }
+  }
+  in.fail("breaks off in set 164, expected -1 at its end", kCutOff);
+}
+
+long set_number(const std::string& line) { return integer_or(field(line, 0, 6), integer_or(field(line, 0, 80), 0)); }
+
+/// A line with the number of a set that is read, and nothing else but the fields of 58b.
+bool begins_known_set(const std::string& line) {
+  constexpr std::array<long, 7> known = {15, 55, 58, 82, 151, 164, 2411};
+  if (std::find(known.begin(), known.end(), set_number(line)) == known.end()) return false;
+  return field(line, 0, 80).find_first_not_of("0123456789") == std::string::npos || field(line, 0, 80).starts_with("58b");
+}
+
+void read_set(UniversalLines& in, const std::string& set_line, const Visitor& visit, RecordInfo& info, UniversalData& data,
+              int& other_series) {
+  const long set = set_number(set_line);
+  if (set <= 0) {
+    in.fail(fmt::format("holds '{}' after -1, expected the number of a set", field(set_line, 0, 40)), "write the file again");
+  } else if (set == 58) {
+    read_series(in, set_line, visit, info, other_series);
+  } else if (set == 15 || set == 2411) {
+    read_nodes(in, set == 2411, data);
+  } else if (set == 82) {
+    read_lines(in, data);
+  } else if (set == 55) {
+    read_result(in, data);
+  } else if (set == 151) {
+    data.title = field(need_inside(in, "set 151"), 0, 80);
+    data.has_header = true;
+    skip_set(in, "151");
+  } else if (set == 164) {
+    read_units(in, data);
+  } else {
+    ++data.others[std::to_string(set)];
+    skip_set(in, std::to_string(set));
   }
 }
 
@@ -333,33 +416,31 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
   UniversalData data;
   int other_series = 0;
   for (std::string line; in.next(line);) {
-    if (!is_delimiter(line)) continue;
+    if (is_blank(line)) {
+      if (in.is_last_without_end() && line.ends_with(' '))
+        in.fail("breaks off within a line of blanks, expected -1 or a line end", kCutOff);
+      continue;
+    }
+    if (!is_delimiter(line)) {
+      // Some writers let one -1 end a set and begin the next. Anything else would be skipped with the set that it begins.
+      if (!begins_known_set(line)) {
+        in.fail(fmt::format("holds '{}' between two sets, expected -1", field(line, 0, 40)),
+                "remove the line, or write the file again");
+      }
+      info.notes.push_back(fmt::format("line {}: set {} begins without -1 of its own", in.number(), set_number(line)));
+      read_set(in, line, visit, info, data, other_series);
+      continue;
+    }
     std::string set_line;
-    if (!in.next(set_line)) break;
+    do {
+      if (!in.next(set_line)) in.fail("breaks off after the -1 that begins a set", kCutOff);
+    } while (is_blank(set_line));
     if (is_delimiter(set_line)) {
       // An end without a beginning: this line begins a set.
       in.back(set_line);
       continue;
     }
-    const long set = integer_or(field(set_line, 0, 6), integer_or(field(set_line, 0, 80), 0));
-    if (set == 58) {
-      read_series(in, set_line, visit, info, other_series);
-    } else if (set == 15 || set == 2411) {
-      read_nodes(in, set == 2411, data);
-    } else if (set == 82) {
-      read_lines(in, data);
-    } else if (set == 55) {
-      read_result(in, data);
-    } else if (set == 151) {
-      data.title = field(in.need("set 151"), 0, 80);
-      data.has_header = true;
-      skip_set(in);
-    } else if (set == 164) {
-      read_units(in, data);
-    } else {
-      ++data.others[std::to_string(set)];
-      skip_set(in);
-    }
+    read_set(in, set_line, visit, info, data, other_series);
   }
   for (auto& [label, position] : data.nodes) position /= data.length_factor;
   if (other_series > 0) info.notes.push_back(fmt::format("{} sets 58 hold spectra or other functions, left out", other_series));
@@ -369,6 +450,7 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
 RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
   RecordInfo info;
   const UniversalData data = scan_universal_sets(file, visit, info);
+  info.names_channels = true;
   info.format = fmt::format("universal file, {} time series, {} nodes, {} lines, {} shapes", info.channels.size(), data.nodes.size(), data.lines.size(),
                             data.results.size());
   for (const ChannelInfo& channel : info.channels) {

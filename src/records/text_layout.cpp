@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <regex>
 
 #include "core/error.hpp"
+#include "records/header_rate.hpp"
+#include "records/text_cells.hpp"
 #include "records/time_stamp.hpp"
 
 namespace twindeck::records {
@@ -16,39 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// What of a file's beginning is looked at for its layout: lines, bytes.
 constexpr std::size_t kLines = 2000;
 constexpr std::size_t kBytes = 4000000;
-
-std::string_view trimmed(std::string_view text) {
-  const char* blanks = " \t\r\n\"'";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const std::size_t more = c < 0x80 ? 0 : c >> 5 == 6 ? 1 : c >> 4 == 14 ? 2 : c >> 3 == 30 ? 3 : 9;
-    if (more == 9 || i + more >= text.size() + (more == 0 ? 1 : 0)) return false;
-    for (std::size_t k = 1; k <= more; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return false;
-    }
-    i += more + 1;
-  }
-  return true;
-}
-
-bool is_date(std::string_view cell) {
-  static const std::regex pattern(R"(\d{1,4}[-./]\d{1,2}[-./]\d{1,4})");
-  return std::regex_match(cell.begin(), cell.end(), pattern);
-}
 
 bool is_value(std::string_view cell, bool decimal_comma) {
   return number_in(cell, decimal_comma).has_value() || is_date(cell) || !time_stamp_meanings(cell).empty();
@@ -71,25 +42,85 @@ struct Run {
   std::size_t first = 0, length = 0, columns = 0;
 };
 
-/// The longest run of lines of data with one number of cells.
-Run longest_run(const std::vector<std::string>& lines, char separator, bool decimal_comma) {
-  Run best, run;
+/// No cell holds anything, or each holds a word for a missing value: such a line ends no run and begins none.
+bool holds_no_value(std::string_view line, char separator, bool decimal_comma) {
+  const auto cells = cells_of(line, separator);
+  return std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+    const auto number = number_in(cell, decimal_comma);
+    return number && !std::isfinite(*number);
+  });
+}
+
+/// The runs of rows with one number of cells, in the order of the file.
+std::vector<Run> runs_of(const std::vector<std::string>& lines, char separator, bool decimal_comma) {
+  std::vector<Run> runs;
+  bool going_on = false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     std::size_t columns = 0;
-    if (trimmed(lines[i]).empty() || !is_data(lines[i], separator, decimal_comma, columns)) {
-      run = {};
+    if (holds_no_value(lines[i], separator, decimal_comma)) continue;
+    if (!is_data(lines[i], separator, decimal_comma, columns)) {
+      going_on = false;
       continue;
     }
-    if (run.length == 0 || columns != run.columns) run = {i, 0, columns};
-    ++run.length;
+    if (!going_on || columns != runs.back().columns) runs.push_back({i, 0, columns});
+    going_on = true;
+    ++runs.back().length;
+  }
+  return runs;
+}
+
+Run longest_of(const std::vector<Run>& runs) {
+  Run best;
+  for (const Run& run : runs) {
     if (run.length > best.length) best = run;
   }
   return best;
 }
 
+/// A line of a header as cells, the sign of a comment at its beginning taken off. None for a line of separators or a ruler
+/// ("----").
+std::vector<std::string_view> header_cells(std::string_view text, char separator) {
+  std::string_view line = trimmed(text);
+  while (!line.empty() && (line.front() == '#' || line.front() == '%' || line.front() == '/')) line = trimmed(line.substr(1));
+  if (line.find_first_not_of("-=_+*:;,| \t\"") == std::string_view::npos) return {};
+  return cells_of(line, separator);
+}
+
+/// Whether the line above a run names its columns: as many cells, none of them a value, letters in one at least.
+bool has_names_above(const std::vector<std::string>& lines, const Run& run, const TextLayout& layout) {
+  for (std::size_t i = run.first; i-- > 0;) {
+    const auto cells = header_cells(lines[i], layout.separator);
+    if (cells.empty()) continue;
+    const auto is_text = [&](std::string_view cell) { return cell.empty() || !is_value(cell, layout.decimal_comma); };
+    const bool any = std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
+    return any && cells.size() == run.columns && std::all_of(cells.begin(), cells.end(), is_text);
+  }
+  return false;
+}
+
+/// Rows of numbers within a header (serial numbers, calibration factors) are fewer than this.
+constexpr std::size_t kLeastRun = 3;
+
+/// The run that the data begin with: the first as wide as the longest that is no part of a header.
+Run first_of_data(const std::vector<std::string>& lines, const std::vector<Run>& runs, const TextLayout& layout) {
+  const Run longest = longest_of(runs);
+  for (const Run& run : runs) {
+    if (run.columns != longest.columns) continue;
+    if (run.first == longest.first || run.length >= kLeastRun || has_names_above(lines, run, layout)) return run;
+  }
+  return longest;
+}
+
 bool looks_like_unit(std::string_view cell) {
-  static const std::regex pattern(R"(\[.*\]|\(.*\)|[-A-Za-z%/*^.0-9\xC2\xB0\xB2\xB5\xBC\xCE]{0,8})");
-  return std::regex_match(cell.begin(), cell.end(), pattern) && std::none_of(cell.begin(), cell.end(), [](char c) { return c == '_'; });
+  if (cell.find('_') != std::string_view::npos) return false;
+  if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
+    return true;
+  constexpr std::size_t longest = 8;  // bytes of a unit without brackets
+  const auto of_unit = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-%/*^.\xC2\xB0\xB2\xB5\xBC\xCE").find(c) != std::string_view::npos;
+  };
+  return cell.size() <= longest && std::all_of(cell.begin(), cell.end(), of_unit);
 }
 
 bool is_known_unit(std::string_view cell) {
@@ -102,11 +133,15 @@ bool is_known_unit(std::string_view cell) {
 
 /// "Acc 1 [m/s2]" -> name and unit.
 void split_unit(std::string& name, std::string& unit) {
-  static const std::regex pattern(R"(^(.*\S)\s*[\[(]([^\])]*)[\])]\s*$)");
-  std::smatch match;
-  if (unit.empty() && std::regex_match(name, match, pattern)) {
-    unit = match[2];
-    name = std::string(match[1]);
+  const std::string_view text = trimmed(name);
+  if (unit.empty() && !text.empty() && (text.back() == ']' || text.back() == ')')) {
+    const std::size_t open = text.find_last_of("[(");
+    const std::string_view before = trimmed(text.substr(0, std::min(open, text.size())));
+    const std::string_view within = open == std::string_view::npos ? "" : text.substr(open + 1, text.size() - open - 2);
+    if (open != std::string_view::npos && !before.empty() && within.find_first_of("])") == std::string_view::npos) {
+      unit = std::string(within);
+      name = std::string(before);
+    }
   }
   if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
 }
@@ -114,11 +149,19 @@ void split_unit(std::string& name, std::string& unit) {
 void read_names(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
   std::vector<std::vector<std::string>> above;  // the nearest first
   for (std::size_t i = first; i-- > 0 && above.size() < 2;) {
-    std::string_view line = trimmed(lines[i]);
-    while (!line.empty() && (line.front() == '#' || line.front() == '%' || line.front() == '/')) line = trimmed(line.substr(1));
-    if (line.empty()) continue;
-    const auto cells = cells_of(line, layout.separator);
-    if (cells.size() != layout.columns) break;
+    const auto cells = header_cells(lines[i], layout.separator);
+    if (cells.empty()) continue;
+    if (cells.size() != layout.columns) {
+      if (above.empty() && cells.size() > 1) {
+        layout.unaligned.assign(cells.begin(), cells.end());
+        layout.unaligned_line = static_cast<long>(i) + 1;
+        for (std::string& name : layout.unaligned) {
+          std::string unit;
+          split_unit(name, unit);
+        }
+      }
+      break;
+    }
     above.emplace_back(cells.begin(), cells.end());
   }
   if (above.empty()) return;
@@ -131,35 +174,10 @@ void read_names(const std::vector<std::string>& lines, std::size_t first, TextLa
 }
 
 void read_header_rate(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
-  static const std::regex rate(
-      R"((?:sampl\w*[ _-]*(?:rate|freq\w*)?|scan[ _-]*rate|\bfs\b|\bsps\b|abtastrate|frequenza[ _]di[ _]campionamento)\s*[\[(]?(?:hz|khz)?[\])]?\s*[:=;,\t ]\s*"?([0-9]+(?:[.,][0-9]+)?)\s*"?\s*(khz|hz|s/s|sps)?)");
-  static const std::regex interval(
-      R"((?:sampl\w*[ _-]*(?:interval|period|time)|\bdt\b|delta[ _]?t|time[ _]?step|interval)\s*[\[(]?(?:ms|s|sec)?[\])]?\s*[:=;,\t ]\s*"?([0-9]+(?:[.,][0-9]+)?(?:e-?[0-9]+)?)\s*"?\s*(ms|us|s)?)");
-  for (std::size_t i = 0; i < first; ++i) {
-    const std::string line = lower(lines[i]);
-    std::smatch match;
-    const bool is_interval = std::regex_search(line, match, interval);
-    if (!is_interval && !std::regex_search(line, match, rate)) continue;
-    std::string number = match[1];
-    std::replace(number.begin(), number.end(), ',', '.');
-    double value = std::strtod(number.c_str(), nullptr);
-    if (!(value > 0.0)) continue;
-    const std::string unit = match[2];
-    if (is_interval) {
-      value = 1.0 / (value * (unit == "ms" || line.find("ms)") != std::string::npos || line.find("[ms]") != std::string::npos ? 1e-3 : unit == "us" ? 1e-6 : 1.0));
-    } else if (unit == "khz") {
-      value *= 1000.0;
-    }
-    layout.header_rate_Hz = value;
-    layout.header_rate_text = std::string(trimmed(lines[i]));
-    return;
+  for (std::size_t i = 0; i < first && !layout.header_rate_Hz; ++i) {
+    layout.header_rate_Hz = rate_in_header_line(lines[i]);
+    if (layout.header_rate_Hz) layout.header_rate_text = std::string(trimmed(lines[i]));
   }
-}
-
-bool is_time_name(const std::string& name) {
-  static const std::regex pattern(
-      "(.*[^a-z])?(time|timestamp|time[ _]?stamp|zeit|tempo|datum|date|data/ora|t|elapsed|seconds|sec)([ _]?(s|ms))?([^a-z].*)?");
-  return std::regex_match(lower(name), pattern);
 }
 
 /// Steps of a column of numbers over the run's lines: all positive and alike.
@@ -175,9 +193,15 @@ bool runs_evenly(const std::vector<double>& values) {
   return static_cast<double>(alike) > 0.9 * static_cast<double>(steps.size());
 }
 
-void find_time(const std::vector<std::string>& lines, const Run& run, TextLayout& layout) {
+void find_time(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
+  constexpr std::size_t most = 200;  // rows that are looked at
   std::vector<std::vector<std::string_view>> rows;
-  for (std::size_t i = run.first; i < run.first + std::min<std::size_t>(run.length, 200); ++i) rows.push_back(cells_of(lines[i], layout.separator));
+  for (std::size_t i = first; i < lines.size() && rows.size() < most; ++i) {
+    std::size_t columns = 0;
+    if (is_data(lines[i], layout.separator, layout.decimal_comma, columns) && columns == layout.columns) {
+      rows.push_back(cells_of(lines[i], layout.separator));
+    }
+  }
   for (std::size_t c = 0; c < layout.columns && layout.time_column < 0; ++c) {
     const std::string_view cell = rows.front()[c];
     if (is_date(cell) && !number_in(cell, layout.decimal_comma)) {
@@ -205,115 +229,85 @@ void find_time(const std::vector<std::string>& lines, const Run& run, TextLayout
   }
 }
 
-}  // namespace
-
-std::string from_latin1(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      result += c;
-    } else {
-      result += static_cast<char>(0xC0 | (byte >> 6));
-      result += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
-  return result;
+/// A row whose last cell is empty, or whose cells are words for missing values: it belongs to the rows below it.
+bool is_incomplete_row(const std::string& line, const TextLayout& layout) {
+  std::size_t columns = 0;
+  if (line.find_first_not_of(" \t\r;,|\"") == std::string::npos) return false;
+  if (is_data(line, layout.separator, layout.decimal_comma, columns))
+    return columns + 1 == layout.columns && ends_with_separator(line, layout.separator);
+  return columns == layout.columns && holds_no_value(line, layout.separator, layout.decimal_comma);
 }
 
-std::vector<std::string_view> cells_of(std::string_view line, char separator) {
-  std::vector<std::string_view> cells;
-  while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);
-  if (separator == ' ') {
-    for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
-      const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-      cells.push_back(trimmed(line.substr(at, end - at)));
-      at = line.find_first_not_of(" \t", end);
-    }
-    return cells;
-  }
-  for (std::size_t at = 0; at <= line.size();) {
-    std::size_t end = line.find(separator, at);
-    // A separator between quotes belongs to the cell.
-    const std::size_t start = line.find_first_not_of(" \t", at);
-    if (start != std::string_view::npos && line[start] == '"' && (end == std::string_view::npos || end > start)) {
-      const std::size_t close = line.find('"', start + 1);
-      if (close != std::string_view::npos) end = line.find(separator, close);
-    }
-    if (end == std::string_view::npos) end = line.size();
-    cells.push_back(trimmed(line.substr(at, end - at)));
-    at = end + 1;
-  }
-  if (cells.size() > 1 && cells.back().empty()) cells.pop_back();
-  return cells;
-}
-
-std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  if (cell.empty()) return nan;
-  char buffer[64];
-  if (cell.size() >= sizeof buffer) return {};
-  std::size_t n = 0;
-  for (const char c : cell) buffer[n++] = decimal_comma && c == ',' ? '.' : c == 'D' || c == 'd' ? 'e' : c;
-  const char* begin = buffer[0] == '+' ? buffer + 1 : buffer;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(begin, buffer + n, value);
-  if (error == std::errc() && end == buffer + n) return std::isfinite(value) ? value : nan;
-  static const std::array<std::string_view, 11> missing = {"nan", "null", "na", "n/a", "#n/a", "-", "--", "---", "over", "ovld", "invalid"};
-  const std::string text = lower(cell);
-  if (std::find(missing.begin(), missing.end(), text) != missing.end()) return nan;
-  return {};
-}
-
-TextLayout find_layout(const fs::path& file) {
+/// The first lines of a file as UTF-8.
+std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
   std::ifstream in(file, std::ios::binary);
   std::vector<std::string> lines;
   std::size_t bytes = 0;
-  TextLayout layout;
   for (std::string line; lines.size() < kLines && bytes < kBytes && std::getline(in, line);) {
+    const long number = std::ssize(lines) + 1;
     bytes += line.size();
     if (lines.empty()) {
       if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF")) {
-        throw InputError({file.string(), 1, ""}, "is UTF-16, expected UTF-8 or latin-1", "save it as UTF-8 (iconv -f UTF-16 -t UTF-8)");
+        throw InputError({file.string(), number, ""}, "is UTF-16, expected UTF-8 or latin-1",
+                         "save it as UTF-8 (iconv -f UTF-16 -t UTF-8)");
       }
-      if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+      line = std::string(without_mark(line));
     }
-    if (line.size() > 1000000) throw InputError({file.string(), static_cast<long>(lines.size() + 1), ""}, "has a line of over a million characters", "check the file: it may be binary");
-    if (line.find('\0') != std::string::npos) throw InputError({file.string(), static_cast<long>(lines.size() + 1), ""}, "is neither text nor a known binary format", "known are CSV, NPY, MAT 5 and 7.3, HDF5, universal files");
+    if (line.size() > 1000000) {
+      throw InputError({file.string(), number, ""}, "has a line of over a million characters",
+                       "check the file: it may be binary");
+    }
+    if (line.find('\0') != std::string::npos) {
+      throw InputError({file.string(), number, ""}, "is neither text nor a known binary format",
+                       "known are CSV, NPY, MAT 4, 5 and 7.3, HDF5, universal files");
+    }
     if (!is_utf8(line)) {
       layout.latin1 = true;
       line = from_latin1(line);
     }
     lines.push_back(line);
   }
+  return lines;
+}
+
+}  // namespace
+
+TextLayout find_layout(const fs::path& file) {
+  TextLayout layout;
+  const std::vector<std::string> lines = first_lines(file, layout);
   char fixed = '\0';
   if (!lines.empty()) {
     const std::string first = lower(trimmed(lines.front()));
     if (first.starts_with("sep=") && first.size() >= 5) fixed = first[4];
     if (first == "sep=") fixed = '\t';
   }
-  Run best;
+  std::vector<Run> runs;
+  Run longest;
   for (const char separator : {';', '\t', ',', '|', ' '}) {
     if (fixed != '\0' && separator != fixed) continue;
     for (const bool comma : {false, true}) {
       if (comma && separator == ',') continue;
-      const Run run = longest_run(lines, separator, comma);
-      if (run.length > best.length || (run.length == best.length && run.columns > best.columns)) {
-        best = run;
+      std::vector<Run> found = runs_of(lines, separator, comma);
+      const Run run = longest_of(found);
+      if (run.length > longest.length || (run.length == longest.length && run.columns > longest.columns)) {
+        longest = run;
+        runs = std::move(found);
         layout.separator = separator;
         layout.decimal_comma = comma;
       }
     }
   }
-  if (best.length < 2) {
+  if (longest.length < 2) {
     throw InputError({file.string(), 0, ""}, "has no two lines of numbers that follow one another",
                      "a record is a table of numbers, one line a sample, after any header; known are also NPY, MAT, HDF5, universal files");
   }
-  layout.first_data_line = static_cast<long>(best.first) + 1;
-  layout.columns = best.columns;
-  read_names(lines, best.first, layout);
-  read_header_rate(lines, best.first, layout);
-  find_time(lines, best, layout);
+  std::size_t first = first_of_data(lines, runs, layout).first;
+  layout.columns = longest.columns;
+  while (first > 0 && is_incomplete_row(lines[first - 1], layout)) --first;
+  layout.first_data_line = static_cast<long>(first) + 1;
+  read_names(lines, first, layout);
+  read_header_rate(lines, first, layout);
+  find_time(lines, first, layout);
   return layout;
 }
 

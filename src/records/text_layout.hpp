@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace twindeck::records {
@@ -17,6 +16,9 @@ struct TextLayout {
   std::size_t columns = 0;
   std::vector<std::string> names;      ///< one a column, empty where the file has none
   std::vector<std::string> units;      ///< one a column, empty where it has none
+  std::vector<std::string>
+      unaligned;  ///< cells of the line above the numbers if it has another number of them than there are columns
+  long unaligned_line = 0;
   int time_column = -1;
   bool date_and_time = false;          ///< date in time_column, time of day in the next
   bool stamps = false;                 ///< time stamps, not seconds
@@ -26,15 +28,9 @@ struct TextLayout {
 };
 
 /// Reads the layout from the beginning of a file: header lines of any number and kind, a line `sep=;`, names and units.
+/// Separator and decimal sign are those of the longest run of rows. The data begin at the first run of rows of that width, so
+/// that a stray line further down hides neither the header nor the rows above it.
 /// @throws InputError  if no two lines of numbers follow one another
 [[nodiscard]] TextLayout find_layout(const std::filesystem::path& file);
-
-/// Cells of a line, blanks and quotes around them taken off; an empty cell after a last separator is no cell.
-[[nodiscard]] std::vector<std::string_view> cells_of(std::string_view line, char separator);
-/// A number ("1,5" with a decimal comma; Fortran's D exponent), NaN for a missing value (empty, NaN, ---, #N/A, OVER …), nothing for
-/// other text.
-[[nodiscard]] std::optional<double> number_in(std::string_view cell, bool decimal_comma);
-/// Latin-1 as UTF-8.
-[[nodiscard]] std::string from_latin1(std::string_view text);
 
 }  // namespace twindeck::records

@@ -1,12 +1,17 @@
 #include "records/universal_lines.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 #include "core/error.hpp"
+#include "io/regular_file.hpp"
 
 namespace twindeck::records {
 
-UniversalLines::UniversalLines(const std::filesystem::path& file) : file_(file), in_(file, std::ios::binary) {
+UniversalLines::UniversalLines(const std::filesystem::path& file)
+    : file_(file), bytes_(io::require_regular_file(file)), in_(file, std::ios::binary) {
   if (!in_) throw InputError({file.string(), 0, ""}, "cannot be read", "check its name and your permissions");
 }
 
@@ -43,6 +48,12 @@ std::string UniversalLines::bytes(std::size_t n) {
   return data;
 }
 
+std::string UniversalLines::take(std::size_t n) {
+  std::string data = bytes(n);
+  number_ += std::count(data.begin(), data.end(), '\n');
+  return data;
+}
+
 std::string UniversalLines::peek(std::size_t offset, std::size_t n) {
   const std::streampos here = in_.tellg();
   in_.seekg(static_cast<std::streamoff>(offset), std::ios::cur);
@@ -69,6 +80,8 @@ std::string field(const std::string& line, std::size_t from, std::size_t width) 
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
+
+bool is_blank(const std::string& line) { return line.find_first_not_of(" \t\x1a") == std::string::npos; }
 
 std::vector<double> numbers_in(const std::string& line) {
   std::vector<double> numbers;
@@ -105,11 +118,17 @@ std::vector<double> numbers_in(const std::string& line) {
       i = line.size();
     }
     double value = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    numbers.push_back(value);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Beyond what a number can hold strtod gives infinity or the nearest to zero, from_chars nothing.
+    numbers.push_back(error == std::errc::result_out_of_range ? std::strtod(text.c_str(), nullptr) : value);
     at = i;
   }
   return numbers;
+}
+
+std::optional<long> count_in(double number, long most) {
+  if (!(number >= 0.0) || number > static_cast<double>(most) || number != std::floor(number)) return {};
+  return static_cast<long>(number);
 }
 
 long integer_or(const std::string& text, long fallback) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +19,22 @@ class UniversalLines {
   std::string need(const std::string& what);
   /// The line just read is given again.
   void back(const std::string& line);
-  /// `n` bytes of binary data, or fewer at the end of the file.
-  std::string bytes(std::size_t n);
+  /// `n` bytes of binary data, or fewer at the end of the file. Line ends among them count as lines, as in an editor.
+  std::string take(std::size_t n);
   /// `n` bytes that stand `offset` bytes ahead; nothing is taken.
   std::string peek(std::size_t offset, std::size_t n);
   [[noreturn]] void fail(const std::string& problem, const std::string& mend = "") const;
   [[nodiscard]] long number() const { return number_; }
+  /// The line just read has no line end: the file ends in it.
+  [[nodiscard]] bool is_last_without_end() const { return in_.eof(); }
+  /// Length of the file [bytes]: no set holds more values than that.
+  [[nodiscard]] long size() const { return static_cast<long>(bytes_); }
 
  private:
+  std::string bytes(std::size_t n);
+
   std::filesystem::path file_;
+  std::uintmax_t bytes_ = 0;
   std::ifstream in_;
   long number_ = 0;
   bool has_back_ = false;
@@ -34,10 +43,14 @@ class UniversalLines {
 
 /// True for the line -1 that begins and ends a set.
 [[nodiscard]] bool is_delimiter(const std::string& line);
+/// Nothing but blanks, or the letter by which DOS ended a file.
+[[nodiscard]] bool is_blank(const std::string& line);
 /// Columns [from, from + width) without blanks at its ends; "" beyond the end.
 [[nodiscard]] std::string field(const std::string& line, std::size_t from, std::size_t width);
 /// All numbers in a line: Fortran's D exponents, numbers that touch ("1.0E+00-2.0E+00").
 [[nodiscard]] std::vector<double> numbers_in(const std::string& line);
+/// A number that counts something: whole, from 0 to `most`; nothing for any other.
+[[nodiscard]] std::optional<long> count_in(double number, long most);
 /// Whole number of a field, `fallback` if it is empty or none.
 [[nodiscard]] long integer_or(const std::string& text, long fallback);
 

@@ -21,6 +21,7 @@ Status run(const steps::IdentificationConfig& config, steps::StepContext& contex
   const auto folder = context.campaign ? *context.campaign : default_campaign(context);
   if (!std::filesystem::exists(folder)) context.input(folder);
   const steps::Campaign campaign = steps::read_campaign(folder);
+  for (const std::string& warning : campaign.warnings) context.say(warning);
   for (const char* name : {"campaign.toml", "channels.csv", "conditions.toml"}) {
     if (std::filesystem::exists(folder / name)) context.input(folder / name);
   }
@@ -42,6 +43,12 @@ Status run(const steps::IdentificationConfig& config, steps::StepContext& contex
   const auto decays = steps::identify_free_decays(
       campaign, steps::record_groups(campaign, {"", config.condition, "free_decay", {}}, true), config, results, context.seed);
   const auto stays = steps::identify_stays(campaign, steps::record_groups(campaign, {"", "", "stay", {}}, true), config);
+  for (const auto& decay : decays) {
+    for (const std::string& note : decay.notes) context.say(note);
+  }
+  for (const auto& stay : stays) {
+    for (const std::string& note : stay.notes) context.say(note);
+  }
 
   // 4. Tables, exports, and the features that updating and diagnosis read. The first condition's stand at the top.
   steps::write_identification(campaign, results, decays, stays, config, context.out);

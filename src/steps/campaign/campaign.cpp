@@ -2,17 +2,18 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
 #include "core/error.hpp"
 #include "io/config.hpp"
-#include "io/csv.hpp"
+#include "io/regular_file.hpp"
+#include "io/toml_value.hpp"
+#include "records/column_match.hpp"
 #include "records/record.hpp"
+#include "records/recorded_unit.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -21,68 +22,31 @@ using Eigen::Index;
 namespace {
 
 const std::vector<std::string> kKinds = {"ambient", "free_decay", "wind", "earthquake", "stay"};
-const std::vector<std::string> kQuantities = {"acceleration", "velocity", "displacement"};
-
-std::string one_of(const io::CsvTable& table, std::size_t row, const std::string& column,
-                   const std::vector<std::string>& allowed) {
-  const std::string text = table.text(row, column).empty() ? allowed.front() : table.text(row, column);
-  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
-    table.fail(row, column, fmt::format("is '{}', expected {}{}", text, fmt::join(allowed, ", "), did_you_mean(text, allowed)));
-  }
-  return text;
-}
-
-std::vector<CampaignChannel> read_channels(const fs::path& file) {
-  const auto table = io::CsvTable::read(
-      file, {"channel"}, {"point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"});
-  std::vector<CampaignChannel> channels;
-  std::set<std::string> names;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    CampaignChannel channel;
-    channel.name = table.text(row, "channel");
-    if (channel.name.empty()) table.fail(row, "channel", "is empty", "name the channel");
-    if (!names.insert(channel.name).second)
-      table.fail(row, "channel", fmt::format("'{}' appears twice", channel.name), "remove one row");
-    channel.point = table.text(row, "point").empty() ? channel.name : table.text(row, "point");
-    for (Index k = 0; k < 3; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      channel.position_m[k] = table.number_or(row, std::array{"x_m", "y_m", "z_m"}[axis], channel.position_m[k]);
-      channel.direction[k] = table.number_or(row, std::array{"dx", "dy", "dz"}[axis], channel.direction[k]);
-    }
-    channel.quantity = one_of(table, row, "quantity", kQuantities);
-    channel.gain = table.number_or(row, "gain", 1.0);
-    if (channel.gain == 0.0)
-      table.fail(row, "gain", "is 0, expected the factor from recorded to physical values", "leave it empty for 1");
-    channel.reference = table.number_or(row, "reference", 0.0) != 0.0;
-    channel.is_input = one_of(table, row, "role", {"response", "input"}) == "input";
-    channels.push_back(channel);
-  }
-  return channels;
-}
 
 std::vector<std::string> condition_names(const fs::path& file) {
   if (!fs::exists(file)) return {};
-  try {
-    std::vector<std::string> names;
-    for (const auto& [name, node] : toml::parse_file(file.string())) names.emplace_back(name.str());
-    return names;
-  } catch (const toml::parse_error& error) {
-    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""}, std::string(error.description()),
-                     "mend the TOML");
-  }
+  std::vector<std::string> names;
+  for (const io::TomlEntry& entry : io::read_toml(file)) names.push_back(entry.key);
+  return names;
 }
 
-/// Lines of the [[record]] tables, for messages.
-std::vector<long> record_lines(const fs::path& file) {
-  std::vector<long> lines;
-  try {
-    const toml::table root = toml::parse_file(file.string());
-    if (const toml::array* records = root["record"].as_array()) {
-      for (const toml::node& node : *records) lines.push_back(static_cast<long>(node.source().begin.line));
+/// Lines of the [[record]] tables and of their keys, for messages.
+struct RecordLines {
+  long table = 0;
+  std::map<std::string, long> keys;
+};
+
+std::vector<RecordLines> record_lines(const fs::path& file) {
+  std::vector<RecordLines> lines;
+  for (const io::TomlEntry& entry : io::read_toml(file)) {
+    const auto* records = entry.value.as<io::TomlValue::Array>();
+    if (entry.key != "record" || records == nullptr) continue;
+    for (const io::TomlValue& record : *records) {
+      lines.push_back({record.line, {}});
+      const auto* keys = record.as<io::TomlValue::Table>();
+      if (keys == nullptr) continue;
+      for (const io::TomlEntry& key : *keys) lines.back().keys[key.key] = key.line;
     }
-  } catch (const toml::parse_error& error) {
-    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""}, std::string(error.description()),
-                     "mend the TOML");
   }
   return lines;
 }
@@ -91,75 +55,34 @@ void check_record(const Campaign& campaign, const CampaignRecord& record, const 
   std::vector<std::string> known;
   for (const CampaignChannel& channel : campaign.channels) known.push_back(channel.name);
   if (record.channels.empty())
-    throw InputError({file.string(), record.line, "channels"}, "is empty", "list the columns of the record");
+    throw InputError({file.string(), record.line_of("channels"), "channels"}, "is empty", "list the columns of the record");
   std::set<std::string> seen;
   for (const std::string& name : record.channels) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError({file.string(), record.line, "channels"},
+      throw InputError({file.string(), record.line_of("channels"), "channels"},
                        fmt::format("channel '{}' is not in channels.csv{}", name, did_you_mean(name, known)),
                        "add it there, or correct the name");
     }
     if (!seen.insert(name).second)
-      throw InputError({file.string(), record.line, "channels"}, fmt::format("names '{}' twice", name), "");
+      throw InputError({file.string(), record.line_of("channels"), "channels"}, fmt::format("names '{}' twice", name), "");
+  }
+  if (!record.columns.empty() && record.columns.size() != record.channels.size()) {
+    throw InputError({file.string(), record.line_of("columns"), "columns"},
+                     fmt::format("has {} entries for {} channels", record.columns.size(), record.channels.size()),
+                     "give each entry of `channels` its column in the file");
   }
   const auto& conditions = campaign.conditions;
   if (!conditions.empty() && std::find(conditions.begin(), conditions.end(), record.condition) == conditions.end()) {
     throw InputError(
-        {file.string(), record.line, "condition"},
+        {file.string(), record.line_of("condition"), "condition"},
         fmt::format("'{}' is no table of conditions.toml{}", record.condition, did_you_mean(record.condition, conditions)),
         "add a table [" + record.condition + "] there");
   }
 }
 
-void check_rate(const Campaign& campaign, const CampaignRecord& record, const records::RecordInfo& info);
-
-/// Columns of the record's channels: by name where the file names its channels so, by position where it names none of them.
-std::vector<Index> columns_in_file(const CampaignRecord& record, const records::RecordInfo& info) {
-  std::vector<Index> columns;
-  std::vector<std::string> known;
-  for (const records::ChannelInfo& channel : info.channels) known.push_back(channel.name);
-  std::string missing;
-  for (const std::string& name : record.channels) {
-    const auto at = std::find(known.begin(), known.end(), name);
-    if (at != known.end()) {
-      columns.push_back(static_cast<Index>(at - known.begin()));
-    } else if (missing.empty()) {
-      missing = name;
-    }
-  }
-  if (!columns.empty() && !missing.empty()) {
-    throw InputError({record.file.string(), 0, missing},
-                     fmt::format("is no channel of the file{}", did_you_mean(missing, known)),
-                     "correct `channels` in campaign.toml; the file has " + fmt::format("{}", fmt::join(known, ", ")));
-  }
-  if (!columns.empty()) return columns;
-  if (known.size() != record.channels.size()) {
-    throw InputError({record.file.string(), 0, ""},
-                     fmt::format("has {} columns, but campaign.toml names {} channels", known.size(), record.channels.size()),
-                     "an array of samples x channels is expected");
-  }
-  for (Index c = 0; c < std::ssize(known); ++c) columns.push_back(c);
-  return columns;
-}
-
-/// The record's channels and no others. What the file's columns are called is known at its end only: a large file is walked
-/// through twice, so that columns that nobody asked for never lie in memory.
-Eigen::MatrixXd in_order(const Campaign& campaign, const CampaignRecord& record) {
-  constexpr std::uintmax_t kLarge = std::uintmax_t{64} << 20U;
-  if (fs::exists(record.file) && fs::file_size(record.file) > kLarge) {
-    const records::RecordInfo info = records::scan(record.file, [](Index, Index, const Eigen::MatrixXd&) {});
-    check_rate(campaign, record, info);
-    return records::read(record.file, columns_in_file(record, info)).samples;
-  }
-  records::Record file = records::read(record.file);
-  check_rate(campaign, record, file.info);
-  const std::vector<Index> columns = columns_in_file(record, file.info);
-  return file.samples(Eigen::all, columns);
-}
-
 void check_rate(const Campaign& campaign, const CampaignRecord& record, const records::RecordInfo& info) {
   if (info.rate_Hz > 0.0 && std::abs(info.rate_Hz / record.sampling_rate_Hz - 1.0) > 1e-3) {
-    throw InputError({(campaign.folder / "campaign.toml").string(), record.line, "sampling_rate_Hz"},
+    throw InputError({(campaign.folder / "campaign.toml").string(), record.line_of("sampling_rate_Hz"), "sampling_rate_Hz"},
                      fmt::format("is {}, but {} runs at {:.6g} Hz ({})", record.sampling_rate_Hz, record.file.string(),
                                  info.rate_Hz, info.rate_source),
                      "correct one of them; two clocks or a mixed rate show so");
@@ -172,7 +95,47 @@ void check_rate(const Campaign& campaign, const CampaignRecord& record, const re
   }
 }
 
+/// What the file says of itself, for people: its notes, the names it was not read by, units other than those of channels.csv.
+std::vector<std::string> notes_of(const Campaign& campaign, const CampaignRecord& record, const records::RecordInfo& info,
+                                  const records::ColumnMatch& match) {
+  std::vector<std::string> notes;
+  for (const std::string& note : info.notes) notes.push_back(record.file.string() + ": " + note);
+  if (!match.warning.empty()) notes.push_back(match.warning);
+  for (std::size_t c = 0; c < match.columns.size(); ++c) {
+    const CampaignChannel& channel = campaign.channel(record.channels[c]);
+    const std::string& unit = info.channels[static_cast<std::size_t>(match.columns[c])].unit;
+    const double stated = records::si_factor(unit), used = std::abs(channel.gain);
+    constexpr double other_unit = 2.0;  // two units of a quantity lie a factor of 9.8 apart or more; a calibration stays below
+    if (stated > 0.0 && (used > other_unit * stated || used < stated / other_unit)) {
+      notes.push_back(
+          fmt::format("{}: says that {} is in {}, but channels.csv has the unit {} and the gain {:.6g}, which is used",
+                      record.file.string(), channel.name, unit, channel.unit, channel.gain));
+    }
+  }
+  return notes;
+}
+
+/// Numbers beyond this are no record of a motion or force in any unit; their squares would be beyond what a number can hold.
+constexpr double kLargestValue = 1e100;
+
+void refuse_absurd(const RecordSamples& samples, const CampaignRecord& record) {
+  for (Index c = 0; c < samples.values.cols(); ++c) {
+    for (Index t = 0; t < samples.values.rows(); ++t) {
+      const double value = std::abs(samples.values(t, c));
+      if (!(value > kLargestValue) || std::isnan(value)) continue;
+      throw InputError({record.file.string(), 0, record.channels[static_cast<std::size_t>(c)]},
+                       fmt::format("holds {:.6g} in sample {}, which no sensor gives", samples.values(t, c), t + 1),
+                       "check the file and its type of numbers");
+    }
+  }
+}
+
 }  // namespace
+
+long CampaignRecord::line_of(const std::string& key) const {
+  const auto at = lines.find(key);
+  return at == lines.end() ? line : at->second;
+}
 
 const CampaignChannel& Campaign::channel(const std::string& name) const {
   const auto at = std::find_if(channels.begin(), channels.end(), [&](const CampaignChannel& c) { return c.name == name; });
@@ -188,9 +151,9 @@ Campaign read_campaign(const fs::path& folder) {
     throw InputError({file.string(), 0, ""}, "is not there, expected one table [[record]] for each record",
                      "write it as docs/my_records.md says");
   }
-  campaign.channels = read_channels(folder / "channels.csv");
+  campaign.channels = read_campaign_channels(folder / "channels.csv", campaign.warnings);
   campaign.conditions = condition_names(folder / "conditions.toml");
-  const std::vector<long> lines = record_lines(file);
+  const std::vector<RecordLines> lines = record_lines(file);
 
   // The list is reserved, so that the fields bound to an element stay where they are.
   struct Raw {
@@ -211,10 +174,16 @@ Campaign read_campaign(const fs::path& folder) {
         table.path_name("setup", r.record.setup, "setup", "name of the setup", true)
             .choice("kind", r.record.kind, kKinds, "what was recorded")
             .text("file", r.file,
-                  "samples: CSV as loggers write it, NPY, MAT 5 or 7.3, HDF5, universal file; relative to campaign.toml", true)
+                  "samples: CSV as loggers write it, NPY, MAT 4, 5 or 7.3, HDF5, universal file; relative to campaign.toml",
+                  true)
             .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", io::positive(), "samples a second of each channel",
                     true)
-            .texts("channels", r.record.channels, "columns, names of channels.csv")
+            .texts("channels", r.record.channels,
+                   "what is recorded, names of channels.csv; the columns' order where the file has no names")
+            .texts("columns", r.record.columns,
+                   "what the file calls each of `channels` (\"column 3\": the third); empty: it calls them so itself")
+            .boolean("skip_stray_lines", r.record.skip_stray_lines,
+                     "leave out and count lines of a text file that are no rows of its table, instead of refusing them")
             .path_name("condition", r.record.condition, "condition", "table of conditions.toml");
         return table;
       },
@@ -223,7 +192,10 @@ Campaign read_campaign(const fs::path& folder) {
   for (std::size_t i = 0; i < raw.size(); ++i) {
     CampaignRecord record = raw[i].record;
     record.file = folder / raw[i].file;
-    record.line = i < lines.size() ? lines[i] : 0;
+    if (i < lines.size()) {
+      record.line = lines[i].table;
+      record.lines = lines[i].keys;
+    }
     check_record(campaign, record, file);
     campaign.records.push_back(record);
   }
@@ -282,10 +254,30 @@ std::vector<std::vector<RecordGroup>> by_condition(const std::vector<RecordGroup
   return conditions;
 }
 
-Eigen::MatrixXd read_record(const Campaign& campaign, const CampaignRecord& record) {
-  Eigen::MatrixXd data = in_order(campaign, record);
-  for (Index c = 0; c < data.cols(); ++c) data.col(c) *= campaign.channel(record.channels[static_cast<std::size_t>(c)]).gain;
-  return data;
+RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record) {
+  const records::ReadOptions options{record.skip_stray_lines};
+  constexpr std::uintmax_t large = std::uintmax_t{64} << 20U;  // bytes
+  RecordSamples samples;
+  const auto match = [&](const records::RecordInfo& info) {
+    check_rate(campaign, record, info);
+    const records::ColumnMatch found = records::match_columns(info, record.channels, record.columns, record.file);
+    samples.notes = notes_of(campaign, record, info, found);
+    return found.columns;
+  };
+  // What the file's columns are called is known at its end only: a large file is walked through twice, so that columns that
+  // nobody asked for never lie in memory.
+  if (io::require_regular_file(record.file) > large) {
+    const auto columns = match(records::scan(
+        record.file, [](Index, Index, const Eigen::MatrixXd&) {}, options));
+    samples.values = records::read(record.file, columns, options).samples;
+  } else {
+    const records::Record file = records::read(record.file, options);
+    samples.values = file.samples(Eigen::all, match(file.info));
+  }
+  refuse_absurd(samples, record);
+  for (Index c = 0; c < samples.values.cols(); ++c)
+    samples.values.col(c) *= campaign.channel(record.channels[static_cast<std::size_t>(c)]).gain;
+  return samples;
 }
 
 }  // namespace twindeck::steps

@@ -2,30 +2,25 @@
 
 #include <Eigen/Core>
 #include <filesystem>
-#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
-namespace twindeck::steps {
+#include "steps/campaign/campaign_channels.hpp"
 
-/// A row of a campaign's channels.csv (docs/my_records.md).
-struct CampaignChannel {
-  std::string name, point;
-  Eigen::Vector3d position_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN where not given
-  Eigen::Vector3d direction = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());   ///< cosines dx, dy, dz
-  std::string quantity = "acceleration";  ///< acceleration | velocity | displacement
-  double gain = 1.0;                      ///< physical value in SI units = gain · recorded value
-  bool reference = false;                 ///< stays at its place in every setup
-  bool is_input = false;                  ///< role "input": a measured excitation
-};
+namespace twindeck::steps {
 
 /// An entry [[record]] of campaign.toml.
 struct CampaignRecord {
   std::string setup, kind, condition;
   std::filesystem::path file;  ///< with the campaign's folder before it
   double sampling_rate_Hz = 0.0;
-  std::vector<std::string> channels;  ///< columns
+  std::vector<std::string> channels;  ///< names of channels.csv
+  std::vector<std::string> columns;   ///< what the file calls each of them; empty where it calls them so itself
+  bool skip_stray_lines = false;      ///< leave out and count lines of a text file that are no rows, instead of refusing them
   long line = 0;                      ///< of campaign.toml
+  std::map<std::string, long> lines;  ///< of each key there
+  [[nodiscard]] long line_of(const std::string& key) const;
 };
 
 struct Campaign {
@@ -33,6 +28,7 @@ struct Campaign {
   std::vector<CampaignChannel> channels;
   std::vector<CampaignRecord> records;
   std::vector<std::string> conditions;  ///< tables of conditions.toml; empty if there is no such file
+  std::vector<std::string> warnings;    ///< what was taken on trust in these files; for people
   [[nodiscard]] const CampaignChannel& channel(const std::string& name) const;
 };
 
@@ -59,13 +55,18 @@ struct RecordGroup {
 /// The groups of each condition together. @param groups  from record_groups
 [[nodiscard]] std::vector<std::vector<RecordGroup>> by_condition(const std::vector<RecordGroup>& groups);
 
-/// The samples of a record in SI units, gains applied, in the order of record.channels: by name where the file names its
-/// channels so, by position otherwise. NaN where a sample is missing (an empty cell, a gap of the time stamps, NaN in the
-/// file).
-/// @return (n_samples × n_channels)
-/// @throws InputError  as records::read; for another number of columns, a missing column, a rate other than campaign.toml's by
-/// more
-///                     than 0.1 %, a clock that runs backwards
-[[nodiscard]] Eigen::MatrixXd read_record(const Campaign& campaign, const CampaignRecord& record);
+/// Samples of a record, and what the user should know of how they were read.
+struct RecordSamples {
+  Eigen::MatrixXd
+      values;  ///< SI units, (n_samples × n_channels) in the order of record.channels; NaN where a sample is missing
+  std::vector<std::string> notes;  ///< with the file's name; for people
+};
+
+/// The samples of a record, gains applied. A file's own names of its channels bind (records::match_columns); a key `columns` in
+/// campaign.toml says otherwise. NaN where a sample is missing (an empty cell, a gap of the time stamps, NaN in the file).
+/// @throws InputError  as records::read and match_columns; for a rate other than campaign.toml's by more than 0.1 %, a clock
+/// that runs
+///                     backwards, a value that no sensor gives
+[[nodiscard]] RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record);
 
 }  // namespace twindeck::steps

@@ -169,6 +169,7 @@ ConditionResult identify_condition(const Campaign& campaign, const std::vector<R
                      static_cast<double>(result.setups.size()), static_cast<double>(groups.size()));
     SetupResult setup;
     setup.conditioned = condition_records(campaign, group, config, config.decimation);
+    for (const std::string& note : setup.conditioned.notes) context.say(note);
     if (!result.setups.empty() && setup.conditioned.rate_Hz != result.setups.front().conditioned.rate_Hz) {
       throw InputError({(campaign.folder / "campaign.toml").string(), group.records.front().line, "sampling_rate_Hz"},
                        fmt::format("is {} Hz in setup {}, but {} Hz in setup {}, which it is merged with",

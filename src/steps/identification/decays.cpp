@@ -111,6 +111,7 @@ std::vector<DecayResult> identify_free_decays(const Campaign& campaign, const st
     result.condition = group.condition;
     result.channels = conditioned.channels;
     result.quality = conditioned.quality;
+    result.notes = conditioned.notes;
     const Eigen::VectorXd scale = channel_rms(conditioned.records);
     const auto wanted = static_cast<Index>(std::lround(config.decay_length_s * conditioned.rate_Hz));
     const auto skipped = static_cast<Index>(std::lround(config.decay_start_s * conditioned.rate_Hz));

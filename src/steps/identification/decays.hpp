@@ -14,6 +14,7 @@ struct DecayResult {
   std::string setup, condition;
   std::vector<CampaignChannel> channels;
   std::vector<ChannelQuality> quality;
+  std::vector<std::string> notes;  ///< of how its records were read
   sysid::Identification found;  ///< ERA
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {

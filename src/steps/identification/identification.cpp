@@ -117,7 +117,8 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
     return out;
   };
   for (const CampaignRecord& record : group.records) {
-    const Eigen::MatrixXd raw = read_record(campaign, record);
+    const auto [raw, notes] = read_record(campaign, record);
+    conditioned.notes.insert(conditioned.notes.end(), notes.begin(), notes.end());
     const auto quality =
         channel_quality(raw, record.channels, record.setup, record.file.lexically_relative(campaign.folder).generic_string());
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());

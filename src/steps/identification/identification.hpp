@@ -57,6 +57,7 @@ struct Conditioned {
   double rate_Hz = 0.0;                     ///< after decimation
   std::string setup, condition;
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
+  std::vector<std::string> notes;       ///< what the user should know of how the records were read
 };
 
 /// Reads, judges, repairs as asked, detrends and decimates.

@@ -54,6 +54,7 @@ std::vector<StayResult> identify_stays(const Campaign& campaign, const std::vect
     result.condition = group.condition;
     result.length_m = settings != nullptr ? settings->length_m : 0.0;
     result.quality = conditioned.quality;
+    result.notes = conditioned.notes;
     std::vector<double> frequencies;
     for (const sysid::Cluster& mode : found.modes) frequencies.push_back(mode.frequency_Hz);
     std::vector<sysid::Harmonic> harmonics;

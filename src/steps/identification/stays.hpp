@@ -15,6 +15,7 @@ struct StayResult {
   std::string stay, condition;
   double length_m = 0.0;  ///< 0 where not configured
   std::vector<ChannelQuality> quality;
+  std::vector<std::string> notes;  ///< of how its records were read
   struct Mode {
     int harmonic = 0;
     double frequency_Hz = 0.0, frequency_std_Hz = 0.0, damping_ratio = 0.0, damping_ratio_std = 0.0;

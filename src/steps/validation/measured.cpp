@@ -24,6 +24,7 @@ MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config) {
   context.input(folder / "campaign.toml");
   context.input(folder / "channels.csv");
   const Campaign campaign = read_campaign(folder);
+  for (const std::string& warning : campaign.warnings) context.say(warning);
   for (const WindEvent& event : config.events) {
     if (event.condition.empty()) continue;
     RecordChoice choice;
@@ -34,7 +35,9 @@ MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config) {
     for (const RecordGroup& group : record_groups(campaign, choice)) {
       for (const CampaignRecord& record : group.records) {
         context.input(record.file);
-        const Eigen::MatrixXd data = signal::detrended(read_record(campaign, record));
+        const RecordSamples samples = read_record(campaign, record);
+        for (const std::string& note : samples.notes) context.say(note);
+        const Eigen::MatrixXd data = signal::detrended(samples.values);
         if (!data.allFinite())
           throw InputError({record.file.string(), 0, ""}, "has gaps, which an RMS cannot have", "take a record without gaps");
         samples += static_cast<double>(data.rows());

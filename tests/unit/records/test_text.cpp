@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "records/inspect.hpp"
+#include "records/recorded_unit.hpp"
 #include "records/text_layout.hpp"
 #include "records/time_stamp.hpp"
 #include "scratch.hpp"

@@ -1,0 +1,120 @@
+#include "records/column_match.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/error.hpp"
+
+namespace twindeck::records {
+using Eigen::Index;
+
+namespace {
+
+constexpr const char* kByKey =
+    "say which column is which by `columns` in its [[record]] of campaign.toml, one entry for each of `channels`";
+
+std::vector<std::string> names_of(const RecordInfo& info) {
+  std::vector<std::string> names;
+  for (const ChannelInfo& channel : info.channels) names.push_back(channel.name);
+  return names;
+}
+
+/// Position of the only channel of that name, or -1. @throws InputError  if there are several
+Index position_of(const std::vector<std::string>& names, const std::string& name, const std::filesystem::path& file) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) return -1;
+  if (std::find(at + 1, names.end(), name) != names.end()) {
+    throw InputError({file.string(), 0, name}, "names two columns of the file",
+                     fmt::format("{} (\"column 3\" means the third)", kByKey));
+  }
+  return at - names.begin();
+}
+
+/// "column 3" as a position in the file, otherwise 0.
+Index column_number(const std::string& text) {
+  const std::string word = "column ";
+  if (!text.starts_with(word) || text.size() == word.size() || text.size() > word.size() + 9) return 0;
+  if (text.find_first_not_of("0123456789", word.size()) != std::string::npos) return 0;
+  return std::stol(text.substr(word.size()));
+}
+
+/// The columns that campaign.toml states.
+ColumnMatch by_key(const RecordInfo& info, const std::vector<std::string>& columns, const std::filesystem::path& file) {
+  const std::vector<std::string> names = names_of(info);
+  ColumnMatch match;
+  for (const std::string& column : columns) {
+    Index at = position_of(names, column, file);
+    if (const Index number = column_number(column); at < 0 && number > 0) {
+      const auto found =
+          std::find_if(info.channels.begin(), info.channels.end(), [&](const ChannelInfo& c) { return c.position == number; });
+      if (found == info.channels.end()) {
+        throw InputError({file.string(), 0, column},
+                         fmt::format("is no channel of the file, which has columns {} to {}", info.channels.front().position,
+                                     info.channels.back().position),
+                         "correct `columns` in campaign.toml; the time's column is no channel");
+      }
+      at = found - info.channels.begin();
+    }
+    if (at < 0) {
+      throw InputError({file.string(), 0, column}, "is no column of the file" + did_you_mean(column, names),
+                       fmt::format("correct `columns` in campaign.toml; the file has {}", fmt::join(names, ", ")));
+    }
+    match.columns.push_back(at);
+  }
+  return match;
+}
+
+/// What the file has for names, for messages.
+std::string its_names(const RecordInfo& info) {
+  return info.names_channels ? fmt::format("it has {}", fmt::join(names_of(info), ", "))
+                             : std::string("it has no line of names");
+}
+
+}  // namespace
+
+ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>& channels,
+                          const std::vector<std::string>& columns, const std::filesystem::path& file) {
+  if (!columns.empty()) return by_key(info, columns, file);
+  const std::vector<std::string> names = names_of(info);
+  ColumnMatch match;
+  std::string missing, misplaced;
+  for (const std::string& name : channels) {
+    const Index at = position_of(names, name, file);
+    if (at >= 0) match.columns.push_back(at);
+    if (at < 0 && missing.empty()) missing = name;
+    const auto& line = info.unaligned_header;
+    if (at < 0 && misplaced.empty() && std::find(line.begin(), line.end(), name) != line.end()) misplaced = name;
+  }
+  if (match.columns.size() == channels.size()) return match;
+  if (!misplaced.empty()) {
+    throw InputError(
+        {file.string(), info.unaligned_line, misplaced},
+        fmt::format("is one of {} names over rows of another width, so that none can be told", info.unaligned_header.size()),
+        "give each column a name");
+  }
+  if (!match.columns.empty()) {
+    std::vector<std::string> left;  // names that are not already somebody else's
+    std::copy_if(names.begin(), names.end(), std::back_inserter(left),
+                 [&](const std::string& name) { return std::find(channels.begin(), channels.end(), name) == channels.end(); });
+    throw InputError({file.string(), 0, missing},
+                     "is no channel of the file, which names others that were asked for" + did_you_mean(missing, left),
+                     fmt::format("correct `channels` in campaign.toml; the file has {}", fmt::join(names, ", ")));
+  }
+  if (info.channels.size() != channels.size()) {
+    throw InputError({file.string(), 0, ""},
+                     fmt::format("has {} columns, but campaign.toml names {} channels, none of which the file names: {}",
+                                 info.channels.size(), channels.size(), its_names(info)),
+                     kByKey);
+  }
+  for (Index c = 0; c < std::ssize(info.channels); ++c) match.columns.push_back(c);
+  if (info.has_header) {
+    match.warning = fmt::format("{}: names none of its channels ({}), which are taken in the order of the columns; {}",
+                                file.string(), its_names(info), kByKey);
+  }
+  return match;
+}
+
+}  // namespace twindeck::records
