@@ -1,4 +1,4 @@
-"""data/SHA256SUMS: the input files of the studies as they were when the results were last accepted, in the form of `sha256sum`. A file
+"""data/SHA256SUMS: the input files of the study of the paper as they were when the results were last accepted, in the form of `sha256sum`. A file
 that was changed by accident is named; a wrong number in a file that was listed anew is what laws and the comparison are for."""
 from pathlib import Path
 
@@ -12,29 +12,31 @@ RULES = ("README.md", NAME, "tolerances.toml", "known_deviations.toml", "errata.
          "ratchet_baseline.csv", "ratchet_moves.csv")
 
 
-def input_files(data: Path) -> list:
-    return sorted(p for p in data.rglob("*") if p.is_file() and p.name not in RULES and "__pycache__" not in p.parts)
+SHARED = ("wind",)  # folders beside the study's own that it reads
+
+
+def input_files(study: Study) -> list:
+    folders = [study.data, *(study.data.parent / name for name in SHARED)]
+    return sorted(p for folder in folders for p in folder.rglob("*") if p.is_file() and p.name not in RULES and "__pycache__" not in p.parts)
 
 
 def write_checksums(study: Study) -> str:
     folder = study.data.parent
-    files = input_files(folder)
+    files = input_files(study)
     (folder / NAME).write_text("".join(f"{sha256(p)}  {p.relative_to(folder).as_posix()}\n" for p in files), encoding="utf-8")
     return f"{folder / NAME}: {len(files)} input files"
 
 
 def changed_inputs(study: Study) -> list:
-    """[(file, what is wrong)] for the files of this study and those that belong to no study; empty without a list."""
+    """[(file, what is wrong)] for the study's input files; empty without a list."""
     folder, path = study.data.parent, study.data.parent / NAME
     if not path.is_file():
         return []
-    listed = _read(path)
-    studies = {p.parent.name for p in folder.glob("*/paper")} | {study.data.name}
-    wanted = [name for name in listed if name.split("/")[0] == study.data.name or name.split("/")[0] not in studies]
+    listed, files = _read(path), input_files(study)
     mend = f"run `make checksums` if it is meant to be another than {NAME} lists"
-    found = [(folder / name, f"missing, but {NAME} lists it") for name in wanted if not (folder / name).is_file()]
-    found += [(folder / name, f"changed: {mend}") for name in wanted if (folder / name).is_file() and sha256(folder / name) != listed[name]]
-    found += [(p, f"new: {mend}") for p in input_files(study.data) if p.relative_to(folder).as_posix() not in listed]
+    found = [(folder / name, f"missing, but {NAME} lists it") for name in listed if folder / name not in files]
+    found += [(p, f"changed: {mend}") for p in files if (name := p.relative_to(folder).as_posix()) in listed and sha256(p) != listed[name]]
+    found += [(p, f"new: {mend}") for p in files if p.relative_to(folder).as_posix() not in listed]
     return found
 
 
