@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+
+namespace twindeck::broken {
+
+/// The sound record of the campaign's base: 3000 samples at 50 Hz of the channels A_x, B_x and C_z. White noise through two
+/// oscillators of 2 Hz and 6 Hz with 1 % of damping; the channels' means are 11.5, 23 and 34.5, so
+/// that exchanged channels are seen.
+/// @return [m/s2] (3000 × 3)
+[[nodiscard]] Eigen::MatrixXd sound_record();
+
+/// Writes it. @param format  csv | npy | mat4 | mat5 | mat5z (compressed) | mat73 | hdf5 | uff | uffb
+/// @throws std::runtime_error  for another format or a file that cannot be written
+void write_sound_record(const std::filesystem::path& file, const std::string& format);
+
+}  // namespace twindeck::broken

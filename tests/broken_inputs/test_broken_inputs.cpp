@@ -1,0 +1,118 @@
+// Oracle: the table cases/*.toml, which says for each broken input what the step has to answer; README.md tells how to read it.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "broken_inputs/case_table.hpp"
+#include "broken_inputs/change.hpp"
+#include "broken_inputs/judgement.hpp"
+#include "broken_inputs/worker.hpp"
+#include "io/manifest.hpp"
+
+namespace twindeck::broken {
+
+/// For GoogleTest's messages, which would print the bytes.
+void PrintTo(const Case& c, std::ostream* out);
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kHere = fs::path(TWINDECK_SOURCE_DIR) / "tests/broken_inputs";
+constexpr double kMostSeconds = 20.0;  // [s] of one case; the slowest takes one or two on an idle machine
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = read_cases(kHere / "cases");
+  return all;
+}
+
+/// One process for all cases of this run.
+Worker& worker() {
+  static Worker one(kMostSeconds);
+  return one;
+}
+
+/// {root} is the folder that nothing may be written to, {source} the repository.
+std::string filled_in(std::string text, const fs::path& root) {
+  for (const auto& [mark, value] :
+       {std::pair<std::string, std::string>{"{root}", root.string()}, {"{source}", TWINDECK_SOURCE_DIR}}) {
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
+      text.replace(at, mark.size(), value);
+  }
+  return text;
+}
+
+/// Results of an earlier run of the step, which must outlive every failure.
+void write_earlier_results(const std::string& step, const fs::path& out) {
+  fs::create_directories(out);
+  std::ofstream(out / "result.csv") << "quantity,value\nearlier,1\n";
+  io::Manifest manifest;
+  manifest.step = step;
+  manifest.status = "converged";
+  manifest.outputs["result.csv"] = io::sha256(out / "result.csv");
+  io::write_manifest(manifest, out);
+}
+
+class BrokenInput : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "twindeck_broken_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    root_ = name;
+    const Case& c = GetParam();
+    work_ = root_ / "outer/work";  // two folders below, so that a name such as ../../x stays below `root_`
+    fs::create_directories(work_.parent_path());
+    fs::copy(kHere / "bases" / c.base, work_, fs::copy_options::recursive);
+    if (!c.own_out) write_earlier_results(c.step, work_ / "out" / c.step);
+    for (const std::string& change : c.changes) apply_change(work_, filled_in(change, root_));
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  fs::path root_, work_;
+};
+
+TEST_P(BrokenInput, EndsAsTheTableSays) {
+  const Case& c = GetParam();
+  Job job{c.step, {}, work_};
+  for (const std::string& word : c.arguments) job.arguments.push_back(filled_in(word, root_));
+  if (!c.own_out) job.arguments.insert(job.arguments.end(), {"--out", "out/" + c.step});
+  if (c.quiet) job.arguments.emplace_back("--quiet");
+  Evidence evidence;
+  evidence.out = "outer/work/out/" + c.step;
+  evidence.before = snapshot(root_);
+  evidence.outcome = c.program ? run_program(fs::path(TWINDECK_BINARY_DIR) / "bin", job, kMostSeconds) : worker().run(job);
+  evidence.after = snapshot(root_);
+  for (const std::string& fault : faults(c, evidence)) ADD_FAILURE() << c.name << ": " << fault;
+}
+
+std::string label(const testing::TestParamInfo<Case>& info) {
+  std::string name = info.param.name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BrokenInput, testing::ValuesIn(cases()), label);
+
+TEST(Table, IsAsLargeAsPromised) {
+  EXPECT_GE(cases().size(), 400U);
+  EXPECT_EQ(std::count_if(cases().begin(), cases().end(), [](const Case& c) { return c.program; }), 20);
+  std::set<std::string> steps, said;
+  for (const Case& c : cases()) {
+    steps.insert(c.step);
+    std::string all = c.step + "|" + c.base;
+    for (const auto& list : {c.changes, c.arguments}) {
+      for (const std::string& word : list) all += "|" + word;
+    }
+    const bool first = said.insert(all + (c.program ? "|program" : "") + (c.own_out ? "|own_out" : "")).second;
+    EXPECT_TRUE(first) << c.name << " is the same as another case";
+  }
+  EXPECT_EQ(steps.size(), 10U);
+}
+
+}  // namespace
+}  // namespace twindeck::broken
