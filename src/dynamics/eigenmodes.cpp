@@ -1,5 +1,6 @@
 #include "dynamics/eigenmodes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -39,6 +40,13 @@ EigenModes ModalSolver::solve(const Eigen::VectorXd& theta, int n_modes) {
   modes.frequency_Hz = pairs.values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
   modes.shapes = std::move(pairs.vectors);
   last_ = std::move(pairs.space);
+  return modes;
+}
+
+EigenModes ModalSolver::solve_available(const Eigen::VectorXd& theta, int n_modes) {
+  EigenModes modes = solve(theta, std::min(n_modes, static_cast<int>(system_.size())));
+  const auto found = static_cast<int>(modes.frequency_Hz.size());
+  if (!modes.status.converged && found > 0 && found < n_modes) modes = solve(theta, found);
   return modes;
 }
 

@@ -25,6 +25,8 @@ class ModalSolver {
   /// A structure that is free as a rigid body (K singular) is solved with a small negative shift.
   /// @param theta (n_parameters) in the parameters' units
   [[nodiscard]] EigenModes solve(const Eigen::VectorXd& theta, int n_modes);
+  /// The same; where the structure has fewer modes (few degrees of freedom carry mass), all that it has.
+  [[nodiscard]] EigenModes solve_available(const Eigen::VectorXd& theta, int n_modes);
   [[nodiscard]] const fe::ParametricSystem& system() const { return system_; }
   /// Mass matrix (lower triangle) of the last `solve`.
   [[nodiscard]] const linalg::SparseMatrix& mass() const { return mass_; }

@@ -7,29 +7,21 @@
 
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
+#include "fe/definite.hpp"
+#include "fe/motion_words.hpp"
 
 namespace twindeck::fe {
 
 namespace {
 
 constexpr double no_stiffness = 1e-14;  // relative to the largest diagonal entry of its kind, or as a Rayleigh quotient
-constexpr std::array<const char*, 6> direction_names = {"x", "y", "z", "rx", "ry", "rz"};
 
-/// Names the node with the largest entry of a free motion and all its directions with at least a tenth of that.
 [[noreturn]] void refuse(const Eigen::VectorXd& motion, const std::vector<DofLabel>& dofs, const std::string& source,
                          const std::string& context) {
-  Eigen::Index largest = 0;
-  motion.cwiseAbs().maxCoeff(&largest);
-  const DofLabel& worst = dofs[static_cast<std::size_t>(largest)];
-  std::string directions;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const double part = std::abs(motion[static_cast<Eigen::Index>(i)] / motion[largest]);
-    if (dofs[i].node != worst.node || part < 0.1) continue;
-    directions += (directions.empty() ? "" : ", ") + std::string(direction_names[static_cast<std::size_t>(dofs[i].direction)]);
-  }
-  throw InputError({source, 0, "node " + worst.node},
-                   fmt::format("the structure{} is a mechanism: this node at ({:g}, {:g}, {:g}) m moves freely in {}", context,
-                               worst.x_m.x(), worst.x_m.y(), worst.x_m.z(), directions),
+  const MotionWords words = words_of(motion, dofs);
+  throw InputError({source, 0, words.node},
+                   fmt::format("the structure{} is a mechanism: this node{} moves freely in {}", context, words.place,
+                               words.directions),
                    "hold it by a support, a spring, a link, or an element with stiffness in that direction");
 }
 
@@ -50,23 +42,14 @@ void refuse_empty_diagonal(const Eigen::VectorXd& diagonal, const std::vector<Do
   }
 }
 
-/// The motion that K resists least, in the measure of its diagonal, by inverse iteration from a fixed start.
-Eigen::VectorXd softest_motion(const linalg::Cholesky& factor, const Eigen::VectorXd& diagonal, int iterations) {
-  Eigen::VectorXd x(diagonal.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1.0 + 0.5 * std::sin(1.7 * static_cast<double>(i));
-  for (int i = 0; i < iterations; ++i) {
-    x = factor.solve(diagonal.cwiseProduct(x));
-    x /= x.cwiseAbs().maxCoeff();
-  }
-  return x;
-}
-
 }  // namespace
 
 linalg::Cholesky factorize_or_refuse(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& dofs,
                                      const std::string& source, const std::string& context) {
   TWINDECK_ASSERT(static_cast<std::size_t>(lower.rows()) == dofs.size());
   const Eigen::VectorXd diagonal = lower.diagonal();
+  if (!(diagonal.array() >= 0.0).all() || !std::isfinite(lower.coeffs().sum()))
+    refuse_negative_stiffness(lower, dofs, source, context);
   refuse_empty_diagonal(diagonal, dofs, source, context);
 
   linalg::Cholesky factor;
@@ -76,6 +59,7 @@ linalg::Cholesky factorize_or_refuse(const linalg::SparseMatrix& lower, const st
     shifted.diagonal() *= 1.0 + 1e-9;
     linalg::Cholesky shifted_factor;
     if (shifted_factor.factorize(shifted).converged) refuse(softest_motion(shifted_factor, diagonal, 4), dofs, source, context);
+    refuse_negative_stiffness(lower, dofs, source, context);
     refuse(Eigen::VectorXd::Unit(diagonal.size(), factor.failed_column()), dofs, source, context);
   }
   const Eigen::VectorXd x = softest_motion(factor, diagonal, 2);

@@ -102,6 +102,7 @@ void write_manifest(const Manifest& manifest, const fs::path& folder) {
   json["step"] = manifest.step;
   json["status"] = manifest.status;
   json["message"] = manifest.message;
+  json["warnings"] = manifest.warnings;
   json["seed"] = manifest.seed;
   json["threads"] = manifest.threads;
   json["seconds"] = manifest.seconds;

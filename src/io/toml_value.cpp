@@ -4,8 +4,11 @@
 #include <toml++/toml.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "core/error.hpp"
+#include "io/toml_nesting.hpp"
 
 namespace twindeck::io {
 namespace {
@@ -41,14 +44,26 @@ TomlValue converted(const toml::node& node) {
   return result;
 }
 
+/// @param source  the file, or the option of the command line, which has no lines
+void refuse_deep_nesting(const std::string& text, const std::string& source, bool has_lines) {
+  const std::optional<long> line = line_nested_too_deep(text);
+  if (!line) return;
+  throw InputError({source, has_lines ? *line : 0, ""}, fmt::format("nests more than {} levels of tables or arrays", most_toml_levels),
+                   "no file of this program needs more than four; mend the brackets or the dots of the key");
+}
+
 }  // namespace
 
 TomlValue::Table read_toml(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path of the configuration");
   }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened", "check that you may read it");
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  refuse_deep_nesting(text, file.string(), true);
   try {
-    return converted_table(toml::parse_file(file.string()));
+    return converted_table(toml::parse(text, file.string()));
   } catch (const toml::parse_error& error) {
     throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""},
                      "is no valid TOML: " + std::string(error.description()), "mend the line");
@@ -56,6 +71,7 @@ TomlValue::Table read_toml(const std::filesystem::path& file) {
 }
 
 TomlValue toml_of_command_line(const std::string& text) {
+  refuse_deep_nesting(text, "--set", false);
   try {
     const toml::table parsed = toml::parse("value = " + text);
     if (parsed.size() == 1) return converted(*parsed.get("value"));

@@ -56,13 +56,12 @@ fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const N
   const Eigen::Index n = std::ssize(element.dofs) + element.internal;
   const auto read = [&](const std::string& file) -> Eigen::MatrixXd {
     if (file.empty()) return {};
-    Eigen::MatrixXd matrix = read_square_matrix(folder / file);
-    if (matrix.rows() != n)
+    if (const Eigen::Index rows = matrix_market_rows(folder / file); rows != n)
       throw at(folder, file, entry.name,
                fmt::format("{} holds a {} x {} matrix, expected {} x {}: {} degrees of freedom and {} unknowns of its own",
-                           file, matrix.rows(), matrix.cols(), n, n, element.dofs.size(), element.internal),
+                           file, rows, rows, n, n, element.dofs.size(), element.internal),
                "mend the size, or list the degrees of freedom that belong to it");
-    return matrix;
+    return read_square_matrix(folder / file);
   };
   element.stiffness = read(entry.stiffness);
   element.damping = read(entry.damping);

@@ -30,8 +30,8 @@ std::string lower_case(std::string text) {
 /// Reads line by line and knows where it stands.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()), stream_(file) {
-    if (!stream_) fail("cannot be read", "check that the file is there");
+  explicit Reader(const std::filesystem::path& file) : file_(file.string()), stream_(file, std::ios::binary) {
+    if (!stream_ || !std::filesystem::is_regular_file(file)) fail("cannot be read", "check that the file is there");
   }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& mend, long line = -1) const {
@@ -61,6 +61,12 @@ class Reader {
       if (!words.empty()) return true;
     }
     return false;
+  }
+
+  [[nodiscard]] long line() const { return line_; }
+  /// What is left to read.
+  [[nodiscard]] std::uintmax_t bytes_left() {
+    return stream_.eof() ? 0 : std::filesystem::file_size(file_) - static_cast<std::uintmax_t>(stream_.tellg());
   }
 
   template <class Number>
@@ -94,12 +100,12 @@ std::vector<Entry> read_entries(Reader& reader, int n, long count) {
   while (reader.fields(words)) {
     if (words.size() != 3)
       reader.fail(fmt::format("has {} words, expected row, column and value", words.size()), "mend the line");
-    const Entry entry{reader.number<int>(words[0]), reader.number<int>(words[1]), reader.number<double>(words[2]), 0};
+    const Entry entry{reader.number<int>(words[0]), reader.number<int>(words[1]), reader.number<double>(words[2]), reader.line()};
     if (entry.row < 1 || entry.row > n || entry.column < 1 || entry.column > n) {
       reader.fail(fmt::format("entry ({}, {}) lies outside the {} x {} matrix", entry.row, entry.column, n, n),
                   "indices count from 1");
     }
-    entries.push_back({entry.row - 1, entry.column - 1, entry.value, 0});
+    entries.push_back({entry.row - 1, entry.column - 1, entry.value, entry.line});
   }
   if (static_cast<long>(entries.size()) != count) {
     reader.fail(fmt::format("holds {} entries, but its size line says {}", entries.size(), count),
@@ -150,37 +156,61 @@ struct Contents {
   std::vector<Entry> entries;
 };
 
-/// Size line and entries of a square matrix, none of them twice.
-Contents read_square(Reader& reader) {
+/// The size line: rows of a square matrix, and how many entries follow.
+struct SizeLine {
+  int n;
+  long count;
+};
+
+/// Nothing is allocated on the word of a size line: more entries than there are bytes are refused at once.
+SizeLine read_size(Reader& reader) {
   std::vector<std::string> words;
   if (!reader.fields(words) || words.size() != 3) reader.fail("the size line is missing", "expected 'rows columns entries'");
   const int n = reader.number<int>(words[0]);
   if (reader.number<int>(words[1]) != n || n < 1)
     reader.fail(fmt::format("is {} x {}", words[0], words[1]), "a square matrix is expected");
   const long count = reader.number<long>(words[2]);
-  std::vector<Entry> entries = read_entries(reader, n, count);
-
-  std::vector<std::pair<int, int>> seen;
-  for (const Entry& e : entries) seen.emplace_back(e.row, e.column);
-  std::sort(seen.begin(), seen.end());
-  const auto twice = std::adjacent_find(seen.begin(), seen.end());
-  if (twice != seen.end()) {
-    reader.fail(fmt::format("entry ({}, {}) stands twice", twice->first + 1, twice->second + 1), "sum or remove one of the two",
-                0);
+  const std::uintmax_t left = reader.bytes_left();
+  if (count < 0 || static_cast<std::uintmax_t>(count) > left) {
+    reader.fail(fmt::format("its size line says {} entries, but {} bytes follow", count, left), "the file was cut off or edited");
   }
-  return {n, std::move(entries)};
+  return {n, count};
+}
+
+/// Size line and entries of a square matrix, none of them twice.
+Contents read_square(Reader& reader) {
+  const SizeLine size = read_size(reader);
+  std::vector<Entry> entries = read_entries(reader, size.n, size.count);
+
+  std::vector<const Entry*> sorted;
+  for (const Entry& e : entries) sorted.push_back(&e);
+  const auto place = [](const Entry* e) { return std::pair(e->row, e->column); };
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Entry* a, const Entry* b) { return place(a) < place(b); });
+  const auto twice =
+      std::adjacent_find(sorted.begin(), sorted.end(), [&](const Entry* a, const Entry* b) { return place(a) == place(b); });
+  if (twice != sorted.end()) {
+    reader.fail(fmt::format("entry ({}, {}) stands twice", (*twice)->row + 1, (*twice)->column + 1),
+                "sum or remove one of the two", (*(twice + 1))->line);
+  }
+  return {size.n, std::move(entries)};
 }
 
 void refuse_upper_triangle(const Reader& reader, const std::vector<Entry>& entries) {
   for (const Entry& e : entries) {
     if (e.row < e.column) {
       reader.fail(fmt::format("entry ({}, {}) lies above the diagonal of a symmetric matrix", e.row + 1, e.column + 1),
-                  "write the lower triangle only, or call the matrix general", 0);
+                  "write the lower triangle only, or call the matrix general", e.line);
     }
   }
 }
 
 }  // namespace
+
+Eigen::Index matrix_market_rows(const std::filesystem::path& file) {
+  Reader reader(file);
+  static_cast<void>(reader.banner());
+  return read_size(reader).n;
+}
 
 linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
   Reader reader(file);

@@ -12,8 +12,14 @@ namespace twindeck::model_io {
 /// the larger of |a_ij| and sqrt(|a_ii a_jj|); the mean of the two entries is taken.
 /// @return lower triangle (n × n)
 /// @throws InputError with file and line for another kind of matrix, a bad or missing entry, an index outside the matrix,
-///         an entry that stands twice, a symmetric file with entries above the diagonal, a general one that is not symmetric
+///         an entry that stands twice, a symmetric file with entries above the diagonal, a general one that is not symmetric,
+///         a size line that asks for more entries than the file has room for
 [[nodiscard]] linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file);
+
+/// Rows of the square matrix in a file, by its size line: to be compared with what is expected before the matrix is read, since
+/// a matrix of few entries may have any number of rows and takes memory for each.
+/// @throws InputError as above
+[[nodiscard]] Eigen::Index matrix_market_rows(const std::filesystem::path& file);
 
 /// Writes the lower triangle as `coordinate real symmetric` with 17 digits: what is read back is the same to the last bit.
 /// Entries that are exactly zero are left out.

@@ -27,9 +27,9 @@ struct MatrixParameter {
         .choice("target", target, {"stiffness", "mass"}, "which matrix the parameter adds to")
         .text("group", group, "name of what the parameter stands for (default: its own name)")
         .text("unit", unit, "unit of initial, lower and upper")
-        .number("initial", initial, "", {}, "value as the model stands", true)
-        .number("lower", lower, "", {}, "lower bound", true)
-        .number("upper", upper, "", {}, "upper bound", true);
+        .number("initial", initial, "", parameter_range(), "value as the model stands", true)
+        .number("lower", lower, "", parameter_range(), "lower bound", true)
+        .number("upper", upper, "", parameter_range(), "upper bound", true);
     return table;
   }
 };
@@ -113,9 +113,9 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
 }
 
 linalg::SparseMatrix read_sized(const std::filesystem::path& file, std::size_t n) {
-  linalg::SparseMatrix matrix = read_matrix_market(file);
-  if (matrix.rows() == static_cast<Eigen::Index>(n)) return matrix;
-  throw InputError({file.string(), 0, ""}, fmt::format("is {0} x {0}, but dofs.csv has {1} rows", matrix.rows(), n),
+  const Eigen::Index rows = matrix_market_rows(file);
+  if (rows == static_cast<Eigen::Index>(n)) return read_matrix_market(file);
+  throw InputError({file.string(), 0, ""}, fmt::format("is {0} x {0}, but dofs.csv has {1} rows", rows, n),
                    "matrices and dofs.csv must be of one model");
 }
 

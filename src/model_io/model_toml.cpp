@@ -28,9 +28,9 @@ struct ParameterEntry {
         .choice("target", target, target_names(), "what it scales")
         .texts("of", of, "names of the materials, sections or groups that it applies to")
         .text("unit", unit, "unit of initial, lower and upper: SI, or - for a factor")
-        .number("initial", initial, "", {}, "value as the model stands", true)
-        .number("lower", lower, "", {}, "lower bound", true)
-        .number("upper", upper, "", {}, "upper bound", true);
+        .number("initial", initial, "", parameter_range(), "value as the model stands", true)
+        .number("lower", lower, "", parameter_range(), "lower bound", true)
+        .number("upper", upper, "", parameter_range(), "upper bound", true);
     return table;
   }
 };

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "modal/mode_name.hpp"
 #include "model_io/export.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "model_io/names.hpp"
@@ -13,6 +14,8 @@
 namespace twindeck::model_io {
 namespace {
 
+constexpr double kLargest = 1e15;            ///< of a component in any norm; squares of sums stay within doubles
+constexpr double kHighestFrequency_Hz = 1e6;  ///< far above what any structure is tested at
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<double> known(double value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; }
@@ -42,6 +45,15 @@ void write_shapes(const modal::ModeSet& modes, const std::filesystem::path& file
   writer.save(file);
 }
 
+/// Of a shape, in any norm.
+double component(const io::CsvTable& table, std::size_t row, const std::string& column) {
+  const double value = column == "value" ? table.number(row, column) : table.number_or(row, column, 0.0);
+  if (std::abs(value) > kLargest)
+    table.fail(row, column, fmt::format("is {}, expected a magnitude of at most {:g}", table.text(row, column), kLargest),
+               "scale the shape so that its largest component is 1");
+  return value;
+}
+
 void read_shapes(const std::filesystem::path& file, const std::set<std::string>& left_out, modal::ModeSet& modes) {
   const auto table = io::CsvTable::read(file, {"mode", "point", "direction", "value"}, {"value_imag"}, true);
   std::map<std::string, Eigen::Index> mode_at;
@@ -67,9 +79,12 @@ void read_shapes(const std::filesystem::path& file, const std::set<std::string>&
     auto& value = modes.shapes(dof_at.at({table.text(row, "point"), table.text(row, "direction")}), mode->second);
     if (!std::isnan(value.real()))
       table.fail(row, "point", "this component of the mode stands twice", "remove one of the two rows");
-    value = {table.number(row, "value"), table.number_or(row, "value_imag", 0.0)};
+    value = {component(table, row, "value"), component(table, row, "value_imag")};
   }
   for (Eigen::Index mode = 0; mode < modes.size(); ++mode) {
+    if (n > 0 && modes.shapes.col(mode).isZero(0.0))
+      throw InputError({file.string(), 0, "mode " + modes.names[static_cast<std::size_t>(mode)]},
+                       "has a shape that is zero everywhere", "give its measured components, or take its rows out");
     for (Eigen::Index i = 0; i < n; ++i) {
       if (!std::isnan(modes.shapes(i, mode).real())) continue;
       const auto& dof = modes.dofs[static_cast<std::size_t>(i)];
@@ -101,7 +116,8 @@ modal::ModeSet read_modes(const std::filesystem::path& folder) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (table.text(row, "partial") == "1") left_out.insert(table.text(row, "mode"));
   }
-  const auto n = static_cast<Eigen::Index>(table.rows() - left_out.size());
+  Eigen::Index n = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) n += left_out.contains(table.text(row, "mode")) ? 0 : 1;
   modal::ModeSet modes;
   modes.frequency_Hz.resize(n);
   modes.frequency_std_Hz.resize(n);
@@ -111,16 +127,24 @@ modal::ModeSet read_modes(const std::filesystem::path& folder) {
     const std::string name = table.text(row, "mode");
     if (left_out.contains(name)) continue;
     if (name.empty()) table.fail(row, "mode", "is empty", "name the mode");
+    if (!modal::is_mode_name(name))
+      table.fail(row, "mode", fmt::format("is '{}', expected a whole number from 1 on, or a name that is no number", name),
+                 "number or name the mode");
     if (position_of(name, modes.names) >= 0)
       table.fail(row, "mode", fmt::format("mode '{}' appears twice", name), "give each mode a name of its own");
     modes.names.push_back(name);
     const auto i = static_cast<Eigen::Index>(modes.names.size()) - 1;
     modes.frequency_Hz[i] = table.number(row, "frequency_Hz");
-    if (modes.frequency_Hz[i] < 0.0) {
-      table.fail(row, "frequency_Hz", fmt::format("is {}, expected a value of at least 0", table.text(row, "frequency_Hz")),
+    if (modes.frequency_Hz[i] < 0.0 || modes.frequency_Hz[i] > kHighestFrequency_Hz) {
+      table.fail(row, "frequency_Hz",
+                 fmt::format("is {}, expected a value from 0 to {:g}", table.text(row, "frequency_Hz"), kHighestFrequency_Hz),
                  "frequencies are in Hz");
     }
     modes.frequency_std_Hz[i] = table.number_or(row, "frequency_std_Hz", kUnknown);
+    if (modes.frequency_std_Hz[i] > kHighestFrequency_Hz)
+      table.fail(row, "frequency_std_Hz",
+                 fmt::format("is {}, expected at most {:g}", table.text(row, "frequency_std_Hz"), kHighestFrequency_Hz),
+                 "state it in Hz");
     modes.damping_ratio[i] = table.number_or(row, "damping_ratio_pct", kUnknown) / 100.0;
     modes.damping_ratio_std[i] = table.number_or(row, "damping_ratio_std_pct", kUnknown) / 100.0;
   }

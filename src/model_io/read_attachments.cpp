@@ -54,9 +54,13 @@ void read_springs(const std::filesystem::path& folder, fe::Model& model, const N
   const auto table = io::CsvTable::read(folder / "springs.csv",
                                         {"spring", "node", "direction_x", "direction_y", "direction_z", "stiffness_N_m"},
                                         {"group", "node2", "quantity", "damping_N_s_m", "friction_N", "arrangement", "active"});
+  std::map<std::string, std::size_t> names;  // with the row that each stands in first
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Spring s;
     s.name = table.text(row, "spring");
+    if (const auto [first, is_new] = names.emplace(s.name, row); !is_new && !s.name.empty())
+      table.fail(row, "spring", fmt::format("'{}' is the name of row {} too", s.name, first->second + 1),
+                 "give each spring and damper a name of its own; springs of one kind share a group");
     s.group = table.text(row, "group");
     s.node = index.node(table, row, "node");
     s.node2 = table.text(row, "node2").empty() ? -1 : index.node(table, row, "node2");

@@ -6,10 +6,12 @@
 #include "ponte/generator.hpp"
 #include "steps/model/mesh_convergence.hpp"
 #include "steps/model/model_config.hpp"
+#include "steps/shared/model_check.hpp"
 #include "steps/shared/model_outputs.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
 #include "steps/shared/study.hpp"
+#include "steps/shared/unit_slips.hpp"
 
 namespace {
 
@@ -22,16 +24,13 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   const steps::LoadedModel loaded = steps::with_displacements(steps::load_study_model(context, config.variant),
                                                               config.displacements, static_cast<int>(config.load_steps));
   const fe::Model* model = loaded.fe_model();
-  if (config.n_modes > loaded.system.size()) {
-    throw InputError({"", 0, "n_modes"},
-                     fmt::format("is {}, but the model has {} degrees of freedom", config.n_modes, loaded.system.size()),
-                     "ask for fewer modes: --set n_modes=" + std::to_string(loaded.system.size()));
-  }
   context.say(fmt::format("{}: {} degrees of freedom", loaded.source, loaded.system.size()));
 
   // 2. Its modes.
   dynamics::ModalSolver solver(loaded.system);
-  const dynamics::EigenModes modes = solver.solve(loaded.theta, static_cast<int>(config.n_modes));
+  const dynamics::EigenModes modes = solver.solve_available(loaded.theta, static_cast<int>(config.n_modes));
+  steps::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
+  steps::warn_of_unit_slips(context, loaded, modes.frequency_Hz, {});
 
   // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, and the model as a folder of data for any
   // other step.

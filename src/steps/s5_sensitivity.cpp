@@ -5,6 +5,7 @@
 #include "steps/sensitivity/sensitivity.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
+#include "steps/shared/unit_slips.hpp"
 
 namespace {
 
@@ -23,6 +24,10 @@ Status run(const steps::SensitivityConfig& config, steps::StepContext& context) 
   const steps::Sensitivities found = steps::frequency_sensitivities(
       loaded.system, loaded.theta, options, [&](int done, int of) { context.progress("differences", done, of); });
   if (found.frequency_Hz.size() == 0) return found.status;
+  steps::warn_of_unit_slips(context, loaded, found.frequency_Hz, {});
+  steps::refuse_rigid_bodies(found, loaded.source);
+  if (!found.richardson.allFinite() || !found.forward.allFinite())
+    return {false, found.status.converged ? "a difference of frequencies is no number" : found.status.message};
 
   // 3. Which parameters to update: the rule of selection.hpp on the compared modes, beside the paper's choice.
   const Eigen::MatrixXd scaled = steps::scaled_sensitivity(config, loaded.system.parameters, found);

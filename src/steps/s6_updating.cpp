@@ -3,6 +3,7 @@
 
 #include "model_io/export.hpp"
 #include "steps/shared/model_outputs.hpp"
+#include "steps/shared/unit_slips.hpp"
 #include "steps/updating/outputs.hpp"
 #include "steps/updating/setup.hpp"
 
@@ -24,6 +25,7 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   const dynamics::EigenModes modes_before =
       steps::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
+  steps::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
   const steps::Pairing pairing = steps::pair_for_updating(config, before, modes_before, *measured);
 
   // 3. The update.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/error.hpp"
 #include "fe/uneven_shells.hpp"
@@ -18,12 +19,34 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Every [[damper]] of the configuration belongs to a type of the bridge's definition, and stands once.
+void check_damper_types(const CampaignSettings& settings, const fe::Model& model) {
+  const std::string prefix = "damper_";
+  std::set<std::string> types, seen;
+  for (const fe::Spring& spring : model.springs)
+    if (spring.group.starts_with(prefix)) types.insert(spring.group.substr(prefix.size()));
+  const std::vector<std::string> known(types.begin(), types.end());
+  for (const DamperSettings& damper : settings.dampers) {
+    if (!types.contains(damper.type))
+      throw InputError({"", 0, "damper"},
+                       fmt::format("'{}' is no type of damper of {}{}", damper.type, settings.bridge, did_you_mean(damper.type, known)),
+                       known.empty() ? "the bridge has no dampers" : fmt::format("use {}", fmt::join(known, ", ")));
+    if (!seen.insert(damper.type).second)
+      throw InputError({"", 0, "damper"}, fmt::format("type '{}' stands twice", damper.type), "give each type one table");
+  }
+}
+
+}  // namespace
+
 VirtualBridge read_virtual_bridge(StepContext& context, const CampaignSettings& settings) {
   VirtualBridge bridge;
   const fe::Model members =
       ponte::with_zoned_members(ponte::generate(context.input(settings.bridge), "as_built"), static_cast<int>(settings.zones));
   bridge.undivided = fe::with_uneven_shells(members, settings.unevenness, settings.unevenness_wavelength_m);
   fe::validate(bridge.undivided);
+  check_damper_types(settings, bridge.undivided);
   bridge.uncorrected = fe::initial_parameters(bridge.undivided);
   const fe::ParametricSystem system = fe::assemble(bridge.undivided, fe::find_prestress(bridge.undivided, bridge.uncorrected));
   fe::check_no_mechanism(system, bridge.uncorrected, bridge.undivided.source);

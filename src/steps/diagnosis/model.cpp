@@ -41,16 +41,18 @@ std::pair<double, double> stiffness_at(const fe::Model& model, int node) {
 
 void release_supports(fe::Model& model, std::vector<std::string>& rigid) {
   static const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
+  std::map<std::string, int> nodes_of;  // a support may hold several nodes under one name; springs have names of their own
+  for (const fe::Support& support : model.supports) ++nodes_of[support.name];
   for (fe::Support& support : model.supports) {
     const auto [translation, rotation] = stiffness_at(model, support.node);
     for (std::size_t d = 0; d < 6; ++d) {
       const double stiffness = kRigid * (d < 3 ? translation : rotation);
       if (!support.fixed[d] || !(stiffness > 0.0)) continue;
-      const std::string group = support.name.empty()
-                                    ? "node_" + std::to_string(model.nodes[static_cast<std::size_t>(support.node)].id)
-                                    : support.name;
+      const std::string node = std::to_string(model.nodes[static_cast<std::size_t>(support.node)].id);
+      const std::string group = support.name.empty() ? "node_" + node : support.name;
+      const bool shared = !support.name.empty() && nodes_of.at(support.name) > 1;
       fe::Spring spring;
-      spring.name = group + "_rigid_" + names[d];
+      spring.name = group + (shared ? "_" + node : "") + "_rigid_" + names[d];
       spring.group = group;
       spring.node = support.node;
       spring.direction = Eigen::Vector3d::Unit(static_cast<Index>(d % 3));

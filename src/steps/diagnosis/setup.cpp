@@ -16,12 +16,13 @@
 #include "io/csv.hpp"
 #include "io/manifest.hpp"
 #include "io/toml_value.hpp"
-#include "modal/pair_name.hpp"
+#include "modal/mode_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
 #include "steps/shared/measured_tables.hpp"
 #include "steps/shared/study.hpp"
+#include "steps/shared/unit_slips.hpp"
 
 namespace twindeck::steps {
 
@@ -183,6 +184,20 @@ std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const Diag
   return bound;
 }
 
+/// Measured frequencies of each condition.
+std::vector<MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& features) {
+  std::vector<MeasuredFrequencies> conditions(features.conditions.size());
+  for (const diagnosis::Row& row : features.rows) {
+    if (row.type != diagnosis::RowType::frequency) continue;
+    MeasuredFrequencies& found = conditions[static_cast<std::size_t>(row.condition)];
+    found.names.push_back(fmt::format("{} of {}", row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name));
+    found.frequency_Hz.conservativeResize(found.frequency_Hz.size() + 1);
+    found.frequency_Hz.tail<1>()[0] = row.value;
+  }
+  std::erase_if(conditions, [](const MeasuredFrequencies& found) { return found.names.empty(); });
+  return conditions;
+}
+
 }  // namespace
 
 io::FieldTable DiagnosisConfig::fields() {
@@ -283,6 +298,7 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
     if (row.type == diagnosis::RowType::frequency) measured.insert(row.mode);
   reduction.corrected_modes = std::max(12, static_cast<int>(measured.size()) + 2);
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
+  warn_of_unit_slips(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
   if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, inputs.features)) inputs.account.push_back(*unpaired);
   hold_out(config, inputs.features);
   return inputs;

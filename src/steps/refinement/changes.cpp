@@ -47,7 +47,7 @@ SolvedModel solve_modes(LoadedModel loaded, int n_modes) {
   SolvedModel solved;
   solved.loaded = std::move(loaded);
   dynamics::ModalSolver solver(solved.loaded.system);
-  solved.modes = solver.solve(solved.loaded.theta, n_modes);
+  solved.modes = solver.solve_available(solved.loaded.theta, n_modes);
   solved.mass = solver.mass();
   solved.mass_shapes = solved.mass.selfadjointView<Eigen::Lower>() * solved.modes.shapes;
   if (!solved.loaded.state.status.converged && solved.modes.status.converged) solved.modes.status = solved.loaded.state.status;

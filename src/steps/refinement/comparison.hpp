@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
-#include "modal/pair_name.hpp"
+#include "modal/mode_name.hpp"
 #include "modal/pairing.hpp"
 #include "steps/shared/measured.hpp"
 #include "steps/shared/model_source.hpp"

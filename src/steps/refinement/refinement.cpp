@@ -12,6 +12,7 @@
 #include "steps/shared/measured.hpp"
 #include "steps/shared/model_outputs.hpp"
 #include "steps/shared/study.hpp"
+#include "steps/shared/unit_slips.hpp"
 
 namespace twindeck::steps {
 
@@ -66,6 +67,7 @@ void compare_with_measurement(StepContext& context, const RefinementConfig& conf
   const std::optional<Measured> measured = find_measured(context, config.condition);
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
   const Measured some = measured.value_or(Measured{});
+  warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
   const modal::PairingOptions options{config.minimum_mac, config.maximum_frequency_error, config.cluster_gap};
   Pairing after, before;
   if (measured) {

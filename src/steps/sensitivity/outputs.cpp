@@ -84,6 +84,16 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
   }
 }
 
+void refuse_rigid_bodies(const Sensitivities& found, const std::string& source) {
+  const auto rigid = (found.frequency_Hz.array() == 0.0).count();
+  if (rigid == 0) return;
+  throw InputError({source, 0, "frequency_Hz"},
+                   fmt::format("{} of {} modes are computed at 0 Hz, so that no parameter changes their frequency by a share", rigid,
+                               found.frequency_Hz.size()),
+                   "hold the structure by supports or springs; if it is held, look for an absurd mass or stiffness, beside which "
+                   "the others are lost in rounding");
+}
+
 Eigen::MatrixXd scaled_sensitivity(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
                                    const Sensitivities& found) {
   std::vector<Eigen::Index> rows;

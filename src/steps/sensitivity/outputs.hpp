@@ -31,6 +31,11 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
 
 [[nodiscard]] std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters);
 
+/// @param source  the model, for the message
+/// @throws InputError  if a mode has no frequency to change: a free structure, or one beside whose largest mass or stiffness the
+///         rest is rounding
+void refuse_rigid_bodies(const Sensitivities& found, const std::string& source);
+
 /// A of selection.hpp: shift of each compared frequency, in its standard deviations, over half the range of each parameter [-]
 /// (n_compared × n_parameters).
 [[nodiscard]] Eigen::MatrixXd scaled_sensitivity(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,

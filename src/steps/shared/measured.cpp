@@ -8,8 +8,9 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
-#include "modal/pair_name.hpp"
+#include "modal/mode_name.hpp"
 #include "model_io/export.hpp"
+#include "steps/shared/feature_rows.hpp"
 #include "steps/shared/measured_tables.hpp"
 #include "steps/shared/study.hpp"
 
@@ -26,34 +27,16 @@ struct MeasuredMode {
   std::map<std::string, std::complex<double>> shape;  // by channel
 };
 
-const std::vector<std::string> kTypes = {"frequency_Hz",      "damping_ratio_pct", "shape",           "shape_imag",
-                                         "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m"};
-
 /// Enters one row into the mode that it belongs to.
-void enter(const io::CsvTable& table, std::size_t row, const std::vector<Channel>& channels, MeasuredMode& mode) {
-  const std::string type = table.text(row, "type");
-  const double value = table.number(row, "value");
-  const auto once = [&](double& target, double number) {
-    if (!std::isnan(target))
-      table.fail(row, "type", fmt::format("{} of this mode stands twice", type), "remove one of the two rows");
-    target = number;
-  };
-  if (type == "frequency_Hz") {
-    if (value <= 0.0) table.fail(row, "value", fmt::format("is {}, expected a frequency above 0 Hz", value));
-    once(mode.frequency, value);
-    mode.frequency_std = table.number(row, "std");
-  } else if (type == "damping_ratio_pct") {
-    once(mode.damping, value / 100.0);
-    mode.damping_std = table.number(row, "std") / 100.0;
+void enter(const FeatureRow& row, MeasuredMode& mode) {
+  if (row.type == "frequency_Hz") {
+    mode.frequency = row.value;
+    mode.frequency_std = row.std;
+  } else if (row.type == "damping_ratio_pct") {
+    mode.damping = row.value / 100.0;
+    mode.damping_std = row.std / 100.0;
   } else {
-    const std::string channel = table.text(row, "channel");
-    std::vector<std::string> names;
-    for (const Channel& known : channels) names.push_back(known.name);
-    if (std::find(names.begin(), names.end(), channel) == names.end()) {
-      table.fail(row, "channel", fmt::format("channel '{}' is not in channels.csv{}", channel, did_you_mean(channel, names)),
-                 "add the channel there");
-    }
-    mode.shape[channel] += type == "shape" ? std::complex<double>(value, 0.0) : std::complex<double>(0.0, value);
+    mode.shape[row.channel] += row.type == "shape" ? std::complex<double>(row.value, 0.0) : std::complex<double>(0.0, row.value);
   }
 }
 
@@ -104,40 +87,33 @@ Measured assemble_measured(const io::CsvTable& table, const std::vector<std::str
 }  // namespace
 
 Measured read_measured_features(const std::filesystem::path& folder, const std::string& condition) {
-  const std::string chosen = choose_condition(folder / "conditions.toml", condition);
-  const auto table =
-      io::CsvTable::read(folder / "rows.csv", {"type", "mode", "channel", "condition", "value", "std"}, {"held_out"});
+  const std::filesystem::path conditions_file = folder / "conditions.toml";
+  const std::vector<MeasuredCondition> conditions = read_conditions(conditions_file);
+  const std::string chosen = choose_condition(conditions_file, conditions, condition);
   std::vector<Channel> channels;
   if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
+  std::vector<std::string> condition_names, channel_names;
+  for (const MeasuredCondition& known : conditions) condition_names.push_back(known.name);
+  for (const Channel& channel : channels) channel_names.push_back(channel.name);
+  const FeatureRows read = read_feature_rows(folder, condition_names, channel_names);
 
   std::map<std::string, MeasuredMode> found;
   std::vector<std::string> names;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string type = table.text(row, "type");
-    if (std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end()) {
-      table.fail(row, "type", fmt::format("'{}' is not a known type of row{}", type, did_you_mean(type, kTypes)));
-    }
-    const std::optional<double> deviation = table.number_if(row, "std");
-    if (!deviation || *deviation <= 0.0) {
-      table.fail(row, "std", deviation ? fmt::format("is {}, expected a value above 0", *deviation) : "is empty",
-                 "state the standard deviation of the value; a row without one can't be weighed");
-    }
-    const bool of_modes = type == "frequency_Hz" || type == "damping_ratio_pct" || type == "shape" || type == "shape_imag";
-    if (!of_modes || table.text(row, "condition") != chosen || table.number_or(row, "held_out", 0.0) != 0.0) continue;
-    const std::string mode = table.text(row, "mode");
-    if (mode.empty()) table.fail(row, "mode", "is empty", "name the mode that the row belongs to");
-    const auto [at, is_new] = found.try_emplace(mode);
+  for (std::size_t at = 0; at < read.rows.size(); ++at) {
+    const FeatureRow& row = read.rows[at];
+    if (!row.is_modal() || row.condition != chosen || row.held_out) continue;
+    const auto [mode, is_new] = found.try_emplace(row.mode);
     if (is_new) {
-      at->second.row = row;
-      names.push_back(mode);
+      mode->second.row = at;
+      names.push_back(row.mode);
     }
-    enter(table, row, channels, at->second);
+    enter(row, mode->second);
   }
   if (names.empty()) {
     throw InputError({(folder / "rows.csv").string(), 0, ""}, fmt::format("has no modes of condition '{}'", chosen),
                      "check the column `condition`, or the key `condition` of the step");
   }
-  Measured measured = assemble_measured(table, names, found, std::move(channels));
+  Measured measured = assemble_measured(read.table, names, found, std::move(channels));
   measured.source = folder.string();
   return measured;
 }

@@ -1,49 +1,71 @@
 #include "steps/shared/measured_tables.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/toml_value.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
-struct Condition {
-  std::string name, dampers;
-};
+constexpr double absolute_zero_C = -273.15;
 
-std::vector<Condition> read_conditions(const std::filesystem::path& file) {
-  const std::vector<std::string> known = {"dampers",       "amplitude_m", "amplitude_channel", "temperature_C", "wind_m_s",
-                                          "direction_deg", "people"};
-  std::vector<Condition> conditions;
-  try {
-    const toml::table root = toml::parse_file(file.string());
-    for (const auto& [name, node] : root) {
-      const auto line = static_cast<long>(node.source().begin.line);
-      const toml::table* table = node.as_table();
-      if (table == nullptr)
-        throw InputError({file.string(), line, std::string(name.str())}, "is no table", "give one table a condition");
-      for (const auto& [key, value] : *table) {
-        if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-        throw InputError({file.string(), static_cast<long>(value.source().begin.line), std::string(key.str())},
-                         "is not a known key of a condition" + did_you_mean(key.str(), known), "");
-      }
-      const std::string dampers = (*table)["dampers"].value_or(std::string());
-      if (!dampers.empty() && dampers != "on" && dampers != "off") {
-        throw InputError({file.string(), line, "dampers"}, fmt::format("is '{}', expected \"on\" or \"off\"", dampers), "");
-      }
-      conditions.push_back({std::string(name.str()), dampers});
-    }
-  } catch (const toml::parse_error& error) {
-    throw InputError({file.string(), static_cast<long>(error.source().begin.line), ""}, std::string(error.description()),
-                     "mend the TOML");
+double finite_number(const io::TomlEntry& entry, const Place& place) {
+  double value = 0.0;
+  if (const auto* number = entry.value.as<double>())
+    value = *number;
+  else if (const auto* whole = entry.value.as<long>())
+    value = static_cast<double>(*whole);
+  else
+    throw InputError(place, "is " + io::shown(entry.value) + ", expected a number", "write it without quotes and unit");
+  if (!std::isfinite(value))
+    throw InputError(place, "is " + io::shown(entry.value) + ", expected a finite number", "leave the key out where it is unknown");
+  return value;
+}
+
+double number_from(const io::TomlEntry& entry, const Place& place, double least) {
+  const double value = finite_number(entry, place);
+  if (value < least)
+    throw InputError(place, fmt::format("is {}, expected a value of at least {}", io::shown(entry.value), io::toml_number(least)),
+                     "mend the value, or leave the key out where it is unknown");
+  return value;
+}
+
+std::string text_of(const io::TomlEntry& entry, const Place& place) {
+  if (const auto* text = entry.value.as<std::string>()) return *text;
+  throw InputError(place, "is " + io::shown(entry.value) + ", expected text", "write it in quotes");
+}
+
+/// Enters one key of a condition's table.
+void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition& condition) {
+  static const std::vector<std::string> known = {"dampers",  "amplitude_m",   "amplitude_channel", "temperature_C",
+                                                 "wind_m_s", "direction_deg", "people"};
+  if (entry.key == "dampers") {
+    const std::string text = text_of(entry, place);
+    if (text != "on" && text != "off")
+      throw InputError(place, fmt::format("is '{}', expected \"on\" or \"off\"", text), "say whether the dampers are fitted");
+    condition.dampers_on = text == "on";
+  } else if (entry.key == "amplitude_channel") {
+    condition.amplitude_channel = text_of(entry, place);
+  } else if (entry.key == "amplitude_m") {
+    condition.amplitude_m = number_from(entry, place, 0.0);
+  } else if (entry.key == "temperature_C") {
+    condition.temperature_C = number_from(entry, place, absolute_zero_C);
+  } else if (entry.key == "wind_m_s") {
+    condition.wind_m_s = number_from(entry, place, 0.0);
+  } else if (entry.key == "direction_deg") {
+    condition.direction_deg = finite_number(entry, place);
+  } else if (entry.key == "people") {
+    condition.people = number_from(entry, place, 0.0);
+  } else {
+    throw InputError(place, "is not a known key of a condition" + did_you_mean(entry.key, known),
+                     fmt::format("use {}", fmt::join(known, ", ")));
   }
-  return conditions;
 }
 
 }  // namespace
@@ -74,16 +96,28 @@ std::vector<Channel> read_channels(const std::filesystem::path& file) {
   return channels;
 }
 
-std::string choose_condition(const std::filesystem::path& file, const std::string& asked) {
+std::vector<MeasuredCondition> read_conditions(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) {
     throw InputError({file.string(), 0, ""}, "is not there, expected one table for each condition of rows.csv",
                      "write the file; the tables may be empty");
   }
-  const std::vector<Condition> conditions = read_conditions(file);
+  std::vector<MeasuredCondition> conditions;
+  for (const io::TomlEntry& entry : io::read_toml(file)) {
+    const auto* table = entry.value.as<io::TomlValue::Table>();
+    if (table == nullptr) throw InputError({file.string(), entry.line, entry.key}, "is no table", "give one table a condition");
+    MeasuredCondition& condition = conditions.emplace_back();
+    condition.name = entry.key;
+    for (const io::TomlEntry& e : *table) enter_key(e, {file.string(), e.line, e.key}, condition);
+  }
+  return conditions;
+}
+
+std::string choose_condition(const std::filesystem::path& file, const std::vector<MeasuredCondition>& conditions,
+                             const std::string& asked) {
   std::vector<std::string> names, off;
-  for (const Condition& condition : conditions) {
+  for (const MeasuredCondition& condition : conditions) {
     names.push_back(condition.name);
-    if (condition.dampers == "off") off.push_back(condition.name);
+    if (condition.dampers_on == false) off.push_back(condition.name);
   }
   if (!asked.empty()) {
     if (std::find(names.begin(), names.end(), asked) != names.end()) return asked;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,22 @@ namespace twindeck::steps {
 /// @throws InputError  for a channel named twice, or direction cosines that are no unit vector (to 2 %)
 [[nodiscard]] std::vector<Channel> read_channels(const std::filesystem::path& file);
 
-/// The condition to read: `asked` if it is a table of conditions.toml; for "" the only one, or the only one with dampers =
-/// "off".
-/// @throws InputError  for an unknown key or condition, and where "" leaves a choice
-[[nodiscard]] std::string choose_condition(const std::filesystem::path& file, const std::string& asked);
+/// A table of conditions.toml: under which circumstances was measured. What is not known is empty.
+struct MeasuredCondition {
+  std::string name;
+  std::optional<bool> dampers_on;
+  std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
+  std::string amplitude_channel;
+  std::optional<double> temperature_C, wind_m_s, direction_deg, people;
+};
+
+/// @throws InputError  for a file that is not there, an unknown key, a value of another kind or out of its range
+[[nodiscard]] std::vector<MeasuredCondition> read_conditions(const std::filesystem::path& file);
+
+/// The condition to read: `asked` if it is one of them; for "" the only one, or the only one with dampers = "off".
+/// @param file  where they stand, for messages
+/// @throws InputError  for an unknown condition, and where "" leaves a choice
+[[nodiscard]] std::string choose_condition(const std::filesystem::path& file, const std::vector<MeasuredCondition>& conditions,
+                                           const std::string& asked);
 
 }  // namespace twindeck::steps

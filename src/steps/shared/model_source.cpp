@@ -6,6 +6,7 @@
 #include "model_io/inp.hpp"
 #include "model_io/model_folder.hpp"
 #include "ponte/generator.hpp"
+#include "steps/shared/model_check.hpp"
 #include "steps/shared/study.hpp"
 
 namespace twindeck::steps {
@@ -26,12 +27,12 @@ LoadedModel from_model(fe::Model model) {
 }
 
 LoadedModel read_model_folder(const std::filesystem::path& folder) {
-  if (!model_io::is_matrix_model(folder)) return from_model(model_io::read_model(folder));
+  if (!model_io::is_matrix_model(folder)) return with_sound_matrices(from_model(model_io::read_model(folder)));
   LoadedModel loaded;
   loaded.source = folder.string();
   loaded.system = model_io::read_matrix_model(folder);
   loaded.theta = loaded.system.initial();
-  return loaded;
+  return with_sound_matrices(std::move(loaded));
 }
 
 LoadedModel import_inp(StepContext& context, const std::filesystem::path& file) {
@@ -41,7 +42,7 @@ LoadedModel import_inp(StepContext& context, const std::filesystem::path& file) 
   if (std::filesystem::exists(beside)) context.input(beside);
   model_io::InpModel imported = model_io::read_inp(file);
   for (const std::string& note : imported.notes) context.say(note);
-  return from_model(std::move(imported.model));
+  return with_sound_matrices(from_model(std::move(imported.model)));
 }
 
 LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
@@ -68,7 +69,7 @@ LoadedModel load_study_model(StepContext& context, const std::string& variant) {
                      "give [model] generator and file, or folder, or a model folder by --model DIR");
   }
   if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
-  return from_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
+  return with_sound_matrices(from_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh)));
 }
 
 LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps) {
@@ -76,7 +77,7 @@ LoadedModel with_displacements(LoadedModel loaded, const std::string& displaceme
   fe::Model model = std::move(*loaded.model);
   model.prestress.displacements = displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
   model.prestress.load_steps = load_steps;
-  return from_model(std::move(model));
+  return with_sound_matrices(from_model(std::move(model)));
 }
 
 void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {

@@ -37,6 +37,11 @@ void StepContext::say(const std::string& line) const {
   std::fputs(fmt::format("{}{}: {}\n", clear, token_, printable(line)).c_str(), stderr);
 }
 
+void StepContext::warn(const std::string& line) {
+  warnings_.push_back(line);
+  say("warning: " + line);
+}
+
 void StepContext::progress(const std::string& what, double done, double total) const {
   if (quiet || !(total > 0.0)) return;
   static std::map<std::string, Activity> activities;

@@ -134,6 +134,7 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
 
   // 3. The manifest comes last.
   io::Manifest manifest = manifest_of(status, step, context);
+  manifest.warnings = context.warnings_;
   manifest.command_line.assign(argv, argv + argc);
   manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   io::write_manifest(manifest, context.out);

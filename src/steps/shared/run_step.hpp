@@ -34,12 +34,15 @@ class StepContext {
   [[nodiscard]] std::filesystem::path resolved(const std::string& path) const;
   /// A line for people on stderr, prefixed with the step's token; nothing with --quiet.
   void say(const std::string& line) const;
+  /// Something odd in an input that the step takes as it is: said as "warning: …", and kept in the manifest, with --quiet too.
+  void warn(const std::string& line);
   /// Progress with remaining time on anything over two seconds (terminal: one line rewritten; otherwise a line every ten
   /// seconds).
   void progress(const std::string& what, double done, double total) const;
 
   std::vector<std::filesystem::path> inputs_;
   std::map<std::string, std::string> input_hashes_;  ///< path as given -> SHA-256 when it was registered
+  std::vector<std::string> warnings_;
   std::vector<std::pair<std::string, std::string>> flags_;
   std::string token_;
 };

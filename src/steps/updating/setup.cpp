@@ -82,11 +82,7 @@ updating::UpdatingOptions UpdatingConfig::options(std::uint64_t seed) const {
 }
 
 dynamics::EigenModes available_modes(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, int n_modes) {
-  dynamics::ModalSolver solver(system);
-  dynamics::EigenModes modes = solver.solve(theta, std::min(n_modes, static_cast<int>(system.size())));
-  const auto found = static_cast<int>(modes.frequency_Hz.size());
-  if (!modes.status.converged && found > 0 && found < n_modes) modes = solver.solve(theta, found);
-  return modes;
+  return dynamics::ModalSolver(system).solve_available(theta, n_modes);
 }
 
 LoadedModel with_values(const LoadedModel& loaded, const Eigen::VectorXd& theta) {

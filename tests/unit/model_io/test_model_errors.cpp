@@ -57,6 +57,7 @@ const std::vector<BadInput> kBadInputs = {
     {"fixity of 2", "supports.csv", "1,1,1,1,0,1,0", "1,1,1,2,0,1,0", {"supports.csv:2", "z", "expected 0 or 1"}},
     {"spring without direction", "springs.csv", "0.6,0,0.8", "0,0,0", {"springs.csv:2", "direction"}},
     {"unknown arrangement", "springs.csv", "series", "serial", {"springs.csv:2", "'serial'", "did you mean 'series'"}},
+    {"spring's name twice", "springs.csv", "turn,bearing", "C1,bearing", {"springs.csv:3", "spring", "'C1' is the name of row 1 too"}},
     {"slave of itself", "links.csv", "1,7", "1,1", {"links.csv:2", "slave"}},
     {"negative mass", "masses.csv", "120.5", "-120.5", {"masses.csv:2", "mass_kg", "-120.5"}},
     {"point on no node", "points.csv", "M2,5", "M2,6", {"points.csv:3", "node 6 is not in nodes.csv"}},

@@ -9,6 +9,9 @@
 /// Names of modes and pairs as configurations and tables write them: measured modes "7X", computed modes "8N", pairs "7X-8N".
 namespace twindeck::modal {
 
+/// Whether a text may name a measured mode: any text, but what reads as a number has to be a whole one from 1 on ("3", "3X",
+/// "heave"; not "1.5", "-1", "0"). A slip in a number would else be a further mode.
+[[nodiscard]] bool is_mode_name(const std::string& text);
 /// "7X" of the measured mode "7" or "7X".
 [[nodiscard]] std::string experimental_label(const std::string& mode);
 /// "8N" of the computed mode at position 7: computed modes are named by their position in the model, from 1.

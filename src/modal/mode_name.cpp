@@ -1,10 +1,11 @@
-#include "modal/pair_name.hpp"
+#include "modal/mode_name.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <optional>
 #include <set>
+#include <string_view>
 
 namespace twindeck::modal {
 
@@ -26,6 +27,16 @@ std::optional<NamedPair> parse(const std::string& entry) {
 }
 
 }  // namespace
+
+bool is_mode_name(const std::string& text) {
+  std::string_view number = text;
+  if (number.ends_with('X')) number.remove_suffix(1);
+  if (number.starts_with('+')) number.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error == std::errc::invalid_argument || end != number.data() + number.size()) return true;  // no number at all
+  return !text.starts_with('0') && text.find_first_not_of("0123456789") >= text.size() - (text.ends_with('X') ? 1 : 0);
+}
 
 std::string experimental_label(const std::string& mode) { return mode.ends_with('X') ? mode : mode + "X"; }
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/csv.hpp"
+
+namespace twindeck::steps {
+
+/// A number of rows.csv (docs/my_records.md), in the units of its type.
+struct FeatureRow {
+  std::string type;  ///< one of `feature_types`
+  std::string mode;  ///< name of the mode; of a stay frequency its harmonic
+  std::string channel, condition;
+  double value = 0.0;
+  double std = 0.0;  ///< of the column, or the root of the covariance's diagonal
+  bool held_out = false;
+
+  [[nodiscard]] bool is_shape() const { return type == "shape" || type == "shape_imag"; }
+  [[nodiscard]] bool is_modal() const { return is_shape() || type == "frequency_Hz" || type == "damping_ratio_pct"; }
+};
+
+/// The types of row that the format has.
+[[nodiscard]] const std::vector<std::string>& feature_types();
+
+struct FeatureRows {
+  io::CsvTable table;            ///< rows.csv itself, for messages that name a line
+  std::vector<FeatureRow> rows;  ///< in the order of the file
+  Eigen::MatrixXd covariance;    ///< (n_rows × n_rows) of covariance.npy; empty where there is none
+};
+
+/// Reads rows.csv of a features folder, and covariance.npy where it is there: the one reader for every step.
+/// @param conditions  names of the tables of conditions.toml
+/// @param channels    names of channels.csv
+/// @throws InputError  with file, line and column: an unknown type, condition or channel; a row without a standard deviation; a
+///         value that its type cannot have; a mode that is a number but none from 1 on; `held_out` other than 0 and 1; two rows
+///         of one quantity; a mode whose shape is zero everywhere; a covariance that is none (covariance.hpp)
+[[nodiscard]] FeatureRows read_feature_rows(const std::filesystem::path& folder, const std::vector<std::string>& conditions,
+                                            const std::vector<std::string>& channels);
+
+}  // namespace twindeck::steps
