@@ -185,6 +185,42 @@ class Results(unittest.TestCase):
         self.assertEqual(process.wait(60), -signal.SIGINT)
         self.assert_only_earlier_results(before)
 
+    def test_a_killed_run_is_cleaned_up_by_the_next(self):
+        """Its folder is left, as no signal could be caught; the next run of this step removes it, but not another step's."""
+        before = fingerprint(self.out)
+        process = subprocess.Popen([STEP, "--study", STUDY, "--out", self.out, "--quiet"], cwd=ROOT, stderr=subprocess.DEVNULL)
+        left = self.out.parent / f"s1_model.partial-{process.pid}"
+        deadline = time.monotonic() + 60
+        while not left.exists():
+            self.assertLess(time.monotonic(), deadline, "the run never began to write")
+            self.assertIsNone(process.poll(), "the run ended before it could be killed")
+        process.kill()
+        process.wait(60)
+        self.assertTrue(left.exists())
+        other = self.out.parent / f"s2_sensors.partial-{process.pid}"
+        other.mkdir()
+        done = run("--study", STUDY, "--out", self.out, "--quiet")
+        other.rmdir()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        before.pop("manifest.json")
+        after = fingerprint(self.out)
+        after.pop("manifest.json")
+        self.assertEqual(after, before)
+        self.assertEqual([p.name for p in self.out.parent.iterdir()], ["s1_model"])
+
+    def test_a_link_as_out_stays_a_link(self):
+        with tempfile.TemporaryDirectory() as folder:
+            disk, link = pathlib.Path(folder) / "disk" / "s1", pathlib.Path(folder) / "s1_model"
+            disk.parent.mkdir()
+            link.symlink_to(disk)
+            for _ in range(2):  # first to a place that is not there yet, then over what is there
+                done = run("--study", STUDY, "--out", link, "--quiet")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertTrue(link.is_symlink())
+                self.assertTrue((disk / "manifest.json").is_file())
+            self.assertEqual(sorted(p.name for p in disk.parent.iterdir()), ["s1"])
+            self.assertEqual(sorted(p.name for p in pathlib.Path(folder).iterdir()), ["disk", "s1_model"])
+
     def test_results_do_not_depend_on_threads(self):
         with tempfile.TemporaryDirectory() as folder:
             other = pathlib.Path(folder) / "s1_model"

@@ -4,6 +4,8 @@
 
 #include "steps/aerodynamics/aerodynamics.hpp"
 
+#include "steps/shared/limits.hpp"
+
 namespace twindeck::steps {
 
 io::FieldTable AerodynamicsConfig::fields() {
@@ -60,9 +62,9 @@ io::FieldTable AerodynamicsConfig::fields() {
       .integer("n_modes", n_modes, {1.0, 200.0}, "modes of the reduced structure")
       .integer("followed_modes", followed_modes, {1.0, 200.0}, "modes that are followed over the wind speed")
       .integer("damped_modes", damped_modes, {1.0, 200.0}, "modes that are followed with dampers")
-      .number("max_speed", max_speed_m_s, "m/s", io::positive(), "highest wind speed")
-      .number("speed_step", speed_step_m_s, "m/s", io::positive(), "step of the wind speed")
-      .number("design_speed", design_speed_m_s, "m/s", io::positive(),
+      .number("max_speed", max_speed_m_s, "m/s", {0.0, highest_wind_m_s, true}, "highest wind speed")
+      .number("speed_step", speed_step_m_s, "m/s", {1e-3, highest_wind_m_s}, "step of the wind speed")
+      .number("design_speed", design_speed_m_s, "m/s", {0.0, highest_wind_m_s, true},
               "design wind speed: of the static comparison and the check with dampers")
       .choice("equations", equations, {"consistent", "as_printed"},
               "Eq. (7) of the moment with its missing chord put in, or as printed");

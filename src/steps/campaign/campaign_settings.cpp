@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "steps/shared/limits.hpp"
 
 namespace twindeck::steps {
 
@@ -40,10 +41,10 @@ void bind_record(io::FieldTable& t, RecordSettings& r) {
       .choice("kind", r.kind, {"ambient", "free_decay", "wind"},
               "ambient, the decay after a hung mass is let go, or a wind event")
       .path_name("condition", r.condition, "condition", "condition", true)
-      .number("duration", r.duration_s, "s", io::positive(), "length", true)
+      .number("duration", r.duration_s, "s", {0.0, longest_record_s, true}, "length", true)
       .number("mass", r.mass_kg, "kg", io::non_negative(), "free_decay: mass that is let go")
       .text("point", r.point, "free_decay: point that it hangs from")
-      .number("speed", r.speed_m_s, "m/s", io::non_negative(), "wind: mean speed at the decks")
+      .number("speed", r.speed_m_s, "m/s", {0.0, highest_wind_m_s}, "wind: mean speed at the decks")
       .number("direction_deg", r.direction_deg, "", {-360.0, 360.0}, "wind: where it blows to, degrees anticlockwise from +X");
 }
 
@@ -118,10 +119,10 @@ io::FieldTable CampaignSettings::fields() {
       .tables("condition", appending<ConditionSettings>(conditions, bind_condition), "a condition")
       .tables("record", appending<RecordSettings>(records, bind_record), "a record")
       .tables("stay_test", appending<StayTest>(stays, bind_stay), "a test of a stay by an accelerometer on it")
-      .number("stay.duration", stay_duration_s, "s", io::positive(), "length of a stay's record")
+      .number("stay.duration", stay_duration_s, "s", {0.0, longest_record_s, true}, "length of a stay's record")
       .number("stay.force", stay_force, "", io::positive(), "N/sqrt(Hz), white force on each node of the stay")
       .number("stay.sensor", stay_sensor, "", {0.01, 0.5}, "place of the accelerometer over the stay's length")
-      .number("logger.rate", rate_Hz, "Hz", io::positive(), "sampling rate")
+      .number("logger.rate", rate_Hz, "Hz", {0.0, highest_rate_Hz, true}, "sampling rate")
       .integer("logger.substeps", substeps, {1.0, 100.0}, "steps of integration between two samples")
       .integer("logger.second_lag", second_logger_lag, {0.0, 100.0},
                "steps of integration by which the second logger (second half of the channels) lags")

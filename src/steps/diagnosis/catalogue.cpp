@@ -169,7 +169,8 @@ class Reader {
   }
   bool is_log(const io::TomlEntry& entry) const {
     const std::string scale = text(entry);
-    if (scale != "log" && scale != "linear") fail(entry.line, "scale", "is '" + scale + "', expected linear or log", "");
+    if (scale != "log" && scale != "lin" && scale != "linear")
+      fail(entry.line, "scale", "is '" + scale + "', expected \"lin\" or \"log\"", "log suits what may be off by a factor");
     return scale == "log";
   }
   void action(const Table& entries) {

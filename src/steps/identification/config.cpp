@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "steps/identification/identification.hpp"
+#include "steps/shared/limits.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -72,11 +73,11 @@ io::FieldTable IdentificationConfig::fields() {
       .number("automatic.law_ratio", largest_law_ratio, "", io::non_negative(),
               "automatic rule: largest standard deviation of a frequency in units of the least that the record's length "
               "allows; 0: any")
-      .integer("decay.decimation", decay_decimation, io::non_negative(), "free decays: as decimation; 0: the same")
+      .integer("decay.decimation", decay_decimation, {0.0, 1000.0}, "free decays: as decimation; 0: the same")
       .integer("decay.block_rows", decay_block_rows, {2.0, 1000.0}, "free decays: block rows of the Hankel matrix")
       .integer("decay.maximum_order", decay_maximum_order, {2.0, 500.0}, "free decays: largest model order")
-      .number("decay.start", decay_start_s, "s", io::non_negative(), "free decays are read from this time after the release on")
-      .number("decay.length", decay_length_s, "s", io::positive(), "length that is read")
+      .number("decay.start", decay_start_s, "s", {0.0, longest_record_s}, "free decays are read from this time after the release on")
+      .number("decay.length", decay_length_s, "s", {0.0, longest_record_s, true}, "length that is read")
       .number("decay.band", decay_band_Hz, "Hz", io::positive(),
               "half width of the filter that isolates a mode for frequency and damping by amplitude")
       .integer("decay.bands", decay_bands, {1.0, 50.0}, "bands of amplitude")

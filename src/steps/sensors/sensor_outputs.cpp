@@ -8,6 +8,7 @@
 #include "io/csv.hpp"
 #include "sensors/score.hpp"
 #include "steps/sensors/sensor_layout.hpp"
+#include "steps/shared/limits.hpp"
 #include "steps/shared/model_source.hpp"
 
 namespace twindeck::steps {
@@ -27,10 +28,10 @@ io::FieldTable SensorsConfig::fields() {
       .number("sensor_tolerance", tolerance_m, "m", io::positive(),
               "largest distance of a point from the model's node that stands for it")
       .texts("blind.setups", blind_setups, "setups that the blind test is made with; none: no blind test")
-      .number("blind.duration", duration_s, "s", io::positive(), "length of the signals")
-      .number("blind.rate", rate_Hz, "Hz", io::positive(), "steps of the trapezoidal rule a second")
+      .number("blind.duration", duration_s, "s", {0.0, longest_record_s, true}, "length of the signals")
+      .number("blind.rate", rate_Hz, "Hz", {0.0, highest_rate_Hz, true}, "steps of the trapezoidal rule a second")
       .number("blind.damping", damping_ratio, "", {0.0, 0.2, true}, "of every mode")
-      .number("blind.warm_up", warm_up_s, "s", io::non_negative(), "left out before the signals")
+      .number("blind.warm_up", warm_up_s, "s", {0.0, longest_record_s}, "left out before the signals")
       .integer("blind.downsample", downsample, {1.0, 1000.0}, "every so many-th sample is kept, after a low-pass")
       .integer("blind.frames", frames, {1.0, 900.0}, "frames that are identified one by one")
       .integer("blind.minimum_order", minimum_order, {2.0, 500.0}, "smallest model order")

@@ -1,5 +1,7 @@
 #include "steps/validation/validation.hpp"
 
+#include "steps/shared/limits.hpp"
+
 namespace twindeck::steps {
 
 io::FieldTable ValidationConfig::fields() {
@@ -20,10 +22,10 @@ io::FieldTable ValidationConfig::fields() {
       .integer("point_shapes", point_shapes, {0.0, 10.0},
                "shapes of each monitoring point's own direction: static (1), of its inertia (2), of the inertia of that (3)")
       .integer("anchors", anchors, {0.0, 100000.0}, "frequencies at which the coherence is factorised; 0: all")
-      .number("duration", duration_s, "s", io::positive(), "length of a record")
-      .number("lead_in", lead_in_s, "s", io::non_negative(), "time before the record in which the response builds up")
+      .number("duration", duration_s, "s", {0.0, longest_record_s, true}, "length of a record")
+      .number("lead_in", lead_in_s, "s", {0.0, longest_record_s}, "time before the record in which the response builds up")
       .number("step", step_s, "s", {1e-5, 1.0 / 64.0}, "time step; at most 1/64 s")
-      .number("cutoff", cutoff_Hz, "Hz", io::positive(), "no wind at or above this frequency")
+      .number("cutoff", cutoff_Hz, "Hz", {0.0, highest_rate_Hz, true}, "no wind at or above this frequency")
       .number("level", level, "", {0.5, 0.9999}, "level of the confidence intervals over seeds")
       .choice("equations", equations, {"consistent", "as_printed"}, "Eq. (10) with signs that can hold together, or as printed")
       .tables(
@@ -33,7 +35,7 @@ io::FieldTable ValidationConfig::fields() {
             WindEvent& event = events.back();
             io::FieldTable e;
             e.text("name", event.name, "name of the event", true)
-                .number("speed", event.speed_m_s, "m/s", io::positive(), "mean speed at the decks", true)
+                .number("speed", event.speed_m_s, "m/s", {0.0, highest_wind_m_s, true}, "mean speed at the decks", true)
                 .text("condition", event.condition,
                       "condition of the campaign whose wind records are the measured side; empty: none");
             return e;
@@ -54,7 +56,7 @@ io::FieldTable ValidationConfig::fields() {
               "comfort limit of vertical acceleration (EN 1990 A2.4.3.2)")
       .number("comfort_lateral", comfort_lateral_m_s2, "m/s^2", io::positive(),
               "comfort limit of lateral acceleration, as the paper has it")
-      .number("full_model_check", full_model_check_s, "s", io::non_negative(),
+      .number("full_model_check", full_model_check_s, "s", {0.0, longest_record_s},
               "length of the record on which the reduced structure is compared with the full model; 0: not compared");
   return t;
 }

@@ -1,11 +1,13 @@
 // The catalogue as data, and what it becomes for a model and rows. Oracles: counts by hand; the reasons that are promised.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <set>
 
 #include "chain.hpp"
+#include "steps/diagnosis/catalogue.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -65,6 +67,36 @@ TEST(Catalogue, WhatTheseRowsCannotSeeIsSaidWithTheReason) {
   std::set<std::string> known;
   for (const auto& candidate : entries.candidates) known.insert(candidate->hypothesis->id);
   for (const auto& h : hypotheses) EXPECT_NE(known.contains(h.id), reasons.contains(h.id)) << h.id;
+}
+
+// Oracle: the message as a user reads it: file, line, key, what it is and what was expected.
+TEST(Catalogue, NumbersThatAreNoneAreRefusedWithTheirLine) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("twindeck-catalogue-" + std::to_string(::getpid()));
+  const auto said = [&](const std::string& weight, const std::string& low, const std::string& rest = "") -> std::string {
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "gain.toml") << "[hypothesis]\nid = \"gain\"\nprior_weight = " << weight
+                                        << "\n[location]\nset = \"channels\"\n[[parameter]]\nname = \"f\"\nlow = " << low
+                                        << "\nhigh = 2.0\n[[action]]\nkind = \"channel.gain\"\nfactor = \"$f\"\n"
+                                        << rest;
+    try {
+      const auto read = steps::read_catalogue(folder);
+      return read.front().id;
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(folder.string().size() + 1);
+    }
+  };
+  EXPECT_EQ(said("0.5", "0.5"), "gain");
+  for (const char* weight : {"nan", "-1.0", "0", "0.0", "-inf", "inf", "1e300", "\"2*k_drive\"", "\"often\""})
+    EXPECT_TRUE(said(weight, "0.5").starts_with("gain.toml:3: prior_weight: is ")) << said(weight, "0.5");
+  EXPECT_EQ(said("nan", "0.5"), "gain.toml:3: prior_weight: is nan, expected a finite number; correct the value");
+  EXPECT_EQ(said("-1", "0.5"), "gain.toml:3: prior_weight: is -1, expected a number above 0; 1 is the weight of most causes");
+  EXPECT_TRUE(said("1", "nan").starts_with("gain.toml:8: low: is nan, expected a finite number"));
+  EXPECT_TRUE(said("1", "\"nan*k_drive\"").starts_with("gain.toml:8: low: is \"nan*k_drive\", expected a finite number"));
+  EXPECT_TRUE(said("1", "[1]").starts_with("gain.toml:8: low: is an array, expected a number or a text"));
+  EXPECT_EQ(said("1", "1", "[needs]\nrow = [\"shape\"]\n"), "gain.toml:14: unknown key 'row'; did you mean 'rows'?");
+  std::ofstream(folder / "gain.toml") << "action = [1]\n";
+  EXPECT_THROW((void)steps::read_catalogue(folder), InputError);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Catalogue, BoundsThatAreNoneAreRefused) {
