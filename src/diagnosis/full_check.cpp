@@ -1,12 +1,12 @@
 #include "diagnosis/full_check.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "core/error.hpp"
-#include "linalg/dense_instances.hpp"
 #include "linalg/generalized_eigen.hpp"
 
 namespace twindeck::diagnosis {

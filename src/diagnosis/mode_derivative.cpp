@@ -1,8 +1,8 @@
+#include <Eigen/Dense>
 #include <utility>
 
 #include "diagnosis/state_modes.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

@@ -1,3 +1,4 @@
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -6,7 +7,6 @@
 
 #include "core/parallel.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

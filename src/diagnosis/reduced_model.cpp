@@ -1,5 +1,6 @@
 #include "diagnosis/reduced_model.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,7 +13,6 @@
 #include "dynamics/free_structure.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

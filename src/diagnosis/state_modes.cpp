@@ -1,5 +1,6 @@
 #include "diagnosis/state_modes.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,7 +8,6 @@
 #include <tuple>
 
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::diagnosis {
 

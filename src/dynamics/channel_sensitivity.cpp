@@ -1,3 +1,4 @@
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -6,7 +7,6 @@
 #include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/modal_forces.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 #include "linalg/orthonormal_block.hpp"
 
 namespace twindeck::dynamics {

@@ -1,10 +1,10 @@
+#include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/parallel.hpp"
 #include "dynamics/eigen_sensitivity.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <utility>
 
 #include "dynamics/friction_balance.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 

@@ -1,12 +1,12 @@
 #include "dynamics/reduced_basis.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/error.hpp"
 #include "linalg/canonical_basis.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 

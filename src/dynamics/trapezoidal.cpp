@@ -1,9 +1,9 @@
 #include "dynamics/trapezoidal.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "core/error.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::dynamics {
 using Eigen::Index;

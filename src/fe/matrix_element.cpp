@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <Eigen/Dense>
 
 #include "core/error.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 

@@ -1,9 +1,7 @@
 #include "fe/prestress_least_squares.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Dense>
 #include <vector>
-
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 

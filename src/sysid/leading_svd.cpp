@@ -1,12 +1,12 @@
 #include "sysid/leading_svd.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/QR>
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::sysid {
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 #include "sysid/leading_svd.hpp"
 #include "sysid/merging.hpp"
 #include "sysid/ssi_cov.hpp"

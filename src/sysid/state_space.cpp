@@ -1,5 +1,6 @@
 #include "sysid/state_space.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -10,7 +11,6 @@
 #include "core/error.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::sysid {
 

@@ -1,9 +1,9 @@
 #include "updating/joint_map.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::updating {
 

@@ -1,11 +1,11 @@
 #include "updating/reduced_system.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <utility>
 
 #include "core/parallel.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/dense_instances.hpp"
 #include "linalg/symmetric_product.hpp"
 
 namespace twindeck::updating {

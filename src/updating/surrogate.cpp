@@ -1,12 +1,12 @@
 #include "updating/surrogate.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/parallel.hpp"
 #include "linalg/cholesky.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::updating {
 

@@ -9,6 +9,7 @@
 #include "blind/trial.hpp"
 #include "ponte/generator.hpp"
 #include "steps/diagnosis/catalogue.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::blind {
 

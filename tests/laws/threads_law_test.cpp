@@ -7,6 +7,7 @@
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "ponte/generator.hpp"
+#include "test_places.hpp"
 
 namespace {
 
@@ -19,8 +20,8 @@ struct Result {
 
 Result with_threads(int threads) {
   twindeck::set_thread_count(threads);
-  const auto model =
-      twindeck::ponte::generate_compatible(TWINDECK_SOURCE_DIR "/data/ponte_del_mare/prototype.toml", "preliminary");
+  const auto model = twindeck::ponte::generate_compatible(
+      std::string(TWINDECK_SOURCE_DIR) + "/data/ponte_del_mare/prototype.toml", "preliminary");
   const Eigen::VectorXd theta = twindeck::fe::initial_parameters(model);
   const auto state = twindeck::fe::find_prestress(model, theta);
   const auto system = twindeck::fe::assemble(model, state);

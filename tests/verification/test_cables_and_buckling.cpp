@@ -1,8 +1,9 @@
 /// Geometric stiffness: sagging stays, Euler columns; observed orders of convergence of the linear elements.
+#include <Eigen/Dense>
+
 #include "fe/large_displacement.hpp"
 #include "hanging_chain.hpp"
 #include "verification_models.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe::verification {
 namespace {

@@ -1,8 +1,9 @@
 /// Oracle: MacNeal and Harder (1985), Finite Elements in Analysis and Design 1, 3-20, the part that test_elements_published
 /// does not hold: solids, curved beam of shells, pinched cylinder, hemisphere; and the patch tests of shells and solids through
 /// the product's assembly.
+#include <Eigen/Dense>
+
 #include "verification_models.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe::verification {
 namespace {

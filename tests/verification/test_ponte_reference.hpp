@@ -10,6 +10,7 @@
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "io/csv.hpp"
+#include "test_places.hpp"
 
 /// What a prototype of the bridge, written independently in another language with its own elements, returned for each variant.
 namespace twindeck::reference {

@@ -4,6 +4,7 @@
 // finite elements converge to 136.984 m/s).
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <memory>
@@ -12,7 +13,6 @@
 #include "model_io/aero_data.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "model_io/aero_data.hpp"
+#include "test_places.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/csv.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::verification {
 

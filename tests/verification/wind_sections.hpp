@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aero/stability.hpp"
+#include "test_places.hpp"
 
 /// Systems in wind that the verification cases share.
 namespace twindeck::wind_test {

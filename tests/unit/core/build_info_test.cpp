@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "test_places.hpp"
+
 namespace twindeck {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::tests {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <memory>
@@ -11,7 +12,7 @@
 
 #include "diagnosis/diagnose.hpp"
 #include "steps/diagnosis/catalogue.hpp"
-#include "linalg/dense_instances.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::tests {
 

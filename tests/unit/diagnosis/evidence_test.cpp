@@ -10,6 +10,7 @@
 #include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/setup.hpp"
 #include "steps/shared/measured_tables.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::tests {
 namespace {

@@ -8,6 +8,7 @@
 #include "dynamics/eigenmodes.hpp"
 #include "ponte/generator.hpp"
 #include "steps/diagnosis/model.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::tests {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "fe/elements.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -9,7 +9,6 @@
 #include "fe/beam_frame.hpp"
 #include "fe/beam_tapered.hpp"
 #include "fe/dead_load.hpp"
-#include "linalg/dense_instances.hpp"
 #include "test_assembly_models.hpp"
 
 namespace twindeck::fe {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "fe/elements.hpp"
-#include "linalg/dense_instances.hpp"
 
 /// Small meshes and dense algebra for tests of elements: assembly as in a textbook, apart from the product's own.
 namespace twindeck::fe::testing_mesh {

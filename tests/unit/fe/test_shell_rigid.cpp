@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include "core/error.hpp"
 #include "test_shell_mesh.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -8,7 +8,6 @@
 #include "fe/dead_load.hpp"
 #include "fe/solid.hpp"
 #include "linalg/cholesky.hpp"
-#include "linalg/dense_instances.hpp"
 #include "test_assembly_models.hpp"
 
 namespace twindeck::fe {

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
 #include "test_assembly_models.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "aero/laws.hpp"
 #include "core/error.hpp"
+#include "test_places.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "ponte/generator.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::ponte {
 namespace {

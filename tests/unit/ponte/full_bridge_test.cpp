@@ -12,6 +12,7 @@
 #include "fe/dead_load.hpp"
 #include "fe/structure.hpp"
 #include "ponte/generator.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::ponte {
 namespace {

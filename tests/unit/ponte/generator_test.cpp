@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::ponte {
 namespace {

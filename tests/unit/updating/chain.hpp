@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
@@ -7,7 +8,6 @@
 #include <vector>
 
 #include "fe/parametric_system.hpp"
-#include "linalg/dense_instances.hpp"
 
 namespace twindeck::updating {
 

@@ -1,2 +1,0 @@
-#define TWINDECK_INSTANCE
-#include "linalg/dense_instances.hpp"

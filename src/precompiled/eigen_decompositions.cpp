@@ -1,0 +1,2 @@
+#define TWINDECK_INSTANCE
+#include "precompiled/eigen_decompositions.hpp"
