@@ -10,8 +10,8 @@
 #include "records/array_choice.hpp"
 
 /// MATLAB's files of versions 4 and 5, read without a library: sizes are checked before they are used, and data are walked
-/// through in parts (src/decisions/0012). Version 7.3 is HDF5. Reference: The MathWorks, "MAT-File Format", R2022b: Level 5 and
-/// Level 4 MAT-file format.
+/// through in parts (src/decisions/0012-mat-files-read-without-a-library.md). Version 7.3 is HDF5. Reference: The MathWorks,
+/// "MAT-File Format", R2022b: Level 5 and Level 4 MAT-file format.
 namespace twindeck::records {
 
 /// An array of real numbers in the file, and where its values lie.

@@ -237,7 +237,7 @@ class Identification(unittest.TestCase):
         cases = [("nan", nan, {}, [], "records/ST1/record.npy: c03: has a gap of 20 samples from sample 700 on"),
                  ("dead", dead, {}, [], "records/ST1/record.npy: c04: is constant (1.5) over 20000 samples; leave the channel out"),
                  ("clipped", clipped, {}, [], "records/ST1/record.npy: c02: stands at its largest or smallest value over"),
-                 ("name", self.data[:20000], {"toml": "WRONG_NAME"}, [], "campaign.toml:1: channels: channel 'c4' is not in channels.csv (did you mean 'c04'?)"),
+                 ("name", self.data[:20000], {"toml": "WRONG_NAME"}, [], "campaign.toml:6: channels: channel 'c4' is not in channels.csv (did you mean 'c04'?)"),
                  ("setup", self.data[:20000], {}, ["setup=ST9"], "no record has setup 'ST9'"),
                  ("reference", self.data[:20000], {}, ['references=["c99"]'], "'c99' is no channel of the record"),
                  ("short", self.data[:3000], {}, ["welch_segment=256"], "cut the record of 300 samples into 20 blocks of 15"),
