@@ -96,6 +96,7 @@ class Thresholds(unittest.TestCase):
         copied = shutil.copytree(COMMITTED, self.folder / "copied")  # where it does not fit, a run would write one beside it
         result = self.diagnose("committed", "nulls=200", f'threshold_cache="{copied}"')
         self.assertRegex(result["detection"]["threshold_from"], "^200 nulls, [0-9a-f]{16}.toml$")
+        self.assertEqual(sorted(p.name for p in copied.iterdir()), sorted(p.name for p in COMMITTED.iterdir()))
 
     @unittest.skipUnless(os.environ.get("TWINDECK_SLOW"), "200 null data sets: with TWINDECK_SLOW=1")
     def test_the_committed_threshold_is_what_the_nulls_give(self):
