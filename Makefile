@@ -24,7 +24,7 @@ include workflows/steps.mk
 endif
 
 .PHONY: baseline moves checksums check-power paper blind-trials help all look deps build test unit steps tables figures report verify \
-  smoke bench processors calibrate why new reference clean FORCE
+  smoke bench fuzz processors calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -126,6 +126,10 @@ bench: build ## ratios against peers: modes, derivatives, identification, wind (
 processors: build ## the study and the tests under the kernels of other processors: tests failed, columns that move (results/processors/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS)
 	@workflows/python.sh tests/processors/run.py $(BUILD) $(STUDY) $(if $(KERNELS),--kernels $(KERNELS))
+
+SECONDS ?= 300
+fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFuzzer and sanitizers, SECONDS shared out
+	@/usr/bin/python3 tests/fuzz/run.py $(SECONDS) --jobs $(JOBS)
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
