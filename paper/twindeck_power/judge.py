@@ -87,7 +87,7 @@ class Judge:
                 found.ratchet[cell.name] = BEYOND
                 continue
             further = abs(now - before) if paper is None else abs(now - paper) - abs(before - paper)
-            found.ratchet[cell.name] = further / margin_of(cell.column, before, now)
+            found.ratchet[cell.name] = further / margin_of(cell, before, now)
 
 
 def _share(deviation, allowed, inside: bool) -> float:

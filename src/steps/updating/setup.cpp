@@ -146,7 +146,7 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
     const std::string name = table.text(row, "parameter");
     const auto at = std::find(updated.begin(), updated.end(), name);
     if (at == updated.end())
-      table.fail(row, "parameter", "is not updated here" + did_you_mean(name, updated), "take the row out");
+      table.fail(row, "parameter", "'" + name + "' is not updated here" + did_you_mean(name, updated), "take the row out");
     const auto j = at - updated.begin();
     const std::string unit = table.text(row, "unit"),
                       own = parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])].unit;
