@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "diagnosis/predictor.hpp"
 #include "linalg/dense.hpp"
@@ -11,6 +12,7 @@ namespace twindeck::diagnosis {
 using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
