@@ -35,9 +35,9 @@ MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config) {
     for (const RecordGroup& group : record_groups(campaign, choice)) {
       for (const CampaignRecord& record : group.records) {
         context.input(record.file);
-        const RecordSamples samples = read_record(campaign, record);
-        for (const std::string& note : samples.notes) context.say(note);
-        const Eigen::MatrixXd data = signal::detrended(samples.values);
+        const RecordSamples recorded = read_record(campaign, record);
+        for (const std::string& note : recorded.notes) context.say(note);
+        const Eigen::MatrixXd data = signal::detrended(recorded.values);
         if (!data.allFinite())
           throw InputError({record.file.string(), 0, ""}, "has gaps, which an RMS cannot have", "take a record without gaps");
         samples += static_cast<double>(data.rows());
