@@ -9,6 +9,7 @@
 
 #include "io/npy.hpp"
 #include "same_samples.hpp"
+#include "test_places.hpp"
 #include "universal_writer.hpp"
 
 namespace twindeck::records {
@@ -36,7 +37,7 @@ TEST(SameSamples, MatFilesOfSciPy) {
   const Scratch scratch;
   const std::string python = TWINDECK_PYTHON;
   if (!runs(python + " -c 'import scipy.io'")) GTEST_SKIP() << "SciPy is not installed";
-  ASSERT_TRUE(runs(python + " " + TWINDECK_SOURCE_DIR "/tests/unit/records/write_arrays.py " + scratch.file("").string()));
+  ASSERT_TRUE(runs(python + " " + TWINDECK_SOURCE_DIR + "/tests/unit/records/write_arrays.py " + scratch.file("").string()));
   for (const char* name : {"scipy_4.mat", "scipy_5.mat", "scipy_5_compressed.mat", "scipy_5_fortran.mat"})
     expect_same(scratch.file(name));
   for (const char* ending : {".mat", "_compressed.mat"}) {
