@@ -49,13 +49,13 @@ class Scratch:
         return out
 
     def run(self, step: str) -> str:
-        """"" or, if it fails, its last line."""
+        """"" or, if it fails, its last line, which begins with the step's name."""
         options = [f for setting in self.quick.get(step, []) for f in ("--set", setting)]
         command = [str(self.binaries / step), "--study", f"workflows/{self.study}", "--results", f"results/{self.study}", "--out",
                    f"results/{self.study}/{step}", "--quiet", *options]
         done = subprocess.run(command, cwd=self.root, capture_output=True, text=True)
         self.done.append(step)
-        return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+        return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"{step}: exit code {done.returncode}"])[-1]
 
     def inputs(self, step: str) -> dict:
         manifest = self.origin / "results" / self.study / step / "manifest.json"

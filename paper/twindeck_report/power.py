@@ -19,5 +19,5 @@ def power_page(study: Study) -> dict | None:
         rows.append({**row, "count": len(cells), "cells": "; ".join(cells[:SHOWN_CELLS]) + more})
     caught, paper = (sum(row[name] == "yes" for row in rows) for name in ("caught", "paper"))
     told = (f"{caught} of {len(rows)} changed inputs are caught by a number that does not print them ({100 * caught / len(rows):.0f} %), "
-            f"{paper} of them by the paper gate alone ({100 * paper / len(rows):.0f} %).") if rows else "No input was changed."
+            f"{paper} by the paper gate alone ({100 * paper / len(rows):.0f} %).") if rows else "No input was changed."
     return {"rows": rows, "told": told}

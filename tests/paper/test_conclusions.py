@@ -54,5 +54,21 @@ class Conclusions(CheckCase):
         self.assertIn("0.01000 without updating, 0.00600 with the paper's values of Table 8, 0.00400 with ours", text)
 
 
+class Power(CheckCase):
+    def test_the_page_shows_the_last_measurement_where_there_is_one(self):
+        report = self.results / "report/report.html"
+        self.assertEqual((self.run_command("figures")[0], self.run_command("report")[0]), (0, 0))
+        self.assertNotIn("Power of the check", report.read_text(encoding="utf-8"))
+        made_up_study.write_rows(self.results.parent / "check_power/power.csv",
+                                 ["perturbation", "caught", "paper", "ratchet", "cells", "margin", "why", "file", "steps", "seconds"],
+                                 [["softer steel", "yes", "yes", "yes", "table_02 row 1 column f_N_Hz; a; b; c", "2.5", "", "", "", "1"],
+                                  ["shorter ramp", "no", "no", "no", "", "0.4", "No cell depends on it.", "", "", "1"]])
+        self.assertEqual(self.run_command("report")[0], 0)
+        text = " ".join(re.sub(r"<[^>]+>", " ", report.read_text(encoding="utf-8")).split())
+        self.assertIn("1 of 2 changed inputs are caught by a number that does not print them (50 %), 1 by the paper gate alone (50 %).", text)
+        self.assertIn("softer steel yes yes 4 2.5 table_02 row 1 column f_N_Hz; a; b and 1 more", text)
+        self.assertIn("shorter ramp no no 0 0.4 No cell depends on it.", text)
+
+
 if __name__ == "__main__":
     unittest.main()

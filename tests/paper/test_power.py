@@ -24,7 +24,7 @@ from twindeck_report.check import run_check  # noqa: E402
 from twindeck_report.errors import InputError  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
 
-BIN = Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin"))
+BIN = Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
 PLAN = ROOT / "data/ponte_del_mare/power.toml"
 
 TOML = '''gravity = "9.81 m/s^2"   # with its unit

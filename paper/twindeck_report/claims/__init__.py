@@ -56,8 +56,8 @@ class Claim:
         return "" if self.ours is None else f"{self.ours:.{decimals(self.paper)}f}"
 
 
-def check_claims(study: Study) -> list:
-    """Empty when the study has no claims.csv."""
+def check_claims(study: Study, skip_missing: bool = False) -> list:
+    """Empty when the study has no claims.csv. @param skip_missing  a claim whose step has not run counts as not computed"""
     path = study.data / "paper" / "claims.csv"
     if not path.is_file():
         return []
@@ -65,10 +65,10 @@ def check_claims(study: Study) -> list:
     repeated = table["claim"][table["claim"].duplicated()]
     if len(repeated):
         raise InputError(f"{path}: claim {repeated.iloc[0]} stands twice")
-    return [_judged(study, _claim(study, path, row)) for row in table.to_dict("records")]
+    return [_judged(study, _claim(study, path, row, skip_missing)) for row in table.to_dict("records")]
 
 
-def _claim(study: Study, path, row: dict) -> Claim:
+def _claim(study: Study, path, row: dict, skip_missing: bool) -> Claim:
     name = row["claim"]
     if row["kind"] not in KINDS:
         raise InputError(f"{path}: {name}: kind {row['kind']!r}; expected one of {', '.join(KINDS)}")
@@ -78,7 +78,12 @@ def _claim(study: Study, path, row: dict) -> Claim:
     note = row.get("why_not", "")
     if compute is None and not note:
         raise InputError(f"{path}: {name}: no result of ours is known for it; say in why_not why there is none")
-    ours = compute(study) if compute else None
+    try:
+        ours = compute(study) if compute else None
+    except InputError:
+        if not skip_missing:
+            raise
+        ours = None
     allowed = None if ours is None or tolerance is None else tolerance(row["value"])
     return Claim(name, row["source"], row["kind"], row["unit"], row["value"], ours, allowed,
                  basis if ours is not None else note or "The step that gives it is not part of this study, or did not find it.",
