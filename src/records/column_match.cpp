@@ -77,6 +77,7 @@ std::string its_names(const RecordInfo& info) {
 
 ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>& channels,
                           const std::vector<std::string>& columns, const std::filesystem::path& file) {
+  if (info.channels.empty()) throw InputError({file.string(), 0, ""}, "holds no time series", "give the file with the samples");
   if (!columns.empty()) return by_key(info, columns, file);
   const std::vector<std::string> names = names_of(info);
   ColumnMatch match;
@@ -111,8 +112,8 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
   }
   for (Index c = 0; c < std::ssize(info.channels); ++c) match.columns.push_back(c);
   if (info.has_header) {
-    match.warning = fmt::format("{}: names none of its channels ({}), which are taken in the order of the columns; {}",
-                                file.string(), its_names(info), kByKey);
+    match.warning = fmt::format("{}: names none of its channels ({}), which are taken by position; {}", file.string(),
+                                its_names(info), kByKey);
   }
   return match;
 }

@@ -156,12 +156,13 @@ class Rows {
     }
     const auto nothing = std::numeric_limits<double>::quiet_NaN();
     bool any = false;
-    long texts = 0;
+    std::string text;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       const auto value = number_in(cells[columns_[k]], layout_.decimal_comma);
       row_[k] = value.value_or(nothing);
       any = any || value;
-      texts += value ? 0 : 1;
+      if (!value && text.empty())
+        text = fmt::format("has '{}' in column {}", cells[columns_[k]].substr(0, 40), columns_[k] + 1);
     }
     const bool timed = layout_.time_column >= 0;
     time_ = timed ? clock_.time(cells) : std::nullopt;
@@ -170,17 +171,15 @@ class Rows {
       problem_ = fmt::format("has the time '{}'", stamp.substr(0, 40));
       return Kind::stray;
     }
-    if (!any && !time_) {
-      problem_ = "holds no number";
+    if (!any || !text.empty()) {
+      problem_ = any ? text : "holds no number";
       return Kind::stray;
     }
-    text_cells_ += texts;
     return Kind::row;
   }
   [[nodiscard]] const std::vector<double>& values() const { return row_; }
   [[nodiscard]] std::optional<double> time() const { return time_; }
   [[nodiscard]] const std::string& problem() const { return problem_; }
-  [[nodiscard]] long text_cells() const { return text_cells_; }
   [[nodiscard]] long exchanged() const { return clock_.exchanged(); }
 
  private:
@@ -190,22 +189,21 @@ class Rows {
   std::vector<double> row_;
   std::optional<double> time_;
   std::string problem_;
-  long text_cells_ = 0;
 };
 
 /// What the clock did from row to row.
 struct ClockHistory {
   double step = 0.0, lost = 0.0;  ///< [s], [samples]
-  long gaps = 0, backwards = 0;
+  long gaps = 0, backwards = 0, first_backwards = 0;  ///< the last is a line
   std::optional<double> first, last;
 
   /// @return samples that are missing before this row
-  double missing_before(std::optional<double> time) {
+  double missing_before(std::optional<double> time, long line) {
     double missing = 0.0;
     if (!time) return missing;
     if (last && step > 0.0) {
       const double passed = std::round((*time - *last) / step);
-      if (passed < 0.0) ++backwards;
+      if (passed < 0.0 && ++backwards == 1) first_backwards = line;
       if (passed > 1.0) {
         ++gaps;
         missing = passed - 1.0;
@@ -275,7 +273,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
       if (++stray == 1) first_stray = number;
       continue;
     }
-    const double missing = clock.missing_before(rows.time());
+    const double missing = clock.missing_before(rows.time(), number);
     if (clock.lost * static_cast<double>(columns.size()) > kMostLost) {
       throw InputError(
           {file.string(), number, ""},
@@ -293,12 +291,12 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
   };
   note(clock.gaps, fmt::format("a gap in the time stamps, {:.0f} samples missing, read as NaN", clock.lost),
        fmt::format("gaps in the time stamps, {:.0f} samples missing, read as NaN", clock.lost));
-  note(clock.backwards, "the time runs backwards once", "rows whose time runs backwards");
+  note(clock.backwards, fmt::format("the time runs backwards on line {}", clock.first_backwards),
+       fmt::format("rows whose time runs backwards, the first on line {}", clock.first_backwards));
   note(rows.exchanged(), "one time stamp has day and month exchanged, put right by its order",
        "time stamps have day and month exchanged, put right by their order");
   note(stray, fmt::format("line {} is no row of the table and is left out", first_stray),
        fmt::format("lines are no rows of the table and are left out, the first is line {}", first_stray));
-  note(rows.text_cells(), "one cell holds text, read as missing", "cells hold text, read as missing");
   return info;
 }
 

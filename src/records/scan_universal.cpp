@@ -35,16 +35,19 @@ void skip_set(UniversalLines& in, const std::string& set) {
   in.fail(fmt::format("breaks off in set {}, expected -1 at its end", set), kCutOff);
 }
 
-/// The -1 after the last value. A file that ends before it was cut off, and sets may be missing.
+/// The -1 after the last value. Some writers leave out the very last one; then nothing tells whether sets are missing, and a
+/// note says so.
 void expect_end(UniversalLines& in, RecordInfo& info, const std::string& set) {
+  const bool whole = !in.is_last_without_end();
   std::string line;
   while (in.next(line)) {
     if (is_delimiter(line)) return;
     if (is_blank(line)) continue;
-    info.notes.push_back(fmt::format("line {}: set {} is longer than it says, the rest is left out", in.number(), set));
-    return skip_set(in, set);
+    in.fail(fmt::format("holds '{}' after the values of set {}, expected -1", field(line, 0, 40), set),
+            "write the set again with the number of its values");
   }
-  in.fail(fmt::format("breaks off after the values of set {}, expected -1 at its end", set), kCutOff);
+  if (!whole) in.fail(fmt::format("breaks off in the last value of set {}", set), kCutOff);
+  info.notes.push_back(fmt::format("the last set ({}) has no end: if the file was cut off, channels are missing", set));
 }
 
 /// The next line of a set, which must not be its end.
@@ -74,6 +77,20 @@ struct Series {
   [[nodiscard]] bool is_time() const { return (function == 1 || function == 0) && abscissa != 18; }
 };
 
+/// Data type, number of values, spacing in columns of ten, then start and step; apart by blanks where a writer did not keep to
+/// columns.
+std::vector<double> form_of(const std::string& line) {
+  std::vector<double> numbers;
+  for (const std::size_t at : {0, 10, 20}) {
+    const std::string cell = field(line, at, 10);
+    if (cell.empty() || cell.find_first_not_of("0123456789") != std::string::npos) return numbers_in(line);
+    numbers.push_back(static_cast<double>(integer_or(cell, 0)));
+  }
+  const std::vector<double> rest = numbers_in(line.substr(std::min<std::size_t>(30, line.size())));
+  numbers.insert(numbers.end(), rest.begin(), rest.end());
+  return numbers;
+}
+
 Series read_series_header(UniversalLines& in, const std::string& set_line, const std::string& what) {
   Series series;
   series.binary = field(set_line, 6, 1) == "b" || set_line.find('b') != std::string::npos;
@@ -92,7 +109,7 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   series.channel.point = field(identity, 41, 10);
   series.channel.direction = direction_name(integer_or(field(identity, 51, 4), 0));
   const std::string form = need_inside(in, what);
-  const auto numbers = numbers_in(form);
+  const auto numbers = form_of(form);
   if (numbers.size() < 5) in.fail(fmt::format("holds '{}', expected type, number of values, spacing, start and step", field(form, 0, 80)), "write the set again");
   series.data_type = static_cast<int>(integer_or(field(form, 0, 10), static_cast<long>(numbers[0])));
   const auto values = count_in(numbers[1], in.size());  // a value takes one byte at least

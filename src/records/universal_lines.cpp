@@ -23,6 +23,7 @@ bool UniversalLines::next(std::string& line) {
     return true;
   }
   if (!std::getline(in_, line)) return false;
+  without_end_ = in_.eof();
   ++number_;
   while (!line.empty() && line.back() == '\r') line.pop_back();
   if (line.size() > 100000) fail("has a line of over a hundred thousand characters", "is a binary set without the letter b?");
@@ -50,6 +51,7 @@ std::string UniversalLines::bytes(std::size_t n) {
 
 std::string UniversalLines::take(std::size_t n) {
   std::string data = bytes(n);
+  without_end_ = false;
   number_ += std::count(data.begin(), data.end(), '\n');
   return data;
 }

@@ -26,7 +26,7 @@ class UniversalLines {
   [[noreturn]] void fail(const std::string& problem, const std::string& mend = "") const;
   [[nodiscard]] long number() const { return number_; }
   /// The line just read has no line end: the file ends in it.
-  [[nodiscard]] bool is_last_without_end() const { return in_.eof(); }
+  [[nodiscard]] bool is_last_without_end() const { return without_end_; }
   /// Length of the file [bytes]: no set holds more values than that.
   [[nodiscard]] long size() const { return static_cast<long>(bytes_); }
 
@@ -37,7 +37,7 @@ class UniversalLines {
   std::uintmax_t bytes_ = 0;
   std::ifstream in_;
   long number_ = 0;
-  bool has_back_ = false;
+  bool has_back_ = false, without_end_ = false;
   std::string back_;
 };
 

@@ -134,6 +134,8 @@ class Channels(Records):
         for name, cells, said in (
                 ("no_direction", {"dz": 0}, "channels.csv:5: dx: dx, dy, dz are all 0"),
                 ("half_direction", {"dx": ""}, "channels.csv:5: dx: 2 of the direction cosines dx, dy, dz are given"),
+                ("long_direction", {"dx": 3}, "channels.csv:5: dx: direction cosines have length 3.162, expected 1"),
+                ("reference", {"reference": 2}, "channels.csv:5: reference: is 2, expected 0 or 1"),
                 ("furlong", {"unit": "furlong"}, "channels.csv:5: unit: is 'furlong', which is no unit of a record"),
                 ("no_unit", {"unit": ""}, "channels.csv:5: unit: is empty, expected the unit of the recorded numbers"),
                 ("g", {"unit": "g"}, "channels.csv:5: gain: is 1, but the unit is 'g': recorded numbers in it take 9.80665 to SI units"),
@@ -157,7 +159,7 @@ class Channels(Records):
     def test_volts_and_counts_are_read_with_a_word(self):
         for name, unit in (("volts", "V"), ("counts", "counts")):
             np.save(self.campaign(name, channels=row(unit=unit)) / "records/ST1/record.npy", self.data)
-            self.same_as_in_order(name, "channels.csv: c04 is in volts or counts with gain 1: frequencies and damping need no scale")
+            self.same_as_in_order(name, f"channels.csv: recorded with gain 1 and no unit of motion: c04 in {unit}. Frequencies and damping need no scale")
 
     def test_another_unit_in_the_file_is_told(self):
         self.csv(self.campaign("mg", "record.csv"), [f"{c} [mg]" for c in CHANNELS], [0, 1, 2, 3])

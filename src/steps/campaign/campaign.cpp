@@ -26,7 +26,13 @@ const std::vector<std::string> kKinds = {"ambient", "free_decay", "wind", "earth
 std::vector<std::string> condition_names(const fs::path& file) {
   if (!fs::exists(file)) return {};
   std::vector<std::string> names;
-  for (const io::TomlEntry& entry : io::read_toml(file)) names.push_back(entry.key);
+  for (const io::TomlEntry& entry : io::read_toml(file)) {
+    if (entry.value.as<io::TomlValue::Table>() == nullptr) {
+      throw InputError({file.string(), entry.line, entry.key}, fmt::format("is {}, expected a table", io::shown(entry.value)),
+                       "write [" + entry.key + "], and below it what is known of the condition");
+    }
+    names.push_back(entry.key);
+  }
   return names;
 }
 

@@ -17,6 +17,8 @@ using Eigen::Index;
 
 namespace {
 
+/// Direction cosines may be this far from length 1, as in the other tables of channels: rounding, no scale.
+constexpr double kLengthTolerance = 0.02;
 /// A sensor's own calibration may move its gain by this factor either way. Two units of one quantity lie a factor of 9.8 apart
 /// or more.
 constexpr double kLargestCalibration = 2.0;
@@ -42,6 +44,9 @@ void read_place(const io::CsvTable& table, std::size_t row, CampaignChannel& cha
   if (given == 3 && channel.direction.norm() == 0.0) {
     table.fail(row, "dx", "dx, dy, dz are all 0: a channel measures along some direction",
                "give its direction cosines, for example 0,0,1 for upwards, or leave the three cells empty");
+  }
+  if (const double length = channel.direction.norm(); given == 3 && std::abs(length - 1.0) > kLengthTolerance) {
+    table.fail(row, "dx", fmt::format("direction cosines have length {:.3f}, expected 1", length), "give a unit vector");
   }
   if (given == 1 || given == 2) {
     table.fail(row, "dx",
@@ -99,15 +104,20 @@ std::vector<CampaignChannel> read_campaign_channels(const std::filesystem::path&
     channel.gain = table.number_or(row, "gain", 1.0);
     if (channel.gain == 0.0)
       table.fail(row, "gain", "is 0, expected the factor from recorded to physical values", "leave it empty for 1");
-    channel.reference = table.number_or(row, "reference", 0.0) != 0.0;
-    if (check_unit(table, row, channel)) without_scale.push_back(channel.name);
+    const double reference = table.number_or(row, "reference", 0.0);
+    if (reference != 0.0 && reference != 1.0)
+      table.fail(row, "reference", fmt::format("is {:.6g}, expected 0 or 1", reference),
+                 "mark a channel that stays in place by 1");
+    channel.reference = reference == 1.0;
+    if (check_unit(table, row, channel)) without_scale.push_back(fmt::format("{} in {}", channel.name, channel.unit));
     channels.push_back(channel);
   }
   if (!without_scale.empty()) {
-    warnings.push_back(fmt::format(
-        "{}: {} {} in volts or counts with gain 1: frequencies and damping need no scale, but shapes need the same for all "
-        "channels, and RMS values and spectra are not in SI units",
-        file.string(), fmt::join(without_scale, ", "), without_scale.size() == 1 ? "is" : "are"));
+    warnings.push_back(
+        fmt::format("{}: recorded with gain 1 and no unit of motion: {}. Frequencies and damping need no scale, but shapes "
+                    "need the same for "
+                    "all channels, and RMS values and spectra are not in SI units",
+                    file.string(), fmt::join(without_scale, ", ")));
   }
   return channels;
 }

@@ -37,6 +37,10 @@ std::vector<Index> used_columns(const Campaign& campaign, const CampaignRecord& 
     if (!campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
       columns.push_back(static_cast<Index>(c));
   }
+  if (columns.empty() && config.exclude.empty()) {
+    throw InputError({(campaign.folder / "channels.csv").string(), 0, "role"}, "no channel of the record is a response",
+                     "give one at least the role response");
+  }
   if (columns.empty()) throw InputError({"", 0, "exclude"}, "leaves no response channel", "leave out fewer");
   return columns;
 }

@@ -49,9 +49,8 @@ TEST(ColumnMatch, SomeNamesButNotAllAreRefused) {
 TEST(ColumnMatch, NoNameOfTheFileIsTakenByPositionOnlyIfTheNumberIsEqual) {
   const ColumnMatch match = match_columns(with_names({"Ch 1", "Ch 2"}), {"A_x", "B_x"}, {}, "a.csv");
   EXPECT_EQ(match.columns, (Columns{0, 1}));
-  EXPECT_NE(
-      match.warning.find("a.csv: names none of its channels (it has Ch 1, Ch 2), which are taken in the order of the columns"),
-      std::string::npos);
+  EXPECT_NE(match.warning.find("a.csv: names none of its channels (it has Ch 1, Ch 2), which are taken by position"),
+            std::string::npos);
   EXPECT_NE(match_columns(with_names({"", ""}), {"A_x", "B_x"}, {}, "a.csv").warning.find("it has no line of names"),
             std::string::npos);
   RecordInfo array = with_names({"", ""});

@@ -25,8 +25,8 @@ std::string table(int at, const std::string& stray, bool time = true) {
 TEST(StrayLines, AreRefusedWithTheirNumberAndHideNoHeader) {
   const Scratch scratch;
   for (const int at : {0, 1, 2, 3, 50, 60, 199}) {
-    for (const char* stray :
-         {"logger restarted\n", "0.6,1,2\n", "0.6,1,2,3,4\n", "a,b,c,d\n", "Max,3.5,2.5,1.5\n", "# event 7\n", "\x1b[2J\n"}) {
+    for (const char* stray : {"logger restarted\n", "0.6,1,2\n", "0.6,1,2,3,4\n", "a,b,c,d\n", "Max,3.5,2.5,1.5\n",
+                              "# event 7\n", "\x1b[2J\n", "0.6,1,oops,3\n", "0.6,1,1e999,3\n"}) {
       const std::string said = refusal(scratch.write("a.csv", table(at, stray)));
       if (at ==
           0) {  // between header and rows it is one more line of the header; then the names are not the line above the rows
