@@ -38,6 +38,8 @@ std::vector<std::string> header_of(const fs::path& file) {
 }
 
 std::optional<nlohmann::json> parse_ours(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  require_regular_file(file);
   std::ifstream in(file);
   if (!in) return std::nullopt;
   nlohmann::json json = nlohmann::json::parse(in, nullptr, false);

@@ -30,6 +30,19 @@ const std::vector<Case>& cases() {
   return all;
 }
 
+/// Cases that the product does not answer rightly yet, by name: open.txt. They run like the others, and one that has become right fails
+/// here until its line is taken out, so that the list only shrinks.
+const std::set<std::string>& open_cases() {
+  static const std::set<std::string> all = [] {
+    std::set<std::string> names;
+    std::ifstream in(kHere / "open.txt");
+    for (std::string line; std::getline(in, line);)
+      if (!line.empty() && line[0] != '#') names.insert(line);
+    return names;
+  }();
+  return all;
+}
+
 /// One process for all cases of this run.
 Worker& worker() {
   static Worker one(kMostSeconds);
@@ -86,7 +99,12 @@ TEST_P(BrokenInput, EndsAsTheTableSays) {
   evidence.before = snapshot(root_);
   evidence.outcome = c.program ? run_program(fs::path(TWINDECK_BINARY_DIR) / "bin", job, kMostSeconds) : worker().run(job);
   evidence.after = snapshot(root_);
-  for (const std::string& fault : faults(c, evidence)) ADD_FAILURE() << c.name << ": " << fault;
+  const std::vector<std::string> found = faults(c, evidence);
+  if (open_cases().contains(c.name)) {
+    if (found.empty()) ADD_FAILURE() << c.name << ": is answered rightly now; take it out of open.txt";
+    GTEST_SKIP() << c.name << " is open: " << (found.empty() ? "" : found.front());
+  }
+  for (const std::string& fault : found) ADD_FAILURE() << c.name << ": " << fault;
 }
 
 std::string label(const testing::TestParamInfo<Case>& info) {
@@ -112,6 +130,8 @@ TEST(Table, IsAsLargeAsPromised) {
     EXPECT_TRUE(first) << c.name << " is the same as another case";
   }
   EXPECT_EQ(steps.size(), 10U);
+  for (const std::string& name : open_cases())
+    EXPECT_TRUE(std::any_of(cases().begin(), cases().end(), [&](const Case& c) { return c.name == name; })) << "open.txt: no case " << name;
 }
 
 }  // namespace

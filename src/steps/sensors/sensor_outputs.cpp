@@ -157,6 +157,11 @@ Status run_sensors(StepContext& context, const SensorsConfig& config) {
   // 1. Candidates, and the model's modes there.
   const std::vector<LayoutPoint> points = read_points(context.input(config.points));
   const std::vector<LayoutChannel> setups = read_setups(context.input(config.setups), points);
+  const std::vector<LayoutChannel> candidates = candidate_channels(points);
+  if (config.channels > std::ssize(candidates))
+    throw InputError({"", 0, "channels"},
+                     fmt::format("is {}, but {} has {} candidates", config.channels, config.points, candidates.size()),
+                     "ask for fewer channels, or give more points");
   const LoadedModel loaded = load_model(context, context.results / "s1_model" / "model");
   if (!loaded.model)
     throw InputError({loaded.source, 0, ""}, "is a matrix model, whose points have no place",
@@ -171,7 +176,6 @@ Status run_sensors(StepContext& context, const SensorsConfig& config) {
   MatrixXd translations(3 * std::ssize(points), config.n_modes);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     translations.middleRows(3 * static_cast<Index>(i), 3) = full.middleRows(6 * nodes[i], 3);
-  const std::vector<LayoutChannel> candidates = candidate_channels(points);
   MatrixXd phi(std::ssize(candidates), config.n_modes);
   for (Index c = 0; c < phi.rows(); ++c)
     phi.row(c) = candidates[static_cast<std::size_t>(c)].cosines.transpose() * translations.middleRows(3 * (c / 2), 3);
