@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "diagnosis/diagnose_parts.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -65,6 +66,8 @@ std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double
   }
   return members;
 }
+
+}  // namespace
 
 /// The measurement that would tell two causes apart: the node where their mode shapes differ most, or another condition.
 std::string splitting_measurement(const Inference& inference, const Fit& base, const std::vector<const Scored*>& members) {
@@ -148,6 +151,8 @@ std::string sentence_of(const Effect& effect) {
   }
   return text;
 }
+
+namespace {
 
 /// Drops earlier causes whose removal costs less than the threshold.
 void check_backwards(const Inference& inference, Fit& current, std::vector<Effect>& effects, const DiagnoseOptions& options) {

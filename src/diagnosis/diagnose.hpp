@@ -1,10 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "diagnosis/inference.hpp"
+#include "diagnosis/inference/form_evidence.hpp"
+#include "diagnosis/inference/guard.hpp"
 #include "diagnosis/residual_test.hpp"
 #include "diagnosis/scatter_scales.hpp"
 
@@ -50,6 +53,13 @@ struct LocationScore {
   double score;
 };
 
+/// Scales of the model's form error under the winning hypothesis, and what a name is worth on modes that it was not fitted to.
+struct FormReport {
+  ScaleEstimate frequency, shape;   ///< relative deviations
+  PredictiveGain gain;              ///< of the first cause, whether it was named or not
+  std::vector<std::string> warnings;  ///< that stand beside the verdict
+};
+
 struct Diagnosis {
   std::string verdict;  ///< none | named | ambiguous | unknown
   std::string message;  ///< one line for people
@@ -63,11 +73,16 @@ struct Diagnosis {
   std::vector<std::string> on_bounds;  ///< of the model without causes
   Fit before, after;
   std::vector<Scored> ranking;  ///< of the first search
+  std::optional<FormReport> form;  ///< where the model's form was a competitor
 };
 
 /// What is wrong, why, and what naming it gains (docs/diagnosis.md): forward steps with a backward check, clusters, the
 /// verdict, the gain on held-out rows. Deterministic: `seed` drives the resampling of held-out blocks.
 [[nodiscard]] Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
+
+/// The same where the model's form may be wrong: a form error that all conditions share competes with every cause, its scales are summed
+/// over under each hypothesis, and the rules of decision 0013 give the verdict (form_diagnosis.cpp).
+[[nodiscard]] Diagnosis diagnose_with_form(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
 /// Gain of `after` over `before` on the held-out rows, 90 % interval over resampled blocks (a mode or record of one condition
 /// each).

@@ -9,6 +9,7 @@
 
 #include "diagnosis/candidate.hpp"
 #include "diagnosis/features.hpp"
+#include "diagnosis/features/form_columns.hpp"
 #include "diagnosis/reduced_model.hpp"
 #include "diagnosis/state_modes.hpp"
 
@@ -56,6 +57,12 @@ struct Prediction {
   std::vector<double> mac;           ///< (n_measured_modes) with the paired mode, NaN without shape
 };
 
+/// Undamped modes of the model as the channels see them, and which of them each measured mode is paired with.
+struct FormModes {
+  ModelModes modes;
+  std::vector<PairedMode> paired;  ///< (n_measured_modes), empty where the model predicts none of these rows
+};
+
 /// g(x, a): rows of the measurement as functions of the nuisance unknowns x and of causes. Frequencies, damping, RMS, floors and stay
 /// frequencies in ln; shapes scaled to the measured ones, the scale being free.
 class FeatureMap {
@@ -85,6 +92,9 @@ class FeatureMap {
   /// scaled to 1.
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> node_motion(const Base& base, const std::vector<Cause>& causes) const;
 
+  /// What errors of the model's form are made of (model_modes.cpp).
+  [[nodiscard]] FormModes form_modes(const Base& base, const std::vector<Cause>& causes) const;
+
   [[nodiscard]] const ReducedModel& model() const { return model_; }
   [[nodiscard]] const FeatureSet& features() const { return features_; }
   [[nodiscard]] const std::vector<Nuisance>& nuisances() const { return nuisances_; }
@@ -94,6 +104,8 @@ class FeatureMap {
   [[nodiscard]] int scales() const { return n_scales_; }
   /// Replaces the measured values by others (bootstrap, tests), in transformed units.
   void set_values(const Eigen::VectorXd& values);
+  /// Errors that come on top of the identification's, in transformed units (n_rows × n_rows).
+  void add_covariance(const Eigen::MatrixXd& further);
 
  private:
   friend class Predictor;

@@ -85,6 +85,12 @@ class Inference {
   /// Signature of a candidate at coordinates a, whitened; empty where it cannot be computed.
   [[nodiscard]] Eigen::VectorXd signature(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
 
+  /// What a candidate does to all rows at the magnitudes that the screen tries.
+  struct Tried {
+    Eigen::VectorXd a, change;  ///< coordinates; g(x, a) - g(x) (n_rows)
+  };
+  [[nodiscard]] std::vector<Tried> tried(const Fit& base, const Candidate& candidate) const;
+
   [[nodiscard]] const std::vector<int>& training() const { return training_; }
   [[nodiscard]] const std::vector<int>& held_out() const { return held_out_; }
   [[nodiscard]] int dof() const { return static_cast<int>(training_.size()) - training_scales_; }

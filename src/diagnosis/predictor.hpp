@@ -40,6 +40,7 @@ class Predictor {
   Predictor(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, bool with_jacobian);
   [[nodiscard]] Prediction run();
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> node_motion();
+  [[nodiscard]] FormModes form_modes();
 
  private:
   using Complex = std::complex<double>;

@@ -30,6 +30,13 @@ std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& can
   return starts;
 }
 
+std::vector<Inference::Tried> Inference::tried(const Fit& base, const Candidate& candidate) const {
+  std::vector<Tried> out;
+  for (const VectorXd& a : starts_at(base, candidate))
+    if (VectorXd of_start = change(base, candidate, a); of_start.size() > 0) out.push_back({a, std::move(of_start)});
+  return out;
+}
+
 ScreenTable Inference::screen_table(const Fit& base) const {
   std::vector<std::vector<VectorXd>> changes(candidates_.size());
   parallel_for(candidates_.size(), [&](std::size_t i) {

@@ -19,8 +19,8 @@ MAX_FILE_LINES = 500
 
 
 def library_of(parts):
-    """The library of a file below src, or of an include: its folder; below `steps` each folder is one, the mains are `steps`."""
-    return "/".join(parts[:2]) if parts[0] == "steps" and len(parts) == 3 else parts[0]
+    """The library of a file below src, or of an include: its folder; below `steps` and `diagnosis` each folder is one of its own."""
+    return "/".join(parts[:2]) if parts[0] in ("steps", "diagnosis") and len(parts) == 3 else parts[0]
 
 
 def violations(src):
@@ -159,6 +159,13 @@ class TheCheckCanFail(unittest.TestCase):
         found = violations(self.tree({"layers.toml": layers} | files))
         self.assertEqual(len(found), 1)
         self.assertIn("steps/b -> steps/a", found[0])
+
+    def test_a_room_of_the_diagnosis_is_a_library_of_its_own(self):
+        layers = "[layer]\n'diagnosis/a' = 4\ndiagnosis = 5\n[uses]\n'diagnosis/a' = []\ndiagnosis = ['diagnosis/a']\n"
+        files = {"diagnosis/x.cpp": '#include "diagnosis/a/y.hpp"\n', "diagnosis/a/y.hpp": '#include "diagnosis/x.hpp"\n'}
+        found = violations(self.tree({"layers.toml": layers} | files))
+        self.assertEqual(len(found), 1)
+        self.assertIn("diagnosis/a -> diagnosis", found[0])
 
     def test_a_circle_is_found(self):
         self.assertEqual(set(circle({"steps/a": ["steps/b"], "steps/b": ["steps/a"]})), {"steps/a", "steps/b"})

@@ -60,6 +60,32 @@ std::vector<std::string> measure_next(const Diagnosis& result, const std::vector
   return next;
 }
 
+/// The form error's scales, and the gain on modes left out, of which `before` and `after` are given where no row was held out.
+void add_form(const diagnosis::FormReport& form, nlohmann::ordered_json& json) {
+  const auto percent = [](const diagnosis::ScaleEstimate& e) {
+    return nlohmann::ordered_json{{"level", 100.0 * e.level}, {"low", 100.0 * e.low}, {"high", 100.0 * e.high}};
+  };
+  json["form"] = {{"frequency_pct", percent(form.frequency)}, {"shape_pct", percent(form.shape)}, {"warnings", form.warnings}};
+  auto& gain = json["gain"];
+  gain["log_gain"] = form.gain.log_gain;
+  gain["log_gain_interval"] = {form.gain.low, form.gain.high};
+  gain["blocks"] = form.gain.blocks.size();
+  if (gain["rows"] != 0 || form.gain.blocks.empty()) return;
+  double before = 0.0, after = 0.0;
+  int rows = 0;
+  for (const auto& block : form.gain.blocks) {
+    before += block.before;
+    after += block.after;
+    rows += block.rows;
+  }
+  gain["held_out"] = "each mode in turn, in all conditions";
+  gain["rows"] = rows;
+  gain["before"] = std::sqrt(before / rows);
+  gain["after"] = std::sqrt(after / rows);
+  gain["reduction_pct"] = form.gain.reduction_pct;
+  gain["interval_pct"] = {form.gain.low_pct, form.gain.high_pct};
+}
+
 }  // namespace
 
 void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const std::vector<diagnosis::Invisible>& invisible,
@@ -132,6 +158,7 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                   {"reduction_pct", result.gain.reduction_pct},
                   {"interval_pct", {result.gain.low_pct, result.gain.high_pct}},
                   {"level", 0.90}};
+  if (result.form) add_form(*result.form, json);
   json["measure_next"] = measure_next(result, invisible);
   const auto listed = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
   json["full_model"] = {{"frequency_Hz", listed(check.full_Hz)},

@@ -127,7 +127,7 @@ std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const d
 
 void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
   if (config.hold_out.empty()) {
-    diagnosis::hold_out_by_rule(features);
+    if (config.form == "off") diagnosis::hold_out_by_rule(features);  // with "on" whole modes are left out one after another
     return;
   }
   for (diagnosis::Row& row : features.rows) row.held_out = false;
@@ -229,6 +229,8 @@ io::FieldTable DiagnosisConfig::fields() {
       .integer("nodes", nodes, {2, 200}, "nodes at which masses, oscillators and ties are looked for")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
+      .choice("form", form, {"on", "off"},
+              "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is exact but for scatter")
       .text("threshold_cache", threshold_cache, "folder of thresholds by hash (default: <results>/thresholds, or beside --out)")
       .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),
               "relative deviation of an element's stiffness")
@@ -332,6 +334,21 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   return {read_threshold(file, key).value_or(threshold), from};  // as it is kept, to six decimals
 }
 
+namespace {
+
+void say_form(const diagnosis::FormReport& form, StepContext& context) {
+  context.say(fmt::format("  form error of the model: {:.2f} % in frequency ({:.2f} to {:.2f}), {:.2f} % in shape ({:.2f} to {:.2f})",
+                          100.0 * form.frequency.level, 100.0 * form.frequency.low, 100.0 * form.frequency.high, 100.0 * form.shape.level,
+                          100.0 * form.shape.low, 100.0 * form.shape.high));
+  if (!form.gain.blocks.empty())
+    context.say(fmt::format("  left out mode by mode ({} modes): gain {:.1f} nats ({:.1f} to {:.1f}), misfit {:.0f} % less ({:.0f} to {:.0f})",
+                            form.gain.blocks.size(), form.gain.log_gain, form.gain.low, form.gain.high, form.gain.reduction_pct,
+                            form.gain.low_pct, form.gain.high_pct));
+  for (const std::string& warning : form.warnings) context.say("  warning: " + warning);
+}
+
+}  // namespace
+
 Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   Eigen::setNbThreads(1);  // small matrices, and sums must not depend on threads
   const auto begin = std::chrono::steady_clock::now();
@@ -349,7 +366,8 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
     return {};
   }
   diagnosis::DiagnoseOptions options;
-  const Threshold threshold = find_threshold(config, inputs, inference, context);
+  const bool with_form = config.form == "on";  // its rules have thresholds of their own
+  const Threshold threshold = with_form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
   options.alpha = config.alpha;
   options.threshold = threshold.value;
   options.least_log_odds = config.least_log_odds;
@@ -358,7 +376,8 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   options.search = config.search;
   options.search.most_refined = static_cast<int>(config.most_refined);
   options.most_causes = static_cast<int>(config.most_causes);
-  diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
+  diagnosis::Diagnosis result = with_form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
+                                          : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   result.scatter = diagnosis::scatter_scales(inference, result.after);
   write_residuals(inference, result, context.out / "residuals.csv");
@@ -382,6 +401,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   for (const auto& effect : result.effects)
     context.say(fmt::format("  {} (log odds {:.1f}){}", effect.cause.candidate->id(), effect.log_odds,
                             effect.cluster.size() < 2 ? "" : fmt::format("; one of {}", fmt::join(effect.cluster, ", "))));
+  if (result.form) say_form(*result.form, context);
   if (result.gain.rows > 0)
     context.say(fmt::format("  held out {} rows: {:.2f} -> {:.2f} standard deviations, {:.0f} % less ({:.0f} to {:.0f})",
                             result.gain.rows, result.gain.before, result.gain.after, result.gain.reduction_pct,

@@ -28,6 +28,7 @@ struct DiagnosisConfig {
   long most_refined = search.most_refined;
   long nulls = 0, most_causes = 4, modes = 24, zones = 24, nodes = 24;
   double sensor_tolerance_m = 0.5;
+  std::string form = "off";     ///< "on": the model's form may be wrong, and competes with every cause (decision 0013)
   std::string threshold_cache;  ///< folder of thresholds by hash
   diagnosis::ScatterOptions scatter;
 

@@ -1,0 +1,328 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/diagnose_parts.hpp"
+#include "diagnosis/form_search.hpp"
+#include "diagnosis/inference/verdict.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kFitted = 0.01;  // form error of frequencies and shapes that the fits stand
+constexpr double kGuardWithin = 15.0;  // nats of the leader: entries that a fold may choose
+/// Extra deviation of ln (size of an effect): a size is in units of a model that is wrong.
+constexpr double kSizeError = 0.1, kSizePerForm = 5.0, kMostSizeError = 0.4;
+
+/// A feature map with the form error in its rows' covariance, at what the model predicts from a base.
+FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base, const VectorXd& predicted, double frequency,
+                           double shape) {
+  FeatureMap out = plain;
+  out.add_covariance(form_covariance(plain, base, {}, predicted, frequency, shape));
+  return out;
+}
+
+Scored scored_of(const FormSearch& search, const FormEntry& entry, const Inference& informed) {
+  Scored out;
+  out.candidate = entry.candidate;
+  out.a = entry.a;
+  out.log_odds = entry.log_weight - search.none_weight;
+  out.screen = std::max(0.0, 2.0 * (entry.evidence.log_evidence - search.none.log_evidence));
+  out.chi_squared = out.remaining = entry.evidence.best.chi_squared;
+  out.stage = entry.refined ? 3 : 1;
+  if (entry.a.size() == entry.candidate->low.size()) out.signature = informed.signature(search.base, *entry.candidate, entry.a);
+  if (out.signature.size() == 0) out.signature = VectorXd::Zero(std::ssize(informed.training()));
+  if (entry.refined) out.x = entry.with.map.x.head(static_cast<Index>(informed.map().nuisances().size()));
+  return out;
+}
+
+/// Rows of whole modes: those of one model mode in all conditions.
+std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit) {
+  const FormModes modes = plain.map().form_modes(fit.base, fit.causes);
+  std::map<int, int> place;  // of a row among the training rows
+  for (std::size_t r = 0; r < plain.training().size(); ++r) place[plain.training()[r]] = static_cast<int>(r);
+  std::map<std::string, std::vector<int>> blocks;
+  for (std::size_t m = 0; m < modes.paired.size(); ++m) {
+    const MeasuredMode& mode = plain.map().measured_modes()[m];
+    std::vector<int>& block =
+        blocks[modes.paired[m].model_mode >= 0 ? std::to_string(modes.paired[m].model_mode) : "label " + mode.label];
+    std::vector<int> rows = mode.real_rows;
+    rows.insert(rows.end(), mode.imag_rows.begin(), mode.imag_rows.end());
+    rows.push_back(mode.frequency);
+    rows.push_back(mode.damping);
+    for (const int r : rows)
+      if (const auto at = place.find(r); at != place.end()) block.push_back(at->second);
+  }
+  std::vector<std::vector<int>> out;
+  for (auto& [name, block] : blocks)
+    if (!block.empty()) out.push_back(std::move(block));
+  return out;
+}
+
+/// An entry's best point as a Gaussian law of the rows; its magnitudes are unknowns as wide as their range.
+Explanation explanation_of(const FormEntry& entry, const FormSetting& setting, const Leftover& leftover) {
+  const EvidenceTerm& best = entry.evidence.best;
+  const int contrast = best.kappa < 0 ? -1 : entry.contrast >= 0 ? entry.contrast : leftover.contrast;
+  const MatrixXd columns = scaled_columns(entry.system, setting.grid, setting.grid.points[static_cast<std::size_t>(best.point)], contrast,
+                                          best.kappa < 0 ? 0.0 : setting.grid.change[best.kappa]);
+  const Candidate& candidate = *entry.candidate;
+  const VectorXd deviation = (candidate.high - candidate.low) / std::sqrt(12.0), middle = 0.5 * (candidate.high + candidate.low);
+  MatrixXd all(columns.rows(), columns.cols() + deviation.size());
+  all << columns, entry.system.signatures * deviation.asDiagonal();
+  // The system's residual is that at the magnitudes of the fit, which its prediction was made with.
+  const VectorXd left = entry.system.residual - entry.system.signatures * (middle - entry.fitted);
+  return {precision_of(entry.system.sigma_factor, all), left, VectorXd::Constant(1, log_prior_of(candidate))};
+}
+
+/// Entries that were only screened, at the base and at the leader's scales.
+Explanation screened_explanation(const FormEntry& entry, const FormSearch& search, const std::shared_ptr<const Precision>& precision) {
+  const std::vector<double> factors = magnitude_factors(*entry.candidate);
+  const auto count = static_cast<Index>(entry.tried.size() * factors.size());
+  Explanation out{precision, MatrixXd(search.system.residual.size(), count),
+                  VectorXd::Constant(count, log_prior_of(*entry.candidate) - std::log(static_cast<double>(count)))};
+  Index k = 0;
+  for (std::size_t i = 0; i < entry.tried.size(); ++i)
+    for (const double t : factors)
+      out.left.col(k++) = search.system.residual - t * search.system.signatures.col(entry.first_signature + static_cast<Index>(i));
+  return out;
+}
+
+PredictiveGain predictive_gain(const FormSetting& setting, const FormSearch& search, const Leftover& leftover, int bootstrap,
+                               std::uint64_t seed) {
+  const auto at_best = [&](const EvidenceTerm& best, int contrast) {
+    return precision_of(search.system.sigma_factor,
+                        scaled_columns(search.system, setting.grid, setting.grid.points[static_cast<std::size_t>(best.point)],
+                                       best.kappa < 0 ? -1 : contrast, best.kappa < 0 ? 0.0 : setting.grid.change[best.kappa]));
+  };
+  const Explanation none{at_best(search.none.best, leftover.contrast), search.system.residual, VectorXd::Zero(1)};
+  const FormEntry& leader = search.entries.front();
+  const int contrast = leader.contrast >= 0 ? leader.contrast : leftover.contrast;
+  std::shared_ptr<const Precision> screened;
+  std::vector<Explanation> entries;
+  for (const FormEntry& entry : search.entries) {
+    if (entry.log_weight < leader.log_weight - kGuardWithin) break;
+    if (entry.refined) {
+      entries.push_back(explanation_of(entry, setting, leftover));
+      continue;
+    }
+    if (!screened) screened = at_best(leader.evidence.best, contrast);
+    entries.push_back(screened_explanation(entry, search, screened));
+  }
+  return leave_one_out(mode_blocks(setting.plain, search.base), none, entries, bootstrap, seed);
+}
+
+/// Entries that these data can't tell from the leader, and what the rules look at.
+struct Weighing {
+  Weighed weighed;
+  std::vector<std::size_t> members;  ///< positions among the entries, the leader's first
+};
+
+Weighing weighing_of(const FormSearch& search, const std::vector<Scored>& ranking, int dof, const DiagnoseOptions& options) {
+  Weighing out;
+  out.weighed.none = search.none_weight;
+  for (const double w : search.else_weight) out.weighed.something_else = std::max(out.weighed.something_else, w);
+  out.weighed.none_chi_squared_ratio = search.none.best.chi_squared / dof;
+  if (search.entries.empty()) return out;
+  const FormEntry& leader = search.entries.front();
+  out.weighed.leader = leader.log_weight;
+  out.weighed.chi_squared_ratio = leader.evidence.best.chi_squared / dof;
+  out.weighed.in_all_conditions = leader.contrast < 0;
+  out.weighed.kappa = leader.contrast < 0 ? 0.0 : leader.evidence.kappa;
+  out.weighed.effect = leader.effect;
+  const double misfit = std::max(1.0, out.weighed.chi_squared_ratio);
+  for (std::size_t i = 0; i < search.entries.size(); ++i) {
+    const double gap = (leader.log_weight - search.entries[i].log_weight) / misfit;
+    if (gap >= std::max(options.either_within, options.same_within)) break;
+    const double norms = ranking[0].signature.norm() * ranking[i].signature.norm();
+    const double cosine = norms > 0.0 ? std::abs(ranking[0].signature.dot(ranking[i].signature)) / norms : 0.0;
+    if (gap < options.either_within || (gap < options.same_within && cosine > options.same_direction)) out.members.push_back(i);
+  }
+  out.weighed.members = static_cast<int>(out.members.size());
+  return out;
+}
+
+/// Posterior of the leader over the catalogue, nothing and something else, the likelihoods widened by the misfit.
+double probability_of_leader(const FormSearch& search, double misfit) {
+  const double leader = search.entries.front().log_weight;
+  double sum = std::exp((search.none_weight - leader) / misfit);
+  for (const double w : search.else_weight) sum += std::exp((w - leader) / misfit);
+  for (const FormEntry& entry : search.entries) sum += std::exp((entry.log_weight - leader) / misfit);
+  return 1.0 / sum;
+}
+
+Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking, const Weighing& weighing, const Ruling& ruling,
+                   const FormSetting& setting) {
+  Effect effect;
+  effect.cause = {search.entries.front().candidate, search.entries.front().a};
+  effect.log_odds = ruling.against_none;
+  effect.probability = probability_of_leader(search, std::max(1.0, weighing.weighed.chi_squared_ratio));
+  std::vector<const Scored*> members;
+  for (const std::size_t i : weighing.members) members.push_back(&ranking[i]);
+  for (const Scored* member : members) effect.cluster.push_back(member->candidate->id());
+  if (ruling.something_else_in_set) effect.cluster.emplace_back("other@global");
+  effect.split_by = splitting_measurement(setting.plain, search.base, members);
+  return effect;
+}
+
+/// Widens the intervals of sizes in quadrature, on ln of the size (kg, |ln factor|).
+void widen(std::vector<EffectParameter>& parameters, double form_error) {
+  const double deviation = std::min(kSizeError + kSizePerForm * form_error, kMostSizeError), reach = 1.645 * deviation;
+  static const std::set<std::string> no_size = {"Hz", "deg", "degC", "C", "s", "m"};
+  for (EffectParameter& p : parameters) {
+    if (no_size.contains(p.unit)) continue;
+    const bool factor = p.name == "factor";
+    const auto size = [&](double v) { return factor ? std::log(v) : v; };
+    const auto back = [&](double z) { return factor ? std::exp(z) : z; };
+    const double z = size(p.value), low = size(p.low), high = size(p.high);
+    const auto end = [&](double of) {
+      if (of * z > 0.0) return z * std::exp(std::copysign(std::hypot(std::log(of / z), reach), std::abs(of) - std::abs(z)));
+      return z + std::copysign(std::hypot(of - z, reach * z), of - z);
+    };
+    if (!(z != 0.0) || !std::isfinite(z)) continue;
+    if (!p.at_low_bound) p.low = back(low == z ? z - std::abs(z) * reach : end(low));
+    if (!p.at_high_bound) p.high = back(high == z ? z + std::abs(z) * reach : end(high));
+  }
+}
+
+std::string message_of(const Diagnosis& out, const Ruling& ruling, const FormReport& form, const FormSearch& search) {
+  if (out.verdict == "named" || out.verdict == "ambiguous") return out.effects.front().sentence;
+  const std::string scales = fmt::format("form error about {:.1f} % in frequency and {:.1f} % in shape", 100.0 * form.frequency.level,
+                                         100.0 * form.shape.level);
+  if (out.verdict == "none")
+    return fmt::format("nothing found: {} ({}); causes smaller than that which act in every condition cannot be seen", ruling.reason, scales);
+  std::string text = ruling.reason + " (" + scales + ")";
+  if (!out.effects.empty())
+    text += "; it acts like " + out.effects.front().cluster.front();
+  else if (!search.entries.empty() && ruling.against_none > ruling.threshold)
+    text += "; it acts like " + search.entries.front().candidate->id();
+  return text;
+}
+
+void add_warnings(FormReport& form) {
+  if (form.frequency.at_end)
+    form.warnings.emplace_back("the form error of frequencies ends at the end of its grid (8 %): the model is further off than any that was tried");
+  if (form.shape.at_end)
+    form.warnings.emplace_back("the form error of shapes ends at the end of its grid (10 %): the model is further off than any that was tried");
+}
+
+std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& fit) {
+  std::vector<std::string> out;
+  for (std::size_t j = 0; j < map.nuisances().size(); ++j) {
+    const Nuisance& v = map.nuisances()[j];
+    const double range = v.upper - v.lower, u = fit.map.x[static_cast<Index>(j)];
+    if (v.kind != Nuisance::Kind::parameter || !std::isfinite(range)) continue;
+    if (u < v.lower + 0.02 * range || u > v.upper - 0.02 * range) out.push_back(v.name);
+  }
+  return out;
+}
+
+/// Fits, intervals, residual test and gain at the level of the form error that the winning hypothesis has.
+void finish(const Inference& plain, const std::vector<Cause>& causes, const VectorXd& x_before, const VectorXd& x_after, double without_cause,
+            const DiagnoseOptions& options, std::uint64_t seed, Diagnosis& out) {
+  const FeatureMap levelled = with_form_error(plain.map(), out.before.base, out.before.all.g, out.form->frequency.level, out.form->shape.level);
+  const Inference inference(levelled, plain.candidates());
+  out.before = inference.fit({}, x_before);
+  out.after = causes.empty() ? out.before : inference.fit(causes, x_after);
+  for (std::size_t i = 0; i < out.effects.size(); ++i) {
+    out.effects[i].cause = out.after.causes[i];
+    out.effects[i].parameters = effect_parameters(inference, out.after, i);
+    widen(out.effects[i].parameters, without_cause);
+    out.effects[i].sentence = sentence_of(out.effects[i]);
+    out.effects[i].remedy = out.effects[i].cause.candidate->hypothesis->remedy;
+  }
+  out.after_extension = !out.effects.empty();
+  out.localisation = location_map(inference, out.after, out.ranking);
+  out.residual = residual_test(inference, out.after);
+  out.on_bounds = parameters_on_bounds(levelled, out.before);
+  out.gain = held_out_gain(plain, out.before, out.after, options.bootstrap, seed);
+}
+
+}  // namespace
+
+Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& options, std::uint64_t seed) {
+  Diagnosis out;
+  out.alpha = options.alpha;
+  const FeatureMap& map = plain.map();
+  const FeatureMap::Base prior = map.base(VectorXd::Zero(static_cast<Index>(map.nuisances().size())));
+  const Prediction nominal = map.predict(prior, {}, false);
+  if (!nominal.valid) {
+    out.verdict = "unknown";
+    out.message = "the model predicts none of these rows";
+    return out;
+  }
+  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, kFitted, kFitted);
+  const Inference informed(informed_map, plain.candidates());
+  const FormSetting setting{plain, informed, contrasts_of(map.features()), scale_grid()};
+  const auto n = static_cast<Index>(map.nuisances().size());
+  Fit current = informed.fit({}, {});
+  if (current.chi_squared > 1e299) {
+    out.verdict = "unknown";
+    out.message = "the model predicts none of these rows: " + current.map.status.message;
+    return out;
+  }
+  out.before = current;
+  out.form.emplace();
+  std::vector<Cause> causes;
+  Leftover leftover;
+  Ruling ruling;
+  FormSearch search;
+  HypothesisEvidence winner;
+  double without_cause = 0.0;
+  Verdict verdict = Verdict::none;
+  for (int step = 0; step <= options.most_causes; ++step) {
+    search = search_with_form(setting, current, leftover);
+    std::vector<Scored> ranking;
+    for (const FormEntry& entry : search.entries) ranking.push_back(scored_of(search, entry, informed));
+    const Weighing weighing = weighing_of(search, ranking, plain.dof(), options);
+    const Ruling of_rules = rule(weighing.weighed);
+    ruling = of_rules;
+    if (!search.entries.empty() && (step == 0 || ruling.against_none > ruling.threshold)) {
+      const PredictiveGain gain = predictive_gain(setting, search, leftover, options.bootstrap, seed);
+      if (step == 0) out.form->gain = gain;
+      ruling = guarded(ruling, gain.low, weighing.weighed.in_all_conditions);
+    }
+    if (step == 0) {
+      out.ranking = ranking;
+      out.log_odds = ruling.against_none;
+      out.threshold = ruling.threshold;
+      winner = search.none;
+      without_cause = estimate(setting.grid.frequency, search.none.frequency).level;
+      verdict = ruling.verdict;
+    }
+    if (of_rules.verdict == Verdict::unknown) verdict = Verdict::unknown;  // a name that leaves the main change unexplained is none
+    const bool accepted = ruling.verdict == Verdict::named || ruling.verdict == Verdict::ambiguous;
+    if (!accepted || step == options.most_causes) break;
+    if (ruling.verdict == Verdict::ambiguous) verdict = Verdict::ambiguous;
+    const FormEntry& leader = search.entries.front();
+    out.effects.push_back(effect_from(search, ranking, weighing, ruling, setting));
+    causes.push_back(out.effects.back().cause);
+    winner = leader.evidence;
+    if (leader.contrast >= 0) leftover = {leader.contrast, leader.effect};
+    current = informed.fit(causes, leader.refined ? VectorXd(leader.with.map.x.head(n)) : VectorXd(current.map.x.head(n)));
+    if (current.chi_squared > 1e299) {
+      out.effects.pop_back();
+      causes.pop_back();
+      break;
+    }
+  }
+  out.form->frequency = estimate(setting.grid.frequency, winner.frequency);
+  out.form->shape = estimate(setting.grid.shape, winner.shape);
+  add_warnings(*out.form);
+  out.verdict = name_of(verdict);
+  finish(plain, causes, out.before.map.x.head(n), causes.empty() ? VectorXd() : VectorXd(current.map.x.head(n)), without_cause, options, seed,
+         out);
+  out.message = message_of(out, ruling, *out.form, search);
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,139 @@
+#include "diagnosis/form_frame.hpp"
+
+#include <algorithm>
+
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kFreeScale = 10.0;  // of a shape, relative: wide enough to cost nothing
+
+const std::vector<std::string>& contrast_keys() {
+  static const std::vector<std::string> keys = {"dampers", "amplitude_m", "temperature_C", "wind_m_s", "people"};
+  return keys;
+}
+
+std::optional<double> value_of(const Condition& condition, const std::string& key) {
+  if (key == "amplitude_m") return condition.amplitude_m;
+  if (key == "temperature_C") return condition.temperature_C;
+  if (key == "wind_m_s") return condition.wind_m_s;
+  if (key == "people") return condition.people;
+  if (condition.dampers_on) return *condition.dampers_on ? 1.0 : 0.0;
+  return std::nullopt;
+}
+
+/// Keys that an action goes by; none for what acts everywhere.
+std::vector<std::string> keys_of(const ActionSpec& action) {
+  const std::string& kind = action.kind;
+  if (kind == "damper.friction") return {"amplitude_m", "dampers"};
+  if (kind.starts_with("damper.")) return {"dampers"};
+  if (kind == "frequency.amplitude") return {"amplitude_m"};
+  if (kind == "mass.per_count" || kind == "person.oscillator") return {"people"};
+  if (kind.starts_with("wind.")) return {"wind_m_s"};
+  if (kind == "field.stiffness" || kind == "step.stiffness" || kind == "slip.stiffness" || kind == "soften.stiffness") {
+    const auto named = action.text.find("variable");
+    return {named == action.text.end() ? "temperature_C" : named->second};
+  }
+  return {};
+}
+
+bool is_scatter(Nuisance::Kind kind) {
+  return kind == Nuisance::Kind::element_stiffness || kind == Nuisance::Kind::element_mass || kind == Nuisance::Kind::node_mass ||
+         kind == Nuisance::Kind::stay;
+}
+
+std::vector<double> measured_frequencies(const FeatureMap& map) {
+  std::vector<double> out;
+  for (const MeasuredMode& mode : map.measured_modes()) out.push_back(mode.frequency_Hz);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Contrast> contrasts_of(const FeatureSet& features) {
+  std::vector<bool> used(features.conditions.size(), false);
+  for (const Row& row : features.rows)
+    if (row.type == RowType::frequency || row.type == RowType::shape) used[static_cast<std::size_t>(row.condition)] = true;
+  std::vector<Contrast> out;
+  for (const std::string& key : contrast_keys()) {
+    std::vector<std::optional<double>> values;
+    for (std::size_t c = 0; c < used.size(); ++c)
+      values.push_back(used[c] ? value_of(features.conditions[c], key) : std::nullopt);
+    if (auto contrast = contrast_of(key, values)) out.push_back(std::move(*contrast));
+  }
+  return out;
+}
+
+int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
+  for (const ActionSpec& action : candidate.hypothesis->actions)
+    for (const std::string& key : keys_of(action))
+      for (std::size_t c = 0; c < contrasts.size(); ++c)
+        if (contrasts[c].key == key) return static_cast<int>(c);
+  return -1;
+}
+
+FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, Index tested) {
+  const FeatureMap& map = plain.map();
+  const std::vector<int>& rows = plain.training();
+  const auto n = static_cast<Index>(map.nuisances().size());
+  const MatrixXd& j = fit.map.jacobian;
+  const Index accepted = j.cols() - n - tested;
+  std::vector<int> fixed, scatter;
+  for (Index k = 0; k < n; ++k)
+    (is_scatter(map.nuisances()[static_cast<std::size_t>(k)].kind) ? scatter : fixed).push_back(static_cast<int>(k));
+  for (Index k = 0; k < accepted; ++k) fixed.push_back(static_cast<int>(n + k));
+  const FormModes modes = map.form_modes(fit.base, fit.causes);
+  const FormColumns form = form_columns(modes.modes, modes.paired, fit.all.g);
+  const MatrixXd rotations = close_rotations(modes.paired, measured_frequencies(map), map.values());
+  FormSystem out;
+  out.sigma_factor = linalg::cholesky_factor(plain.covariance());
+  out.fixed.resize(std::ssize(rows), std::ssize(fixed) + fit.map.scales.cols() + rotations.cols());
+  out.fixed << j(Eigen::all, fixed), kFreeScale * fit.map.scales, rotations(rows, Eigen::all);
+  out.scatter = j(Eigen::all, scatter);
+  out.frequency = form.frequency(rows, Eigen::all);
+  out.shape = form.shape(rows, Eigen::all);
+  out.kinks = form.kinks(rows, Eigen::all);
+  std::vector<int> condition;
+  for (const Row& row : map.features().rows) condition.push_back(row.condition);
+  for (const Contrast& contrast : contrasts) {
+    out.change.push_back({change_columns(form, contrast, condition)(rows, Eigen::all), {}});
+    for (Index k = 0; k < tested; ++k) out.change.back().signatures.push_back(static_cast<int>(k));
+  }
+  VectorXd x = fit.map.x;
+  x.tail(tested).setZero();
+  out.residual = map.values()(rows) - fit.map.g + j * x;
+  out.signatures = j.rightCols(tested);
+  if (tested > 0) {
+    const Candidate& candidate = *fit.causes.back().candidate;  // the fit has magnitudes in units of twice their range
+    for (Index k = 0; k < tested; ++k) out.signatures.col(k) /= 2.0 * (candidate.high[k] - candidate.low[k]);
+    out.all_products = true;
+  }
+  return out;
+}
+
+MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, const VectorXd& predicted,
+                         double frequency, double shape) {
+  const FormModes modes = map.form_modes(base, causes);
+  const FormColumns form = form_columns(modes.modes, modes.paired, predicted);
+  MatrixXd all(predicted.size(), form.frequency.cols() + form.shape.cols() + form.kinks.cols());
+  all << frequency * form.frequency, shape * form.shape, shape * form.kinks;
+  return linalg::product(all, all.transpose());
+}
+
+MatrixXd scaled_columns(const FormSystem& system, const ScaleGrid& grid, const ScalePoint& point, int contrast, double kappa) {
+  const MatrixXd none(system.residual.size(), 0);
+  const MatrixXd& change = contrast >= 0 ? system.change[static_cast<std::size_t>(contrast)].columns : none;
+  const double f = grid.frequency[point.frequency], s = grid.shape[point.shape];
+  MatrixXd out(system.residual.size(), system.fixed.cols() + system.scatter.cols() + system.frequency.cols() + system.shape.cols() +
+                                           system.kinks.cols() + change.cols());
+  out << system.fixed, point.scatter * system.scatter, f * system.frequency, s * system.shape, s * system.kinks, kappa * change;
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

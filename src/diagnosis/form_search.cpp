@@ -1,0 +1,349 @@
+#include "diagnosis/form_search.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/parallel.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNone = 0.5, kSomethingElse = 0.05, kCatalogue = 0.4;  // prior probabilities
+constexpr double kElseScale = 0.03;      // of kappa where something else changed
+constexpr double kLeftoverPart = 0.1;    // of a cause's effect: scale of what it leaves over
+constexpr double kLeastEffect = 0.001;   // of a cause on frequencies, ln
+constexpr int kRefined = 6, kMostRefined = 10, kRounds = 3;
+constexpr double kRefineWithin = 8.0, kFamilyWithin = 12.0;  // nats of the best
+constexpr double kWorthRefining = -4.0;  // nats against none: below, the best entry is far from any threshold
+
+/// ln of the posterior width of magnitudes over their prior width, never a gain.
+double log_width(const MatrixXd& precision, const Candidate& candidate) {
+  const Index k = candidate.low.size();
+  if (k == 0) return 0.0;
+  MatrixXd h = precision;
+  double log_range = 0.0;
+  for (Index i = 0; i < k; ++i) {
+    const double range = candidate.high[i] - candidate.low[i];
+    log_range += std::log(range);
+    h(i, i) += 2.0 * std::numbers::pi / (range * range);
+  }
+  const double log_det = h.ldlt().vectorD().cwiseMax(1e-300).array().log().sum();
+  return std::min(0.5 * static_cast<double>(k) * std::log(2.0 * std::numbers::pi) - 0.5 * log_det - log_range, 0.0);
+}
+
+/// RMS change of the frequencies in the conditions where a cause acts.
+double effect_of(const Inference& inference, const VectorXd& change, const Contrast* contrast) {
+  double sum = 0.0;
+  int rows = 0;
+  for (const int r : inference.training()) {
+    const Row& row = inference.map().features().rows[static_cast<std::size_t>(r)];
+    if (row.type != RowType::frequency || (contrast != nullptr && contrast->weight[row.condition] == 0.0)) continue;
+    sum += change[r] * change[r];
+    ++rows;
+  }
+  return rows > 0 ? std::sqrt(sum / rows) : 0.0;
+}
+
+/// ln prior of kappa's leftover points beside an effect.
+VectorXd leftover_weights(const ScaleGrid& grid, double effect) {
+  const Part part = leftover_part();
+  return half_t_weights(grid.change.segment(part.first, part.count), kLeftoverPart * std::max(effect, kLeastEffect)).array().log();
+}
+
+/// Terms of one hypothesis at one point, over kappa where something is left over.
+/// @param density  ln density and chi² for a Quadratic
+template <typename Density>
+void add_terms(std::vector<EvidenceTerm>& terms, const ScaleGrid& grid, int point, const AtScales& at, int contrast, double effect,
+               Density density) {
+  const double prior = grid.points[static_cast<std::size_t>(point)].log_prior;
+  if (contrast < 0) {
+    const auto [log_density, chi_squared] = density(at.without);
+    terms.push_back({prior + log_density, point, -1, chi_squared});
+    return;
+  }
+  const VectorXd weight = leftover_weights(grid, effect);
+  const Part part = leftover_part();
+  for (Index k = 0; k < part.count; ++k) {
+    const auto kappa = static_cast<std::size_t>(part.first + k);
+    const auto [log_density, chi_squared] = density(at.change[static_cast<std::size_t>(contrast)][kappa]);
+    terms.push_back({prior + weight[k] + log_density, point, static_cast<int>(kappa), chi_squared});
+  }
+}
+
+/// The contrast in which something is left over under an entry.
+int leftover_contrast(const FormEntry& entry, const Leftover& leftover) {
+  return entry.contrast >= 0 ? entry.contrast : leftover.contrast;
+}
+
+double leftover_effect(const FormEntry& entry, double own, const Leftover& leftover) {
+  if (entry.contrast < 0) return leftover.effect;
+  return entry.contrast == leftover.contrast ? std::max(own, leftover.effect) : own;
+}
+
+/// Screen of every entry, none and something else at the base.
+class Screen {
+ public:
+  Screen(const FormSetting& setting, FormSearch& search, const Leftover& leftover)
+      : setting_(setting), search_(search), leftover_(leftover) {
+    place_signatures();
+    const FormEvidence evidence(search.system, setting.grid);
+    const std::size_t points = setting.grid.points.size();
+    std::vector<std::vector<std::vector<EvidenceTerm>>> of_point(points);
+    parallel_for(points, [&](std::size_t p) { of_point[p] = terms_at(evidence.at(setting.grid.points[p]), static_cast<int>(p)); });
+    const std::size_t hypotheses = 1 + setting.contrasts.size() + search.entries.size();
+    std::vector<HypothesisEvidence> found(hypotheses);
+    for (std::size_t h = 0; h < hypotheses; ++h) {
+      std::vector<EvidenceTerm> terms;
+      for (const auto& of : of_point) terms.insert(terms.end(), of[h].begin(), of[h].end());
+      found[h] = summed(terms, setting.grid);
+    }
+    search.none = found[0];
+    search.none_weight = found[0].log_evidence + log_prior_of_none();
+    search.something_else.assign(found.begin() + 1, found.begin() + 1 + std::ssize(setting.contrasts));
+    for (const HypothesisEvidence& e : search.something_else)
+      search.else_weight.push_back(e.log_evidence + log_prior_of_something_else());
+    for (std::size_t i = 0; i < search.entries.size(); ++i) {
+      FormEntry& entry = search.entries[i];
+      entry.evidence = found[1 + setting.contrasts.size() + i];
+      entry.log_weight = entry.evidence.log_evidence + log_prior_of(*entry.candidate);
+      choose_magnitude(entry, evidence);
+    }
+  }
+
+ private:
+  /// The signatures of all entries side by side, and which of them are asked with which contrast.
+  void place_signatures() {
+    std::vector<VectorXd> columns;
+    const std::vector<int>& rows = setting_.plain.training();
+    for (FormEntry& entry : search_.entries) {
+      entry.first_signature = static_cast<int>(columns.size());
+      const int contrast = leftover_contrast(entry, leftover_);
+      for (const Inference::Tried& tried : entry.tried) {
+        if (contrast >= 0) {
+          auto& asked = search_.system.change[static_cast<std::size_t>(contrast)].signatures;
+          position_.push_back(static_cast<int>(asked.size()));
+          asked.push_back(static_cast<int>(columns.size()));
+        } else {
+          position_.push_back(static_cast<int>(columns.size()));
+        }
+        columns.emplace_back(tried.change(rows));
+      }
+    }
+    search_.system.signatures.resize(std::ssize(rows), std::ssize(columns));
+    for (std::size_t k = 0; k < columns.size(); ++k) search_.system.signatures.col(static_cast<Index>(k)) = columns[k];
+  }
+
+  [[nodiscard]] const Contrast* contrast_of_entry(const FormEntry& entry) const {
+    return entry.contrast < 0 ? nullptr : &setting_.contrasts[static_cast<std::size_t>(entry.contrast)];
+  }
+
+  std::vector<std::vector<EvidenceTerm>> terms_at(const AtScales& at, int point) const {
+    std::vector<std::vector<EvidenceTerm>> out(1);
+    const ScaleGrid& grid = setting_.grid;
+    add_terms(out[0], grid, point, at, leftover_.contrast, leftover_.effect,
+              [](const Quadratic& q) { return std::pair(q.log_density(), q.chi_squared); });
+    const Part part = something_else_part();
+    const VectorXd weight = half_t_weights(grid.change.segment(part.first, part.count), kElseScale).array().log();
+    for (std::size_t c = 0; c < setting_.contrasts.size(); ++c) {
+      out.emplace_back();
+      for (Index k = 0; k < part.count; ++k) {
+        const auto kappa = static_cast<std::size_t>(part.first + k);
+        const Quadratic& q = at.change[c][kappa];
+        out.back().push_back({grid.points[static_cast<std::size_t>(point)].log_prior + weight[k] + q.log_density(), point,
+                              static_cast<int>(kappa), q.chi_squared});
+      }
+    }
+    for (const FormEntry& entry : search_.entries) out.push_back(entry_terms(entry, at, point));
+    return out;
+  }
+
+  std::vector<EvidenceTerm> entry_terms(const FormEntry& entry, const AtScales& at, int point) const {
+    const std::vector<double> factors = magnitude_factors(*entry.candidate);
+    std::vector<EvidenceTerm> out;
+    const double share = -std::log(static_cast<double>(entry.tried.size() * factors.size()));
+    for (std::size_t i = 0; i < entry.tried.size(); ++i) {
+      const double own = effect_of(setting_.plain, entry.tried[i].change, contrast_of_entry(entry));
+      const Index s = position_[static_cast<std::size_t>(entry.first_signature) + i];
+      for (const double t : factors)
+        add_terms(out, setting_.grid, point, at, leftover_contrast(entry, leftover_), leftover_effect(entry, t * own, leftover_),
+                  [&](const Quadratic& q) { return std::pair(share + q.log_density(s, t), q.remaining(s, t)); });
+    }
+    // Magnitudes are summed over here: they need not be kept for every point.
+    std::vector<EvidenceTerm> by_kappa;
+    for (const EvidenceTerm& term : out) {
+      const auto same = std::find_if(by_kappa.begin(), by_kappa.end(), [&](const EvidenceTerm& b) { return b.kappa == term.kappa; });
+      if (same == by_kappa.end()) {
+        by_kappa.push_back(term);
+        continue;
+      }
+      if (term.log_weight > same->log_weight) same->chi_squared = term.chi_squared;
+      same->log_weight = log_sum({same->log_weight, term.log_weight});
+    }
+    return by_kappa;
+  }
+
+  /// The magnitude of the largest density at the best point.
+  void choose_magnitude(FormEntry& entry, const FormEvidence& evidence) const {
+    if (entry.tried.empty() || entry.log_weight < search_.none_weight - 30.0) return;
+    const AtScales at = evidence.at(setting_.grid.points[static_cast<std::size_t>(entry.evidence.best.point)]);
+    const int contrast = leftover_contrast(entry, leftover_);
+    const Quadratic& q = contrast < 0 ? at.without
+                                      : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(entry.evidence.best.kappa)];
+    double best = -1e300;
+    for (std::size_t i = 0; i < entry.tried.size(); ++i)
+      for (const double t : magnitude_factors(*entry.candidate)) {
+        const double density = q.log_density(position_[static_cast<std::size_t>(entry.first_signature) + i], t);
+        if (density <= best) continue;
+        best = density;
+        entry.a = entry.tried[i].a;
+        if (t != 1.0) {  // a start for a fit: ln of a factor and rates scale, other magnitudes are logarithms of their own
+          const bool factor = entry.candidate->hypothesis->unknowns[0].name == "factor" || !entry.candidate->log[0];
+          entry.a[0] = factor ? t * entry.a[0] : entry.a[0] + std::log(t);
+          entry.a[0] = std::clamp(entry.a[0], entry.candidate->low[0], entry.candidate->high[0]);
+        }
+        entry.effect = t * effect_of(setting_.plain, entry.tried[i].change, contrast_of_entry(entry));
+      }
+  }
+
+  const FormSetting& setting_;
+  FormSearch& search_;
+  const Leftover& leftover_;
+  std::vector<int> position_;  // of each signature in the Quadratics that its entry is weighed with
+};
+
+/// Evidence with the entry in the model: its magnitudes are Gaussian about the fit, inside their bounds.
+struct Linearised {
+  HypothesisEvidence evidence;
+  VectorXd a;
+};
+
+Linearised linearised(const FormSetting& setting, const FormEntry& entry, const FormSystem& system, const VectorXd& fitted, double effect,
+                      const Leftover& leftover) {
+  const Candidate& candidate = *entry.candidate;
+  const FormEvidence evidence(system, setting.grid);
+  const auto shift_of = [&](const Quadratic& q) -> VectorXd {
+    if (fitted.size() == 0) return {};
+    MatrixXd h = q.products;
+    h.diagonal().array() += 1e-12 * (1.0 + h.diagonal().array().abs());
+    const VectorXd moved = fitted + VectorXd(h.ldlt().solve(q.along));
+    return moved.cwiseMax(candidate.low).cwiseMin(candidate.high) - fitted;
+  };
+  const auto density = [&](const Quadratic& q) {
+    if (fitted.size() == 0) return std::pair(q.log_density(), q.chi_squared);
+    const VectorXd shift = shift_of(q);
+    const double chi_squared = q.chi_squared - 2.0 * shift.dot(q.along) + shift.dot(q.products * shift);
+    return std::pair(-0.5 * (chi_squared + q.log_determinant) + log_width(q.products, candidate), chi_squared);
+  };
+  std::vector<std::vector<EvidenceTerm>> of_point(setting.grid.points.size());
+  const int contrast = leftover_contrast(entry, leftover);
+  parallel_for(of_point.size(), [&](std::size_t p) {
+    add_terms(of_point[p], setting.grid, static_cast<int>(p), evidence.at(setting.grid.points[p]), contrast,
+              leftover_effect(entry, effect, leftover), density);
+  });
+  std::vector<EvidenceTerm> terms;
+  for (const auto& of : of_point) terms.insert(terms.end(), of.begin(), of.end());
+  Linearised out{summed(terms, setting.grid), fitted};
+  if (fitted.size() > 0) {
+    const AtScales at = evidence.at(setting.grid.points[static_cast<std::size_t>(out.evidence.best.point)]);
+    out.a += shift_of(contrast < 0 ? at.without
+                                   : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(out.evidence.best.kappa)]);
+  }
+  return out;
+}
+
+void refine_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover, FormEntry& entry) {
+  const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
+  std::vector<Cause> causes = base.causes;
+  causes.push_back({entry.candidate, entry.a});
+  VectorXd refined_a;
+  for (const VectorXd& start : {VectorXd(base.map.x.head(n)), VectorXd()}) {
+    Fit with = setting.informed.fit(causes, start);
+    if (with.chi_squared > 1e299) continue;
+    const Prediction without = setting.plain.map().predict(with.base, base.causes, false);
+    const Contrast* contrast = entry.contrast < 0 ? nullptr : &setting.contrasts[static_cast<std::size_t>(entry.contrast)];
+    const double effect = without.valid ? effect_of(setting.plain, with.all.g - without.g, contrast) : entry.effect;
+    FormSystem system = form_system(setting.plain, with, setting.contrasts, entry.a.size());
+    const Linearised found = linearised(setting, entry, system, with.causes.back().a, effect, leftover);
+    const double log_weight = found.evidence.log_evidence + log_prior_of(*entry.candidate);
+    if (!(log_weight > entry.log_weight)) continue;
+    entry.evidence = found.evidence;
+    entry.log_weight = log_weight;
+    entry.effect = effect;
+    entry.fitted = with.causes.back().a;
+    entry.with = std::move(with);
+    refined_a = found.a;
+    entry.system = std::move(system);
+    entry.refined = true;
+  }
+  if (entry.refined) entry.a = refined_a;
+}
+
+/// Entries that are worth a fit of their own: the best, and the best of each family.
+std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const Candidate*>& done) {
+  std::vector<FormEntry*> out;
+  std::set<std::string> families;
+  const double best = search.entries.front().log_weight;
+  for (std::size_t i = 0; i < search.entries.size() && out.size() < kMostRefined; ++i) {
+    FormEntry& entry = search.entries[i];
+    if (entry.a.size() != entry.candidate->low.size()) continue;
+    const bool first_of_family = families.insert(entry.candidate->hypothesis->id).second;
+    const bool near = i < kRefined && entry.log_weight > best - kRefineWithin;
+    if ((near || (first_of_family && entry.log_weight > best - kFamilyWithin)) && !done.contains(entry.candidate)) out.push_back(&entry);
+  }
+  return out;
+}
+
+}  // namespace
+
+double log_prior_of_none() { return std::log(kNone); }
+double log_prior_of_something_else() { return std::log(kSomethingElse); }
+double log_prior_of(const Candidate& candidate) { return std::log(kCatalogue) + candidate.log_prior; }
+
+std::vector<double> magnitude_factors(const Candidate& candidate) {
+  // What is tuned turns with its frequency, and what has no unknown is there or not.
+  if (candidate.low.size() != 1 || candidate.tuned >= 0) return {1.0};
+  return {0.15, 0.3, 0.55, 1.0, 1.5};
+}
+
+FormSearch search_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover) {
+  FormSearch out;
+  out.base = base;
+  out.system = form_system(setting.plain, base, setting.contrasts);
+  const auto& candidates = setting.plain.candidates();
+  std::vector<FormEntry> entries(candidates.size());
+  parallel_for(candidates.size(), [&](std::size_t i) {
+    entries[i].candidate = candidates[i].get();
+    entries[i].contrast = contrast_of(*candidates[i], setting.contrasts);
+    entries[i].tried = setting.informed.tried(base, *candidates[i]);
+  });
+  for (FormEntry& entry : entries) {
+    const bool in_model = std::any_of(base.causes.begin(), base.causes.end(),
+                                      [&](const Cause& cause) { return cause.candidate == entry.candidate; });
+    if (!in_model && !entry.tried.empty()) out.entries.push_back(std::move(entry));
+  }
+  Screen(setting, out, leftover);
+  const auto sort = [&] {
+    std::stable_sort(out.entries.begin(), out.entries.end(),
+                     [](const FormEntry& a, const FormEntry& b) { return a.log_weight > b.log_weight; });
+  };
+  sort();
+  if (out.entries.empty() || out.entries.front().log_weight < out.none_weight + kWorthRefining) return out;
+  std::set<const Candidate*> done;
+  for (int round = 0; round < kRounds && !done.contains(out.entries.front().candidate); ++round) {
+    const std::vector<FormEntry*> these = worth_refining(out, done);
+    parallel_for(these.size(), [&](std::size_t i) { refine_with_form(setting, base, leftover, *these[i]); });
+    for (const FormEntry* entry : these) done.insert(entry->candidate);
+    sort();
+  }
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/inference/scale_grid.hpp"
+
+namespace twindeck::diagnosis {
+
+/// Unknowns of a generic change with one contrast, and the signatures that are weighed beside it.
+struct ChangeColumns {
+  Eigen::MatrixXd columns;      ///< G (n_rows × n)
+  std::vector<int> signatures;  ///< positions in FormSystem::signatures
+};
+
+/// The linear model of the residual,
+///   r = fixed · z + w scatter · eps + tau_f frequency · d + tau_s (shape · u + kinks · v) + s + kappa G · c + e,
+/// unknowns standard normal, e of covariance Sigma_0.
+struct FormSystem {
+  Eigen::MatrixXd sigma_factor;  ///< lower L, L L' = Sigma_0 (n_rows × n_rows)
+  Eigen::MatrixXd fixed, scatter, frequency, shape, kinks;  ///< (n_rows × n each)
+  std::vector<ChangeColumns> change;
+  Eigen::VectorXd residual;    ///< r (n_rows)
+  Eigen::MatrixXd signatures;  ///< s (n_rows × n_signatures)
+  bool all_products = false;   ///< of signatures with each other, not of each with itself alone
+};
+
+/// What one covariance Sigma says of the residual and the signatures.
+struct Quadratic {
+  double log_determinant = 0.0;   ///< of Sigma
+  double chi_squared = 0.0;       ///< r' Sigma^-1 r
+  Eigen::VectorXd along, square;  ///< s' Sigma^-1 r, s' Sigma^-1 s (n_signatures, or those of a ChangeColumns)
+  Eigen::MatrixXd products;       ///< S' Sigma^-1 S where asked for
+  /// ln N(r - t s; 0, Sigma), the constant -n/2 ln 2 pi left out. @param s -1: without a signature
+  [[nodiscard]] double log_density(Eigen::Index s = -1, double t = 1.0) const;
+  [[nodiscard]] double remaining(Eigen::Index s = -1, double t = 1.0) const;  ///< (r - t s)' Sigma^-1 (r - t s)
+};
+
+/// One point of the scales: without a change, and by contrast and kappa.
+struct AtScales {
+  Quadratic without;
+  std::vector<std::vector<Quadratic>> change;  ///< (n_contrasts × n_kappa)
+};
+
+/// Whitens everything and takes all products once; then a point of the scales costs one Cholesky factor over the unknowns for all
+/// signatures, and a kappa one over the unknowns of its contrast (Schur complement). Kinks are eliminated beforehand, once a tau_s, in
+/// the blocks that Sigma_0 leaves them (a mode each, or modes whose shapes' errors are correlated).
+class FormEvidence {
+ public:
+  FormEvidence(const FormSystem& system, const ScaleGrid& grid);
+  [[nodiscard]] AtScales at(const ScalePoint& point) const;
+  [[nodiscard]] const ScaleGrid& grid() const { return grid_; }
+
+ private:
+  struct Eliminated {
+    Eigen::MatrixXd gram;     ///< (m × m) of all columns after the kinks, m columns of every kind
+    Eigen::MatrixXd right;    ///< (m × 1 + n_signatures) columns' products with residual and signatures
+    Eigen::MatrixXd removed;  ///< (n_kinks × 1 + n_signatures): what the kinks take from products of residual and signatures
+    double log_determinant = 0.0;
+  };
+  [[nodiscard]] Quadratic quadratic(double log_determinant, const Eigen::MatrixXd& removed_here, const Eigen::MatrixXd& removed_by_change,
+                                    const Eigen::MatrixXd& removed_by_kinks, const std::vector<int>& signatures) const;
+
+  ScaleGrid grid_;
+  Eigen::Index fixed_, scatter_, frequency_, shape_;  // numbers of columns
+  std::vector<Eigen::Index> change_first_, change_count_;
+  std::vector<std::vector<int>> asked_;
+  std::vector<int> every_;
+  Eigen::MatrixXd whitened_;  // L^-1 [r, signatures]
+  double log_determinant_ = 0.0;
+  bool all_products_;
+  std::vector<Eliminated> eliminated_;  // (n_shape scales)
+};
+
+/// A point's part in a sum over scales (and magnitudes).
+struct EvidenceTerm {
+  double log_weight = 0.0;  ///< ln (prior × likelihood)
+  int point = 0, kappa = -1;
+  double chi_squared = 0.0;
+};
+
+/// A hypothesis' evidence and what it says of the scales.
+struct HypothesisEvidence {
+  double log_evidence = -1e300;
+  EvidenceTerm best;                   ///< the point of the largest weight
+  Eigen::VectorXd frequency, shape;    ///< posterior probabilities of the grid's tau_f, tau_s
+  double kappa = 0.0;                  ///< posterior geometric mean, 0 where there is none
+};
+
+[[nodiscard]] HypothesisEvidence summed(const std::vector<EvidenceTerm>& terms, const ScaleGrid& grid);
+
+/// Posterior of a scale: geometric mean, and the 5 and 95 % quantiles with each point's probability spread evenly, in logarithms, over its
+/// cell.
+struct ScaleEstimate {
+  double level = 0.0, low = 0.0, high = 0.0;
+  bool at_end = false;  ///< the last point of the grid is the most probable
+};
+[[nodiscard]] ScaleEstimate estimate(const Eigen::VectorXd& points, const Eigen::VectorXd& probability);
+
+/// ln (sum exp v).
+[[nodiscard]] double log_sum(const std::vector<double>& v);
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,136 @@
+#include "diagnosis/inference/guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/error.hpp"
+#include "diagnosis/inference/form_evidence.hpp"
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// What an explanation says of one block from all other rows.
+struct Fold {
+  double log_evidence = 0.0;  ///< of the other rows, prior included
+  double log_density = 0.0;   ///< predictive, of the block
+  double square = 0.0;        ///< of the block's standardised residual, mean over magnitudes
+};
+
+Fold fold_of(const Explanation& e, const MatrixXd& u, const VectorXd& chi_squared, const std::vector<int>& block) {
+  const MatrixXd lower = linalg::cholesky_factor(e.precision->matrix(block, block));
+  TWINDECK_ASSERT(lower.size() > 0);
+  const double log_block = 2.0 * lower.diagonal().array().log().sum();
+  const VectorXd own = linalg::lower_solve(lower, u(block, Eigen::all)).colwise().squaredNorm();
+  const auto rows = static_cast<double>(block.size());
+  std::vector<double> weight, joint;
+  for (Index k = 0; k < own.size(); ++k) {
+    weight.push_back(e.log_weight[k] - 0.5 * (chi_squared[k] - own[k]) - 0.5 * (e.precision->log_determinant + log_block));
+    joint.push_back(weight.back() + 0.5 * (log_block - own[k]) - 0.5 * rows * std::log(2.0 * std::numbers::pi));
+  }
+  Fold out;
+  out.log_evidence = log_sum(weight);
+  out.log_density = log_sum(joint) - out.log_evidence;
+  for (Index k = 0; k < own.size(); ++k) out.square += std::exp(weight[static_cast<std::size_t>(k)] - out.log_evidence) * own[k];
+  return out;
+}
+
+double reduction_of(double before, double after) { return before > 0.0 ? 100.0 * (1.0 - std::sqrt(after / before)) : 0.0; }
+
+void resample(PredictiveGain& out, int bootstrap, std::uint64_t seed) {
+  double before = 0.0, after = 0.0;
+  for (const BlockGain& b : out.blocks) {
+    out.log_gain += b.log_gain;
+    before += b.before;
+    after += b.after;
+  }
+  out.reduction_pct = reduction_of(before, after);
+  if (out.blocks.size() < 3) {
+    out.low = std::min(0.0, out.log_gain);
+    out.high = std::max(0.0, out.log_gain);
+    out.low_pct = std::min(0.0, out.reduction_pct);
+    out.high_pct = std::max(0.0, out.reduction_pct);
+    return;
+  }
+  std::mt19937_64 random(seed);
+  std::vector<double> gain, reduction;
+  for (int i = 0; i < bootstrap; ++i) {
+    double sum = 0.0;
+    before = after = 0.0;
+    for (std::size_t k = 0; k < out.blocks.size(); ++k) {
+      const BlockGain& b = out.blocks[random() % out.blocks.size()];
+      sum += b.log_gain;
+      before += b.before;
+      after += b.after;
+    }
+    gain.push_back(sum);
+    reduction.push_back(reduction_of(before, after));
+  }
+  std::sort(gain.begin(), gain.end());
+  std::sort(reduction.begin(), reduction.end());
+  const auto low = static_cast<std::size_t>(0.05 * bootstrap), high = static_cast<std::size_t>(0.95 * bootstrap);
+  out.low = gain[low];
+  out.high = gain[high];
+  out.low_pct = reduction[low];
+  out.high_pct = reduction[high];
+}
+
+}  // namespace
+
+std::shared_ptr<const Precision> precision_of(const MatrixXd& sigma_factor, const MatrixXd& columns) {
+  const MatrixXd white = linalg::lower_solve(sigma_factor, columns);
+  MatrixXd inner = linalg::product(white, white, true);
+  inner.diagonal().array() += 1.0;
+  const MatrixXd lower = linalg::cholesky_factor(inner);
+  TWINDECK_ASSERT(lower.size() > 0);
+  const MatrixXd taken = linalg::lower_solve(lower, white.transpose());
+  MatrixXd middle = -linalg::product(taken, taken, true);
+  middle.diagonal().array() += 1.0;
+  auto out = std::make_shared<Precision>();
+  const MatrixXd half = linalg::lower_solve(sigma_factor, std::move(middle), true);
+  out->matrix = linalg::lower_solve(sigma_factor, half.transpose(), true);
+  out->matrix = (0.5 * (out->matrix + out->matrix.transpose())).eval();
+  out->log_determinant = 2.0 * (sigma_factor.diagonal().array().log().sum() + lower.diagonal().array().log().sum());
+  return out;
+}
+
+PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const Explanation& none, const std::vector<Explanation>& entries,
+                             int bootstrap, std::uint64_t seed) {
+  PredictiveGain out;
+  if (entries.empty()) return out;
+  std::vector<const Explanation*> all = {&none};
+  for (const Explanation& e : entries) all.push_back(&e);
+  std::vector<MatrixXd> u;
+  std::vector<VectorXd> chi_squared;
+  for (const Explanation* e : all) {
+    u.push_back(linalg::product(e->precision->matrix, e->left));
+    chi_squared.emplace_back(u.back().cwiseProduct(e->left).colwise().sum());
+  }
+  for (const std::vector<int>& block : blocks) {
+    const Fold without = fold_of(none, u[0], chi_squared[0], block);
+    BlockGain gain;
+    gain.rows = static_cast<int>(block.size());
+    gain.before = without.square;
+    Fold best;
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      const Fold with = fold_of(*all[k], u[k], chi_squared[k], block);
+      if (gain.chosen >= 0 && with.log_evidence <= best.log_evidence) continue;
+      best = with;
+      gain.chosen = static_cast<int>(k) - 1;
+    }
+    gain.after = best.square;
+    gain.log_gain = best.log_density - without.log_density;
+    out.blocks.push_back(gain);
+  }
+  resample(out, bootstrap, seed);
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

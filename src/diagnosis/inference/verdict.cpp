@@ -1,0 +1,60 @@
+#include "diagnosis/inference/verdict.hpp"
+
+#include <algorithm>
+
+namespace twindeck::diagnosis {
+
+std::string name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::named: return "named";
+    case Verdict::ambiguous: return "ambiguous";
+    case Verdict::unknown: return "unknown";
+    case Verdict::none: break;
+  }
+  return "none";
+}
+
+Ruling rule(const Weighed& w, const RuleOptions& options) {
+  const double misfit = std::max(1.0, w.chi_squared_ratio);
+  Ruling out;
+  out.against_none = (w.leader - w.none) / misfit;
+  out.against_both = (w.leader - std::max(w.none, w.something_else)) / misfit;
+  out.threshold = w.in_all_conditions ? options.in_all : options.in_some;
+  if (out.against_none > out.threshold) {
+    out.verdict = Verdict::unknown;
+    if (misfit > options.most_misfit) {
+      out.reason = "the best cause leaves too much unexplained";
+    } else if (out.against_both < -options.set_within) {
+      out.reason = "something else changed explains more than the best cause";
+    } else if (w.kappa > w.effect) {
+      out.reason = "what the best cause leaves over is larger than the cause";
+    } else {
+      out.something_else_in_set = out.against_both < options.set_within && w.something_else > w.none;
+      const bool alone = w.members == 1 && out.against_both > options.set_within;
+      out.verdict = alone ? Verdict::named : Verdict::ambiguous;
+      out.reason = alone ? "one cause is left" : "these data do not tell the causes of the set apart";
+    }
+    return out;
+  }
+  if (w.something_else - w.none > options.in_some) {
+    out.verdict = Verdict::unknown;
+    out.reason = "something changed that no cause of the catalogue explains";
+  } else if (w.none_chi_squared_ratio > options.most_misfit) {
+    out.verdict = Verdict::unknown;
+    out.reason = "the rows are further off than any form error explains";
+  } else {
+    out.reason = "nothing stands out of the form error";
+  }
+  return out;
+}
+
+Ruling guarded(Ruling ruling, double low_gain, bool in_all_conditions) {
+  if (ruling.verdict != Verdict::named && ruling.verdict != Verdict::ambiguous) return ruling;
+  if (low_gain > 0.0) return ruling;
+  ruling.verdict = in_all_conditions ? Verdict::none : Verdict::unknown;
+  ruling.something_else_in_set = false;
+  ruling.reason = "the best cause does not predict modes that it was not fitted to";
+  return ruling;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,157 @@
+"""Step 9 on a girder whose truth is of another class than its model: the truth is a Timoshenko beam with a haunch and uneven mass on
+bearings that turn stiffly, computed here with NumPy on 96 elements; the model is a folder of twelve Euler-Bernoulli beams.
+
+Oracles: what was put in. On the sound girder `form = "on"` says none where "off" says unknown; a support that stiffens in the cold is found with it.
+"""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin"))
+SPANS, PIECES, DEPTH = (22.0, 18.0), 12, 1.6
+LENGTH = sum(SPANS)
+E, G, AREA, INERTIA, DENSITY, SHEAR = 34e9, 14e9, 2.4, 0.42, 2500.0, 0.4
+BEARING = 8e7   # N/m under the pier
+MODES, FROST = 6, 3.0
+
+
+def timoshenko(n, frost=1.0):
+    """Frequencies and shapes at the twelve nodes of the model: deflection and rotation of n elements with shear."""
+    k, m = np.zeros((2 * n + 2, 2 * n + 2)), np.zeros((2 * n + 2, 2 * n + 2))
+    h = LENGTH / n
+    for i in range(n):
+        x = (i + 0.5) * h
+        haunch = 1.0 + 0.10 * np.exp(-((x - SPANS[0]) / 3.0) ** 2)      # deeper over the pier
+        uneven = 1.0 + 0.04 * np.sin(2.3 * x)                           # mass that the drawing does not have
+        ei, ga = E * INERTIA * haunch**3, G * AREA * SHEAR * haunch
+        phi = 12 * ei / (ga * h * h)
+        c = ei / (h**3 * (1 + phi))
+        ke = c * np.array([[12, 6 * h, -12, 6 * h], [6 * h, (4 + phi) * h * h, -6 * h, (2 - phi) * h * h],
+                           [-12, -6 * h, 12, -6 * h], [6 * h, (2 - phi) * h * h, -6 * h, (4 + phi) * h * h]])
+        mu, rot = DENSITY * AREA * uneven * h, DENSITY * INERTIA * h
+        me = np.diag([mu / 2, rot / 2, mu / 2, rot / 2])
+        at = slice(2 * i, 2 * i + 4)
+        k[at, at] += ke
+        m[at, at] += me
+    pier = round(SPANS[0] / h)
+    k[2 * pier, 2 * pier] += BEARING * frost
+    for node in (0, n):
+        k[2 * node + 1, 2 * node + 1] += 4e8                            # pots that turn stiffly
+    free = [d for d in range(2 * n + 2) if d not in (0, 2 * n)]
+    root = 1 / np.sqrt(np.diag(m)[free])
+    values, vectors = np.linalg.eigh(root[:, None] * k[np.ix_(free, free)] * root[None, :])
+    shapes = np.zeros((2 * n + 2, MODES))
+    shapes[free] = root[:, None] * vectors[:, :MODES]
+    return np.sqrt(values[:MODES]) / (2 * np.pi), shapes[0::2]
+
+
+def table(path, header, rows):
+    with open(path, "w", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows([header.split(","), *rows])
+
+
+def write_model(folder):
+    folder.mkdir()
+    at = np.concatenate([np.linspace(0, SPANS[0], 7), SPANS[0] + np.linspace(0, SPANS[1], 7)[1:]])
+    table(folder / "nodes.csv", "node,x_m,y_m,z_m", [[i + 1, x, 0, 0] for i, x in enumerate(at)])
+    table(folder / "materials.csv", "material,youngs_modulus_Pa,poisson_ratio,density_kg_m3", [["concrete", E, 0.2, DENSITY]])
+    table(folder / "sections.csv", "section,area_m2,inertia_y_m4,inertia_z_m4,torsion_m4", [["girder", AREA, INERTIA, 2.0, 0.3]])
+    table(folder / "elements.csv", "element,type,group,material,section,node1,node2,orientation_x,orientation_y,orientation_z",
+          [[i + 1, "beam", "long_span" if i < 6 else "short_span", "concrete", "girder", i + 1, i + 2, 0, 0, 1] for i in range(PIECES)])
+    table(folder / "supports.csv", "support,node,x,y,z,rx,ry,rz",
+          [["abutment" if i in (0, PIECES) else "plane", i + 1, 1, 1, int(i in (0, PIECES)), 1, 0, 1] for i in range(PIECES + 1)])
+    table(folder / "springs.csv", "spring,group,node,direction_x,direction_y,direction_z,quantity,stiffness_N_m",
+          [["pier", "pier", 7, 0, 0, 1, "displacement", BEARING]])
+    (folder / "model.toml").write_text('title = "girder"\n' + "".join(
+        f'[[parameter]]\nname = "{name}"\ntarget = "{target}"\nof = ["{of}"]\nunit = "{unit}"\ninitial = {value}\n'
+        f"lower = {0.85 * value}\nupper = {1.15 * value}\n"
+        for name, target, of, unit, value in (("E_concrete", "youngs_modulus", "concrete", "Pa", E),
+                                              ("k_pier", "spring_stiffness", "pier", "-", 1.0))))
+    return at
+
+
+def write_features(folder, at, frost, seed):
+    """Two conditions, a warm and a cold day; noise 0.2 % in frequency and 1 % in shape."""
+    random = np.random.default_rng(seed)
+    folder.mkdir()
+    rows = ["type,mode,channel,condition,value,std"]
+    n = 96
+    x = np.linspace(0, LENGTH, n + 1)
+    inner = [i for i in range(1, PIECES) if i != 6]
+    for condition, factor in (("warm", 1.0), ("cold", frost)):
+        frequency, shapes = timoshenko(n, factor)
+        for mode in range(MODES):
+            std = 0.002 * frequency[mode]
+            rows.append(f"frequency_Hz,{mode + 1},,{condition},{frequency[mode] + std * random.standard_normal():.10g},{std:.6g}")
+            y = np.interp(at[inner], x, shapes[:, mode])
+            y /= np.abs(y).max()
+            rows += [f"shape,{mode + 1},c{i},{condition},{v + 0.01 * random.standard_normal():.10g},0.01" for i, v in zip(inner, y)]
+    (folder / "rows.csv").write_text("\n".join(rows) + "\n")
+    (folder / "conditions.toml").write_text("[warm]\ntemperature_C = 20\n[cold]\ntemperature_C = -8\n")
+    (folder / "channels.csv").write_text("channel,point,x_m,y_m,z_m,dx,dy,dz\n" +
+                                         "".join(f"c{i},{i + 1},{at[i]},0,0,0,0,1\n" for i in inner))
+
+
+class FormOfTheModel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.at = write_model(cls.folder / "model")
+        write_features(cls.folder / "sound", cls.at, 1.0, 1)
+        write_features(cls.folder / "frozen", cls.at, FROST, 2)
+
+    def diagnose(self, features, form):
+        out = self.folder / f"{features}_{form}"
+        if not out.exists():
+            done = subprocess.run([BIN / "s9_diagnosis", "--model", self.folder / "model", "--features", self.folder / features, "--out", out,
+                                   "--catalogue", ROOT / "workflows/common/hypotheses", "--set", f"form={form}"],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((out / "diagnosis.json").read_text())
+
+    def test_a_sound_girder_is_sound_with_the_form_error_and_unknown_without(self):
+        off, on = self.diagnose("sound", "off"), self.diagnose("sound", "on")
+        self.assertEqual(off["verdict"], "unknown", off["message"])
+        self.assertEqual(on["verdict"], "none", on["message"])
+        self.assertEqual(on["effects"], [])
+
+    def test_the_form_error_is_told(self):
+        self.assertNotIn("form", self.diagnose("sound", "off"))
+        form = self.diagnose("sound", "on")["form"]
+        for scale in (form["frequency_pct"], form["shape_pct"]):
+            self.assertLess(scale["low"], scale["level"])
+            self.assertGreater(scale["high"], scale["level"])
+        # What a fit of the model leaves is about a per cent; the scale is some two times the RMS.
+        self.assertGreater(form["frequency_pct"]["high"], 0.3)
+        self.assertLess(form["frequency_pct"]["low"], 5.0)
+
+    def test_what_differs_between_two_conditions_is_found(self):
+        result = self.diagnose("frozen", "on")
+        self.assertIn(result["verdict"], ("named", "ambiguous"), result["message"])
+        self.assertTrue(any("pier" in member for member in result["effects"][0]["cluster"]), result["effects"][0]["cluster"])
+        self.assertEqual(result["effects"][0]["cause"], "freeze")
+
+    def test_the_gain_comes_from_modes_left_out(self):
+        gain = self.diagnose("frozen", "on")["gain"]
+        self.assertEqual(gain["blocks"], MODES)
+        self.assertEqual(gain["held_out"], "each mode in turn, in all conditions")
+        self.assertGreater(gain["log_gain_interval"][0], 0.0)
+        self.assertGreater(gain["reduction_pct"], 0.0)
+        self.assertLess(gain["after"], gain["before"])
+
+    def test_another_word_for_the_key_is_refused(self):
+        done = subprocess.run([BIN / "s9_diagnosis", "--model", self.folder / "model", "--features", self.folder / "sound", "--out",
+                               self.folder / "refused", "--set", "form=maybe"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("form", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

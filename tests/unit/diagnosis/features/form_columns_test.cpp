@@ -1,0 +1,154 @@
+// Columns of the form error. Oracles: an eigenproblem whose stiffness is perturbed, by central differences; what the columns are said to
+// be, entry by entry.
+#include "diagnosis/features/form_columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <random>
+
+namespace twindeck::tests {
+namespace {
+
+using diagnosis::FormColumns;
+using diagnosis::ModelModes;
+using diagnosis::PairedMode;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Eigenmodes {
+  VectorXd omega;
+  MatrixXd shapes;  // mass-normalised
+};
+
+Eigenmodes modes_of(const MatrixXd& k, const MatrixXd& m) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(k, m);
+  return {eigen.eigenvalues().cwiseSqrt(), eigen.eigenvectors()};
+}
+
+/// Six masses in a row with uneven springs; modes well apart.
+struct Small {
+  MatrixXd k, m;
+  Small() {
+    constexpr int n = 6;
+    m = VectorXd::LinSpaced(n, 1.0, 2.0).asDiagonal();
+    k = MatrixXd::Zero(n, n);
+    for (int s = 0; s <= n; ++s) {
+      VectorXd b = VectorXd::Zero(n);
+      if (s > 0) b[s - 1] = -1.0;
+      if (s < n) b[s] = 1.0;
+      k += (1.0 + 0.3 * s) * b * b.transpose();
+    }
+  }
+};
+
+TEST(FormColumns, ShapesAreDerivativesOfAPerturbedEigenproblem) {
+  const Small s;
+  const Eigenmodes base = modes_of(s.k, s.m);
+  const std::vector<int> channels = {0, 2, 3, 5};
+  const ModelModes model{base.omega, base.shapes(channels, Eigen::all)};
+  // Modes 1 and 3 measured at all channels, in two conditions, mode 1 with another sign and size.
+  std::vector<PairedMode> paired;
+  VectorXd predicted(18);
+  const std::vector<double> size = {1.0, 1.0, -2.5, 0.7};
+  for (int i = 0; i < 4; ++i) {
+    PairedMode mode{i % 2 == 0 ? 0 : 2, i / 2, i == 0 ? 16 : i == 1 ? 17 : -1, {}, {}};
+    for (int c = 0; c < 4; ++c) {
+      mode.shape_rows.push_back(4 * i + c);
+      mode.shape_channels.push_back(c);
+      predicted[4 * i + c] = size[static_cast<std::size_t>(i)] * model.shapes(c, mode.model_mode);
+    }
+    paired.push_back(mode);
+  }
+  predicted.tail(2) << std::log(base.omega[0]), std::log(base.omega[2]);
+  const FormColumns form = diagnosis::form_columns(model, paired, predicted);
+  EXPECT_EQ(form.shape.cols(), 9);  // 5 + 5 pairs, the pair (1, 3) once
+  ASSERT_EQ(form.frequency.cols(), 2);
+  EXPECT_EQ(form.frequency.col(0), VectorXd::Unit(18, 16));
+  EXPECT_EQ(form.frequency.col(1), VectorXd::Unit(18, 17));
+  // dK = M Phi A Phi' M with A = w_i w_j in one pair: shapes by central differences, signs kept.
+  int found = 0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i + 1; j < 6; ++j) {
+      MatrixXd a = MatrixXd::Zero(6, 6);
+      a(i, j) = a(j, i) = base.omega[i] * base.omega[j];
+      const MatrixXd change = s.m * base.shapes * a * base.shapes.transpose() * s.m;
+      constexpr double step = 1e-5;
+      Eigenmodes up = modes_of(s.k + step * change, s.m), down = modes_of(s.k - step * change, s.m);
+      for (Eigenmodes* moved : {&up, &down})
+        for (int k = 0; k < 6; ++k)
+          if (moved->shapes.col(k).dot(s.m * base.shapes.col(k)) < 0.0) moved->shapes.col(k) *= -1.0;
+      const MatrixXd slope = ((up.shapes - down.shapes) / (2.0 * step))(channels, Eigen::all);
+      VectorXd rows = VectorXd::Zero(18);
+      for (std::size_t m = 0; m < 4; ++m)
+        for (int c = 0; c < 4; ++c) rows[4 * static_cast<Index>(m) + c] = size[m] * slope(c, paired[m].model_mode);
+      if (rows.norm() < 1e-6) continue;
+      // Every such derivative is one of the columns.
+      double nearest = 1e300;
+      for (Index column = 0; column < 9; ++column) nearest = std::min(nearest, (form.shape.col(column) - rows).norm() / rows.norm());
+      EXPECT_LT(nearest, 1e-6) << i << ' ' << j;
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, 9);
+}
+
+TEST(FormColumns, NearerModesTurnNoFurtherThanAtFivePerCent) {
+  ModelModes model{Eigen::Vector3d(10.0, 10.1, 30.0), MatrixXd::Identity(3, 3)};
+  const PairedMode mode{0, 0, -1, {0, 1, 2}, {0, 1, 2}};
+  const VectorXd predicted = Eigen::Vector3d(1.0, 0.0, 0.0);
+  const double held = diagnosis::form_columns(model, {mode}, predicted).shape.col(0).norm();
+  model.omega_rad_s[1] = 10.0 * (1.0 + 0.05 + 0.00125);  // a relative gap of 5 % of the geometric mean
+  EXPECT_NEAR(diagnosis::form_columns(model, {mode}, predicted).shape.col(0).norm(), held, 0.01 * held);
+  EXPECT_NEAR(held, 1.0 / (0.05 * 2.0), 0.01 * held);
+}
+
+TEST(FormColumns, KinksAreSharedByConditionsAndAsLargeAsTheShape) {
+  const ModelModes model{Eigen::Vector2d(1.0, 2.0), MatrixXd::Identity(2, 2)};
+  const std::vector<PairedMode> paired = {{0, 0, -1, {0, 1}, {0, 1}}, {0, 1, -1, {2, 3}, {0, 1}}, {1, 1, -1, {4}, {1}}};
+  VectorXd predicted(5);
+  predicted << 3.0, 4.0, 0.6, 0.8, 2.0;
+  const MatrixXd kinks = diagnosis::form_columns(model, paired, predicted).kinks;
+  MatrixXd expected(5, 3);
+  expected << 1.25, 0, 0, 0, 1.25, 0, 0.25, 0, 0, 0, 0.25, 0, 0, 0, 0.5;
+  EXPECT_LT((kinks - expected).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Contrast, RunsFromZeroToOneAtTheExtreme) {
+  const auto amplitude = diagnosis::contrast_of("amplitude_m", {0.001, std::nullopt, 0.004});
+  ASSERT_TRUE(amplitude);
+  EXPECT_EQ(amplitude->weight, Eigen::Vector3d(0.25, 0.0, 1.0));
+  const auto temperature = diagnosis::contrast_of("temperature_C", {-5.0, 15.0, -5.0});
+  ASSERT_TRUE(temperature);
+  EXPECT_EQ(temperature->weight, Eigen::Vector3d(-1.0, 1.0, -1.0));
+  EXPECT_FALSE(diagnosis::contrast_of("people", {10.0, 10.0, std::nullopt}));
+}
+
+TEST(Contrast, ChangesAreFrequenciesAndHalfAsMuchOfShapesTimesItsWeight) {
+  FormColumns form{MatrixXd::Zero(4, 1), MatrixXd::Zero(4, 2), MatrixXd::Zero(4, 0)};
+  form.frequency << 1, 0, 1, 0;
+  form.shape << 0, 0, 2, 4, 0, 0, 6, 8;
+  const diagnosis::Contrast contrast{"amplitude_m", Eigen::Vector2d(0.5, 1.0)};
+  MatrixXd expected(4, 3);
+  expected << 0.5, 0, 0, 0, 0.5, 1, 1, 0, 0, 0, 3, 4;
+  EXPECT_EQ(diagnosis::change_columns(form, contrast, {0, 0, 1, 1}), expected);
+}
+
+TEST(CloseRotations, CoverGapsBetweenSixAndTwelvePerCentOfOneCondition) {
+  const std::vector<PairedMode> paired = {{0, 0, -1, {0, 1}, {0, 1}}, {1, 0, -1, {2, 3}, {0, 1}}, {1, 1, -1, {4, 5}, {0, 1}}};
+  VectorXd values(6);
+  values << 1, 0, 0, 2, 0, 1;
+  EXPECT_EQ(diagnosis::close_rotations(paired, {1.0, 1.05, 1.1}, values).cols(), 0);
+  EXPECT_EQ(diagnosis::close_rotations(paired, {1.0, 1.13, 1.1}, values).cols(), 0);
+  const MatrixXd one = diagnosis::close_rotations(paired, {1.0, 1.1, 1.1}, values);
+  ASSERT_EQ(one.cols(), 1);
+  VectorXd expected(6);
+  expected << 0, 1, -2, 0, 0, 0;  // each shape gains the other at its own size
+  EXPECT_LT((one.col(0) - 0.12 * expected).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+}  // namespace
+}  // namespace twindeck::tests
