@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFitted = 0.01;  // form error of frequencies and shapes that the fits stand
+constexpr double kFitted = 0.01;       // form error of frequencies and shapes that the fits stand
 constexpr double kGuardWithin = 15.0;  // nats of the leader: entries that a fold may choose
 /// Extra deviation of ln (size of an effect): a size is in units of a model that is wrong.
 constexpr double kSizeError = 0.1, kSizePerForm = 5.0, kMostSizeError = 0.4;
@@ -73,10 +73,11 @@ std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit
 Explanation explanation_of(const FormEntry& entry, const FormSetting& setting, const Leftover& leftover) {
   const EvidenceTerm& best = entry.evidence.best;
   const int contrast = best.kappa < 0 ? -1 : entry.contrast >= 0 ? entry.contrast : leftover.contrast;
-  const MatrixXd columns = scaled_columns(entry.system, setting.grid, setting.grid.points[static_cast<std::size_t>(best.point)], contrast,
-                                          best.kappa < 0 ? 0.0 : setting.grid.change[best.kappa]);
+  const MatrixXd columns = scaled_columns(entry.system, setting.grid, setting.grid.points[static_cast<std::size_t>(best.point)],
+                                          contrast, best.kappa < 0 ? 0.0 : setting.grid.change[best.kappa]);
   const Candidate& candidate = *entry.candidate;
-  const VectorXd deviation = (candidate.high - candidate.low) / std::sqrt(12.0), middle = 0.5 * (candidate.high + candidate.low);
+  const VectorXd deviation = (candidate.high - candidate.low) / std::sqrt(12.0),
+                 middle = 0.5 * (candidate.high + candidate.low);
   MatrixXd all(columns.rows(), columns.cols() + deviation.size());
   all << columns, entry.system.signatures * deviation.asDiagonal();
   // The system's residual is that at the magnitudes of the fit, which its prediction was made with.
@@ -85,7 +86,8 @@ Explanation explanation_of(const FormEntry& entry, const FormSetting& setting, c
 }
 
 /// Entries that were only screened, at the base and at the leader's scales.
-Explanation screened_explanation(const FormEntry& entry, const FormSearch& search, const std::shared_ptr<const Precision>& precision) {
+Explanation screened_explanation(const FormEntry& entry, const FormSearch& search,
+                                 const std::shared_ptr<const Precision>& precision) {
   const std::vector<double> factors = magnitude_factors(*entry.candidate);
   const auto count = static_cast<Index>(entry.tried.size() * factors.size());
   Explanation out{precision, MatrixXd(search.system.residual.size(), count),
@@ -93,7 +95,8 @@ Explanation screened_explanation(const FormEntry& entry, const FormSearch& searc
   Index k = 0;
   for (std::size_t i = 0; i < entry.tried.size(); ++i)
     for (const double t : factors)
-      out.left.col(k++) = search.system.residual - t * search.system.signatures.col(entry.first_signature + static_cast<Index>(i));
+      out.left.col(k++) =
+          search.system.residual - t * search.system.signatures.col(entry.first_signature + static_cast<Index>(i));
   return out;
 }
 
@@ -196,10 +199,11 @@ void widen(std::vector<EffectParameter>& parameters, double form_error) {
 
 std::string message_of(const Diagnosis& out, const Ruling& ruling, const FormReport& form, const FormSearch& search) {
   if (out.verdict == "named" || out.verdict == "ambiguous") return out.effects.front().sentence;
-  const std::string scales = fmt::format("form error about {:.1f} % in frequency and {:.1f} % in shape", 100.0 * form.frequency.level,
-                                         100.0 * form.shape.level);
+  const std::string scales = fmt::format("form error about {:.1f} % in frequency and {:.1f} % in shape",
+                                         100.0 * form.frequency.level, 100.0 * form.shape.level);
   if (out.verdict == "none")
-    return fmt::format("nothing found: {} ({}); causes smaller than that which act in every condition cannot be seen", ruling.reason, scales);
+    return fmt::format("nothing found: {} ({}); causes smaller than that which act in every condition cannot be seen",
+                       ruling.reason, scales);
   std::string text = ruling.reason + " (" + scales + ")";
   if (!out.effects.empty())
     text += "; it acts like " + out.effects.front().cluster.front();
@@ -210,9 +214,11 @@ std::string message_of(const Diagnosis& out, const Ruling& ruling, const FormRep
 
 void add_warnings(FormReport& form) {
   if (form.frequency.at_end)
-    form.warnings.emplace_back("the form error of frequencies ends at the end of its grid (8 %): the model is further off than any that was tried");
+    form.warnings.emplace_back(
+        "the form error of frequencies ends at the end of its grid (8 %): the model is further off than any that was tried");
   if (form.shape.at_end)
-    form.warnings.emplace_back("the form error of shapes ends at the end of its grid (10 %): the model is further off than any that was tried");
+    form.warnings.emplace_back(
+        "the form error of shapes ends at the end of its grid (10 %): the model is further off than any that was tried");
 }
 
 std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& fit) {
@@ -227,9 +233,10 @@ std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& 
 }
 
 /// Fits, intervals, residual test and gain at the level of the form error that the winning hypothesis has.
-void finish(const Inference& plain, const std::vector<Cause>& causes, const VectorXd& x_before, const VectorXd& x_after, double without_cause,
-            const DiagnoseOptions& options, std::uint64_t seed, Diagnosis& out) {
-  const FeatureMap levelled = with_form_error(plain.map(), out.before.base, out.before.all.g, out.form->frequency.level, out.form->shape.level);
+void finish(const Inference& plain, const std::vector<Cause>& causes, const VectorXd& x_before, const VectorXd& x_after,
+            double without_cause, const DiagnoseOptions& options, std::uint64_t seed, Diagnosis& out) {
+  const FeatureMap levelled =
+      with_form_error(plain.map(), out.before.base, out.before.all.g, out.form->frequency.level, out.form->shape.level);
   const Inference inference(levelled, plain.candidates());
   out.before = inference.fit({}, x_before);
   out.after = causes.empty() ? out.before : inference.fit(causes, x_after);
@@ -299,7 +306,8 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
       without_cause = estimate(setting.grid.frequency, search.none.frequency).level;
       verdict = ruling.verdict;
     }
-    if (of_rules.verdict == Verdict::unknown) verdict = Verdict::unknown;  // a name that leaves the main change unexplained is none
+    if (of_rules.verdict == Verdict::unknown)
+      verdict = Verdict::unknown;  // a name that leaves the main change unexplained is none
     const bool accepted = ruling.verdict == Verdict::named || ruling.verdict == Verdict::ambiguous;
     if (!accepted || step == options.most_causes) break;
     if (ruling.verdict == Verdict::ambiguous) verdict = Verdict::ambiguous;
@@ -319,8 +327,8 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   out.form->shape = estimate(setting.grid.shape, winner.shape);
   add_warnings(*out.form);
   out.verdict = name_of(verdict);
-  finish(plain, causes, out.before.map.x.head(n), causes.empty() ? VectorXd() : VectorXd(current.map.x.head(n)), without_cause, options, seed,
-         out);
+  finish(plain, causes, out.before.map.x.head(n), causes.empty() ? VectorXd() : VectorXd(current.map.x.head(n)), without_cause,
+         options, seed, out);
   out.message = message_of(out, ruling, *out.form, search);
   return out;
 }

@@ -44,8 +44,8 @@ std::vector<std::string> keys_of(const ActionSpec& action) {
 }
 
 bool is_scatter(Nuisance::Kind kind) {
-  return kind == Nuisance::Kind::element_stiffness || kind == Nuisance::Kind::element_mass || kind == Nuisance::Kind::node_mass ||
-         kind == Nuisance::Kind::stay;
+  return kind == Nuisance::Kind::element_stiffness || kind == Nuisance::Kind::element_mass ||
+         kind == Nuisance::Kind::node_mass || kind == Nuisance::Kind::stay;
 }
 
 std::vector<double> measured_frequencies(const FeatureMap& map) {
@@ -117,8 +117,8 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
   return out;
 }
 
-MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, const VectorXd& predicted,
-                         double frequency, double shape) {
+MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes,
+                         const VectorXd& predicted, double frequency, double shape) {
   const FormModes modes = map.form_modes(base, causes);
   const FormColumns form = form_columns(modes.modes, modes.paired, predicted);
   MatrixXd all(predicted.size(), form.frequency.cols() + form.shape.cols() + form.kinks.cols());
@@ -130,8 +130,8 @@ MatrixXd scaled_columns(const FormSystem& system, const ScaleGrid& grid, const S
   const MatrixXd none(system.residual.size(), 0);
   const MatrixXd& change = contrast >= 0 ? system.change[static_cast<std::size_t>(contrast)].columns : none;
   const double f = grid.frequency[point.frequency], s = grid.shape[point.shape];
-  MatrixXd out(system.residual.size(), system.fixed.cols() + system.scatter.cols() + system.frequency.cols() + system.shape.cols() +
-                                           system.kinks.cols() + change.cols());
+  MatrixXd out(system.residual.size(), system.fixed.cols() + system.scatter.cols() + system.frequency.cols() +
+                                           system.shape.cols() + system.kinks.cols() + change.cols());
   out << system.fixed, point.scatter * system.scatter, f * system.frequency, s * system.shape, s * system.kinks, kappa * change;
   return out;
 }

@@ -16,18 +16,21 @@ namespace twindeck::diagnosis {
 /// The contrast in which a candidate acts, -1 where it acts in all conditions alike.
 [[nodiscard]] int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contrasts);
 
-/// Columns, residual y - g + J x and Sigma_0 of the training rows at a fit. The coordinates of the last `tested` columns of the fit's
-/// Jacobian are those of a cause under test: they become the signatures (per unit of its coordinates) and leave the residual.
+/// Columns, residual y - g + J x and Sigma_0 of the training rows at a fit. The coordinates of the last `tested` columns of the
+/// fit's Jacobian are those of a cause under test: they become the signatures (per unit of its coordinates) and leave the
+/// residual.
 /// @param plain  with the covariance of identification alone
 [[nodiscard]] FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
                                      Eigen::Index tested = 0);
 
 /// Covariance of all rows from the form error at given scales, at a fit's structure (n_rows × n_rows).
-[[nodiscard]] Eigen::MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes,
-                                              const Eigen::VectorXd& predicted, double frequency, double shape);
+[[nodiscard]] Eigen::MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base,
+                                              const std::vector<Cause>& causes, const Eigen::VectorXd& predicted,
+                                              double frequency, double shape);
 
-/// Columns of a system at fixed scales, each times its deviation: Sigma = Sigma_0 + C C'. @param kappa of `contrast`, 0 for none
-[[nodiscard]] Eigen::MatrixXd scaled_columns(const FormSystem& system, const ScaleGrid& grid, const ScalePoint& point, int contrast,
-                                             double kappa);
+/// Columns of a system at fixed scales, each times its deviation: Sigma = Sigma_0 + C C'. @param kappa of `contrast`, 0 for
+/// none
+[[nodiscard]] Eigen::MatrixXd scaled_columns(const FormSystem& system, const ScaleGrid& grid, const ScalePoint& point,
+                                             int contrast, double kappa);
 
 }  // namespace twindeck::diagnosis

@@ -17,9 +17,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kNone = 0.5, kSomethingElse = 0.05, kCatalogue = 0.4;  // prior probabilities
-constexpr double kElseScale = 0.03;      // of kappa where something else changed
-constexpr double kLeftoverPart = 0.1;    // of a cause's effect: scale of what it leaves over
-constexpr double kLeastEffect = 0.001;   // of a cause on frequencies, ln
+constexpr double kElseScale = 0.03;                                     // of kappa where something else changed
+constexpr double kLeftoverPart = 0.1;                                   // of a cause's effect: scale of what it leaves over
+constexpr double kLeastEffect = 0.001;                                  // of a cause on frequencies, ln
 constexpr int kRefined = 6, kMostRefined = 10, kRounds = 3;
 constexpr double kRefineWithin = 8.0, kFamilyWithin = 12.0;  // nats of the best
 constexpr double kWorthRefining = -4.0;  // nats against none: below, the best entry is far from any threshold
@@ -55,14 +55,16 @@ double effect_of(const Inference& inference, const VectorXd& change, const Contr
 /// ln prior of kappa's leftover points beside an effect.
 VectorXd leftover_weights(const ScaleGrid& grid, double effect) {
   const Part part = leftover_part();
-  return half_t_weights(grid.change.segment(part.first, part.count), kLeftoverPart * std::max(effect, kLeastEffect)).array().log();
+  return half_t_weights(grid.change.segment(part.first, part.count), kLeftoverPart * std::max(effect, kLeastEffect))
+      .array()
+      .log();
 }
 
 /// Terms of one hypothesis at one point, over kappa where something is left over.
 /// @param density  ln density and chi² for a Quadratic
 template <typename Density>
-void add_terms(std::vector<EvidenceTerm>& terms, const ScaleGrid& grid, int point, const AtScales& at, int contrast, double effect,
-               Density density) {
+void add_terms(std::vector<EvidenceTerm>& terms, const ScaleGrid& grid, int point, const AtScales& at, int contrast,
+               double effect, Density density) {
   const double prior = grid.points[static_cast<std::size_t>(point)].log_prior;
   if (contrast < 0) {
     const auto [log_density, chi_squared] = density(at.without);
@@ -97,7 +99,8 @@ class Screen {
     const FormEvidence evidence(search.system, setting.grid);
     const std::size_t points = setting.grid.points.size();
     std::vector<std::vector<std::vector<EvidenceTerm>>> of_point(points);
-    parallel_for(points, [&](std::size_t p) { of_point[p] = terms_at(evidence.at(setting.grid.points[p]), static_cast<int>(p)); });
+    parallel_for(points,
+                 [&](std::size_t p) { of_point[p] = terms_at(evidence.at(setting.grid.points[p]), static_cast<int>(p)); });
     const std::size_t hypotheses = 1 + setting.contrasts.size() + search.entries.size();
     std::vector<HypothesisEvidence> found(hypotheses);
     for (std::size_t h = 0; h < hypotheses; ++h) {
@@ -173,13 +176,15 @@ class Screen {
       const double own = effect_of(setting_.plain, entry.tried[i].change, contrast_of_entry(entry));
       const Index s = position_[static_cast<std::size_t>(entry.first_signature) + i];
       for (const double t : factors)
-        add_terms(out, setting_.grid, point, at, leftover_contrast(entry, leftover_), leftover_effect(entry, t * own, leftover_),
+        add_terms(out, setting_.grid, point, at, leftover_contrast(entry, leftover_),
+                  leftover_effect(entry, t * own, leftover_),
                   [&](const Quadratic& q) { return std::pair(share + q.log_density(s, t), q.remaining(s, t)); });
     }
     // Magnitudes are summed over here: they need not be kept for every point.
     std::vector<EvidenceTerm> by_kappa;
     for (const EvidenceTerm& term : out) {
-      const auto same = std::find_if(by_kappa.begin(), by_kappa.end(), [&](const EvidenceTerm& b) { return b.kappa == term.kappa; });
+      const auto same =
+          std::find_if(by_kappa.begin(), by_kappa.end(), [&](const EvidenceTerm& b) { return b.kappa == term.kappa; });
       if (same == by_kappa.end()) {
         by_kappa.push_back(term);
         continue;
@@ -195,8 +200,9 @@ class Screen {
     if (entry.tried.empty() || entry.log_weight < search_.none_weight - 30.0) return;
     const AtScales at = evidence.at(setting_.grid.points[static_cast<std::size_t>(entry.evidence.best.point)]);
     const int contrast = leftover_contrast(entry, leftover_);
-    const Quadratic& q = contrast < 0 ? at.without
-                                      : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(entry.evidence.best.kappa)];
+    const Quadratic& q =
+        contrast < 0 ? at.without
+                     : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(entry.evidence.best.kappa)];
     double best = -1e300;
     for (std::size_t i = 0; i < entry.tried.size(); ++i)
       for (const double t : magnitude_factors(*entry.candidate)) {
@@ -225,8 +231,8 @@ struct Linearised {
   VectorXd a;
 };
 
-Linearised linearised(const FormSetting& setting, const FormEntry& entry, const FormSystem& system, const VectorXd& fitted, double effect,
-                      const Leftover& leftover) {
+Linearised linearised(const FormSetting& setting, const FormEntry& entry, const FormSystem& system, const VectorXd& fitted,
+                      double effect, const Leftover& leftover) {
   const Candidate& candidate = *entry.candidate;
   const FormEvidence evidence(system, setting.grid);
   const auto shift_of = [&](const Quadratic& q) -> VectorXd {
@@ -253,8 +259,9 @@ Linearised linearised(const FormSetting& setting, const FormEntry& entry, const 
   Linearised out{summed(terms, setting.grid), fitted};
   if (fitted.size() > 0) {
     const AtScales at = evidence.at(setting.grid.points[static_cast<std::size_t>(out.evidence.best.point)]);
-    out.a += shift_of(contrast < 0 ? at.without
-                                   : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(out.evidence.best.kappa)]);
+    out.a += shift_of(contrast < 0
+                          ? at.without
+                          : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(out.evidence.best.kappa)]);
   }
   return out;
 }
@@ -296,7 +303,8 @@ std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const 
     if (entry.a.size() != entry.candidate->low.size()) continue;
     const bool first_of_family = families.insert(entry.candidate->hypothesis->id).second;
     const bool near = i < kRefined && entry.log_weight > best - kRefineWithin;
-    if ((near || (first_of_family && entry.log_weight > best - kFamilyWithin)) && !done.contains(entry.candidate)) out.push_back(&entry);
+    if ((near || (first_of_family && entry.log_weight > best - kFamilyWithin)) && !done.contains(entry.candidate))
+      out.push_back(&entry);
   }
   return out;
 }

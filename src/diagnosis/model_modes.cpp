@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kFurtherModes = 12;  // beyond those that were measured: shapes turn into unmeasured neighbours too
+constexpr Index kFurtherModes = 12;     // beyond those that were measured: shapes turn into unmeasured neighbours too
 constexpr double kLeastLikeness = 0.3;  // MAC: a mode of a damper or an oscillator is none of the structure's
 
 }  // namespace

@@ -14,11 +14,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kLowestModes = 12;      // that a paired mode's shape may take up
-constexpr double kLeastGap = 0.05;    // relative, between frequencies: nearer modes turn no further into each other
-constexpr double kKink = 0.25;        // of a shape's norm, per unit of the form error
-constexpr double kShapePart = 0.5;    // of U in a generic change
-constexpr double kRotation = 0.012;   // radians of a rotation times the relative gap …
+constexpr int kLowestModes = 12;     // that a paired mode's shape may take up
+constexpr double kLeastGap = 0.05;   // relative, between frequencies: nearer modes turn no further into each other
+constexpr double kKink = 0.25;       // of a shape's norm, per unit of the form error
+constexpr double kShapePart = 0.5;   // of U in a generic change
+constexpr double kRotation = 0.012;  // radians of a rotation times the relative gap …
 constexpr double kCovered = 0.06, kFarthest = 0.12;  // … for gaps between these
 
 /// w_i w_j / (w_i² - w_j²), the relative gap held at kLeastGap.
@@ -43,9 +43,9 @@ double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& 
 }  // namespace
 
 FormColumns form_columns(const ModelModes& modes, const std::vector<PairedMode>& paired, const VectorXd& predicted) {
-  std::map<int, Index> frequency;               // by model mode
-  std::map<std::pair<int, int>, Index> pairs;   // (i, j), i < j
-  std::map<std::pair<int, int>, Index> kinks;   // (model mode, channel)
+  std::map<int, Index> frequency;              // by model mode
+  std::map<std::pair<int, int>, Index> pairs;  // (i, j), i < j
+  std::map<std::pair<int, int>, Index> kinks;  // (model mode, channel)
   const int lowest = std::min<int>(kLowestModes, static_cast<int>(modes.omega_rad_s.size()));
   for (const PairedMode& mode : paired) {
     if (mode.model_mode < 0) continue;
@@ -56,7 +56,8 @@ FormColumns form_columns(const ModelModes& modes, const std::vector<PairedMode>&
     for (const int channel : mode.shape_channels) kinks.try_emplace({mode.model_mode, channel}, std::ssize(kinks));
   }
   const Index n = predicted.size();
-  FormColumns out{MatrixXd::Zero(n, std::ssize(frequency)), MatrixXd::Zero(n, std::ssize(pairs)), MatrixXd::Zero(n, std::ssize(kinks))};
+  FormColumns out{MatrixXd::Zero(n, std::ssize(frequency)), MatrixXd::Zero(n, std::ssize(pairs)),
+                  MatrixXd::Zero(n, std::ssize(kinks))};
   for (const PairedMode& mode : paired) {
     const int i = mode.model_mode;
     if (i < 0) continue;
@@ -76,14 +77,16 @@ FormColumns form_columns(const ModelModes& modes, const std::vector<PairedMode>&
   return out;
 }
 
-MatrixXd close_rotations(const std::vector<PairedMode>& paired, const std::vector<double>& frequency_Hz, const VectorXd& values) {
+MatrixXd close_rotations(const std::vector<PairedMode>& paired, const std::vector<double>& frequency_Hz,
+                         const VectorXd& values) {
   std::vector<VectorXd> columns;
   for (std::size_t a = 0; a < paired.size(); ++a) {
     for (std::size_t b = 0; b < paired.size(); ++b) {
       const PairedMode &low = paired[a], &high = paired[b];
       if (low.condition != high.condition || !(frequency_Hz[a] > 0.0) || !(frequency_Hz[a] < frequency_Hz[b])) continue;
       const double gap = frequency_Hz[b] / frequency_Hz[a] - 1.0;
-      if (gap <= kCovered || gap > kFarthest || low.shape_rows.size() != high.shape_rows.size() || low.shape_rows.empty()) continue;
+      if (gap <= kCovered || gap > kFarthest || low.shape_rows.size() != high.shape_rows.size() || low.shape_rows.empty())
+        continue;
       VectorXd u = VectorXd::Zero(values.size());
       const double ratio = std::sqrt(values(low.shape_rows).squaredNorm() / values(high.shape_rows).squaredNorm());
       for (std::size_t k = 0; k < low.shape_rows.size(); ++k) {

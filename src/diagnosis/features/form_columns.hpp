@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-/// Room diagnosis/features: what the rows of a measurement have in common where the model's form is wrong. It takes modes of the
-/// model and the rows that they are paired with, as plain numbers, and gives columns of unknowns with unit deviation (decision 0013).
+/// Room diagnosis/features: what the rows of a measurement have in common where the model's form is wrong. It takes modes of
+/// the model and the rows that they are paired with, as plain numbers, and gives columns of unknowns with unit deviation
+/// (decision 0013).
 namespace twindeck::diagnosis {
 
 /// Undamped modes of the model as the channels see them.
@@ -17,27 +18,27 @@ struct ModelModes {
 
 /// A measured mode of one condition with the model mode that it is paired with.
 struct PairedMode {
-  int model_mode = -1;             ///< position in ModelModes, -1 where it is none of them
+  int model_mode = -1;  ///< position in ModelModes, -1 where it is none of them
   int condition = 0;
-  int frequency_row = -1;          ///< -1: no frequency was measured
-  std::vector<int> shape_rows;     ///< real parts
-  std::vector<int> shape_channels; ///< (n_shape_rows)
+  int frequency_row = -1;           ///< -1: no frequency was measured
+  std::vector<int> shape_rows;      ///< real parts
+  std::vector<int> shape_channels;  ///< (n_shape_rows)
 };
 
 /// Errors of the model's form, alike in all conditions; one column an unknown.
 struct FormColumns {
   Eigen::MatrixXd frequency;  ///< F (n_rows × paired model modes): ln f of one model mode
-  Eigen::MatrixXd shape;      ///< U (n_rows × pairs of modes): a random symmetric stiffness in the model's modes (Soize 2000): of the
-                              ///< pair (i, j) shape i gains w_i w_j / (w_i² - w_j²) phi_j and shape j the reverse
-  Eigen::MatrixXd kinks;      ///< W (n_rows × paired model modes and channels): a quarter of a shape's norm at one channel
+  Eigen::MatrixXd shape;  ///< U (n_rows × pairs of modes): a random symmetric stiffness in the model's modes (Soize 2000): of
+                          ///< the pair (i, j) shape i gains w_i w_j / (w_i² - w_j²) phi_j and shape j the reverse
+  Eigen::MatrixXd kinks;  ///< W (n_rows × paired model modes and channels): a quarter of a shape's norm at one channel
 };
 
 /// @param predicted  (n_rows) of the model; it gives a shape its size and sign
 [[nodiscard]] FormColumns form_columns(const ModelModes& modes, const std::vector<PairedMode>& paired,
                                        const Eigen::VectorXd& predicted);
 
-/// Rotations of measured shapes among modes of one condition whose frequencies are between 6 and 12 % apart (closer ones have theirs in
-/// the rows' covariance). @param frequency_Hz (n_paired) measured
+/// Rotations of measured shapes among modes of one condition whose frequencies are between 6 and 12 % apart (closer ones have
+/// theirs in the rows' covariance). @param frequency_Hz (n_paired) measured
 [[nodiscard]] Eigen::MatrixXd close_rotations(const std::vector<PairedMode>& paired, const std::vector<double>& frequency_Hz,
                                               const Eigen::VectorXd& values);
 
@@ -52,6 +53,7 @@ struct Contrast {
 
 /// G: a generic change with a contrast, of the frequency of each mode and, half as large, of shapes.
 /// @param condition_of_row (n_rows)
-[[nodiscard]] Eigen::MatrixXd change_columns(const FormColumns& form, const Contrast& contrast, const std::vector<int>& condition_of_row);
+[[nodiscard]] Eigen::MatrixXd change_columns(const FormColumns& form, const Contrast& contrast,
+                                             const std::vector<int>& condition_of_row);
 
 }  // namespace twindeck::diagnosis

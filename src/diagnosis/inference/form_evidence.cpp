@@ -139,8 +139,8 @@ AtScales FormEvidence::at(const ScalePoint& point) const {
   const Eliminated& e = eliminated_[static_cast<std::size_t>(point.shape)];
   const Index m = fixed_ + scatter_ + frequency_ + shape_;
   VectorXd d(m);
-  d << VectorXd::Ones(fixed_), VectorXd::Constant(scatter_, point.scatter), VectorXd::Constant(frequency_, grid_.frequency[point.frequency]),
-      VectorXd::Constant(shape_, grid_.shape[point.shape]);
+  d << VectorXd::Ones(fixed_), VectorXd::Constant(scatter_, point.scatter),
+      VectorXd::Constant(frequency_, grid_.frequency[point.frequency]), VectorXd::Constant(shape_, grid_.shape[point.shape]);
   MatrixXd inner = d.asDiagonal() * e.gram.topLeftCorner(m, m) * d.asDiagonal();
   inner.diagonal().array() += 1.0;
   const MatrixXd lower = factor_of(inner);
@@ -162,7 +162,8 @@ AtScales FormEvidence::at(const ScalePoint& point) const {
       small.diagonal().array() += 1.0;
       const MatrixXd small_lower = factor_of(small);
       const MatrixXd change = linalg::lower_solve(small_lower, kappa * own_right);
-      out.change.back().push_back(quadratic(log_determinant + 2.0 * log_diagonal(small_lower), here, change, e.removed, asked_[c]));
+      out.change.back().push_back(
+          quadratic(log_determinant + 2.0 * log_diagonal(small_lower), here, change, e.removed, asked_[c]));
     }
   }
   return out;

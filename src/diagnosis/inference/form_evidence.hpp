@@ -17,7 +17,7 @@ struct ChangeColumns {
 ///   r = fixed · z + w scatter · eps + tau_f frequency · d + tau_s (shape · u + kinks · v) + s + kappa G · c + e,
 /// unknowns standard normal, e of covariance Sigma_0.
 struct FormSystem {
-  Eigen::MatrixXd sigma_factor;  ///< lower L, L L' = Sigma_0 (n_rows × n_rows)
+  Eigen::MatrixXd sigma_factor;                             ///< lower L, L L' = Sigma_0 (n_rows × n_rows)
   Eigen::MatrixXd fixed, scatter, frequency, shape, kinks;  ///< (n_rows × n each)
   std::vector<ChangeColumns> change;
   Eigen::VectorXd residual;    ///< r (n_rows)
@@ -42,9 +42,9 @@ struct AtScales {
   std::vector<std::vector<Quadratic>> change;  ///< (n_contrasts × n_kappa)
 };
 
-/// Whitens everything and takes all products once; then a point of the scales costs one Cholesky factor over the unknowns for all
-/// signatures, and a kappa one over the unknowns of its contrast (Schur complement). Kinks are eliminated beforehand, once a tau_s, in
-/// the blocks that Sigma_0 leaves them (a mode each, or modes whose shapes' errors are correlated).
+/// Whitens everything and takes all products once; then a point of the scales costs one Cholesky factor over the unknowns for
+/// all signatures, and a kappa one over the unknowns of its contrast (Schur complement). Kinks are eliminated beforehand, once
+/// a tau_s, in the blocks that Sigma_0 leaves them (a mode each, or modes whose shapes' errors are correlated).
 class FormEvidence {
  public:
   FormEvidence(const FormSystem& system, const ScaleGrid& grid);
@@ -58,8 +58,9 @@ class FormEvidence {
     Eigen::MatrixXd removed;  ///< (n_kinks × 1 + n_signatures): what the kinks take from products of residual and signatures
     double log_determinant = 0.0;
   };
-  [[nodiscard]] Quadratic quadratic(double log_determinant, const Eigen::MatrixXd& removed_here, const Eigen::MatrixXd& removed_by_change,
-                                    const Eigen::MatrixXd& removed_by_kinks, const std::vector<int>& signatures) const;
+  [[nodiscard]] Quadratic quadratic(double log_determinant, const Eigen::MatrixXd& removed_here,
+                                    const Eigen::MatrixXd& removed_by_change, const Eigen::MatrixXd& removed_by_kinks,
+                                    const std::vector<int>& signatures) const;
 
   ScaleGrid grid_;
   Eigen::Index fixed_, scatter_, frequency_, shape_;  // numbers of columns
@@ -82,15 +83,15 @@ struct EvidenceTerm {
 /// A hypothesis' evidence and what it says of the scales.
 struct HypothesisEvidence {
   double log_evidence = -1e300;
-  EvidenceTerm best;                   ///< the point of the largest weight
-  Eigen::VectorXd frequency, shape;    ///< posterior probabilities of the grid's tau_f, tau_s
-  double kappa = 0.0;                  ///< posterior geometric mean, 0 where there is none
+  EvidenceTerm best;                 ///< the point of the largest weight
+  Eigen::VectorXd frequency, shape;  ///< posterior probabilities of the grid's tau_f, tau_s
+  double kappa = 0.0;                ///< posterior geometric mean, 0 where there is none
 };
 
 [[nodiscard]] HypothesisEvidence summed(const std::vector<EvidenceTerm>& terms, const ScaleGrid& grid);
 
-/// Posterior of a scale: geometric mean, and the 5 and 95 % quantiles with each point's probability spread evenly, in logarithms, over its
-/// cell.
+/// Posterior of a scale: geometric mean, and the 5 and 95 % quantiles with each point's probability spread evenly, in
+/// logarithms, over its cell.
 struct ScaleEstimate {
   double level = 0.0, low = 0.0, high = 0.0;
   bool at_end = false;  ///< the last point of the grid is the most probable

@@ -38,7 +38,8 @@ Fold fold_of(const Explanation& e, const MatrixXd& u, const VectorXd& chi_square
   Fold out;
   out.log_evidence = log_sum(weight);
   out.log_density = log_sum(joint) - out.log_evidence;
-  for (Index k = 0; k < own.size(); ++k) out.square += std::exp(weight[static_cast<std::size_t>(k)] - out.log_evidence) * own[k];
+  for (Index k = 0; k < own.size(); ++k)
+    out.square += std::exp(weight[static_cast<std::size_t>(k)] - out.log_evidence) * own[k];
   return out;
 }
 
@@ -101,8 +102,8 @@ std::shared_ptr<const Precision> precision_of(const MatrixXd& sigma_factor, cons
   return out;
 }
 
-PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const Explanation& none, const std::vector<Explanation>& entries,
-                             int bootstrap, std::uint64_t seed) {
+PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const Explanation& none,
+                             const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed) {
   PredictiveGain out;
   if (entries.empty()) return out;
   std::vector<const Explanation*> all = {&none};

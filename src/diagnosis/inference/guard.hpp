@@ -13,7 +13,8 @@ struct Precision {
   double log_determinant = 0.0;
 };
 /// Of Sigma = L0 L0' + C C'. @param columns C, each scaled by its deviation
-[[nodiscard]] std::shared_ptr<const Precision> precision_of(const Eigen::MatrixXd& sigma_factor, const Eigen::MatrixXd& columns);
+[[nodiscard]] std::shared_ptr<const Precision> precision_of(const Eigen::MatrixXd& sigma_factor,
+                                                            const Eigen::MatrixXd& columns);
 
 /// A hypothesis with its scales fixed: the residual less each of its signatures is N(0, Sigma).
 struct Explanation {
@@ -24,21 +25,22 @@ struct Explanation {
 
 /// What rows that a fold leaves out say of the entry that the others chose.
 struct BlockGain {
-  double log_gain = 0.0;           ///< ln predictive density, that entry's less none's
+  double log_gain = 0.0;             ///< ln predictive density, that entry's less none's
   double before = 0.0, after = 0.0;  ///< sums of squared standardised residuals
   int rows = 0;
-  int chosen = -1;                 ///< position among the entries
+  int chosen = -1;  ///< position among the entries
 };
 
 struct PredictiveGain {
   std::vector<BlockGain> blocks;
-  double log_gain = 0.0, low = 0.0, high = 0.0;              ///< sum over blocks; 5 and 95 % quantiles of resampled blocks
+  double log_gain = 0.0, low = 0.0, high = 0.0;               ///< sum over blocks; 5 and 95 % quantiles of resampled blocks
   double reduction_pct = 0.0, low_pct = 0.0, high_pct = 0.0;  ///< of the RMS of standardised residuals
 };
 
-/// Nested leave-one-block-out prediction. With Q = Sigma^-1 and block b: e_b = (Q_bb)^-1 (Q r)_b has covariance (Q_bb)^-1; magnitudes are
-/// weighted by what the other rows say, chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s), and the entry is chosen anew in each fold by its
-/// evidence on them. With fewer than three blocks the intervals reach to zero: one block decides nothing.
+/// Nested leave-one-block-out prediction. With Q = Sigma^-1 and block b: e_b = (Q_bb)^-1 (Q r)_b has covariance (Q_bb)^-1;
+/// magnitudes are weighted by what the other rows say, chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s), and the entry is chosen
+/// anew in each fold by its evidence on them. With fewer than three blocks the intervals reach to zero: one block decides
+/// nothing.
 /// @param blocks  rows of each; rows of none are always seen
 [[nodiscard]] PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const Explanation& none,
                                            const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed);

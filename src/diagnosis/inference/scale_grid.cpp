@@ -7,7 +7,7 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-constexpr double kFormScale = 0.01;  // of the half-t priors: a carefully fitted model is off by about one per cent
+constexpr double kFormScale = 0.01;           // of the half-t priors: a carefully fitted model is off by about one per cent
 constexpr double kStated = 0.7, kWide = 2.5;  // weight of scatter as stated; how much larger it else is
 
 /// P(t <= x) - P(t <= -x) of Student's law with three degrees of freedom.

@@ -4,11 +4,12 @@
 #include <cstddef>
 #include <vector>
 
-/// Room diagnosis/inference: odds, verdict and gain. It takes residuals, columns of unknowns and signatures as plain matrices and
-/// knows no structure; it gives evidences, a verdict, and what a name is worth on rows that it did not see (decision 0013).
+/// Room diagnosis/inference: odds, verdict and gain. It takes residuals, columns of unknowns and signatures as plain matrices
+/// and knows no structure; it gives evidences, a verdict, and what a name is worth on rows that it did not see (decision 0013).
 namespace twindeck::diagnosis {
 
-/// One point of the scales that the evidence is summed over: of element scatter, of the form error in frequencies and in shapes.
+/// One point of the scales that the evidence is summed over: of element scatter, of the form error in frequencies and in
+/// shapes.
 struct ScalePoint {
   double scatter = 1.0;
   int frequency = 0, shape = 0;  ///< positions in ScaleGrid
@@ -20,12 +21,12 @@ struct ScaleGrid {
   std::vector<ScalePoint> points;            ///< every combination but kappa's; priors sum to one
 };
 
-/// The grid of the method: tau_f 0.05 to 8 %, tau_s 0.2 to 10 % with half-t priors of three degrees of freedom and scale 1 %, scatter 1
-/// and 2.5 times as stated with weights 0.7 and 0.3; kappa 0.05 to 20 %.
+/// The grid of the method: tau_f 0.05 to 8 %, tau_s 0.2 to 10 % with half-t priors of three degrees of freedom and scale 1 %,
+/// scatter 1 and 2.5 times as stated with weights 0.7 and 0.3; kappa 0.05 to 20 %.
 [[nodiscard]] ScaleGrid scale_grid();
 
-/// Probabilities of a half-t law of three degrees of freedom on the cells about the points, cut at geometric means; the first reaches down
-/// to zero and the last has no end, so that they sum to one. @param points ascending, above zero
+/// Probabilities of a half-t law of three degrees of freedom on the cells about the points, cut at geometric means; the first
+/// reaches down to zero and the last has no end, so that they sum to one. @param points ascending, above zero
 [[nodiscard]] Eigen::VectorXd half_t_weights(const Eigen::VectorXd& points, double scale);
 
 /// kappa's points of what a cause leaves over (0.05 to 8 %) and of "something else changed" (0.2 to 20 %): first and count.

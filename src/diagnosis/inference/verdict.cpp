@@ -6,10 +6,14 @@ namespace twindeck::diagnosis {
 
 std::string name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::named: return "named";
-    case Verdict::ambiguous: return "ambiguous";
-    case Verdict::unknown: return "unknown";
-    case Verdict::none: break;
+    case Verdict::named:
+      return "named";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::unknown:
+      return "unknown";
+    case Verdict::none:
+      break;
   }
   return "none";
 }

@@ -1,5 +1,5 @@
-// A diagnosis whose model may be wrong in form. Oracles: exchanged channels are the same rows under other names; data of the model itself;
-// a truth with a spring that the model lacks.
+// A diagnosis whose model may be wrong in form. Oracles: exchanged channels are the same rows under other names; data of the
+// model itself; a truth with a spring that the model lacks.
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
@@ -19,7 +19,8 @@ diagnosis::FeatureSet all_rows(diagnosis::FeatureSet f) {
 diagnosis::Diagnosis with_form(const Examined& e) { return diagnosis::diagnose_with_form(*e.inference, {}, 1); }
 
 diagnosis::FormSearch searched(const Examined& e) {
-  const diagnosis::FormSetting setting{*e.inference, *e.inference, diagnosis::contrasts_of(e.map->features()), diagnosis::scale_grid()};
+  const diagnosis::FormSetting setting{*e.inference, *e.inference, diagnosis::contrasts_of(e.map->features()),
+                                       diagnosis::scale_grid()};
   return diagnosis::search_with_form(setting, e.inference->fit({}, {}), {});
 }
 
@@ -45,7 +46,8 @@ TEST(FormModes, AreThoseOfTheModelAndExchangeWithTheChannels) {
 }
 
 TEST(FormSearch, ExchangedChannelsAreTheSameRowsUnderOtherNames) {
-  // The evidence of the rows as measured without a cause is that of the exchanged rows under "exchanged": the columns go with the channels.
+  // The evidence of the rows as measured without a cause is that of the exchanged rows under "exchanged": the columns go with
+  // the channels.
   const Chain chain({.masses = 10, .modes = 5});
   std::mt19937_64 random(12);
   ChainTruth truth = chain.scattered(random);

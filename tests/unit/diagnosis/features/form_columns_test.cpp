@@ -1,5 +1,5 @@
-// Columns of the form error. Oracles: an eigenproblem whose stiffness is perturbed, by central differences; what the columns are said to
-// be, entry by entry.
+// Columns of the form error. Oracles: an eigenproblem whose stiffness is perturbed, by central differences; what the columns
+// are said to be, entry by entry.
 #include "diagnosis/features/form_columns.hpp"
 
 #include <gtest/gtest.h>
@@ -88,7 +88,8 @@ TEST(FormColumns, ShapesAreDerivativesOfAPerturbedEigenproblem) {
       if (rows.norm() < 1e-6) continue;
       // Every such derivative is one of the columns.
       double nearest = 1e300;
-      for (Index column = 0; column < 9; ++column) nearest = std::min(nearest, (form.shape.col(column) - rows).norm() / rows.norm());
+      for (Index column = 0; column < 9; ++column)
+        nearest = std::min(nearest, (form.shape.col(column) - rows).norm() / rows.norm());
       EXPECT_LT(nearest, 1e-6) << i << ' ' << j;
       ++found;
     }

@@ -1,5 +1,5 @@
-// The evidence with a form error. Oracles: dense covariances assembled and factorised as they stand; integrals over an unknown by
-// quadrature; densities that integrate to one over all data; Student's law of three degrees of freedom by quadrature.
+// The evidence with a form error. Oracles: dense covariances assembled and factorised as they stand; integrals over an unknown
+// by quadrature; densities that integrate to one over all data; Student's law of three degrees of freedom by quadrature.
 #include "diagnosis/inference/form_evidence.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,8 @@ Problem random_problem(unsigned seed, bool correlated) {
   p.system.frequency = draw(n, 2);
   p.system.shape = draw(n, 4);
   p.system.kinks = MatrixXd::Zero(n, 5);
-  for (Index r = 0; r < 15; ++r) p.system.kinks(r, r % 5) = 2.0 + 0.1 * static_cast<double>(r);  // three conditions of five channels
+  for (Index r = 0; r < 15; ++r)
+    p.system.kinks(r, r % 5) = 2.0 + 0.1 * static_cast<double>(r);  // three conditions of five channels
   p.system.change = {{draw(n, 3), {1, 2}}, {draw(n, 2), {0}}};
   p.system.residual = draw(n, 1);
   p.system.signatures = draw(n, 3);
@@ -97,7 +98,8 @@ TEST(FormEvidence, EveryPointIsTheDenseCovariance) {
       for (int c = 0; c < 2; ++c)
         for (Index k = 0; k < grid.change.size(); ++k)
           expect_dense(at.change[static_cast<std::size_t>(c)][static_cast<std::size_t>(k)],
-                       dense_covariance(p, grid, point, c, grid.change[k]), p, p.system.change[static_cast<std::size_t>(c)].signatures);
+                       dense_covariance(p, grid, point, c, grid.change[k]), p,
+                       p.system.change[static_cast<std::size_t>(c)].signatures);
     }
   }
 }
@@ -207,7 +209,9 @@ TEST(ScaleGrid, PriorsAreThoseOfTheHalfTLaw) {
   for (const ScalePoint& point : grid.points) sum += std::exp(point.log_prior);
   EXPECT_NEAR(sum, 1.0, 1e-12);
   // Student's density with three degrees of freedom, twice over the positive half.
-  const auto density = [](double t) { return 2.0 * 2.0 / (std::numbers::pi * std::sqrt(3.0)) / std::pow(1.0 + t * t / 3.0, 2); };
+  const auto density = [](double t) {
+    return 2.0 * 2.0 / (std::numbers::pi * std::sqrt(3.0)) / std::pow(1.0 + t * t / 3.0, 2);
+  };
   const VectorXd weight = diagnosis::half_t_weights(grid.frequency, 0.01);
   double low = 0.0;
   for (Index i = 0; i + 1 < weight.size(); ++i) {

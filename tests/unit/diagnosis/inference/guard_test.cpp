@@ -1,5 +1,5 @@
-// Gain on blocks left out. Oracles: conditional normal laws from the covariance of the seen rows alone; data made with and without a
-// cause.
+// Gain on blocks left out. Oracles: conditional normal laws from the covariance of the seen rows alone; data made with and
+// without a cause.
 #include "diagnosis/inference/guard.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,8 @@ struct Rows {
   /// Magnitudes from a grid, the prior of a catalogue's entry.
   Explanation entry(const VectorXd& r, const VectorXd& s) const {
     const VectorXd t = VectorXd::LinSpaced(5, 0.4, 2.0);
-    Explanation e{diagnosis::precision_of(factor, columns), MatrixXd(r.size(), t.size()), VectorXd::Constant(t.size(), std::log(0.1 / 5))};
+    Explanation e{diagnosis::precision_of(factor, columns), MatrixXd(r.size(), t.size()),
+                  VectorXd::Constant(t.size(), std::log(0.1 / 5))};
     for (Index k = 0; k < t.size(); ++k) e.left.col(k) = r - t[k] * s;
     return e;
   }
@@ -97,7 +98,8 @@ TEST(LeaveOneOut, IsTheConditionalLawOfTheBlock) {
 }
 
 TEST(LeaveOneOut, MagnitudesAreWeighedByTheSeenRowsAlone) {
-  // Two magnitudes; the rows of the first block fit the second one perfectly and all others the first: it must be predicted with the first.
+  // Two magnitudes; the rows of the first block fit the second one perfectly and all others the first: it must be predicted
+  // with the first.
   Rows rows(5);
   VectorXd r = 0.01 * rows.draw() + rows.cause;
   for (const int k : rows.blocks[0]) r[k] = 2.0 * rows.cause[k];
@@ -158,7 +160,8 @@ TEST(LeaveOneOut, TheEntryIsChosenAnewInEachFold) {
 TEST(LeaveOneOut, TwoBlocksDecideNothing) {
   Rows rows(9);
   const VectorXd r = rows.draw() + 2.0 * rows.cause;
-  const auto gain = diagnosis::leave_one_out({rows.blocks[0], rows.blocks[1]}, rows.none(r), {rows.entry(r, rows.cause)}, 500, 1);
+  const auto gain =
+      diagnosis::leave_one_out({rows.blocks[0], rows.blocks[1]}, rows.none(r), {rows.entry(r, rows.cause)}, 500, 1);
   EXPECT_LE(gain.low, 0.0);
   EXPECT_GE(gain.high, 0.0);
   EXPECT_LE(gain.low_pct, 0.0);
