@@ -30,6 +30,7 @@ struct Row {
   int condition = -1;   ///< position in FeatureSet::conditions
   double value = 0.0, std = 0.0;
   bool held_out = false;
+  long line = 0;        ///< of rows.csv, for messages
 };
 
 struct FeatureSet {
@@ -38,6 +39,7 @@ struct FeatureSet {
   std::vector<std::string> channels;            ///< names, in the order of channels.csv
   std::vector<Eigen::Vector3d> direction;       ///< (n_channels) direction cosines, zero where unknown
   Eigen::MatrixXd covariance;                   ///< (n_rows × n_rows) instead of std, or empty
+  int load_test_rows = 0;                       ///< rows of load tests, which are read and checked, but which nothing here predicts
   std::map<std::string, double> clipped, drift; ///< of quality.csv by channel: fraction of samples, slope in rms; may be empty
 };
 

@@ -119,6 +119,8 @@ void refuse_negative_stiffness(const linalg::SparseMatrix& lower, const std::vec
   check_sizes(lower, dofs, source, "stiffness");
   const VectorXd k = lower.diagonal();
   const double largest = k.cwiseAbs().maxCoeff();
+  if (largest == 0.0)
+    refuse(source, "stiffness", "no degree of freedom has stiffness", "give springs, elements or K");
   for (Index i = 0; i < k.size(); ++i)
     if (k[i] < -stiffness_tolerance * largest)
       refuse(source, dof_name(dofs, i), fmt::format("its stiffness{} is {:g}, expected 0 or more", context, k[i]),

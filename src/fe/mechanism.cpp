@@ -47,6 +47,9 @@ void refuse_empty_diagonal(const Eigen::VectorXd& diagonal, const std::vector<Do
 linalg::Cholesky factorize_or_refuse(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& dofs,
                                      const std::string& source, const std::string& context) {
   TWINDECK_ASSERT(static_cast<std::size_t>(lower.rows()) == dofs.size());
+  if (dofs.empty())
+    throw InputError({source, 0, "supports"}, "no degree of freedom is free: every node is held or nothing is joined to it",
+                     "release a support or add elements");
   const Eigen::VectorXd diagonal = lower.diagonal();
   if (!(diagonal.array() >= 0.0).all() || !std::isfinite(lower.coeffs().sum()))
     refuse_negative_stiffness(lower, dofs, source, context);
@@ -69,9 +72,6 @@ linalg::Cholesky factorize_or_refuse(const linalg::SparseMatrix& lower, const st
 }
 
 void check_no_mechanism(const ParametricSystem& system, const Eigen::VectorXd& theta, const std::string& source) {
-  if (system.size() == 0)
-    throw InputError({source, 0, "supports"}, "no degree of freedom is free: every node is held or nothing is joined to it",
-                     "release a support or add elements");
   const linalg::Cholesky factor = factorize_or_refuse(system.stiffness(theta), system.dofs, source, "");
   static_cast<void>(factor);
 }

@@ -15,6 +15,9 @@ namespace twindeck::fe {
 
 namespace {
 
+constexpr double farthest_m = 1e9;           ///< of a node from the origin, whatever the grid: beyond, differences are lost
+constexpr double least_across = 1e-9;        ///< [-] part of an orientation that lies across its beam, as in beam_axes
+
 [[noreturn]] void refuse(const Model& model, const std::string& part, const std::string& problem, const std::string& mend) {
   throw InputError({model.source, 0, part}, problem, mend);
 }
@@ -81,8 +84,11 @@ void check_nodes(const Model& model) {
   for (const Node& node : model.nodes) {
     if (!ids.insert(node.id).second)
       refuse(model, fmt::format("node {}", node.id), "this id is used twice", "give every node its own id");
-    if (!node.x_m.allFinite())
-      refuse(model, fmt::format("node {}", node.id), "has a coordinate that is not a number", "give x, y, z in metres");
+    if (!(node.x_m.cwiseAbs().maxCoeff() <= farthest_m))
+      refuse(model, fmt::format("node {}", node.id),
+             fmt::format("lies at ({:g}, {:g}, {:g}) m, expected coordinates of at most {:g} m", node.x_m.x(), node.x_m.y(),
+                         node.x_m.z(), farthest_m),
+             "give x, y, z in metres");
   }
 }
 
@@ -146,6 +152,17 @@ void check_prestress(const Model& model) {
            "give values in those ranges");
 }
 
+/// The vector that turns a beam's section about its axis.
+void check_orientation(const Model& model, const Element& e, const Eigen::Vector3d& axis) {
+  if (e.type != ElementType::beam || e.orientation.isZero(0.0)) return;
+  const Eigen::Vector3d direction = e.orientation.normalized();
+  if (direction.cross(axis.normalized()).norm() > least_across) return;
+  refuse(model, label(e),
+         fmt::format("its orientation ({:g}, {:g}, {:g}) lies along the beam, expected a vector across it", e.orientation.x(),
+                     e.orientation.y(), e.orientation.z()),
+         "give an orientation that is not parallel to the beam, or 0 0 0 for the default");
+}
+
 }  // namespace
 
 void validate_references(const Model& model) {
@@ -177,6 +194,7 @@ void validate_geometry(const Model& model) {
     }
     const auto ends = end_nodes(model, e);
     Eigen::Vector3d chord = ends[1] - ends[0];
+    check_orientation(model, e, chord + e.offset_m[1] - e.offset_m[0]);
     if (e.type == ElementType::beam) chord += e.offset_m[1] - e.offset_m[0];
     if (!(chord.norm() > 1e-9))
       refuse(model, label(e), fmt::format("nodes {} and {} are at the same place, so the member has no length", id(0), id(1)),

@@ -58,6 +58,29 @@ void check_names(const Model& model, const Parameter& p) {
              fmt::format("known: {}", fmt::join(known.names, ", ")));
 }
 
+/// Units in which a parameter's values may be given: SI, or none for a factor.
+std::vector<std::string> units_of(Target target) {
+  switch (target) {
+    case Target::youngs_modulus:
+      return {"Pa", "N/m2", "N/m^2"};
+    case Target::density:
+      return {"kg/m3", "kg/m^3"};
+    case Target::thickness:
+      return {"m"};
+    case Target::area:
+      return {"m2", "m^2"};
+    default:
+      return {"-", "1"};
+  }
+}
+
+void check_unit(const Model& model, const Parameter& p) {
+  const std::vector<std::string> known = units_of(p.target);
+  if (p.unit.empty() || std::find(known.begin(), known.end(), p.unit) != known.end()) return;
+  refuse(model, p, fmt::format("its unit is '{}', expected {}", p.unit, fmt::join(known, " or ")),
+         "initial, lower and upper are in SI units, as the model's tables are; - is a factor");
+}
+
 void check_values(const Model& model, const Parameter& p, double standing) {
   if (!std::isfinite(p.initial) || p.initial == 0.0 || !std::isfinite(p.lower) || !std::isfinite(p.upper))
     refuse(model, p,
@@ -104,6 +127,7 @@ void validate_parameters(const Model& model) {
         refuse(model, p, fmt::format("'{}' is scaled by another parameter already", name),
                "let one parameter scale each property");
     check_tapers(model, p);
+    check_unit(model, p);
     check_values(model, p, standing[static_cast<Eigen::Index>(i)]);
   }
 }

@@ -25,6 +25,8 @@ class CsvTable {
   [[nodiscard]] bool has(const std::string& column) const { return index_.contains(column); }
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  /// Line of the file that a row begins in, from 1.
+  [[nodiscard]] long line(std::size_t row) const { return line_.at(row); }
 
   /// Text of a cell; "" for a column that is not there.
   [[nodiscard]] std::string text(std::size_t row, const std::string& column) const;

@@ -1,6 +1,9 @@
 #include "model_io/aero_data.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <string>
@@ -13,6 +16,16 @@
 
 namespace twindeck::model_io {
 namespace {
+
+/// A number without a dimension.
+double coefficient(const io::CsvTable& table, std::size_t row, const std::string& column) {
+  constexpr double largest = 1e6;  // of derivatives at high reduced velocities, which grow with its square, and of the velocity
+  const double value = table.number(row, column);
+  if (std::abs(value) > largest)
+    table.fail(row, column, fmt::format("is {}, expected a magnitude of at most {:g}", table.text(row, column), largest),
+               "coefficients and reduced velocities have no dimension");
+  return value;
+}
 
 std::vector<std::string> names_of(aero::Convention convention) {
   std::vector<std::string> names;
@@ -71,11 +84,11 @@ aero::Polar read_polar(const std::filesystem::path& file) {
   std::vector<aero::StaticCoefficients> rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     alpha.push_back(table.number(i, "alpha_deg") * radians);
-    aero::StaticCoefficients row{table.number(i, "C_D"), table.number(i, "C_L"), table.number(i, "C_M"), 0.0, 0.0, 0.0};
+    aero::StaticCoefficients row{coefficient(table, i, "C_D"), coefficient(table, i, "C_L"), coefficient(table, i, "C_M"), 0.0, 0.0, 0.0};
     if (given == 3) {
-      row.drag_slope = table.number(i, slopes[0]);
-      row.lift_slope = table.number(i, slopes[1]);
-      row.moment_slope = table.number(i, slopes[2]);
+      row.drag_slope = coefficient(table, i, slopes[0]);
+      row.lift_slope = coefficient(table, i, slopes[1]);
+      row.moment_slope = coefficient(table, i, slopes[2]);
     }
     rows.push_back(row);
     if (i > 0 && alpha[i] <= alpha[i - 1]) table.fail(i, "alpha_deg", "does not ascend", "sort the rows by angle of attack");
@@ -107,7 +120,7 @@ aero::DerivativeTable read_flutter_derivatives(const std::filesystem::path& file
   };
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const double a = table.has("alpha_deg") ? table.number(i, "alpha_deg") * radians : 0.0;
-    const double v = table.number(i, velocity) * to_omega;
+    const double v = coefficient(table, i, velocity) * to_omega;
     if (!(v > 0.0)) table.fail(i, velocity, "is not positive", "a reduced velocity is V over frequency times chord");
     if (!row_at.emplace(std::pair{a, v}, i).second)
       table.fail(i, velocity, "stands twice at this angle of attack", "keep one of the rows");
@@ -127,7 +140,7 @@ aero::DerivativeTable read_flutter_derivatives(const std::filesystem::path& file
     for (std::size_t i = 0; i < alpha.size(); ++i) {
       for (std::size_t j = 0; j < speed.size(); ++j) {
         curves[d].value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            table.number(row_at.at({alpha[i], speed[j]}), names[d]);
+            coefficient(table, row_at.at({alpha[i], speed[j]}), names[d]);
       }
     }
   }

@@ -33,7 +33,8 @@ void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folde
 /// @throws InputError with file, line, column: a frequency that is not positive, a mode named twice, a shape of an unknown
 /// mode,
 ///         a component that one mode has and another lacks
-[[nodiscard]] modal::ModeSet read_modes(const std::filesystem::path& folder);
+/// @param lines  gets the line of modes.csv of each mode, where it is not null
+[[nodiscard]] modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>* lines = nullptr);
 /// Model modes as a ModeSet (names "1", "2", …): all six directions at every node (FE), or node and direction of each dof
 /// (matrix model).
 [[nodiscard]] modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& system,

@@ -56,7 +56,7 @@ fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const N
   const Eigen::Index n = std::ssize(element.dofs) + element.internal;
   const auto read = [&](const std::string& file) -> Eigen::MatrixXd {
     if (file.empty()) return {};
-    if (const Eigen::Index rows = matrix_market_rows(folder / file); rows != n)
+    if (const Eigen::Index rows = matrix_market_size(folder / file).rows; rows != n)
       throw at(folder, file, entry.name,
                fmt::format("{} holds a {} x {} matrix, expected {} x {}: {} degrees of freedom and {} unknowns of its own",
                            file, rows, rows, n, n, element.dofs.size(), element.internal),

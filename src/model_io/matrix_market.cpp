@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
+#include "io/regular_file.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -30,8 +31,10 @@ std::string lower_case(std::string text) {
 /// Reads line by line and knows where it stands.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()), stream_(file, std::ios::binary) {
-    if (!stream_ || !std::filesystem::is_regular_file(file)) fail("cannot be read", "check that the file is there");
+  explicit Reader(const std::filesystem::path& file) : file_(file.string()) {
+    io::require_regular_file(file);
+    stream_.open(file, std::ios::binary);
+    if (!stream_) fail("cannot be read", "check that you may read it");
   }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& mend, long line = -1) const {
@@ -206,10 +209,11 @@ void refuse_upper_triangle(const Reader& reader, const std::vector<Entry>& entri
 
 }  // namespace
 
-Eigen::Index matrix_market_rows(const std::filesystem::path& file) {
+MatrixMarketSize matrix_market_size(const std::filesystem::path& file) {
   Reader reader(file);
   static_cast<void>(reader.banner());
-  return read_size(reader).n;
+  const Eigen::Index rows = read_size(reader).n;
+  return {rows, reader.line()};
 }
 
 linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {

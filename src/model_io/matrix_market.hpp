@@ -16,10 +16,14 @@ namespace twindeck::model_io {
 ///         a size line that asks for more entries than the file has room for
 [[nodiscard]] linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file);
 
-/// Rows of the square matrix in a file, by its size line: to be compared with what is expected before the matrix is read, since
-/// a matrix of few entries may have any number of rows and takes memory for each.
+/// Rows of the square matrix in a file, and the line that says so: to be compared with what is expected before the matrix is
+/// read, since a matrix of few entries may have any number of rows and takes memory for each.
+struct MatrixMarketSize {
+  Eigen::Index rows = 0;
+  long line = 0;
+};
 /// @throws InputError as above
-[[nodiscard]] Eigen::Index matrix_market_rows(const std::filesystem::path& file);
+[[nodiscard]] MatrixMarketSize matrix_market_size(const std::filesystem::path& file);
 
 /// Writes the lower triangle as `coordinate real symmetric` with 17 digits: what is read back is the same to the last bit.
 /// Entries that are exactly zero are left out.

@@ -113,9 +113,9 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
 }
 
 linalg::SparseMatrix read_sized(const std::filesystem::path& file, std::size_t n) {
-  const Eigen::Index rows = matrix_market_rows(file);
-  if (rows == static_cast<Eigen::Index>(n)) return read_matrix_market(file);
-  throw InputError({file.string(), 0, ""}, fmt::format("is {0} x {0}, but dofs.csv has {1} rows", rows, n),
+  const MatrixMarketSize size = matrix_market_size(file);
+  if (size.rows == static_cast<Eigen::Index>(n)) return read_matrix_market(file);
+  throw InputError({file.string(), size.line, ""}, fmt::format("is {0} x {0}, but dofs.csv has {1} rows", size.rows, n),
                    "matrices and dofs.csv must be of one model");
 }
 

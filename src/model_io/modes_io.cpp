@@ -108,7 +108,7 @@ void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folde
   if (modes.has_shapes()) write_shapes(modes, folder / "shapes.csv");
 }
 
-modal::ModeSet read_modes(const std::filesystem::path& folder) {
+modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>* lines) {
   const auto table = io::CsvTable::read(folder / "modes.csv", {"mode", "frequency_Hz"},
                                         {"frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"}, true);
   // A mode that some setups did not see has a shape with holes; it is listed for people and not for comparisons.
@@ -133,6 +133,7 @@ modal::ModeSet read_modes(const std::filesystem::path& folder) {
     if (position_of(name, modes.names) >= 0)
       table.fail(row, "mode", fmt::format("mode '{}' appears twice", name), "give each mode a name of its own");
     modes.names.push_back(name);
+    if (lines != nullptr) lines->push_back(table.line(row));
     const auto i = static_cast<Eigen::Index>(modes.names.size()) - 1;
     modes.frequency_Hz[i] = table.number(row, "frequency_Hz");
     if (modes.frequency_Hz[i] < 0.0 || modes.frequency_Hz[i] > kHighestFrequency_Hz) {
@@ -146,6 +147,9 @@ modal::ModeSet read_modes(const std::filesystem::path& folder) {
                  fmt::format("is {}, expected at most {:g}", table.text(row, "frequency_std_Hz"), kHighestFrequency_Hz),
                  "state it in Hz");
     modes.damping_ratio[i] = table.number_or(row, "damping_ratio_pct", kUnknown) / 100.0;
+    if (modes.damping_ratio[i] < 0.0 || modes.damping_ratio[i] >= 1.0)
+      table.fail(row, "damping_ratio_pct", fmt::format("is {}, expected a value from 0 to below 100", table.text(row, "damping_ratio_pct")),
+                 "a mode that vibrates is damped less than critically; give the ratio in per cent");
     modes.damping_ratio_std[i] = table.number_or(row, "damping_ratio_std_pct", kUnknown) / 100.0;
   }
   if (std::filesystem::exists(folder / "shapes.csv")) read_shapes(folder / "shapes.csv", left_out, modes);

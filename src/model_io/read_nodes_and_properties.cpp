@@ -20,6 +20,15 @@ double at_least_zero(const io::CsvTable& table, std::size_t row, const std::stri
   return value;
 }
 
+double coordinate(const io::CsvTable& table, std::size_t row, const std::string& column) {
+  constexpr double farthest_m = 1e9;  // as in fe::validate, which has no line to name
+  const double value = table.number(row, column);
+  if (std::abs(value) > farthest_m)
+    table.fail(row, column, fmt::format("is {}, expected at most {:g} m from the origin", table.text(row, column), farthest_m),
+               "give coordinates in metres");
+  return value;
+}
+
 std::string unique_name(const io::CsvTable& table, std::size_t row, const std::string& column,
                         const std::map<std::string, int>& known) {
   const std::string name = table.text(row, column);
@@ -48,7 +57,7 @@ void read_nodes(const std::filesystem::path& folder, fe::Model& model, NameIndex
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Node node;
     node.id = table.integer(row, "node");
-    node.x_m = {table.number(row, "x_m"), table.number(row, "y_m"), table.number(row, "z_m")};
+    node.x_m = {coordinate(table, row, "x_m"), coordinate(table, row, "y_m"), coordinate(table, row, "z_m")};
     if (!index.nodes.emplace(node.id, static_cast<int>(row)).second) {
       table.fail(row, "node", fmt::format("node {} appears twice", node.id), "give each node a number of its own");
     }

@@ -27,6 +27,7 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   if (!modes_before.status.converged) return modes_before.status;
   steps::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
   const steps::Pairing pairing = steps::pair_for_updating(config, before, modes_before, *measured);
+  steps::warn_of_unmeasured(context, pairing);
 
   // 3. The update.
   updating::UpdatingOptions options = config.options(context.seed);

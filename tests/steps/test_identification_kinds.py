@@ -164,7 +164,7 @@ class Kinds(unittest.TestCase):
                                            "         2      1000         1  0.00000E+00  1.00000E-02  0.00000E+00\n" + "        17    0    0    0 NONE\n" * 4
                                            + "  1.00000E+00  2.00000E+00\n")
         cases = [("rates", [a, slow], "is 50 Hz in setup B, but 100 Hz in setup A"), ("reference", [a, other], "no reference channel is in each of the 2 setups"),
-                 ("cut", None, "breaks off in set 58 number 1 after 2 of 1000 values")]
+                 ("cut", None, "states 1000 values, expected a whole number from 1 to what 341 bytes can hold")]
         for name, records, expected in cases:
             with self.subTest(name):
                 if records:

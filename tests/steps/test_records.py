@@ -104,7 +104,7 @@ class Columns(Records):
 
 class StrayLines(Records):
     def test_are_refused_with_their_number(self):
-        for name, at, text in (("text", 61, "*** \x1b[31mrestarted\x1b[0m \0 ***"), ("ragged", 8000, "80.00,1,2"), ("header", 70, "time_s,c04,c01,c02,c03")):
+        for name, at, text in (("text", 61, "*** \x1b[31mrestarted\x1b[0m ***"), ("ragged", 8000, "80.00,1,2"), ("header", 70, "time_s,c04,c01,c02,c03")):
             self.csv(self.campaign(name, "record.csv"), ["c04", "c01", "c02", "c03"], [3, 0, 1, 2], strays=[(at, text)])
             self.refused(name, f"record.csv:{at + 2}: '", "is no row of the table", "skip_stray_lines = true")
 
@@ -125,8 +125,9 @@ class StrayLines(Records):
 def row(**cells):
     """A row of channels.csv for c04, the others as write_campaign has them."""
     order = ("channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role")
-    usual = dict(zip(order, ("", "P", 1, 0, 0, 0, 0, 1, "acceleration", "m/s^2", 1, "", "response")))
-    return "".join(",".join(str((usual | {"channel": c} | (cells if c == "c04" else {}))[k]) for k in order) + "\n" for c in CHANNELS)
+    usual = dict(zip(order, ("", "", 0, 0, 0, 0, 0, 1, "acceleration", "m/s^2", 1, "", "response")))
+    return "".join(",".join(str((usual | {"channel": c, "point": f"P{i}", "x_m": i} | (cells if c == "c04" else {}))[k]) for k in order) + "\n"
+                   for i, c in enumerate(CHANNELS, 1))
 
 
 class Channels(Records):

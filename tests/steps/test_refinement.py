@@ -204,7 +204,7 @@ class OnAMatrixModel(unittest.TestCase):
             ("damping_ratio_pct,1,,quiet,1.0,0.1\n", "[quiet]\n", "no row of type frequency_Hz"),
             (good, "[a]\n[b]\n", "2 conditions"),
             (good, '[quiet]\ndampers = "half"\n', "expected \"on\" or \"off\""),
-            (good, "[other]\n", "no modes of condition"),
+            (good, "[other]\n", "is not in conditions.toml"),
         ]
         for rows, conditions, message in cases:
             with self.subTest(message=message):

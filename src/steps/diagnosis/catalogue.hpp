@@ -5,6 +5,7 @@
 
 #include "diagnosis/catalogue.hpp"
 #include "diagnosis/features.hpp"
+#include "diagnosis/structure.hpp"
 
 /// What s9_diagnosis reads.
 namespace twindeck::steps {
@@ -15,8 +16,12 @@ namespace twindeck::steps {
 [[nodiscard]] std::vector<diagnosis::Hypothesis> read_catalogue(const std::filesystem::path& folder);
 
 /// All rows of a features folder (docs/my_records.md) with their conditions and channels, quality.csv and covariance.npy where
-/// they are there. Rows of static displacements are left out: no condition says under which load they were measured.
-/// @throws InputError  with file, line, column: an unknown type, condition or channel, a row without a standard deviation
+/// they are there. Rows of load tests are checked and counted, not kept: no cause is told by them.
+/// @throws InputError  with file, line, column: see steps/shared/feature_rows.hpp and measured_tables.hpp
 [[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder);
+
+/// @throws InputError  naming the line of rows.csv, for a frequency of a stay that the model lacks, or has without a pull
+void refuse_unknown_stays(const diagnosis::FeatureSet& features, const diagnosis::Places& places,
+                          const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

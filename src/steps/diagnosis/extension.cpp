@@ -209,8 +209,8 @@ void write_corrected_channels(const DiagnosedModel& model, const diagnosis::Diag
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const Channel& c = channels[i];
     const auto coordinate = [&](Index k) { return c.x_m ? std::optional<double>((*c.x_m)[k]) : std::nullopt; };
-    csv.row({c.name, c.point, coordinate(0), coordinate(1), coordinate(2), c.direction.x(), c.direction.y(), c.direction.z(),
-             gain[i]});
+    const auto cosine = [&](Index k) { return c.direction.isZero(0.0) ? std::nullopt : std::optional<double>(c.direction[k]); };
+    csv.row({c.name, c.point, coordinate(0), coordinate(1), coordinate(2), cosine(0), cosine(1), cosine(2), gain[i]});
   }
   csv.save(file);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
@@ -17,9 +18,9 @@ using diagnosis::FeatureSet;
 using diagnosis::Row;
 using diagnosis::RowType;
 
-std::vector<Condition> read_all_conditions(const std::filesystem::path& file) {
+std::vector<Condition> all_of(const std::vector<MeasuredCondition>& measured) {
   std::vector<Condition> conditions;
-  for (const MeasuredCondition& c : read_conditions(file))
+  for (const MeasuredCondition& c : measured)
     conditions.push_back({c.name, c.dampers_on, c.amplitude_m, c.amplitude_channel, c.temperature_C, c.wind_m_s, c.direction_deg,
                           c.people});
   return conditions;
@@ -32,11 +33,14 @@ int position(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<int>(at - names.begin());
 }
 
-Row to_row(const FeatureRow& read, const std::vector<std::string>& conditions, const FeatureSet& features) {
+Row to_row(const FeatureRow& read, const std::vector<MeasuredCondition>& conditions, const FeatureSet& features) {
   Row row;
+  row.line = read.line;
   row.type = static_cast<RowType>(position(diagnosis::row_type_names(), read.type));
   row.mode = read.mode;
-  row.condition = position(conditions, read.condition);
+  row.condition = static_cast<int>(
+      std::find_if(conditions.begin(), conditions.end(), [&](const MeasuredCondition& c) { return c.name == read.condition; }) -
+      conditions.begin());
   row.value = read.value;
   row.std = read.std;
   row.held_out = read.held_out;
@@ -63,14 +67,13 @@ void read_quality(const std::filesystem::path& file, FeatureSet& features) {
 
 FeatureSet read_all_features(const std::filesystem::path& folder) {
   FeatureSet features;
-  features.conditions = read_all_conditions(folder / "conditions.toml");
-  std::vector<std::string> conditions;
-  for (const Condition& condition : features.conditions) conditions.push_back(condition.name);
-  if (std::filesystem::exists(folder / "channels.csv")) {
-    for (const Channel& channel : read_channels(folder / "channels.csv")) {
-      features.channels.push_back(channel.name);
-      features.direction.push_back(channel.direction);
-    }
+  const std::vector<MeasuredCondition> conditions = read_conditions(folder / "conditions.toml");
+  features.conditions = all_of(conditions);
+  std::vector<Channel> channels;
+  if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
+  for (const Channel& channel : channels) {
+    features.channels.push_back(channel.name);
+    features.direction.push_back(channel.direction);
   }
   for (const Condition& condition : features.conditions) {
     if (!condition.amplitude_channel.empty() &&
@@ -80,11 +83,14 @@ FeatureSet read_all_features(const std::filesystem::path& folder) {
                                    did_you_mean(condition.amplitude_channel, features.channels)),
                        "");
   }
-  const FeatureRows read = read_feature_rows(folder, conditions, features.channels);
+  const FeatureRows read = read_feature_rows(folder, conditions, channels);
   std::vector<int> kept;
   for (std::size_t r = 0; r < read.rows.size(); ++r) {
     const Row row = to_row(read.rows[r], conditions, features);
-    if (row.type == RowType::static_displacement) continue;
+    if (row.type == RowType::static_displacement) {
+      ++features.load_test_rows;
+      continue;
+    }
     kept.push_back(static_cast<int>(r));
     features.rows.push_back(row);
   }
@@ -92,6 +98,27 @@ FeatureSet read_all_features(const std::filesystem::path& folder) {
   if (read.covariance.size() > 0) features.covariance = read.covariance(kept, kept);
   read_quality(folder / "quality.csv", features);
   return features;
+}
+
+void refuse_unknown_stays(const FeatureSet& features, const diagnosis::Places& places, const std::filesystem::path& folder) {
+  std::map<std::string, bool> tensioned;
+  if (const auto stays = places.sets.find("stays"); stays != places.sets.end())
+    for (const diagnosis::Place& stay : stays->second)
+      tensioned[stay.id.substr(stay.id.find(':') + 1)] = stay.attributes.contains("f_cable");
+  std::vector<std::string> names;
+  for (const auto& [name, has_pull] : tensioned) names.push_back(name);
+  for (const Row& row : features.rows) {
+    if (row.type != RowType::stay_frequency) continue;
+    const auto found = tensioned.find(row.stay);
+    const Place place{(folder / "rows.csv").string(), row.line, "channel"};
+    if (found == tensioned.end())
+      throw InputError(place, fmt::format("'{}' is no stay of the model{}", row.stay, did_you_mean(row.stay, names)),
+                       names.empty() ? "the model has no stays; leave the row out, or stay_frequency_Hz as a whole (left_out)"
+                                     : "name a stay of the model's elements.csv");
+    if (!found->second)
+      throw InputError(place, fmt::format("stay '{}' has no pull in the model, so that its frequency is not computed", row.stay),
+                       "give its pull in elements.csv and a rule of prestress in model.toml, or leave the row out");
+  }
 }
 
 }  // namespace twindeck::steps

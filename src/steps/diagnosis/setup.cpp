@@ -175,12 +175,17 @@ std::vector<diagnosis::DamperMove> read_damper_places(const std::filesystem::pat
 }
 
 /// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
-std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs) {
+/// @param unmeasured  gets those that no row names
+std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
+                                       std::vector<std::string>* unmeasured = nullptr) {
   std::map<std::string, int> bound;
   for (const modal::NamedPair& pair :
-       modal::read_pairs(config.pairs, inputs.reduced->mode_coordinates.cols(), {"", 0, "pairs"}, "raise modes"))
+       modal::read_pairs(config.pairs, inputs.reduced->mode_coordinates.cols(), {"", 0, "pairs"}, "raise modes")) {
+    const std::size_t before = bound.size();
     for (const diagnosis::Row& row : inputs.features.rows)
       if (modal::experimental_label(row.mode) == pair.experimental) bound[row.mode] = static_cast<int>(pair.numerical);
+    if (bound.size() == before && unmeasured != nullptr) unmeasured->push_back(pair.experimental);
+  }
   return bound;
 }
 
@@ -288,6 +293,9 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
   if (!config.damper_places.empty()) place_options.moves = read_damper_places(context.input(config.damper_places));
   inputs.places = diagnosis::find_places(structure, place_options);
+  refuse_unknown_stays(inputs.features, inputs.places, folder);
+  if (inputs.features.load_test_rows > 0)
+    context.warn(fmt::format("{} rows of load tests are not used: no cause here is told by them", inputs.features.load_test_rows));
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   diagnosis::ReductionOptions reduction;
   reduction.modes = static_cast<int>(config.modes);
@@ -354,7 +362,10 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   const DiagnosisInputs inputs = read_diagnosis_inputs(config, context);
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
-  map.bind_modes(bound_modes(config, inputs));
+  std::vector<std::string> unmeasured;
+  map.bind_modes(bound_modes(config, inputs, &unmeasured));
+  if (!unmeasured.empty())
+    context.warn(fmt::format("pairs: no row in use has the mode of {}", fmt::join(unmeasured, ", ")));
   const diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
   const diagnosis::Inference inference(map, entries.candidates);
   context.say(fmt::format("{} rows ({} held out), {} unknowns, {} entries of {} families, basis of {}",

@@ -39,10 +39,18 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
     const auto at = std::find(measured.labels.begin(), measured.labels.end(), pair.experimental);
     if (at != measured.labels.end())
       pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), pair.numerical, kUnknown, false});
+    else
+      pairing.unmeasured.push_back(pair.experimental);
   }
   std::sort(pairing.pairs.begin(), pairing.pairs.end(),
             [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
   return pairing;
+}
+
+void warn_of_unmeasured(StepContext& context, const Pairing& pairing) {
+  if (pairing.unmeasured.empty()) return;
+  context.warn(fmt::format("pairs: {} {} not among the measured modes and {} passed over", fmt::join(pairing.unmeasured, ", "),
+                           pairing.unmeasured.size() == 1 ? "is" : "are", pairing.unmeasured.size() == 1 ? "is" : "are"));
 }
 
 Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,

@@ -22,16 +22,21 @@ struct Pairing {
   std::vector<modal::ModePair> pairs;  ///< in the order of the measured modes
   std::string method;                  ///< "order" | "published" | "mac"
   Eigen::MatrixXd mac;                 ///< (n_N × n_X) at the sensors; empty where no shape was measured
+  std::vector<std::string> unmeasured;  ///< measured modes of a published list that are not among the measured ones
 };
 
 /// First measured with first computed mode, and so on; only the measured modes for which `keep` is true (all if it is empty).
 [[nodiscard]] Pairing pair_by_order(const Measured& measured, Eigen::Index n_numerical, const std::vector<bool>& keep = {});
 
-/// A published assignment such as {"1X-1N", "7X-8N"}. Pairs whose measured mode is not in `measured` are passed over.
+/// A published assignment such as {"1X-1N", "7X-8N"}. Pairs whose measured mode is not in `measured` are passed over, and
+/// listed in `unmeasured`.
 /// @param place  where the list stands, for messages
 /// @throws InputError  for an entry of another form, a mode named twice, or a numerical mode beyond `n_numerical`
 [[nodiscard]] Pairing pair_as_published(const Measured& measured, Eigen::Index n_numerical,
                                         const std::vector<std::string>& published, const Place& place);
+
+/// Names the pairs of a list that were passed over.
+void warn_of_unmeasured(StepContext& context, const Pairing& pairing);
 
 /// By MAC at the sensors, one-to-one.
 /// @throws InputError  if no shape was measured, or a sensor can't be placed on the model

@@ -72,6 +72,7 @@ void compare_with_measurement(StepContext& context, const RefinementConfig& conf
   Pairing after, before;
   if (measured) {
     after = pair_refined(context, config, some, refined, options);
+    warn_of_unmeasured(context, after);
     before = some.modes.has_shapes() ? pair_at_sensors(some, initial.loaded, initial.modes, options, config.sensor_tolerance_m)
                                      : pair_by_order(some, initial.modes.frequency_Hz.size(), compared_modes(some, after));
   }

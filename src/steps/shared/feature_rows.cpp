@@ -15,6 +15,7 @@ namespace twindeck::steps {
 namespace {
 
 constexpr double highest_frequency_Hz = 1e6;  ///< far above what any structure is tested at; its square is a harmless number
+constexpr double critical_damping_pct = 100.0;
 constexpr double largest_value = 1e15;        ///< [SI] of any row: beyond it products of a few values leave the range of doubles
 constexpr double least_relative_std = 1e-12;  ///< [-] nothing is measured to twelve digits, and weights are squares of its inverse
 
@@ -22,13 +23,17 @@ bool is_frequency(const FeatureRow& row) { return row.type == "frequency_Hz" || 
 
 bool may_be_negative(const FeatureRow& row) { return row.is_shape() || row.type == "static_m"; }
 
-std::string known_name(const io::CsvTable& table, std::size_t at, const std::string& column,
-                       const std::vector<std::string>& names, const std::string& file) {
+/// The condition or channel that a cell names.
+template <class Part>
+const Part& named(const io::CsvTable& table, std::size_t at, const std::string& column, const std::vector<Part>& parts,
+                  const std::string& file) {
   const std::string text = table.text(at, column);
-  if (std::find(names.begin(), names.end(), text) == names.end())
-    table.fail(at, column, fmt::format("{} '{}' is not in {}{}", column, text, file, did_you_mean(text, names)),
-               "add it there, or mend the name");
-  return text;
+  const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.name == text; });
+  if (found != parts.end()) return *found;
+  std::vector<std::string> names;
+  for (const Part& part : parts) names.push_back(part.name);
+  table.fail(at, column, fmt::format("{} '{}' is not in {}{}", column, text, file, did_you_mean(text, names)),
+             "add it there, or mend the name");
 }
 
 double read_value(const io::CsvTable& table, std::size_t at, const FeatureRow& row) {
@@ -37,6 +42,9 @@ double read_value(const io::CsvTable& table, std::size_t at, const FeatureRow& r
   if (!may_be_negative(row) && value <= 0.0)
     table.fail(at, "value", fmt::format("is {}, expected a {} above 0", given, is_frequency(row) ? "frequency" : "value"),
                "mend the value, or take the row out");
+  if (row.type == "damping_ratio_pct" && value >= critical_damping_pct)
+    table.fail(at, "value", fmt::format("is {}, expected a damping ratio below {:g} %", given, critical_damping_pct),
+               "a mode that vibrates is damped less than critically; give the ratio in per cent");
   if (is_frequency(row) && value > highest_frequency_Hz)
     table.fail(at, "value", fmt::format("is {}, expected a frequency of at most {:g} Hz", given, highest_frequency_Hz),
                "give it in hertz");
@@ -64,22 +72,30 @@ std::string read_mode(const io::CsvTable& table, std::size_t at, const FeatureRo
   if (!modal::is_mode_name(mode))
     table.fail(at, "mode", fmt::format("is '{}', expected a whole number from 1 on, or a name that is no number", mode),
                "give every row of one mode the same number");
+  if (row.type == "stay_frequency_Hz" && (mode.empty() || mode.find_first_not_of("0123456789") != std::string::npos))
+    table.fail(at, "mode", fmt::format("is '{}', expected the harmonic of the stay, a whole number from 1 on", mode),
+               "1 is the stay's lowest frequency");
   return mode;
 }
 
-FeatureRow read_row(const io::CsvTable& table, std::size_t at, const std::vector<std::string>& conditions,
-                    const std::vector<std::string>& channels, bool has_covariance) {
+FeatureRow read_row(const io::CsvTable& table, std::size_t at, const std::vector<MeasuredCondition>& conditions,
+                    const std::vector<Channel>& channels, bool has_covariance) {
   FeatureRow row;
+  row.line = table.line(at);
   row.type = table.text(at, "type");
   const std::vector<std::string>& types = feature_types();
   if (std::find(types.begin(), types.end(), row.type) == types.end())
     table.fail(at, "type", fmt::format("'{}' is not a known type of row{}", row.type, did_you_mean(row.type, types)),
                fmt::format("use {}", fmt::join(types, ", ")));
   row.mode = read_mode(table, at, row);
-  row.condition = known_name(table, at, "condition", conditions, "conditions.toml");
+  const MeasuredCondition& condition = named(table, at, "condition", conditions, "conditions.toml");
+  row.condition = condition.name;
   row.channel = table.text(at, "channel");
   if (row.is_shape() || (!row.is_modal() && row.type != "stay_frequency_Hz"))
-    row.channel = known_name(table, at, "channel", channels, "channels.csv");
+    row.channel = named(table, at, "channel", channels, "channels.csv").name;
+  if (row.type == "static_m" && condition.load.empty())
+    table.fail(at, "type", fmt::format("a row of type static_m needs a load, but condition '{}' names none", row.condition),
+               "name a load case of the model's loads.csv in conditions.toml: load = \"…\"");
   row.value = read_value(table, at, row);
   if (!has_covariance) row.std = read_std(table, at, row);
   const double held_out = table.number_or(at, "held_out", 0.0);
@@ -136,8 +152,8 @@ const std::vector<std::string>& feature_types() {
   return types;
 }
 
-FeatureRows read_feature_rows(const std::filesystem::path& folder, const std::vector<std::string>& conditions,
-                              const std::vector<std::string>& channels) {
+FeatureRows read_feature_rows(const std::filesystem::path& folder, const std::vector<MeasuredCondition>& conditions,
+                              const std::vector<Channel>& channels) {
   FeatureRows read;
   read.table =
       io::CsvTable::read(folder / "rows.csv", {"type", "mode", "channel", "condition", "value", "std"}, {"held_out"});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/csv.hpp"
+#include "steps/shared/measured_tables.hpp"
 
 namespace twindeck::steps {
 
@@ -17,6 +18,7 @@ struct FeatureRow {
   double value = 0.0;
   double std = 0.0;  ///< of the column, or the root of the covariance's diagonal
   bool held_out = false;
+  long line = 0;  ///< of rows.csv
 
   [[nodiscard]] bool is_shape() const { return type == "shape" || type == "shape_imag"; }
   [[nodiscard]] bool is_modal() const { return is_shape() || type == "frequency_Hz" || type == "damping_ratio_pct"; }
@@ -32,12 +34,14 @@ struct FeatureRows {
 };
 
 /// Reads rows.csv of a features folder, and covariance.npy where it is there: the one reader for every step.
-/// @param conditions  names of the tables of conditions.toml
-/// @param channels    names of channels.csv
+/// @param conditions  of conditions.toml
+/// @param channels    of channels.csv
 /// @throws InputError  with file, line and column: an unknown type, condition or channel; a row without a standard deviation; a
 ///         value that its type cannot have; a mode that is a number but none from 1 on; `held_out` other than 0 and 1; two rows
-///         of one quantity; a mode whose shape is zero everywhere; a covariance that is none (covariance.hpp)
-[[nodiscard]] FeatureRows read_feature_rows(const std::filesystem::path& folder, const std::vector<std::string>& conditions,
-                                            const std::vector<std::string>& channels);
+///         of one quantity; a static row without a load; a mode whose shape is zero everywhere; a covariance that is none
+///         (covariance.hpp)
+[[nodiscard]] FeatureRows read_feature_rows(const std::filesystem::path& folder,
+                                            const std::vector<MeasuredCondition>& conditions,
+                                            const std::vector<Channel>& channels);
 
 }  // namespace twindeck::steps

@@ -92,10 +92,7 @@ Measured read_measured_features(const std::filesystem::path& folder, const std::
   const std::string chosen = choose_condition(conditions_file, conditions, condition);
   std::vector<Channel> channels;
   if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
-  std::vector<std::string> condition_names, channel_names;
-  for (const MeasuredCondition& known : conditions) condition_names.push_back(known.name);
-  for (const Channel& channel : channels) channel_names.push_back(channel.name);
-  const FeatureRows read = read_feature_rows(folder, condition_names, channel_names);
+  const FeatureRows read = read_feature_rows(folder, conditions, channels);
 
   std::map<std::string, MeasuredMode> found;
   std::vector<std::string> names;
@@ -121,16 +118,17 @@ Measured read_measured_features(const std::filesystem::path& folder, const std::
 Measured read_measured_modes(const std::filesystem::path& folder) {
   Measured measured;
   measured.source = folder.string();
-  measured.modes = model_io::read_modes(folder);
+  std::vector<long> lines;
+  measured.modes = model_io::read_modes(folder, &lines);
   for (Index i = 0; i < measured.modes.size(); ++i) {
     const std::string& name = measured.modes.names[static_cast<std::size_t>(i)];
     if (!(measured.modes.frequency_std_Hz[i] > 0.0)) {
-      throw InputError({(folder / "modes.csv").string(), i + 2, "frequency_std_Hz"},
+      throw InputError({(folder / "modes.csv").string(), lines[static_cast<std::size_t>(i)], "frequency_std_Hz"},
                        fmt::format("mode {} has no standard deviation", name),
                        "state it; a frequency without one can't be weighed");
     }
     if (!(measured.modes.frequency_Hz[i] > 0.0)) {
-      throw InputError({(folder / "modes.csv").string(), i + 2, "frequency_Hz"},
+      throw InputError({(folder / "modes.csv").string(), lines[static_cast<std::size_t>(i)], "frequency_Hz"},
                        fmt::format("mode {} has no frequency above 0 Hz", name), "");
     }
     measured.labels.push_back(modal::experimental_label(name));

@@ -52,6 +52,17 @@ ModelPoints points_of(const LoadedModel& model, const dynamics::EigenModes& mode
   return points;
 }
 
+/// What to do about a sensor that lies on no node: another unit, where that brings it to one.
+std::string mend_of_position(const ModelPoints& points, const Eigen::Vector3d& x_m, double tolerance_m) {
+  const auto meets_a_node = [&](double factor) {
+    return std::any_of(points.x_m.begin(), points.x_m.end(),
+                       [&](const Eigen::Vector3d& node) { return (node - factor * x_m).norm() <= tolerance_m * std::max(1.0, factor); });
+  };
+  if (x_m.norm() > tolerance_m && meets_a_node(1e-3)) return "in mm it would lie on a node: give x_m, y_m, z_m of channels.csv in m";
+  if (x_m.norm() > tolerance_m && meets_a_node(1e3)) return "the model seems to be in mm: give x_m, y_m, z_m of nodes.csv in m";
+  return "check x_m, y_m, z_m in channels.csv and the axes of the model, or raise `sensor_tolerance`";
+}
+
 std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const Channel* channel, const Measured& measured,
                     double tolerance_m) {
   // Positions go before names: a sensor point called "12" need not be node 12.
@@ -70,7 +81,7 @@ std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const
       throw InputError({measured.source, 0, channel->name},
                        fmt::format("lies {:.2f} m from the nearest node ({}), expected at most {:.2f} m", least,
                                    points.node[nearest], tolerance_m),
-                       "check x_m, y_m, z_m in channels.csv and the axes of the model, or raise `sensor_tolerance`");
+                       mend_of_position(points, *channel->x_m, tolerance_m));
     }
   }
   const auto by_name = std::find(points.node.begin(), points.node.end(), dof.point);

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
+#include "records/recorded_unit.hpp"
 
 namespace twindeck::steps {
 
@@ -44,7 +45,7 @@ std::string text_of(const io::TomlEntry& entry, const Place& place) {
 /// Enters one key of a condition's table.
 void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition& condition) {
   static const std::vector<std::string> known = {"dampers",  "amplitude_m",   "amplitude_channel", "temperature_C",
-                                                 "wind_m_s", "direction_deg", "people"};
+                                                 "wind_m_s", "direction_deg", "people",            "load"};
   if (entry.key == "dampers") {
     const std::string text = text_of(entry, place);
     if (text != "on" && text != "off")
@@ -52,6 +53,8 @@ void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition
     condition.dampers_on = text == "on";
   } else if (entry.key == "amplitude_channel") {
     condition.amplitude_channel = text_of(entry, place);
+  } else if (entry.key == "load") {
+    condition.load = text_of(entry, place);
   } else if (entry.key == "amplitude_m") {
     condition.amplitude_m = number_from(entry, place, 0.0);
   } else if (entry.key == "temperature_C") {
@@ -66,6 +69,47 @@ void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition
     throw InputError(place, "is not a known key of a condition" + did_you_mean(entry.key, known),
                      fmt::format("use {}", fmt::join(known, ", ")));
   }
+}
+
+}  // namespace
+
+namespace {
+
+void one_of(const io::CsvTable& table, std::size_t row, const std::string& column, const std::vector<std::string>& known) {
+  const std::string text = table.text(row, column);
+  if (text.empty() || std::find(known.begin(), known.end(), text) != known.end()) return;
+  table.fail(row, column, fmt::format("is '{}'{}", text, did_you_mean(text, known)),
+             fmt::format("use one of {}, or leave the cell empty", fmt::join(known, ", ")));
+}
+
+/// Columns that features carry along from their campaign. They scale nothing here, but must not contradict each other.
+void check_origin(const io::CsvTable& table, std::size_t row) {
+  constexpr double largest_calibration = 2.0;  // [-] as in a campaign: units of one quantity lie a factor of 9.8 and more apart
+  one_of(table, row, "quantity", {"acceleration", "velocity", "displacement", "force"});
+  one_of(table, row, "role", {"response", "input"});
+  one_of(table, row, "reference", {"0", "1"});
+  const double gain = table.number_or(row, "gain", 1.0);
+  if (gain == 0.0) table.fail(row, "gain", "is 0, expected the factor from recorded to physical values", "leave it empty for 1");
+  const std::string unit = table.text(row, "unit");
+  if (unit.empty()) return;
+  const auto known = records::recorded_unit(unit);
+  if (!known) table.fail(row, "unit", fmt::format("is '{}', which is no unit of a record", unit), "leave it empty if it is not known");
+  const double ratio = known->si_factor > 0.0 ? std::abs(gain) / known->si_factor : 1.0;
+  if (ratio > largest_calibration || ratio < 1.0 / largest_calibration)
+    table.fail(row, "gain", fmt::format("is {:.6g}, but the unit is '{}', which takes {:.6g} to SI units", gain, unit, known->si_factor),
+               "correct the gain or the unit");
+}
+
+Eigen::Vector3d read_direction(const io::CsvTable& table, std::size_t row) {
+  const bool given = table.number_if(row, "dx") || table.number_if(row, "dy") || table.number_if(row, "dz");
+  const Eigen::Vector3d direction{table.number_or(row, "dx", 0.0), table.number_or(row, "dy", 0.0), table.number_or(row, "dz", 0.0)};
+  const double length = direction.norm();
+  if (given && length == 0.0)
+    table.fail(row, "dx", "dx, dy, dz are all 0: a channel measures along some direction",
+               "give its direction cosines, or leave the three cells empty");
+  if (given && std::abs(length - 1.0) > 0.02)
+    table.fail(row, "dx", fmt::format("direction cosines have length {:.3g}, expected 1", length), "give a unit vector");
+  return given ? Eigen::Vector3d(direction / length) : direction;
 }
 
 }  // namespace
@@ -85,12 +129,8 @@ std::vector<Channel> read_channels(const std::filesystem::path& file) {
     channel.point = table.text(row, "point");
     if (table.number_if(row, "x_m"))
       channel.x_m = Eigen::Vector3d(table.number(row, "x_m"), table.number(row, "y_m"), table.number(row, "z_m"));
-    channel.direction = {table.number_or(row, "dx", 0.0), table.number_or(row, "dy", 0.0), table.number_or(row, "dz", 0.0)};
-    const double length = channel.direction.norm();
-    if (length > 0.0 && std::abs(length - 1.0) > 0.02) {
-      table.fail(row, "dx", fmt::format("direction cosines have length {:.3f}, expected 1", length), "give a unit vector");
-    }
-    if (length > 0.0) channel.direction /= length;
+    channel.direction = read_direction(table, row);
+    check_origin(table, row);
     channels.push_back(channel);
   }
   return channels;

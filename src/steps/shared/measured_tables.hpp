@@ -11,7 +11,8 @@
 namespace twindeck::steps {
 
 /// channels.csv: `channel` and, as far as known, `point,x_m,y_m,z_m,dx,dy,dz,quantity,unit,gain,reference,role`.
-/// @throws InputError  for a channel named twice, or direction cosines that are no unit vector (to 2 %)
+/// @throws InputError  for a channel named twice, direction cosines that are no unit vector (to 2 %), an unknown unit, or one
+///         that the gain contradicts
 [[nodiscard]] std::vector<Channel> read_channels(const std::filesystem::path& file);
 
 /// A table of conditions.toml: under which circumstances was measured. What is not known is empty.
@@ -20,6 +21,7 @@ struct MeasuredCondition {
   std::optional<bool> dampers_on;
   std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
   std::string amplitude_channel;
+  std::string load;  ///< load case of a load test
   std::optional<double> temperature_C, wind_m_s, direction_deg, people;
 };
 

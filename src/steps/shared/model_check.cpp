@@ -31,7 +31,7 @@ void refuse_more_modes_than_there_are(long n_modes, const LoadedModel& loaded, c
   const long found = modes.frequency_Hz.size();
   if (!modes.status.converged || found >= n_modes) return;
   const bool dofs = n_modes > loaded.system.size();
-  throw InputError({"", 0, "n_modes"},
+  throw InputError({loaded.source, 0, "n_modes"},
                    dofs ? fmt::format("is {}, but the model has {} degrees of freedom", n_modes, loaded.system.size())
                         : fmt::format("is {}, but only {} modes have mass to move", n_modes, found),
                    "ask for fewer modes: --set n_modes=" + std::to_string(found));

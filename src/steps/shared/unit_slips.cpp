@@ -97,7 +97,7 @@ std::optional<std::string> length_slip(const fe::Model& model) {
     middle = *half;
   }
   if (span > longest_structure_m || (span > long_structure_m && middle > slenderest_member))
-    return fmt::format("the structure spans {:.4g} m{}: are the coordinates in millimetres? Give metres", span,
+    return fmt::format("the structure spans {:.4g} m{}: are the coordinates in mm? Give metres", span,
                        middle > 0.0 ? fmt::format(", and half of its elements are {:.3g} and more times as long as deep", middle)
                                     : std::string());
   return std::nullopt;
@@ -110,8 +110,8 @@ std::optional<std::string> section_slip(const fe::Model& model) {
     const fe::Section& s = model.sections[static_cast<std::size_t>(e.section)];
     const double size = e.type == fe::ElementType::shell ? s.thickness_m : std::sqrt(s.area_m2);
     if (!(size > span)) continue;
-    return fmt::format("section '{}' is {:.3g} m across, more than the whole structure ({:.3g} m): is it in millimetres or "
-                       "centimetres? Give m, m2 and m4",
+    return fmt::format("section '{}' is {:.3g} m across, more than the whole structure ({:.3g} m): is it in mm or cm? Give "
+                       "m, m2 and m4",
                        s.name, size, span);
   }
   return std::nullopt;
@@ -191,8 +191,8 @@ std::vector<std::string> frequency_slips(const Eigen::VectorXd& computed_Hz, dou
   const bool slow = computed_Hz[at] < structure_Hz.low;
   return {fmt::format("the first mode is computed at {:.3g} Hz ({:.4g} kg move{}), {} than any structure: {}", computed_Hz[at], mass_kg,
                       span_m > 0.0 ? fmt::format(", span {:.4g} m", span_m) : std::string(), slow ? "slower" : "faster",
-                      slow ? "look for a modulus in MPa, coordinates in millimetres, a stiffness in kN/m or a mass in grams"
-                           : "look for a mass in tonnes, a density in t/m3, or sections in millimetres")};
+                      slow ? "look for a modulus in MPa, coordinates in mm, a stiffness in kN/m or a mass in grams"
+                           : "look for a mass in tonnes, a density in t/m3, or sections in mm")};
 }
 
 std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {

@@ -78,7 +78,8 @@ TEST(MatrixMarket, BelievesNoSizeLine) {
   EXPECT_NE(refusal(folder, head + "9999999999 9999999999 1\n1 1 1\n").find("is no number"), std::string::npos);
   // Rows cost memory each and may be empty: the caller knows how many there should be.
   folder.write("A.mtx", head + "2000000000 2000000000 1\n1 1 1\n");
-  EXPECT_EQ(matrix_market_rows(folder.path() / "A.mtx"), 2000000000);
+  EXPECT_EQ(matrix_market_size(folder.path() / "A.mtx").rows, 2000000000);
+  EXPECT_EQ(matrix_market_size(folder.path() / "A.mtx").line, 2);
 }
 
 }  // namespace

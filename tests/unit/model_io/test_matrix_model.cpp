@@ -108,7 +108,7 @@ TEST(MatrixModel, RefusesWhatDoesNotFit) {
     folder.edit(file, from, to);
     return message_of([&] { (void)read_matrix_model(folder.path()); });
   };
-  EXPECT_NE(refused("Ka.mtx", "2 2 3\n", "3 3 3\n").find("Ka.mtx: is 3 x 3, but dofs.csv has 2 rows"), std::string::npos);
+  EXPECT_NE(refused("Ka.mtx", "2 2 3\n", "3 3 3\n").find("Ka.mtx:2: is 3 x 3, but dofs.csv has 2 rows"), std::string::npos);
   EXPECT_NE(refused("Ka.mtx", "2 2 3\n", "2000000000 2000000000 3\n").find("but dofs.csv has 2 rows"), std::string::npos);
   EXPECT_NE(refused("dofs.csv", "2,right,x", "3,right,x").find("dofs.csv:3: dof: is 3, expected 2"), std::string::npos);
   EXPECT_NE(refused("dofs.csv", "2,right,x", "2,right,u").find("unknown direction 'u'"), std::string::npos);

@@ -27,7 +27,15 @@ class FeatureRowsOf : public ::testing::Test {
 
   FeatureRows read(const std::string& rows) const {
     std::ofstream(folder_ / "rows.csv") << kHead << rows;
-    return read_feature_rows(folder_, {"calm", "windy"}, {"a", "b"});
+    MeasuredCondition calm, windy, loaded;
+    calm.name = "calm";
+    windy.name = "windy";
+    loaded.name = "loaded";
+    loaded.load = "lorry_at_midspan";
+    Channel a, b;
+    a.name = "a";
+    b.name = "b";
+    return read_feature_rows(folder_, {calm, windy, loaded}, {a, b});
   }
   std::string refusal(const std::string& rows) const {
     try {
@@ -74,9 +82,13 @@ TEST_F(FeatureRowsOf, RefuseWhatTheFormatDoesNotHave) {
   expect("frequency_Hz,1,,calm,2.5,-1,\n", "rows.csv:2: std: is -1, expected a value above 0");
   expect("frequency_Hz,1,,calm,2.5,1e-300,\n", "rows.csv:2: std: is 1e-300");
   expect("frequency_Hz,1,,calm,0,0.1,\n", "rows.csv:2: value: is 0, expected a frequency above 0");
-  expect("frequency_Hz,1,,calm,1e300,0.1,\n", "rows.csv:2: value: is 1e300, expected a frequency of at most 1e+06 Hz");
-  expect("shape,1,a,calm,1e300,0.1,\n", "rows.csv:2: value: is 1e300, expected a magnitude");
+  expect("frequency_Hz,1,,calm,1e300,0.1,\n", "rows.csv:2: value: is \"1e300\", larger than any quantity of a structure");
+  expect("shape,1,a,calm,1e300,0.1,\n", "rows.csv:2: value: is \"1e300\", larger than any quantity of a structure");
   expect("frequency_Hz,,,calm,2.5,0.1,\n", "rows.csv:2: mode: is empty");
+  expect("damping_ratio_pct,1,,calm,100,0.1,\n", "rows.csv:2: value: is 100, expected a damping ratio below 100 %");
+  expect("stay_frequency_Hz,first,S1,calm,2,0.1,\n", "rows.csv:2: mode: is 'first', expected the harmonic of the stay");
+  expect("static_m,,a,calm,-0.01,0.001,\n", "rows.csv:2: type: a row of type static_m needs a load, but condition 'calm' names none");
+  EXPECT_EQ(refusal("static_m,,a,loaded,-0.01,0.001,\n"), "");
 }
 
 TEST_F(FeatureRowsOf, RefuseAHeldOutThatIsNeitherYesNorNo) {

@@ -74,7 +74,7 @@ TEST(UnitSlips, DensityInAnotherUnit) {
 TEST(UnitSlips, CoordinatesInMillimetres) {
   fe::Model model = beam();
   for (fe::Node& node : model.nodes) node.x_m *= 1000.0;
-  expect_slip(model, "spans 1e+04 m, and half of its elements are 2.5e+03 and more times as long as deep: are the coordinates in millimetres?");
+  expect_slip(model, "spans 1e+04 m, and half of its elements are 2.5e+03 and more times as long as deep: are the coordinates in mm?");
   for (fe::Node& node : model.nodes) node.x_m *= 0.2;  // two kilometres in ten elements: a long bridge, drawn coarsely
   EXPECT_TRUE(unit_slips(model).empty());
 }
