@@ -24,7 +24,7 @@ include workflows/steps.mk
 endif
 
 .PHONY: baseline moves checksums check-power paper blind-trials help all look deps build test unit steps tables figures report verify \
-  smoke bench fuzz processors calibrate why new reference clean FORCE
+  smoke bench fuzz sanitize processors calibrate why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -130,6 +130,9 @@ processors: build ## the study and the tests under the kernels of other processo
 SECONDS ?= 300
 fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFuzzer and sanitizers, SECONDS shared out
 	@/usr/bin/python3 tests/fuzz/run.py $(SECONDS) --jobs $(JOBS)
+
+sanitize: ## unit tests, broken inputs and the smoke chain under address, undefined-behaviour and thread sanitizers (ONLY=address or thread)
+	@tests/sanitize/run.sh $(JOBS) $(ONLY)
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
