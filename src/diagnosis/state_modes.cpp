@@ -314,6 +314,7 @@ class ModalRoots {
   /// f = (R + 1/k)^-1 (B'y - z) with z the stroke of its dashpot, c dz/dt = f.
   [[nodiscard]] std::vector<Complex> starts(const VectorXcd& forces, double highest) const {
     const Index p = b_.cols(), m = count_below(modes_, 1.5 * highest * highest);
+    if (m == 0) return {};  // no mode lies so low: the eigensolver takes no empty matrix
     const MatrixXd low = modes_.mu.head(m).cwiseSqrt().cwiseInverse().asDiagonal() * bm_.topRows(m);
     MatrixXd flexibility = bm_.bottomRows(bm_.rows() - m).transpose() * bm_.bottomRows(bm_.rows() - m);
     VectorXd rate = VectorXd::Zero(p), back = VectorXd::Zero(p);  // dz/dt = rate f - back z
