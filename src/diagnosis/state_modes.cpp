@@ -84,6 +84,7 @@ namespace {
 StateModes state_space(const StructureState& state, const UndampedModes& undamped, double highest,
                        const std::vector<Complex>& friction, double omega) {
   const Index m = count_below(undamped, highest);
+  if (m == 0) return {};  // no mode lies so low: the eigensolver takes no empty matrix
   const MatrixXd shapes = mass_normalised(undamped, m);
   Index extra = 0;
   for (const Attachment& a : state.attachments)

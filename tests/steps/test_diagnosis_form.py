@@ -68,7 +68,7 @@ def write_model(folder):
     table(folder / "supports.csv", "support,node,x,y,z,rx,ry,rz",
           [["abutment" if i in (0, PIECES) else "plane", i + 1, 1, 1, int(i in (0, PIECES)), 1, 0, 1] for i in range(PIECES + 1)])
     table(folder / "springs.csv", "spring,group,node,direction_x,direction_y,direction_z,quantity,stiffness_N_m",
-          [["pier", "pier", 7, 0, 0, 1, "displacement", BEARING]])
+          [["pier", "pier", 7, 0, 0, 1, "translation", BEARING]])
     (folder / "model.toml").write_text('title = "girder"\n' + "".join(
         f'[[parameter]]\nname = "{name}"\ntarget = "{target}"\nof = ["{of}"]\nunit = "{unit}"\ninitial = {value}\n'
         f"lower = {0.85 * value}\nupper = {1.15 * value}\n"
