@@ -26,7 +26,7 @@ struct InpModel {
 [[nodiscard]] InpModel read_inp(const std::filesystem::path& file);
 
 enum class InpFlavour {
-  calculix,  ///< beams as B32R with PIPE, CIRC or RECT; other sections as the rectangle of the same radii of gyration
+  calculix,  ///< beams as B32R, pipes or rectangles in a material of their own (inp_expanded_beam.hpp)
   abaqus     ///< beams as B33 or B31 with *BEAM GENERAL SECTION: nothing lost
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "model_io/inp_elements.hpp"
+#include "model_io/inp_expanded_beam.hpp"
 #include "model_io/inp_parts.hpp"
 #include "model_io/inp_profiles.hpp"
 
@@ -38,7 +39,8 @@ int add_section(InpParts& parts, const InpCard& card, fe::Section section) {
   return static_cast<int>(sections.size()) - 1;
 }
 
-int material_of(InpParts& parts, const InpCard& card) {
+/// The material that the card names, isotropic or a beam's own (InpParts::second_shear_moduli).
+int any_material_of(InpParts& parts, const InpCard& card) {
   const std::string name = parts.file.required(card, "MATERIAL");
   const auto found = parts.materials.find(upper_case(name));
   if (found == parts.materials.end()) {
@@ -51,6 +53,15 @@ int material_of(InpParts& parts, const InpCard& card) {
   if (m.youngs_modulus_Pa <= 0.0)
     parts.file.fail(card, card.line, fmt::format("material '{}' has no *ELASTIC", name), "give E and nu");
   return found->second;
+}
+
+int material_of(InpParts& parts, const InpCard& card) {
+  const int material = any_material_of(parts, card);
+  if (parts.second_shear_moduli.contains(material)) {
+    parts.file.fail(card, card.line, fmt::format("material '{}' is orthotropic, which only beams may be", card.get("MATERIAL")),
+                    "give E and nu of an isotropic material");
+  }
+  return material;
 }
 
 const InpLine& data_line(InpParts& parts, const InpCard& card, std::size_t i, const char* what) {
@@ -118,15 +129,34 @@ Eigen::Vector3d first_axis(InpParts& parts, const InpCard& card) {
   return n1;
 }
 
+/// The two shear moduli of an orthotropic beam hold in its own axes, so that *ORIENTATION has to name them.
+void check_orientation(InpParts& parts, const InpCard& card, const fe::Element& e) {
+  const auto found = parts.orientations.find(upper_case(parts.file.required(card, "ORIENTATION")));
+  if (found == parts.orientations.end()) {
+    parts.file.fail(card, card.line, fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")),
+                    "define it by *ORIENTATION");
+  }
+  const Eigen::Vector3d t = (parts.model.nodes[static_cast<std::size_t>(e.nodes[1])].x_m -
+                             parts.model.nodes[static_cast<std::size_t>(e.nodes[0])].x_m)
+                                .normalized();
+  constexpr double aligned = 1.0 - 1e-6;  // 0.08 degrees
+  if (std::abs(found->second.row(0).dot(t)) < aligned || std::abs(found->second.row(2).dot(e.orientation)) < aligned) {
+    parts.file.fail(card, card.line,
+                    fmt::format("orientation '{}' is not along the axes of element {}", card.get("ORIENTATION"), e.id),
+                    "its x' is the beam's axis and its y' the direction n1");
+  }
+}
+
 void assign_beam(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE"});
+  parts.file.allow(card, {"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE", "ORIENTATION"});
   const std::string profile = upper_case(parts.file.required(card, "SECTION"));
   const std::size_t size = profile_size(profile);
   if (size == 0) {
     parts.file.fail(card, card.line, fmt::format("unsupported SECTION={}{}", profile, did_you_mean(profile, profile_names())),
                     "supported are BOX, CIRC, I, PIPE, RECT, and GENERAL on *BEAM GENERAL SECTION");
   }
-  const int material = material_of(parts, card);
+  const int material = any_material_of(parts, card);
+  const auto second = parts.second_shear_moduli.find(material);
   const InpLine& line = data_line(parts, card, 0, "the dimensions");
   std::vector<double> values;
   for (std::size_t i = 0; i < size; ++i) values.push_back(parts.file.number(card, line, i));
@@ -137,10 +167,15 @@ void assign_beam(InpParts& parts, const InpCard& card) {
     values[0] /= 2.0;
   }
   std::string problem;
-  const fe::Section section =
-      profile_section(profile, values, parts.model.materials[static_cast<std::size_t>(material)].poisson_ratio, problem);
+  const fe::Material& m = parts.model.materials[static_cast<std::size_t>(material)];
+  fe::Section section = profile_section(profile, values, m.poisson_ratio, problem);
   if (!problem.empty()) parts.file.fail(card, line.line, problem, "check the dimensions of the " + profile);
+  const bool orthotropic = second != parts.second_shear_moduli.end();
+  if (orthotropic) section = contracted_beam(section, m.shear_modulus_Pa, second->second);
+  const std::size_t before = parts.model.elements.size();
   add_beams(parts, card, first_axis(parts, card), material, add_section(parts, card, section));
+  for (std::size_t i = before; orthotropic && i < parts.model.elements.size(); ++i)
+    check_orientation(parts, card, parts.model.elements[i]);
 }
 
 /// A material of the file with these numbers, or this one under the name of its set.

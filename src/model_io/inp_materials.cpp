@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "core/error.hpp"
 #include "model_io/inp_parts.hpp"
@@ -23,6 +24,30 @@ const InpLine& one_line(InpParts& parts, const InpCard& card, const char* what) 
   return card.data.front();
 }
 
+/// The material of a beam as our own CalculiX files have it (inp_expanded_beam.hpp): one E, no Poisson's ratio, G12 and G13.
+void read_beam_constants(InpParts& parts, const InpCard& card, fe::Material& material) {
+  if (card.data.size() != 2) {
+    parts.file.fail(card, card.line, fmt::format("has {} data lines, expected 2", card.data.size()),
+                    "give E1, E2, E3, nu12, nu13, nu23, G12, G13 on the first and G23 on the second");
+  }
+  std::array<double, 9> constants{};
+  for (std::size_t i = 0; i < 8; ++i) constants[i] = parts.file.number(card, card.data[0], i);
+  constants[8] = parts.file.number(card, card.data[1], 0);
+  const bool one_modulus = constants[0] > 0.0 && constants[1] == constants[0] && constants[2] == constants[0];
+  if (!one_modulus || constants[3] != 0.0 || constants[4] != 0.0 || constants[5] != 0.0) {
+    parts.file.fail(card, card.data[0].line, "is orthotropic with several E or Poisson's ratios, which is not supported",
+                    "give E and nu of an isotropic material");
+  }
+  for (std::size_t i = 6; i < 9; ++i) {
+    if (constants[i] <= 0.0)
+      parts.file.fail(card, card.data[i / 8].line, "a shear modulus is not above 0", "give G12, G13, G23 in Pa");
+  }
+  material.youngs_modulus_Pa = constants[0];
+  material.poisson_ratio = 0.0;
+  material.shear_modulus_Pa = constants[6];
+  parts.second_shear_moduli[static_cast<int>(parts.model.materials.size()) - 1] = constants[7];
+}
+
 }  // namespace
 
 void read_inp_material(InpParts& parts, const InpCard& card) {
@@ -39,10 +64,12 @@ void read_inp_elastic(InpParts& parts, const InpCard& card) {
   fe::Material& material = current(parts, card);
   parts.file.allow(card, {"TYPE"});
   const std::string type = upper_case(card.get("TYPE", "ISOTROPIC"));
+  if (type == "ENGINEERING CONSTANTS") return read_beam_constants(parts, card, material);
   if (type != "ISOTROPIC" && type != "ISO") {
     parts.file.fail(card, card.line, fmt::format("TYPE={} is not supported, expected ISOTROPIC", type),
                     "the members of a frame or deck are isotropic here; give E and nu");
   }
+  parts.second_shear_moduli.erase(static_cast<int>(parts.model.materials.size()) - 1);
   const InpLine& line = one_line(parts, card, "E and nu");
   material.youngs_modulus_Pa = parts.file.number(card, line, 0);
   material.poisson_ratio = parts.file.number_or(card, line, 1, 0.0);

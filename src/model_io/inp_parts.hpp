@@ -50,6 +50,7 @@ struct InpParts {
   std::map<long, InpElement> elements;
   std::map<std::string, InpSet> node_sets, element_sets;  ///< by name in upper case
   std::map<std::string, int> materials;                   ///< by name in upper case
+  std::map<int, double> second_shear_moduli;              ///< G13 of the orthotropic materials of beams, by position [Pa]
   std::map<std::string, InpOrientation> orientations;
   std::vector<InpEquation> equations;
   long last_element_id = 0;        ///< the largest so far, for elements that come out of one with more nodes

@@ -108,22 +108,17 @@ fe::Section profile_section(const std::string& profile, const std::vector<double
   return i_beam(v[1], v[2], v[4], v[6]);
 }
 
-std::optional<Profile> recognise_profile(const fe::Section& s, double tolerance) {
+std::optional<Profile> recognise_pipe(const fe::Section& s, double tolerance) {
   if (s.area_m2 <= 0.0 || s.inertia_y_m4 <= 0.0 || s.inertia_z_m4 <= 0.0) return std::nullopt;
   if (std::abs(s.inertia_yz_m4) > tolerance * s.inertia_y_m4) return std::nullopt;
-  if (near(s.inertia_y_m4, s.inertia_z_m4, tolerance) && near(s.torsion_m4, s.inertia_y_m4 + s.inertia_z_m4, tolerance)) {
-    // R² + r² = 4 I / A,  R² - r² = A / pi
-    const double sum = 4.0 * s.inertia_y_m4 / s.area_m2, difference = s.area_m2 / pi;
-    const double outer = std::sqrt((sum + difference) / 2.0), inner2 = (sum - difference) / 2.0;
-    if (std::abs(inner2) <= tolerance * outer * outer) return Profile{"CIRC", {outer}};
-    if (inner2 > 0.0) return Profile{"PIPE", {outer, outer - std::sqrt(inner2)}};
+  if (!near(s.inertia_y_m4, s.inertia_z_m4, tolerance) || !near(s.torsion_m4, s.inertia_y_m4 + s.inertia_z_m4, tolerance)) {
     return std::nullopt;
   }
-  const double a = std::sqrt(12.0 * s.inertia_z_m4 / s.area_m2), b = std::sqrt(12.0 * s.inertia_y_m4 / s.area_m2);
-  if (near(a * b, s.area_m2, tolerance) && near(s.torsion_m4, rectangle_torsion(a, b), 5.0 * tolerance)) {
-    return Profile{"RECT", {a, b}};
-  }
-  return std::nullopt;
+  // R² + r² = 4 I / A,  R² - r² = A / pi
+  const double sum = 4.0 * s.inertia_y_m4 / s.area_m2, difference = s.area_m2 / pi;
+  const double outer = std::sqrt((sum + difference) / 2.0), inner2 = (sum - difference) / 2.0;
+  if (inner2 <= tolerance * outer * outer) return std::nullopt;
+  return Profile{"PIPE", {outer, outer - std::sqrt(inner2)}};
 }
 
 }  // namespace twindeck::model_io

@@ -30,11 +30,11 @@ namespace twindeck::model_io {
 [[nodiscard]] double rectangle_torsion(double a, double b);
 
 struct Profile {
-  std::string name;            ///< "PIPE", "CIRC", "RECT"
+  std::string name;            ///< "PIPE", "RECT"
   std::vector<double> values;  ///< its dimensions [m]
 };
-/// The pipe, circle or rectangle that has the section's area, second moments and torsion constant to `tolerance`, if there is
-/// one.
-[[nodiscard]] std::optional<Profile> recognise_profile(const fe::Section& section, double tolerance = 2e-3);
+/// The pipe that has the section's area, second moments and torsion constant to `tolerance`, if there is one; none for a full
+/// circle.
+[[nodiscard]] std::optional<Profile> recognise_pipe(const fe::Section& section, double tolerance = 2e-3);
 
 }  // namespace twindeck::model_io

@@ -7,7 +7,7 @@
 #include "fe/elements.hpp"
 #include "fe/parametric_system.hpp"
 #include "io/csv.hpp"
-#include "model_io/inp_profiles.hpp"
+#include "model_io/inp_expanded_beam.hpp"
 #include "model_io/inp_writer.hpp"
 
 namespace twindeck::model_io {
@@ -26,147 +26,162 @@ double poisson_of(const fe::Material& m) {
   return from_moduli > -0.99 && from_moduli < 0.4999 ? from_moduli : m.poisson_ratio;
 }
 
-/// A rectangle with the section's radii of gyration, in a material scaled so that EA, EI, the mass and GJ are the section's.
-struct EquivalentRectangle {
-  double a, b, factor, poisson_ratio;
-  bool torsion;  ///< false: no Poisson's ratio gives the torsional stiffness
-};
-EquivalentRectangle equivalent_rectangle(const fe::Section& s, const fe::Material& m) {
-  EquivalentRectangle r{std::sqrt(12.0 * s.inertia_z_m4 / s.area_m2), std::sqrt(12.0 * s.inertia_y_m4 / s.area_m2), 0.0, 0.0,
-                        true};
-  r.factor = s.area_m2 / (r.a * r.b);
-  r.poisson_ratio =
-      r.factor * m.youngs_modulus_Pa * rectangle_torsion(r.a, r.b) / (2.0 * m.shear_modulus_Pa * s.torsion_m4) - 1.0;
-  if (r.poisson_ratio < -0.9 || r.poisson_ratio > 0.49) {
-    r.poisson_ratio = poisson_of(m);
-    r.torsion = false;
-  }
-  return r;
-}
-
 }  // namespace
 
-void InpWriter::beam_section(const std::string& set, const fe::Section& s, const fe::Material& m, const Eigen::Vector3d& n1,
-                             bool shear) {
-  if (flavour_ == InpFlavour::abaqus) {
-    // The card takes numbers, not a material; written beside it, its name comes back when the file is read.
-    (void)material(m.name, m.youngs_modulus_Pa, poisson_of(m), m.density_kg_m3);
-    elements_ += fmt::format("*BEAM GENERAL SECTION, ELSET={}, SECTION=GENERAL, DENSITY={}\n{}, {}, {}, {}, {}\n{}\n{}, {}\n",
-                             set, format_number(m.density_kg_m3), format_number(s.area_m2), format_number(s.inertia_y_m4),
-                             format_number(s.inertia_yz_m4), format_number(s.inertia_z_m4), format_number(s.torsion_m4),
-                             triple(n1), format_number(m.youngs_modulus_Pa), format_number(m.shear_modulus_Pa));
-    if (shear) {
-      elements_ += fmt::format("*TRANSVERSE SHEAR STIFFNESS\n{}, {}\n", format_number(m.shear_modulus_Pa * s.shear_area_z_m2),
-                               format_number(m.shear_modulus_Pa * s.shear_area_y_m2));
-    }
-    return;
+void InpWriter::general_section(const std::string& set, const fe::Section& s, const fe::Material& m, const Eigen::Vector3d& n1,
+                                bool shear) {
+  // The card takes numbers, not a material; written beside it, its name comes back when the file is read.
+  (void)material(m.name, m.youngs_modulus_Pa, poisson_of(m), m.density_kg_m3);
+  elements_ += fmt::format("*BEAM GENERAL SECTION, ELSET={}, SECTION=GENERAL, DENSITY={}\n{}, {}, {}, {}, {}\n{}\n{}, {}\n",
+                           set, format_number(m.density_kg_m3), format_number(s.area_m2), format_number(s.inertia_y_m4),
+                           format_number(s.inertia_yz_m4), format_number(s.inertia_z_m4), format_number(s.torsion_m4),
+                           triple(n1), format_number(m.youngs_modulus_Pa), format_number(m.shear_modulus_Pa));
+  if (shear) {
+    elements_ += fmt::format("*TRANSVERSE SHEAR STIFFNESS\n{}, {}\n", format_number(m.shear_modulus_Pa * s.shear_area_z_m2),
+                             format_number(m.shear_modulus_Pa * s.shear_area_y_m2));
   }
-  if (const auto profile = recognise_profile(s)) {
-    std::string values;
-    for (const double v : profile->values) values += (values.empty() ? "" : ", ") + format_number(v);
-    if (profile->name == "CIRC") values = fmt::format("{0}, {0}", format_number(2.0 * profile->values[0]));  // diameters
-    elements_ +=
-        fmt::format("*BEAM SECTION, ELSET={}, MATERIAL={}, SECTION={}\n{}\n{}\n", set,
-                    material(m.name, m.youngs_modulus_Pa, poisson_of(m), m.density_kg_m3), profile->name, values, triple(n1));
-    return;
-  }
-  const EquivalentRectangle r = equivalent_rectangle(s, m);
-  note(fmt::format(
-      "section '{}' is written as the rectangle of its radii of gyration, in a material scaled to its stiffness and mass{}",
-      s.name, r.torsion ? "" : "; its torsional stiffness is not kept"));
-  if (s.inertia_yz_m4 != 0.0) note(fmt::format("the product of inertia of section '{}' is left out", s.name));
-  elements_ += fmt::format("*BEAM SECTION, ELSET={}, MATERIAL={}, SECTION=RECT\n{}, {}\n{}\n", set,
-                           material(s.name, r.factor * m.youngs_modulus_Pa, r.poisson_ratio, r.factor * m.density_kg_m3),
-                           format_number(r.a), format_number(r.b), triple(n1));
 }
 
-void InpWriter::beams_and_bars() {
+void InpWriter::expanded_section(const std::string& set, const fe::Section& s, const fe::Material& m,
+                                 const Eigen::Vector3d& axis, const Eigen::Vector3d& n1) {
+  const ExpandedBeam beam = expanded_beam(s, m);
+  note_expansion(s, beam);
+  const std::string axes = set_name("O_beam");
+  elements_ += fmt::format("*ORIENTATION, NAME={}, SYSTEM=RECTANGULAR\n{}, {}\n", axes, triple(axis), triple(n1));
+  elements_ += fmt::format("*BEAM SECTION, ELSET={}, MATERIAL={}, SECTION={}, ORIENTATION={}\n{}, {}\n{}\n", set,
+                           beam_material(beam.profile.name == "PIPE" ? m.name : s.name, beam), beam.profile.name, axes,
+                           format_number(beam.profile.values[0]), format_number(beam.profile.values[1]), triple(n1));
+}
+
+void InpWriter::note_expansion(const fe::Section& s, const ExpandedBeam& beam) {
+  constexpr double said_above = 1.2;  // a factor nearer to 1 is not worth a line
+  const auto differs = [](double factor) { return factor > said_above || factor * said_above < 1.0; };
+  if (beam.scaled) {
+    note(fmt::format(
+        "section '{}' is written as the rectangle of its radii of gyration, in a material scaled to its stiffness and mass",
+        s.name));
+  }
+  if (differs(beam.torsion[0]) || differs(beam.torsion[1])) {
+    note(fmt::format("the torsional stiffness of section '{}' is {:.2f} (long elements) to {:.2f} times its own", s.name,
+                     beam.torsion[0], beam.torsion[1]));
+  }
+  if (differs(beam.shear[0]) || differs(beam.shear[1])) {
+    note(fmt::format("the shear stiffness of section '{}' is {:.2f} and {:.2f} times its own along y and z", s.name,
+                     beam.shear[0], beam.shear[1]));
+  }
+  if (s.inertia_yz_m4 != 0.0) note(fmt::format("the product of inertia of section '{}' is left out", s.name));
+  if (!model_.formulation.shear_flexible) note("CalculiX's beams are flexible in shear, this model's are not");
+}
+
+void InpWriter::beams() {
   struct Group {
     const fe::Element* first;
-    Eigen::Vector3d n1;
+    Eigen::Vector3d axis, n1;
     std::vector<std::pair<long, std::vector<long>>> rows;
   };
   std::map<std::string, Group> groups;
-  std::map<std::string, long> ends;  // nodes at the ends of offsets
+  for (const fe::Element& e : model_.elements) {
+    if (e.type != fe::ElementType::beam) continue;
+    fe::BeamGeometry geometry;
+    std::vector<long> nodes = beam_ends(e, geometry);
+    const Eigen::Matrix3d axes = fe::beam_axes(geometry);
+    std::string text =
+        fmt::format("{}|{}|{}|{:.9f} {:.9f} {:.9f}", group_name(e), e.section, e.material, axes(1, 0), axes(1, 1), axes(1, 2));
+    if (flavour_ == InpFlavour::calculix) {
+      const Eigen::Vector3d middle =
+          0.5 * (geometry.node_m[0] + geometry.offset_m[0] + geometry.node_m[1] + geometry.offset_m[1]);
+      nodes = {nodes[0], add_node(middle), nodes[1]};
+      // The material's axes are the beam's: one card for each direction.
+      text += fmt::format("|{:.9f} {:.9f} {:.9f}", axes(0, 0), axes(0, 1), axes(0, 2));
+    }
+    groups.try_emplace(text, Group{&e, axes.row(0).transpose(), axes.row(1).transpose(), {}})
+        .first->second.rows.push_back({e.id, nodes});
+  }
+  for (const auto& [text, group] : groups) {
+    const fe::Section& s = model_.sections[static_cast<std::size_t>(group.first->section)];
+    const fe::Material& m = model_.materials[static_cast<std::size_t>(group.first->material)];
+    if (flavour_ == InpFlavour::calculix) {
+      expanded_section(element_block("B32R", group_name(*group.first), group.rows), s, m, group.axis, group.n1);
+      continue;
+    }
+    const bool shear = model_.formulation.shear_flexible && s.shear_area_y_m2 > 0.0 && s.shear_area_z_m2 > 0.0;
+    general_section(element_block(shear ? "B31" : "B33", group_name(*group.first), group.rows), s, m, group.n1, shear);
+  }
+}
+
+std::vector<long> InpWriter::beam_ends(const fe::Element& e, fe::BeamGeometry& geometry) {
+  if (e.releases != 0) {
+    throw InputError({model_.source, 0, "releases"}, fmt::format("beam {} releases its ends, which is not exported", e.id),
+                     "model the hinge by two nodes and springs, or export without that member");
+  }
+  geometry.orientation = e.orientation;
+  geometry.offset_m = e.offset_m;
+  std::vector<long> nodes;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const fe::Node& node = model_.nodes[static_cast<std::size_t>(e.nodes[end])];
+    geometry.node_m[end] = node.x_m;
+    nodes.push_back(node.id);
+    if (e.offset_m[end].norm() <= 0.0) continue;
+    const auto [place, fresh] = offset_ends_.emplace(fmt::format("{}|{}", node.id, triple(e.offset_m[end])), 0);
+    if (fresh) {
+      place->second = add_node(node.x_m + e.offset_m[end]);
+      rigid_equations(node.id, node.x_m, place->second, node.x_m + e.offset_m[end], true);
+    }
+    nodes.back() = place->second;
+  }
+  return nodes;
+}
+
+std::string InpWriter::group_name(const fe::Element& e) const {
+  return e.group.empty() ? model_.sections[static_cast<std::size_t>(e.section)].name : e.group;
+}
+
+void InpWriter::bars_and_stays() {
+  struct Group {
+    const fe::Element* first;
+    double modulus;
+    std::vector<std::pair<long, std::vector<long>>> rows;
+  };
+  std::map<std::string, Group> groups;
   for (std::size_t i = 0; i < model_.elements.size(); ++i) {
     const fe::Element& e = model_.elements[i];
-    if (e.section < 0) continue;
+    if (e.type != fe::ElementType::bar && e.type != fe::ElementType::stay) continue;
     const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
     const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
-    const auto wish = e.group.empty() ? s.name : e.group;
-    if (e.type == fe::ElementType::bar || e.type == fe::ElementType::stay) {
-      double modulus = m.youngs_modulus_Pa;
-      std::string name = m.name;
+    double modulus = m.youngs_modulus_Pa;
+    std::string name = m.name;
+    if (e.type == fe::ElementType::stay) {
       const auto pull =
           static_cast<std::size_t>(state_.stay_pull_N.size()) > i ? state_.stay_pull_N[static_cast<Eigen::Index>(i)] : 0.0;
-      if (e.type == fe::ElementType::stay) {
-        // Half the mass at each end, as in our own matrices; a truss would spread it.
-        const Eigen::Vector3d chord =
-            model_.nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model_.nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
-        for (const int node : e.nodes) point_mass("stay_ends", node, 0.5 * m.density_kg_m3 * s.area_m2 * chord.norm());
-      }
-      if (e.type == fe::ElementType::stay && pull > 0.0) {
-        const Eigen::Vector3d chord =
-            model_.nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model_.nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
+      const Eigen::Vector3d chord =
+          model_.nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model_.nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
+      // Half the mass at each end, as in our own matrices; a truss would spread it.
+      for (const int node : e.nodes) point_mass("stay_ends", node, 0.5 * m.density_kg_m3 * s.area_m2 * chord.norm());
+      if (pull > 0.0) {
         modulus =
             fe::Dischinger{m.density_kg_m3 * model_.gravity_m_s2, chord.head<2>().norm(), pull / s.area_m2}.modulus(modulus);
         name = e.name;
         note("stays are trusses with the tangent modulus (Ernst) of their pull");
       }
-      const std::string text = fmt::format("{}|T|{}|{}|{}", wish, e.section, name, modulus);
-      auto& group = groups.try_emplace(text, Group{&e, {}, {}}).first->second;
-      group.n1[0] = modulus;
-      group.rows.push_back({e.id, {node_id(e.nodes[0]), node_id(e.nodes[1])}});
-      continue;
     }
-    if (e.type != fe::ElementType::beam) continue;
-    if (e.releases != 0) {
-      throw InputError({model_.source, 0, "releases"}, fmt::format("beam {} releases its ends, which is not exported", e.id),
-                       "model the hinge by two nodes and springs, or export without that member");
-    }
-    fe::BeamGeometry geometry;
-    geometry.orientation = e.orientation;
-    geometry.offset_m = e.offset_m;
-    std::vector<long> nodes;
-    for (std::size_t end = 0; end < 2; ++end) {
-      const fe::Node& node = model_.nodes[static_cast<std::size_t>(e.nodes[end])];
-      geometry.node_m[end] = node.x_m;
-      nodes.push_back(node.id);
-      if (e.offset_m[end].norm() <= 0.0) continue;
-      const auto [place, fresh] = ends.emplace(fmt::format("{}|{}", node.id, triple(e.offset_m[end])), 0);
-      if (fresh) {
-        place->second = add_node(node.x_m + e.offset_m[end]);
-        rigid_equations(node.id, node.x_m, place->second, node.x_m + e.offset_m[end], true);
-      }
-      nodes.back() = place->second;
-    }
-    const Eigen::Vector3d n1 = fe::beam_axes(geometry).row(1).transpose();
-    if (flavour_ == InpFlavour::calculix) {
-      const Eigen::Vector3d middle =
-          0.5 * (geometry.node_m[0] + geometry.offset_m[0] + geometry.node_m[1] + geometry.offset_m[1]);
-      nodes = {nodes[0], add_node(middle), nodes[1]};
-    }
-    const std::string text = fmt::format("{}|B|{}|{}|{:.9f} {:.9f} {:.9f}", wish, e.section, e.material, n1[0], n1[1], n1[2]);
-    groups.try_emplace(text, Group{&e, n1, {}}).first->second.rows.push_back({e.id, nodes});
+    const std::string text = fmt::format("{}|{}|{}|{}", group_name(e), e.section, name, modulus);
+    groups.try_emplace(text, Group{&e, modulus, {}})
+        .first->second.rows.push_back({e.id, {node_id(e.nodes[0]), node_id(e.nodes[1])}});
   }
   for (const auto& [text, group] : groups) {
     const fe::Element& e = *group.first;
-    const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
     const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
-    const std::string wish = e.group.empty() ? s.name : e.group;
-    if (e.type == fe::ElementType::beam) {
-      const bool shear = model_.formulation.shear_flexible && s.shear_area_y_m2 > 0.0 && s.shear_area_z_m2 > 0.0;
-      const std::string type = flavour_ == InpFlavour::calculix ? "B32R" : (shear ? "B31" : "B33");
-      beam_section(element_block(type, wish, group.rows), s, m, group.n1, shear);
-    } else {
-      const std::string name = e.type == fe::ElementType::stay ? e.name : m.name;
-      const std::string set = element_block("T3D2", wish, group.rows);
-      elements_ +=
-          fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n{}\n", set,
-                      material(name, group.n1[0], m.poisson_ratio, e.type == fe::ElementType::stay ? 0.0 : m.density_kg_m3),
-                      format_number(s.area_m2));
-    }
+    const bool stay = e.type == fe::ElementType::stay;
+    const std::string set = element_block("T3D2", group_name(e), group.rows);
+    elements_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n{}\n", set,
+                             material(stay ? e.name : m.name, group.modulus, m.poisson_ratio, stay ? 0.0 : m.density_kg_m3),
+                             format_number(model_.sections[static_cast<std::size_t>(e.section)].area_m2));
   }
+}
+
+void InpWriter::members() {
+  bars_and_stays();
+  beams();
   if (state_.axial_force_N.size() > 0 && model_.prestress.geometric_stiffness && model_.prestress.rule != fe::PullRule::none) {
     note("the geometric stiffness of dead load and pulls is left out: compare with prestress.geometric_stiffness = false");
   }

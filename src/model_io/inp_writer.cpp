@@ -73,8 +73,20 @@ std::string InpWriter::unique(const std::string& wish, std::map<std::string, int
 }
 
 std::string InpWriter::material(const std::string& wish, double youngs_modulus, double poisson_ratio, double density) {
-  const std::string data = fmt::format("*ELASTIC\n{}, {}\n*DENSITY\n{}\n", format_number(youngs_modulus),
-                                       format_number(poisson_ratio), format_number(density));
+  return named_material(wish, fmt::format("*ELASTIC\n{}, {}\n*DENSITY\n{}\n", format_number(youngs_modulus),
+                                          format_number(poisson_ratio), format_number(density)));
+}
+
+std::string InpWriter::beam_material(const std::string& wish, const ExpandedBeam& beam) {
+  const std::string e = format_number(beam.youngs_modulus_Pa), g12 = format_number(beam.shear_modulus_y_Pa),
+                    g13 = format_number(beam.shear_modulus_z_Pa);
+  // G23 shears the section in its own plane, which the plates at its ends prevent: any modulus does.
+  return named_material(
+      wish, fmt::format("*ELASTIC, TYPE=ENGINEERING CONSTANTS\n{0}, {0}, {0}, 0., 0., 0., {1}, {2}\n{1}\n*DENSITY\n{3}\n", e,
+                        g12, g13, format_number(beam.density_kg_m3)));
+}
+
+std::string InpWriter::named_material(const std::string& wish, const std::string& data) {
   const auto [place, fresh] = material_names_.emplace(wish + "\n" + data, "");
   if (fresh) {
     place->second = unique(wish, used_materials_);
@@ -229,7 +241,7 @@ std::vector<std::string> write_inp(const fe::Model& model, const fe::PrestressSt
   refuse_what_cannot_be_said(model);
   InpWriter writer(model, state, flavour);
   writer.heading();
-  writer.beams_and_bars();
+  writer.members();
   writer.faces_and_blocks();
   writer.springs_and_masses();
   writer.links_and_supports();

@@ -18,6 +18,20 @@ def pipe(outer, wall):
     return [area, inertia, inertia, 0, 2 * inertia, area / 2, area / 2, 0, 1]
 
 
+def square_tube(side, wall):
+    """A, I, J (Bredt) of a square tube; shear area its two webs."""
+    inner = side - 2 * wall
+    inertia = (side**4 - inner**4) / 12
+    return [side**2 - inner**2, inertia, inertia, 0, (side - wall)**3 * wall, 2 * inner * wall, 2 * inner * wall, 0, 1]
+
+
+def i_section(height, width, flange, web):
+    """A, I, J of an I, upright in local z; shear over the flanges (y) and the web (z)."""
+    clear = height - 2 * flange
+    return [2 * width * flange + clear * web, (width * height**3 - (width - web) * clear**3) / 12, (2 * flange * width**3 + clear * web**3) / 12,
+            0, (2 * width * flange**3 + clear * web**3) / 3, 2 * width * flange * 5 / 6, clear * web, 0, 1]
+
+
 def write_model(folder, title, nodes, elements, sections, supports, materials=None):
     """nodes {id: (x, y, z)}, elements (type, group, section, nodes), sections {name: row}, supports {node: six flags}."""
     folder.mkdir(parents=True)
@@ -67,6 +81,26 @@ def space_frame(folder, pieces=24):
     base = {node(x, y, 0.0): [1] * 6 for x in xs for y in ys}
     write_model(folder, "space frame of tubes", nodes, elements,
                 {"column": pipe(0.0445, 0.004), "girder": pipe(0.038, 0.0036), "brace": pipe(0.024, 0.003)}, base)
+
+
+def stocky_frame(folder, bays=8):
+    """A cantilever of rectangular frames: tubes and I beams five sections long, one element each, so that all of their stiffness is
+    bending, shear and torsion beside joints."""
+    nodes, elements = {}, []
+    corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.2), (0.0, 1.2)]
+    for i in range(bays + 1):
+        for j, (y, z) in enumerate(corners):
+            nodes[4 * i + j + 1] = (1.1 * i, y, z)
+    for i in range(bays + 1):
+        for j in range(4):
+            here = 4 * i + j + 1
+            if i < bays:
+                elements.append(("beam", "chord", "chord", [here, here + 4]))
+            across = "beam" if j in (0, 2) else "post"
+            elements.append(("beam", across, across, [here, 4 * i + (j + 1) % 4 + 1]))
+    write_model(folder, "stocky frame", nodes, elements,
+                {"chord": square_tube(0.2, 0.01), "post": pipe(0.09, 0.008), "beam": i_section(0.2, 0.1, 0.01, 0.006)},
+                {j: [1] * 6 for j in (1, 2, 3, 4)})
 
 
 def read_csv(file):
