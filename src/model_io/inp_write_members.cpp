@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "fe/elements.hpp"

@@ -73,14 +73,16 @@ class AgainstCalculiX(Folder):
             self.assertLess(abs(x / f - 1), allowed)
 
     def test_space_frame_of_tubes(self):
-        models.space_frame(self.folder / "frame")
-        self.compare("space frame", self.folder / "frame", 0.001)
+        models.space_frame(self.folder / "frame", pieces=8)
+        theirs = self.compare("space frame", self.folder / "frame", 0.002)  # 0.10 % is the shear of tubes
+        self.close("space frame, its file read back", self.exported(self.folder / "s1" / "model.inp", "again"), theirs, 0.0005)
 
     def test_stocky_frame_of_tubes_and_i_beams(self):
-        """One element between joints. A material with Poisson's ratio made these frequencies 4 to 8 % too high."""
+        """One element between joints, where a material with Poisson's ratio is 17 to 33 % too high. What is left is the shear
+        of the tubes (2.9 %) and the torsion of the I beams (0.4 %): the file read back has both, with two elements a member for one."""
         models.stocky_frame(self.folder / "frame")
-        theirs = self.compare("stocky frame", self.folder / "frame", 0.03)
-        self.close("stocky frame, its file read back", self.exported(self.folder / "s1" / "model.inp", "again"), theirs, 0.002)
+        theirs = self.compare("stocky frame", self.folder / "frame", 0.04)
+        self.close("stocky frame, its file read back", self.exported(self.folder / "s1" / "model.inp", "again"), theirs, 0.01)
 
     def test_block_of_solids(self):
         models.block_alone(self.folder / "block")
@@ -106,8 +108,8 @@ class AgainstCalculiX(Folder):
         self.assertGreater(frequencies(self.folder / "s1")[0], 1.1 * 18.75)
 
     def test_whole_bridge(self):
-        """Both directions at full size. The Abaqus flavour comes back the same. CalculiX is at most 0.2 % off, for it keeps neither the
-        shear of tubes nor the torsion of floor beams; read back, its file is within 0.05 % of it."""
+        """Both directions at full size. The Abaqus flavour comes back the same. CalculiX is 0.07 % above ours at most in ten modes,
+        half of it by the shear of tubes and the torsion of floor beams. With Poisson's ratio in its beams it was 3.6 % above."""
         model = whole_bridge(self.folder)
         before = self.exported(model)
         shutil.copy(self.folder / "s1" / "model_abaqus.inp", self.folder / "bridge.inp")
@@ -116,7 +118,7 @@ class AgainstCalculiX(Folder):
             self.assertAlmostEqual(g / f, 1.0, delta=1e-7)
         theirs = calculix(self.folder / "s1")
         self.close("whole bridge", before, theirs, 0.002)
-        self.close("whole bridge, its file read back", self.exported(self.folder / "s1" / "model.inp", "back"), theirs, 0.0005)
+        self.close("whole bridge, its file read back", self.exported(self.folder / "s1" / "model.inp", "back"), theirs, 0.001)
 
 
 def whole_bridge(folder):
@@ -311,6 +313,17 @@ class ImportedByHand(Folder):
         self.refused(cantilever().replace("1., 0., 0.", "0., 0., 1."), "lies along element 1")
         self.refused(cantilever().replace("Base, ENCASTRE", "Base, 1, 3, 0.01"), "prescribes a displacement that is not zero")
         self.refused(cantilever().replace("*Elastic\n", "*Elastic, type=ORTHOTROPIC\n"), "TYPE=ORTHOTROPIC is not supported")
+
+    def test_orthotropic_materials_are_those_of_our_own_beams(self):
+        own = "*Elastic, type=ENGINEERING CONSTANTS\n2.1e11, 2.1e11, 2.1e11, 0., 0., 0., 8e10, 8e10\n8e10\n"
+        beams = cantilever().replace("*Elastic\n 2.1e11, 0.3\n", own)
+        axes = "*Orientation, name=Axes\n0., 0., 1., 1., 0., 0.\n*Boundary\n"
+        oriented = beams.replace("section=RECT", "section=RECT, orientation=Axes").replace("*Boundary\n", axes)
+        self.assertEqual(self.imported(oriented).returncode, 0)
+        shutil.rmtree(self.folder / "out")
+        self.refused(beams, "ORIENTATION")
+        self.refused(oriented.replace("0., 0., 1., 1., 0., 0.", "1., 0., 0., 0., 0., 1."), "is not along the axes of element 1")
+        self.refused(oriented.replace("2.1e11, 0., 0., 0.,", "2.1e11, 0.3, 0.3, 0.3,"), "several E or Poisson's ratios")
 
 
 class PartsOfAFile(Folder):
