@@ -20,9 +20,13 @@ constexpr double kNone = 0.5, kSomethingElse = 0.05, kCatalogue = 0.4;  // prior
 constexpr double kElseScale = 0.03;                                     // of kappa where something else changed
 constexpr double kLeftoverPart = 0.1;                                   // of a cause's effect: scale of what it leaves over
 constexpr double kLeastEffect = 0.001;                                  // of a cause on frequencies, ln
-constexpr int kRefined = 6, kMostRefined = 10, kRounds = 3;
-constexpr double kRefineWithin = 8.0, kFamilyWithin = 12.0;  // nats of the best
-constexpr double kWorthRefining = -4.0;  // nats against none: below, the best entry is far from any threshold
+constexpr int kRefined = 6, kMostRefined = 10, kRounds = 4;
+constexpr double kRefineWithin = 8.0, kFamilyWithin = 12.0;  // nats of the best …
+constexpr double kRefineShare = 0.1,
+                 kFamilyShare = 0.3;  // … or this much of what it has over none, whatever is more: screens are coarse
+constexpr double kLeastScale = 0.02, kMostScale = 3.0;  // of a signature, as far as its direction holds
+constexpr double kSeen = 1e-3;                          // deviations: below, these rows show nothing of an entry
+constexpr double kWorthRefining = -4.0;                 // nats against none: below, the best entry is far from any threshold
 
 /// ln of the posterior width of magnitudes over their prior width, never a gain.
 double log_width(const MatrixXd& precision, const Candidate& candidate) {
@@ -88,6 +92,12 @@ int leftover_contrast(const FormEntry& entry, const Leftover& leftover) {
 double leftover_effect(const FormEntry& entry, double own, const Leftover& leftover) {
   if (entry.contrast < 0) return leftover.effect;
   return entry.contrast == leftover.contrast ? std::max(own, leftover.effect) : own;
+}
+
+/// A start for a fit where the effect should be t times as large: ln of a factor and rates scale, other logarithms shift.
+double scaled_magnitude(const Candidate& candidate, double a, double t) {
+  const bool factor = candidate.hypothesis->unknowns[0].name == "factor" || !candidate.log[0];
+  return std::clamp(factor ? t * a : a + std::log(t), candidate.low[0], candidate.high[0]);
 }
 
 /// Screen of every entry, none and something else at the base.
@@ -195,28 +205,25 @@ class Screen {
     return by_kappa;
   }
 
-  /// The magnitude of the largest density at the best point.
+  /// Where a fit starts: the best scale of any of the screen's magnitudes at the best point.
   void choose_magnitude(FormEntry& entry, const FormEvidence& evidence) const {
-    if (entry.tried.empty() || entry.log_weight < search_.none_weight - 30.0) return;
+    if (entry.tried.empty()) return;
     const AtScales at = evidence.at(setting_.grid.points[static_cast<std::size_t>(entry.evidence.best.point)]);
     const int contrast = leftover_contrast(entry, leftover_);
     const Quadratic& q =
         contrast < 0 ? at.without
                      : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(entry.evidence.best.kappa)];
+    const bool scales = entry.candidate->low.size() > 0 && entry.candidate->tuned < 0;
     double best = -1e300;
-    for (std::size_t i = 0; i < entry.tried.size(); ++i)
-      for (const double t : magnitude_factors(*entry.candidate)) {
-        const double density = q.log_density(position_[static_cast<std::size_t>(entry.first_signature) + i], t);
-        if (density <= best) continue;
-        best = density;
-        entry.a = entry.tried[i].a;
-        if (t != 1.0) {  // a start for a fit: ln of a factor and rates scale, other magnitudes are logarithms of their own
-          const bool factor = entry.candidate->hypothesis->unknowns[0].name == "factor" || !entry.candidate->log[0];
-          entry.a[0] = factor ? t * entry.a[0] : entry.a[0] + std::log(t);
-          entry.a[0] = std::clamp(entry.a[0], entry.candidate->low[0], entry.candidate->high[0]);
-        }
-        entry.effect = t * effect_of(setting_.plain, entry.tried[i].change, contrast_of_entry(entry));
-      }
+    for (std::size_t i = 0; i < entry.tried.size(); ++i) {
+      const Index s = position_[static_cast<std::size_t>(entry.first_signature) + i];
+      const double t = scales && q.square[s] > 0.0 ? std::clamp(q.along[s] / q.square[s], kLeastScale, kMostScale) : 1.0;
+      if (q.log_density(s, t) <= best) continue;
+      best = q.log_density(s, t);
+      entry.a = entry.tried[i].a;
+      if (scales) entry.a[0] = scaled_magnitude(*entry.candidate, entry.a[0], t);
+      entry.effect = t * effect_of(setting_.plain, entry.tried[i].change, contrast_of_entry(entry));
+    }
   }
 
   const FormSetting& setting_;
@@ -266,6 +273,14 @@ Linearised linearised(const FormSetting& setting, const FormEntry& entry, const 
   return out;
 }
 
+/// Whether an extended model has derivatives and shapes that mean something: rows are logarithms and shapes, unknowns have unit
+/// deviation.
+bool solvable(const FormSystem& system) {
+  constexpr double largest = 1e5;
+  const auto sound = [](const MatrixXd& m) { return m.size() == 0 || (m.allFinite() && m.cwiseAbs().maxCoeff() < largest); };
+  return sound(system.fixed) && sound(system.scatter) && sound(system.shape) && sound(system.kinks) && sound(system.signatures);
+}
+
 void refine_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover, FormEntry& entry) {
   const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
   std::vector<Cause> causes = base.causes;
@@ -278,6 +293,7 @@ void refine_with_form(const FormSetting& setting, const Fit& base, const Leftove
     const Contrast* contrast = entry.contrast < 0 ? nullptr : &setting.contrasts[static_cast<std::size_t>(entry.contrast)];
     const double effect = without.valid ? effect_of(setting.plain, with.all.g - without.g, contrast) : entry.effect;
     FormSystem system = form_system(setting.plain, with, setting.contrasts, entry.a.size());
+    if (!solvable(system)) continue;  // costs the entry, not the results
     const Linearised found = linearised(setting, entry, system, with.causes.back().a, effect, leftover);
     const double log_weight = found.evidence.log_evidence + log_prior_of(*entry.candidate);
     if (!(log_weight > entry.log_weight)) continue;
@@ -293,18 +309,19 @@ void refine_with_form(const FormSetting& setting, const Fit& base, const Leftove
   if (entry.refined) entry.a = refined_a;
 }
 
-/// Entries that are worth a fit of their own: the best, and the best of each family.
+/// Entries that are worth a fit of their own: the best and the best of each family.
 std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const Candidate*>& done) {
-  std::vector<FormEntry*> out;
+  const double best = search.entries.front().log_weight, over_none = std::max(0.0, best - search.none_weight);
+  const double near = best - std::max(kRefineWithin, kRefineShare * over_none);
+  const double near_family = best - std::max(kFamilyWithin, kFamilyShare * over_none);
   std::set<std::string> families;
-  const double best = search.entries.front().log_weight;
+  std::vector<FormEntry*> out;
   for (std::size_t i = 0; i < search.entries.size() && out.size() < kMostRefined; ++i) {
     FormEntry& entry = search.entries[i];
     if (entry.a.size() != entry.candidate->low.size()) continue;
     const bool first_of_family = families.insert(entry.candidate->hypothesis->id).second;
-    const bool near = i < kRefined && entry.log_weight > best - kRefineWithin;
-    if ((near || (first_of_family && entry.log_weight > best - kFamilyWithin)) && !done.contains(entry.candidate))
-      out.push_back(&entry);
+    const bool worth = (i < kRefined && entry.log_weight > near) || (first_of_family && entry.log_weight > near_family);
+    if (worth && !done.contains(entry.candidate)) out.push_back(&entry);
   }
   return out;
 }
@@ -335,7 +352,8 @@ FormSearch search_with_form(const FormSetting& setting, const Fit& base, const L
   for (FormEntry& entry : entries) {
     const bool in_model = std::any_of(base.causes.begin(), base.causes.end(),
                                       [&](const Cause& cause) { return cause.candidate == entry.candidate; });
-    if (!in_model && !entry.tried.empty()) out.entries.push_back(std::move(entry));
+    const auto seen = [&](const Inference::Tried& t) { return setting.informed.whitened(base, t.change).norm() > kSeen; };
+    if (!in_model && std::any_of(entry.tried.begin(), entry.tried.end(), seen)) out.entries.push_back(std::move(entry));
   }
   Screen(setting, out, leftover);
   const auto sort = [&] {
@@ -347,6 +365,7 @@ FormSearch search_with_form(const FormSetting& setting, const Fit& base, const L
   std::set<const Candidate*> done;
   for (int round = 0; round < kRounds && !done.contains(out.entries.front().candidate); ++round) {
     const std::vector<FormEntry*> these = worth_refining(out, done);
+    if (these.empty()) break;
     parallel_for(these.size(), [&](std::size_t i) { refine_with_form(setting, base, leftover, *these[i]); });
     for (const FormEntry* entry : these) done.insert(entry->candidate);
     sort();

@@ -31,10 +31,10 @@ FormModes Predictor::form_modes() {
     shapes.col(j) /= std::sqrt(all.mu[j]);
   }
   out.modes.shapes = channel_factor_.asDiagonal() * channel_rows_(Eigen::all, first.columns) * shapes.topRows(n);
-  // Alike in the coordinates that every state has.
+  // Alike in the coordinates that every state has. Shapes are mass-normalised with everything that moves in them, so that an
+  // oscillator's own mode, in which the structure hardly does, is like none of the structure's.
   const Index c = map_.model().common;
   const MatrixXd weighted = base_.common_mass * shapes.topRows(c);
-  const VectorXd norm = weighted.cwiseProduct(shapes.topRows(c)).colwise().sum();
   for (std::size_t m = 0; m < map_.modes_.size(); ++m) {
     const MeasuredMode& measured = map_.modes_[m];
     PairedMode mode{-1, measured.condition, measured.frequency, measured.real_rows, measured.real_channels};
@@ -45,7 +45,7 @@ FormModes Predictor::form_modes() {
     double best = kLeastLikeness;
     for (Index j = 0; j < count; ++j) {
       const double along = std::pow(weighted.col(j).dot(re), 2) + std::pow(weighted.col(j).dot(im), 2);
-      const double mac = norm[j] * own > 0.0 ? along / (norm[j] * own) : 0.0;
+      const double mac = own > 0.0 ? along / own : 0.0;
       if (mac <= best) continue;
       best = mac;
       mode.model_mode = static_cast<int>(j);
