@@ -52,7 +52,7 @@ def left_out(study: Study) -> dict | None:
     """Each pair left out of the updating and predicted, beside no updating; None where no pair was left out."""
     if not (study.results / "s6_updating/leave_one_out.csv").is_file():
         return None
-    table = study.step_csv("s6_updating/leave_one_out.csv", ["experimental_mode", "numerical_mode", "measured_Hz", *ERRORS.values(), "range_pct",
+    table = study.step_csv("s6_updating/leave_one_out.csv", ["experimental_mode", "numerical_mode", "measured_Hz", *ERRORS.values(),
                                                              "parameters_on_bounds", "converged"])
     means = {name: float(table[column].abs().mean()) for name, column in ERRORS.items()}
     closer = int((table["error_predicted_pct"].abs() < table["error_before_pct"].abs()).sum())

@@ -176,7 +176,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
     result.elsewhere.push_back({there.valid ? there.cost() : 0.0, there.frequency_Hz, there.valid});
   }
   const SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
-  if (options.leave_one_out && best.result.converged) result.left_out = leave_each_out(search, x0, best.end.x);
+  if (options.leave_one_out && best.result.converged) result.left_out = leave_each_out(search, x0);
   return result;
 }
 

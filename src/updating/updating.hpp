@@ -64,7 +64,6 @@ struct LeftOut {
   double frequency_Hz = 0.0;  ///< of the left-out target's mode there: nothing was fitted to it
   double cost = 0.0;          ///< of the fitted targets
   double followed_mac = 0.0;  ///< of the left-out mode with the start model's
-  double range_Hz = 0.0;      ///< between the predictions of the searches that end at the same cost
   int on_bounds = 0;          ///< parameters that end on a bound
   bool converged = false;
 };

@@ -402,8 +402,11 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
   const diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
                                                                    std::max(1, static_cast<int>(labels.size())));
-  context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
-                          check.full_Hz.size(), check.largest_pct));
+  if (check.message.empty())
+    context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
+                            check.full_Hz.size(), check.largest_pct));
+  else
+    context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_diagnosis(result, inputs.account, entries.invisible, check, config.residual_alpha, seconds, threshold.from,
                   context.out / "diagnosis.json");

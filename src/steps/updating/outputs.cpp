@@ -119,14 +119,14 @@ void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size
                          const updating::UpdatingResult& result, const std::filesystem::path& file) {
   if (result.left_out.empty()) return;
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "measured_Hz", "before_Hz", "fitted_Hz", "predicted_Hz",
-                     "error_before_pct", "error_fitted_pct", "error_predicted_pct", "range_pct", "parameters_on_bounds",
+                     "error_before_pct", "error_fitted_pct", "error_predicted_pct", "parameters_on_bounds",
                      "followed_mac", "converged"});
   for (std::size_t i = 0; i < pairs; ++i) {
     const ComparisonRow &before = comparison.at(i), &after = comparison.at(pairs + i);
     const updating::LeftOut& left = result.left_out.at(i);
     csv.row({before.experimental, before.numerical, before.measured_Hz, before.computed_Hz, after.computed_Hz,
              left.frequency_Hz, before.error_pct(), after.error_pct(), error_left_out_pct(left, before.measured_Hz),
-             100.0 * left.range_Hz / before.measured_Hz, left.on_bounds, left.followed_mac, left.converged ? 1 : 0});
+             left.on_bounds, left.followed_mac, left.converged ? 1 : 0});
   }
   csv.save(file);
 }

@@ -35,7 +35,7 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
 void write_costs(const updating::UpdatingResult& result, const std::filesystem::path& file);
 
 /// `leave_one_out.csv`: experimental_mode,numerical_mode,measured_Hz,before_Hz,fitted_Hz,predicted_Hz,error_before_pct,
-/// error_fitted_pct,error_predicted_pct,range_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without
+/// error_fitted_pct,error_predicted_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without
 /// updating, fitted with all pairs, and predicted by an update to the other pairs. No file where no pair was left out.
 /// @param comparison  rows of the stages `before` and `after`, `pairs` of each, in the order of the targets
 void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs,
