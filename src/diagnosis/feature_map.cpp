@@ -22,7 +22,7 @@ bool is_logarithmic(RowType type) { return type != RowType::shape && type != Row
 }  // namespace
 
 FeatureMap::FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter)
-    : model_(model), features_(features), states_(states_of(features)), damping_by_state_(scatter.damping_by_state) {
+    : model_(model), features_(features), states_(states_of(features)), damping_by_dampers_(scatter.damping_by_dampers) {
   collect_modes();
   transform(scatter);
   list_nuisances(scatter);
@@ -183,7 +183,7 @@ std::string FeatureMap::damping_name(const std::string& label, int condition) co
   const Condition& c = features_.conditions[static_cast<std::size_t>(condition)];
   std::string name = label;
   if (c.state != states_.front()) name += " of state " + c.state;
-  if (damping_by_state_ && c.dampers_on.value_or(false)) name += " with dampers";
+  if (damping_by_dampers_ && c.dampers_on.value_or(false)) name += " with dampers";
   return name;
 }
 

@@ -21,7 +21,7 @@ struct ScatterOptions {
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
   double load_model = 0.10;  ///< of RMS values, on ln: what a simple load model leaves open
   double model_form = 0.0;   ///< of a frequency, on ln, the same in all conditions of a mode: what a model that is known to be off leaves open
-  bool damping_by_state = false;  ///< structural damping is another unknown where dampers are on: stuck ones rub in ways no model has
+  bool damping_by_dampers = false;  ///< structural damping is another unknown where dampers are on: stuck ones rub in ways no model has
   double fine = 1.0;         ///< common factor of the first line (estimated by marginal likelihood)
   double noise = 1.0;        ///< common factor of identification errors (likewise)
 };
@@ -123,7 +123,7 @@ class FeatureMap {
   std::vector<MeasuredMode> modes_;
   std::vector<Nuisance> nuisances_;
   std::vector<std::string> damping_modes_;
-  bool damping_by_state_ = false;
+  bool damping_by_dampers_ = false;
   std::map<std::string, int> bound_modes_;
   Eigen::VectorXd values_;
   Eigen::MatrixXd covariance_;

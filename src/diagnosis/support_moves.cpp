@@ -80,11 +80,13 @@ void ElementPlaces::add_support_moves(Places& places) const {
   for (const Place& support : places.sets["supports"]) {
     std::vector<const fe::Spring*> springs;  // of this support: translations to the ground, all at one node
     const std::string name = support.id.substr(support.id.find(':') + 1);
-    for (const fe::Spring& spring : model_.springs)
-      if ((spring.group.empty() ? spring.name : spring.group) == name && spring.node2 < 0 && !spring.rotation &&
-          fe::carries_stiffness(spring) && spring.damping == 0.0 && spring.friction_N == 0.0)
-        springs.push_back(&spring);
-    if (springs.empty()) continue;
+    bool clamped = false;  // a foot that holds against turning is built in: it does not stand elsewhere
+    for (const fe::Spring& spring : model_.springs) {
+      if ((spring.group.empty() ? spring.name : spring.group) != name || spring.node2 >= 0 || !fe::carries_stiffness(spring)) continue;
+      clamped = clamped || spring.rotation;
+      if (!spring.rotation && spring.damping == 0.0 && spring.friction_N == 0.0) springs.push_back(&spring);
+    }
+    if (springs.empty() || clamped) continue;
     const int node = springs.front()->node;
     if (std::any_of(springs.begin(), springs.end(), [&](const fe::Spring* s) { return s->node != node; })) continue;
     const std::vector<std::pair<int, double>> line = line_through(model_, beams, node);

@@ -252,7 +252,7 @@ io::FieldTable DiagnosisConfig::fields() {
               "least deviation of a shape, of its largest value")
       .number("scatter.load_model", scatter.load_model, "", io::non_negative(),
               "of RMS values, for what a simple load model leaves open")
-      .boolean("scatter.damping_by_state", scatter.damping_by_state,
+      .boolean("scatter.damping_by_dampers", scatter.damping_by_dampers,
                "structural damping is another unknown where dampers are on (stuck ones rub)")
       .number("scatter.model_form", scatter.model_form, "", io::non_negative(),
               "of a frequency, alike in all conditions of a mode: what a model that is known to be off leaves open");

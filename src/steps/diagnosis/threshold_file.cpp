@@ -31,7 +31,7 @@ void put_rules(std::ostream& key, const DiagnosisConfig& config) {
   for (const double v : {s.element_stiffness, s.element_mass, s.node_mass, s.stay_stiffness, s.stay_pull, s.gain, s.frequency_floor,
                          s.damping_floor, s.shape_floor, s.load_model, s.model_form, s.fine, s.noise})
     key << v << ',';
-  key << s.damping_by_state << ",pairs ";
+  key << s.damping_by_dampers << ",pairs ";
   for (const std::string& pair : config.pairs) key << pair << ',';
 }
 
