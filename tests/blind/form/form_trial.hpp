@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "blind/form/calibration.hpp"
+#include "blind/form/hidden.hpp"
+#include "diagnosis/diagnose.hpp"
+
+/// One trial of the tier of form errors: a truth of another class, its measurement with errors, the diagnosis by the coarse
+/// model, the score.
+namespace twindeck::blind::form {
+
+/// A trial before the diagnosis sees it.
+struct FormCase {
+  std::uint64_t seed = 0;
+  Truth truth;
+  Calibrated calibrated;
+  Hidden hidden;
+  double sigma =
+      0.0;  ///< how much the hidden cause changes the rows, in deviations of their errors (root of the sum of squares)
+  diagnosis::FeatureSet features;
+};
+/// @param level  form error instead of the one that is the seed's turn
+[[nodiscard]] FormCase make_form_case(std::uint64_t seed, std::optional<double> level = {});
+
+/// What the diagnosis said, and what it is worth.
+struct FormScore {
+  std::uint64_t seed = 0;
+  Turn turn;
+  std::string structure, words;
+  double reached = 0.0, severity = 0.0, sigma = 0.0;
+  int modes = 0, channels = 0, conditions = 0, rows = 0;
+  std::string verdict, found;
+  double log_odds = 0.0, form_frequency = 0.0, form_shape = 0.0, gain_low = 0.0;
+  bool complete = false;      ///< every part of the answer is there
+  bool reported = false;      ///< a cause is put forward, and "something else" is not among its rivals
+  bool answered = false;      ///< named or ambiguous
+  bool in_set = false;        ///< the truth is in the set of a cause
+  bool localised = false;     ///< the set holds a feature of the form that makes at least half of the form error by itself
+  bool gain_claimed = false;  ///< the interval of the left-out modes' gain lies above zero
+  bool sized = false, covered = false;
+  double size = 0.0, found_size = 0.0, low = 0.0, high = 0.0;
+  double seconds_made = 0.0, seconds = 0.0;  ///< CPU: to make the truth, to diagnose it
+};
+
+/// Runs the diagnosis with the form error on and nothing set by hand, and scores it.
+[[nodiscard]] FormScore run_form_case(const FormCase& hidden);
+
+/// What a diagnosis is worth against what was hidden.
+void score_answer(const FormCase& hidden, const diagnosis::Diagnosis& result, FormScore& score);
+
+}  // namespace twindeck::blind::form

@@ -1,0 +1,134 @@
+#include "blind/form/measurement.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace twindeck::blind::form {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSameMode = 0.6;  ///< least MAC of a mode in two conditions of one state
+
+double mac_of(const VectorXd& a, const VectorXd& b) { return std::pow(a.dot(b), 2) / (a.squaredNorm() * b.squaredNorm()); }
+
+MatrixXd with_fault(MatrixXd shapes, const SensorFault& fault) {
+  if (fault.what == SensorFault::What::reversed) shapes.row(fault.channel) *= -1.0;
+  if (fault.what == SensorFault::What::exchanged) shapes.row(fault.channel).swap(shapes.row(fault.other));
+  if (fault.what == SensorFault::What::scaled) shapes.row(fault.channel) *= fault.factor;
+  return shapes;
+}
+
+MatrixXd largest_is_one(MatrixXd shapes) {
+  for (Index m = 0; m < shapes.cols(); ++m) {
+    Index at = 0;
+    shapes.col(m).cwiseAbs().maxCoeff(&at);
+    shapes.col(m) /= shapes(at, m);
+  }
+  return shapes;
+}
+
+/// Names of a condition's modes: those of the state's first condition by likeness of shapes, each once; a mode that is like
+/// none of them gets a name of its own.
+std::vector<std::string> labels_like(const MatrixXd& first, const std::vector<std::string>& names, const MatrixXd& shapes,
+                                     std::size_t condition) {
+  std::vector<std::string> out(static_cast<std::size_t>(shapes.cols()));
+  std::vector<bool> taken(names.size(), false);
+  for (Index m = 0; m < shapes.cols(); ++m) {
+    Index best = -1;
+    double most = kSameMode;
+    for (Index n = 0; n < first.cols(); ++n) {
+      if (taken[static_cast<std::size_t>(n)]) continue;
+      if (const double mac = mac_of(first.col(n), shapes.col(m)); mac > most) {
+        most = mac;
+        best = n;
+      }
+    }
+    if (best >= 0) taken[static_cast<std::size_t>(best)] = true;
+    out[static_cast<std::size_t>(m)] =
+        best >= 0 ? names[static_cast<std::size_t>(best)] : fmt::format("{}{}", static_cast<char>('p' + condition), m + 1);
+  }
+  return out;
+}
+
+/// A branch's `state` knows conditions of two states where the features have a place for it.
+template <typename Condition>
+void set_state(Condition& condition, bool after) {
+  if constexpr (requires { condition.state; }) condition.state = after ? "after" : "";
+}
+
+}  // namespace
+
+Measured measure(const Truth& truth, const Hidden& hidden) {
+  Measured out;
+  std::array<int, 2> first = {-1, -1};  // of each state
+  for (std::size_t c = 0; c < hidden.conditions.size(); ++c) {
+    out.modes.push_back(measurable_modes(truth, hidden.conditions[c].change));
+    const SeenModes& seen = out.modes.back();
+    const MatrixXd right = at_channels(truth.layout, seen.at_nodes);
+    out.shapes.push_back(largest_is_one(with_fault(right, hidden.fault)));
+    int& start = first[hidden.conditions[c].after ? 1 : 0];
+    if (start < 0) {
+      start = static_cast<int>(c);
+      out.labels.emplace_back();
+      for (Index m = 0; m < right.cols(); ++m) out.labels.back().push_back(std::to_string(m + 1));
+      continue;
+    }
+    const auto of = static_cast<std::size_t>(start);
+    out.labels.push_back(labels_like(out.shapes[of], out.labels[of], out.shapes[c], c));
+  }
+  return out;
+}
+
+double visibility(const Truth& truth, const Hidden& hidden) {
+  const SeenModes sound = measurable_modes(truth, {});
+  const MatrixXd before = largest_is_one(at_channels(truth.layout, sound.at_nodes));
+  const Measured measured = measure(truth, hidden);
+  double sum = 0.0;
+  for (std::size_t c = 0; c < measured.modes.size(); ++c) {
+    const SeenModes& now = measured.modes[c];
+    for (Index m = 0; m < std::min(sound.frequency_Hz.size(), now.frequency_Hz.size()); ++m) {
+      sum += std::pow(std::log(now.frequency_Hz[m] / sound.frequency_Hz[m]) / kFrequencyError, 2);
+      const VectorXd shape = measured.shapes[c].col(m);  // scaled to the sound one
+      const double scale = shape.dot(before.col(m)) / shape.squaredNorm();
+      sum += (scale * shape - before.col(m)).squaredNorm() / (kShapeError * kShapeError);
+    }
+  }
+  return std::sqrt(sum);
+}
+
+diagnosis::FeatureSet rows_of(const Layout& layout, const Hidden& hidden, const Measured& measured, Stream& random) {
+  using diagnosis::RowType;
+  diagnosis::FeatureSet f;
+  const Eigen::Vector3d direction = layout.direction == 0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
+  for (std::size_t c = 0; c < layout.channel_nodes.size(); ++c) {
+    f.channels.push_back(channel_name(layout, static_cast<int>(c)));
+    f.direction.push_back(direction);
+  }
+  for (std::size_t c = 0; c < hidden.conditions.size(); ++c) {
+    const TestCondition& test = hidden.conditions[c];
+    diagnosis::Condition condition;
+    condition.name = test.name;
+    condition.temperature_C = test.temperature_C;
+    condition.amplitude_m = test.amplitude_m;
+    if (test.amplitude_m) condition.amplitude_channel = f.channels[f.channels.size() / 2];
+    set_state(condition, test.after);
+    f.conditions.push_back(condition);
+    const MatrixXd& shapes = measured.shapes[c];
+    for (Index m = 0; m < shapes.cols(); ++m) {
+      const std::string& label = measured.labels[c][static_cast<std::size_t>(m)];
+      const double hertz = measured.modes[c].frequency_Hz[m] * (1.0 + kFrequencyError * random.normal());
+      f.rows.push_back({RowType::frequency, label, -1, "", static_cast<int>(c), hertz, kFrequencyError * hertz, false});
+      for (Index channel = 0; channel < shapes.rows(); ++channel)
+        f.rows.push_back({RowType::shape, label, static_cast<int>(channel), "", static_cast<int>(c),
+                          shapes(channel, m) + kShapeError * random.normal(), kShapeError, false});
+    }
+  }
+  return f;
+}
+
+}  // namespace twindeck::blind::form
