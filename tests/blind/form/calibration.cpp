@@ -28,7 +28,7 @@ struct ModelModes {
 };
 
 ModelModes model_modes(const fe::ParametricSystem& system, const VectorXd& theta, Index nodes, int count) {
-  const MatrixXd k(system.stiffness(theta)), m(system.mass(theta));  // lower triangles, which the solver takes
+  const MatrixXd k(system.stiffness(theta)), m(system.mass(theta));      // lower triangles, which the solver takes
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(m, k);  // as in PlaneFrame: point masses have no inertia
   const Index n = k.rows(), kept = std::min<Index>(count, n);
   ModelModes out{VectorXd(kept), MatrixXd(n, kept), MatrixXd::Zero(2 * nodes, kept)};

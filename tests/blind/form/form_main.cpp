@@ -35,7 +35,14 @@ FormScore run_one(std::uint64_t seed, std::optional<double> level) {
   const double begin = cpu_seconds();
   const FormCase hidden = make_form_case(seed, level);
   const double made = cpu_seconds() - begin;
-  FormScore score = run_form_case(hidden);
+  FormScore score = prepare_score(hidden);
+  try {
+    run_form_case(hidden, score);
+  } catch (
+      const std::exception& error) {  // a diagnosis that ends without an answer is one of the worst, and the other trials go on
+    score.verdict = "failed";
+    score.found = error.what();
+  }
   score.seconds_made = made;
   return score;
 }

@@ -61,6 +61,8 @@ const std::vector<FormLine>& form_lines() {
       {"90 % intervals hold the size", [](const FormScore& s) { return s.sized; }, [](const FormScore& s) { return s.covered; },
        0.85, true},
       {"shown: one state, loss in one element: truth in the set", is_loss, in_set},
+      {"shown: ended without an answer", [](const FormScore&) { return true; },
+       [](const FormScore& s) { return s.verdict == "failed"; }},
       {"shown: unknown with a hidden cause", has_truth, [](const FormScore& s) { return s.verdict == "unknown"; }},
       {"shown: none with a hidden cause", has_truth, [](const FormScore& s) { return s.verdict == "none"; }},
       {"shown: outside the catalogue: unknown", is_outside, [](const FormScore& s) { return s.verdict == "unknown"; }},
@@ -132,7 +134,7 @@ bool few_are_sound(const std::vector<FormScore>& scores) {
   for (const FormScore& s : scores) {
     if (s.complete) continue;
     sound = false;
-    fmt::print("seed {}: the answer is not complete\n", s.seed);
+    fmt::print("seed {}: the answer is not complete{}\n", s.seed, s.verdict == "failed" ? ": " + s.found : "");
   }
   for (const FormLine& line : form_lines()) {
     if (line.own_rate < 0.0) continue;

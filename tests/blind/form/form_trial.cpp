@@ -159,7 +159,7 @@ void score_answer(const FormCase& hidden, const diagnosis::Diagnosis& result, Fo
   score_size(hidden, result, score);
 }
 
-FormScore run_form_case(const FormCase& hidden) {
+FormScore prepare_score(const FormCase& hidden) {
   const Layout& layout = hidden.truth.layout;
   FormScore score;
   score.seed = hidden.seed;
@@ -174,6 +174,11 @@ FormScore run_form_case(const FormCase& hidden) {
   score.channels = static_cast<int>(layout.channel_nodes.size());
   score.conditions = static_cast<int>(hidden.features.conditions.size());
   score.rows = static_cast<int>(hidden.features.rows.size());
+  return score;
+}
+
+void run_form_case(const FormCase& hidden, FormScore& score) {
+  const Layout& layout = hidden.truth.layout;
   const double begin = cpu_seconds();
   constexpr double kTolerance_m = 0.5;  // of step 9
   const auto model = steps::prepare_model(steps::from_model(coarse_model(layout)), channels_of(layout), kTolerance_m);
@@ -186,7 +191,6 @@ FormScore run_form_case(const FormCase& hidden) {
   const diagnosis::Diagnosis result = diagnosis::diagnose_with_form(inference, {}, hidden.seed);
   score.seconds = cpu_seconds() - begin;
   score_answer(hidden, result, score);
-  return score;
 }
 
 }  // namespace twindeck::blind::form

@@ -46,8 +46,11 @@ struct FormScore {
   double seconds_made = 0.0, seconds = 0.0;  ///< CPU: to make the truth, to diagnose it
 };
 
+/// What is known of a trial before its diagnosis.
+[[nodiscard]] FormScore prepare_score(const FormCase& hidden);
 /// Runs the diagnosis with the form error on and nothing set by hand, and scores it.
-[[nodiscard]] FormScore run_form_case(const FormCase& hidden);
+/// @throws what the diagnosis throws
+void run_form_case(const FormCase& hidden, FormScore& score);
 
 /// What a diagnosis is worth against what was hidden.
 void score_answer(const FormCase& hidden, const diagnosis::Diagnosis& result, FormScore& score);

@@ -55,10 +55,10 @@ std::vector<std::string> labels_like(const MatrixXd& first, const std::vector<st
   return out;
 }
 
-/// A branch's `state` knows conditions of two states where the features have a place for it.
+/// Puts a condition into the second state, where features know states; the first has the name that a condition has by itself.
 template <typename Condition>
-void set_state(Condition& condition, bool after) {
-  if constexpr (requires { condition.state; }) condition.state = after ? "after" : "";
+void set_after(Condition& condition) {
+  if constexpr (requires { condition.state; }) condition.state = "after";
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ diagnosis::FeatureSet rows_of(const Layout& layout, const Hidden& hidden, const 
     condition.temperature_C = test.temperature_C;
     condition.amplitude_m = test.amplitude_m;
     if (test.amplitude_m) condition.amplitude_channel = f.channels[f.channels.size() / 2];
-    set_state(condition, test.after);
+    if (test.after) set_after(condition);
     f.conditions.push_back(condition);
     const MatrixXd& shapes = measured.shapes[c];
     for (Index m = 0; m < shapes.cols(); ++m) {
