@@ -16,12 +16,20 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
+namespace {
+/// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is rounding (1e-12 of a
+/// girder's vertical motion in its axial modes), which may look like any shape.
+constexpr double kAtRest = 1e-6;
+}  // namespace
+
 VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
   VectorXd mac(shapes.cols());
+  if (shapes.cols() == 0) return mac;
   const double norm = measured.squaredNorm();
+  const double least = kAtRest * kAtRest * shapes.colwise().squaredNorm().maxCoeff();
   for (Index j = 0; j < mac.size(); ++j) {
-    const double norms = norm * shapes.col(j).squaredNorm();
-    mac[j] = norms > 0.0 ? std::norm(shapes.col(j).dot(measured)) / norms : 0.0;
+    const double own = shapes.col(j).squaredNorm(), norms = norm * own;
+    mac[j] = norms > 0.0 && own > least ? std::norm(shapes.col(j).dot(measured)) / norms : 0.0;
   }
   return mac;
 }
