@@ -74,11 +74,12 @@ int count_only(int count, std::uint64_t first) {
   parallel_for(count, [&](int i) {
     const FormCase c = make_form_case(first + static_cast<std::uint64_t>(i));
     lines[static_cast<std::size_t>(i)] = fmt::format(
-        "{:>5} {:<22} {:<22} {:<17} form {:.1f} % reached {:.2f} % severity {:.3f} after {} draws, sigma {:>6.1f}, {} "
+        "{:>5} {:<22} {:<22} {:<17} form {:.1f} % reached {:.2f} %, shapes {:.1f} %, least MAC {:.2f}, severity {:.3f} after "
+        "{} draws, sigma {:>6.1f}, {} "
         "conditions, {} rows | {}",
         c.seed, name_of(c.hidden.turn.category), c.hidden.turn.family, name_of(c.hidden.turn.kind), 100.0 * c.hidden.turn.level,
-        100.0 * c.calibrated.reached, c.calibrated.form.severity, c.calibrated.draws, c.sigma, c.features.conditions.size(),
-        c.features.rows.size(), c.hidden.words);
+        100.0 * c.calibrated.reached, 100.0 * c.calibrated.shape, c.calibrated.least_mac, c.calibrated.form.severity,
+        c.calibrated.draws, c.sigma, c.features.conditions.size(), c.features.rows.size(), c.hidden.words);
   });
   for (const std::string& line : lines) fmt::print("{}\n", line);
   return 0;

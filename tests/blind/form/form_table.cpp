@@ -159,24 +159,76 @@ std::string line_of(const FormScore& s) {
       s.words, s.found.empty() ? "nothing" : s.found);
 }
 
+namespace {
+
+struct Column {
+  std::string name;
+  std::function<std::string(const FormScore&)> value;
+};
+
+template <typename Value>
+Column number(const std::string& name, Value FormScore::*member, double factor = 1.0) {
+  return {name, [=](const FormScore& s) { return fmt::format("{:.6g}", factor * static_cast<double>(s.*member)); }};
+}
+/// A number that is there only where the diagnosis gave the hidden cause a size.
+template <typename Value>
+Column of_size(const std::string& name, Value FormScore::*member) {
+  return {name,
+          [=](const FormScore& s) { return s.sized ? fmt::format("{:.6g}", static_cast<double>(s.*member)) : std::string(); }};
+}
+Column text(const std::string& name, const std::function<std::string(const FormScore&)>& value) {
+  return {name, [=](const FormScore& s) { return quoted(value(s)); }};
+}
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all = {
+      {"seed", [](const FormScore& s) { return std::to_string(s.seed); }},
+      text("category", [](const FormScore& s) { return name_of(s.turn.category); }),
+      text("family", [](const FormScore& s) { return s.turn.family; }),
+      text("structure", [](const FormScore& s) { return s.structure; }),
+      {"level_pct", [](const FormScore& s) { return fmt::format("{:.1f}", 100.0 * s.turn.level); }},
+      number("reached_pct", &FormScore::reached, 100.0),
+      number("shape_pct", &FormScore::shape, 100.0),
+      number("least_mac", &FormScore::least_mac),
+      number("severity", &FormScore::severity),
+      number("modes", &FormScore::modes),
+      number("channels", &FormScore::channels),
+      number("conditions", &FormScore::conditions),
+      number("rows", &FormScore::rows),
+      number("sigma", &FormScore::sigma),
+      text("hidden", [](const FormScore& s) { return s.words; }),
+      text("verdict", [](const FormScore& s) { return s.verdict; }),
+      text("found", [](const FormScore& s) { return s.found; }),
+      number("log_odds", &FormScore::log_odds),
+      number("form_frequency_pct", &FormScore::form_frequency, 100.0),
+      number("form_shape_pct", &FormScore::form_shape, 100.0),
+      number("gain_low", &FormScore::gain_low),
+      number("gain_claimed", &FormScore::gain_claimed),
+      number("answered", &FormScore::answered),
+      number("reported", &FormScore::reported),
+      number("in_set", &FormScore::in_set),
+      number("localised", &FormScore::localised),
+      number("complete", &FormScore::complete),
+      number("size", &FormScore::size),
+      of_size("found_size", &FormScore::found_size),
+      of_size("low", &FormScore::low),
+      of_size("high", &FormScore::high),
+      of_size("covered", &FormScore::covered),
+      number("seconds_made", &FormScore::seconds_made),
+      number("seconds", &FormScore::seconds)};
+  return all;
+}
+
+}  // namespace
+
 void write_form_csv(const std::vector<FormScore>& scores, const std::filesystem::path& file) {
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   std::ofstream out(file);
-  out << "seed,category,family,structure,level_pct,reached_pct,severity,modes,channels,conditions,rows,sigma,hidden,verdict,"
-         "found,"
-         "log_odds,form_frequency_pct,form_shape_pct,gain_low,gain_claimed,answered,reported,in_set,localised,complete,size,"
-         "found_size,"
-         "low,high,covered,seconds_made,seconds\n";
+  for (const Column& column : columns()) out << (&column == &columns().front() ? "" : ",") << column.name;
+  out << "\n";
   for (const FormScore& s : scores) {
-    const auto number = [&](double v) { return s.sized ? fmt::format("{:.6g}", v) : std::string(); };
-    out << fmt::format(
-        "{},{},{},{},{:.1f},{:.4f},{:.4g},{},{},{},{},{:.2f},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:.6g},{},{"
-        "},{},{},{:.2f},{:.2f}\n",
-        s.seed, quoted(name_of(s.turn.category)), quoted(s.turn.family), quoted(s.structure), 100.0 * s.turn.level,
-        100.0 * s.reached, s.severity, s.modes, s.channels, s.conditions, s.rows, s.sigma, quoted(s.words), s.verdict,
-        quoted(s.found), s.log_odds, 100.0 * s.form_frequency, 100.0 * s.form_shape, s.gain_low, int{s.gain_claimed},
-        int{s.answered}, int{s.reported}, int{s.in_set}, int{s.localised}, int{s.complete}, s.size, number(s.found_size),
-        number(s.low), number(s.high), s.sized ? std::to_string(int{s.covered}) : "", s.seconds_made, s.seconds);
+    for (const Column& column : columns()) out << (&column == &columns().front() ? "" : ",") << column.value(s);
+    out << "\n";
   }
   if (!out) throw InputError({file.string(), 0, ""}, "cannot be written", "give another file as the third word");
 }

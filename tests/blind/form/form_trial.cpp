@@ -167,6 +167,8 @@ FormScore prepare_score(const FormCase& hidden) {
   score.structure = name_of(layout.kind);
   score.words = hidden.hidden.words;
   score.reached = hidden.calibrated.reached;
+  score.shape = hidden.calibrated.shape;
+  score.least_mac = hidden.calibrated.least_mac;
   score.severity = hidden.calibrated.form.severity;
   score.sigma = hidden.sigma;
   score.size = hidden.hidden.size;

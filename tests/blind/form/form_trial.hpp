@@ -31,7 +31,7 @@ struct FormScore {
   std::uint64_t seed = 0;
   Turn turn;
   std::string structure, words;
-  double reached = 0.0, severity = 0.0, sigma = 0.0;
+  double reached = 0.0, shape = 0.0, least_mac = 0.0, severity = 0.0, sigma = 0.0;
   int modes = 0, channels = 0, conditions = 0, rows = 0;
   std::string verdict, found;
   double log_odds = 0.0, form_frequency = 0.0, form_shape = 0.0, gain_low = 0.0;

@@ -104,11 +104,11 @@ Layout draw_frame(Stream& random) {
   layout.kind = Kind::frame;
   layout.direction = 0;
   const int storeys = 7 + random.below(2);
-  layout.modes = storeys;
-  const double height = random.between(3.0, 3.8), bay = random.between(5.0, 7.0), side = random.between(0.40, 0.55);
+  layout.modes = storeys - 1;
+  const double height = random.between(3.0, 3.8), bay = random.between(5.0, 7.0), side = random.between(0.33, 0.42);
   layout.span_m = layout.zone_m = height;
   const double beam_depth = random.between(0.45, 0.65);
-  layout.sections.push_back({"column", side * side, std::pow(side, 4) / 12.0, side});
+  layout.sections.push_back({"column", 2.5 * side * side, 2.5 * std::pow(side, 4) / 12.0, side});
   layout.sections.push_back({"beam", 0.35 * beam_depth, 0.35 * std::pow(beam_depth, 3) / 12.0, beam_depth});
   for (const char* name : {"low_columns", "high_columns", "beams"})
     layout.materials.push_back({name, kConcrete_Pa, kConcrete_kg_m3});

@@ -69,7 +69,7 @@ struct Layout {
 };
 
 /// A structure of a kind with drawn sizes: girders of 12 to 18 beams, 5 to 7 parameters; frames of seven or eight storeys, 5
-/// parameters; 10 to 16 channels, 7 to 10 modes.
+/// parameters; 10 to 16 channels, 6 to 10 modes.
 [[nodiscard]] Layout draw_layout(Kind kind, Stream& random);
 
 /// The model that is fitted: Euler-Bernoulli beams, uniform, one a zone, rigid joints.

@@ -20,8 +20,8 @@ constexpr double kShearModulus = 1.0 / 2.4;                        ///< of E, at
 constexpr int kGirderParts = 3, kColumnParts = 2, kBeamParts = 3;  ///< beams of the truth a zone
 constexpr double kArea =
     1.0 / 3.0;  ///< a section's area grows with this power of its inertia (depth to the first and the third)
-constexpr double kLeastMotion = 0.03;  ///< of the mode that moves the channels most: less is not found in a record
-constexpr int kDamperModes = 80;       ///< modes that carry the motion where a damper's stiffness depends on frequency
+constexpr double kLeastMotion = 0.2;  ///< squared, of the mode that moves the channels most: less is not found in a record
+constexpr int kDamperModes = 80;      ///< modes that carry the motion where a damper's stiffness depends on frequency
 
 double factor_in(const std::map<int, double>& factors, int key) {
   const auto at = factors.find(key);

@@ -84,6 +84,7 @@ TEST(FormTruth, FactorsOfTheTruthAreFoundByTheFit) {
 TEST(FormTruth, ALevelIsReachedAndATrialIsTheSameForOneSeed) {
   const FormCase one = make_form_case(9006), other = make_form_case(9006);
   EXPECT_NEAR(one.calibrated.reached / one.hidden.turn.level, 1.0, 0.1);
+  EXPECT_GE(one.calibrated.least_mac, 0.6);
   ASSERT_EQ(one.features.rows.size(), other.features.rows.size());
   for (std::size_t r = 0; r < one.features.rows.size(); ++r)
     EXPECT_EQ(one.features.rows[r].value, other.features.rows[r].value);
