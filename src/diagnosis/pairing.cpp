@@ -20,6 +20,7 @@ namespace {
 /// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is rounding (1e-12 of a
 /// girder's vertical motion in its axial modes), which may look like any shape.
 constexpr double kAtRest = 1e-6;
+constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distance of frequencies weighs
 }  // namespace
 
 VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
@@ -67,7 +68,12 @@ VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedStat
       if (shaped.imag_channels[q] == shaped.real_channels[k]) value += Complex(0.0, map_.values_[shaped.imag_rows[q]]);
     y[static_cast<Index>(k)] = value;
   }
-  return 1.0 - likeness(motion(state)(shaped.real_channels, Eigen::all), y).array();
+  const MatrixXcd moved = motion(state)(shaped.real_channels, Eigen::all);
+  VectorXd unlike = 1.0 - likeness(moved, y).array();
+  const VectorXd own = moved.colwise().squaredNorm();  // a shape was measured, so it was none of those at rest, however near in frequency
+  for (Index j = 0; j < own.size(); ++j)
+    if (own[j] <= kAtRest * kAtRest * own.maxCoeff()) unlike[j] = kNever;
+  return unlike;
 }
 
 VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
