@@ -14,12 +14,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFrequencyWeight = 0.01, kShapeWeight = 0.02;  ///< deviations in the fit: about what a coarse model leaves
+constexpr double kFrequencyWeight = 0.01, kShapeWeight = 0.05;  ///< deviations in the fit: about what a coarse model leaves
 constexpr double kLeastMac = 0.6;  ///< a mode without a counterpart in the model is not a form error but a mode that it lacks
 constexpr int kFitSteps = 8;
 constexpr int kModelModes = 12;  ///< further modes of the model that a measured one may be paired with
 constexpr double kWithin = 0.1;  ///< of the level
-constexpr int kDraws = 6, kHalvings = 9;
+constexpr int kDraws = 12, kHalvings = 9;
 constexpr double kMostSeverity = 8.0;
 
 /// Modes of the coarse model in its own unknowns (all that have mass), and at the nodes as SeenModes has them.

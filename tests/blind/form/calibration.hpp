@@ -25,7 +25,7 @@ struct Calibrated {
 };
 
 /// Draws forms until one leaves `level` within a tenth, by bisection on its severity, with a counterpart in the model for each
-/// mode; the nearest of six if none does.
+/// mode; the nearest of twelve if none does.
 [[nodiscard]] Calibrated calibrate(const fe::ParametricSystem& system, const Truth& without_form, double level, Stream& random);
 
 /// The part of the form error that one feature alone leaves after a fit, at the form's severity.

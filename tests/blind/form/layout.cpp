@@ -125,8 +125,8 @@ Layout draw_frame(Stream& random) {
   }
   const double bending = kConcrete_Pa * layout.sections[0].inertia_m4;
   const double turn = random.between(4.0, 10.0) * bending / height,
-               along = random.between(15.0, 30.0) * 12.0 * bending / std::pow(height, 3);
-  for (int c = 0; c < 2; ++c) layout.bearings.push_back({c == 0 ? "footing_L" : "footing_R", c, along, 6.0 * along, turn});
+               along = random.between(5.0, 10.0) * 12.0 * bending / std::pow(height, 3);
+  for (int c = 0; c < 2; ++c) layout.bearings.push_back({c == 0 ? "footing_L" : "footing_R", c, along, 15.0 * along, turn});
   for (int s = 1; s <= storeys; ++s) layout.channel_nodes.push_back(2 * s);
   for (int s = storeys; s >= 1 && layout.channel_nodes.size() < 10; s -= 2) layout.channel_nodes.push_back(2 * s + 1);
   add_frame_quantities(layout);

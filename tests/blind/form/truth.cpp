@@ -304,8 +304,8 @@ bool is_local(What what) {
 
 Form draw_form(const Layout& layout, Stream& random) {
   Form form;
-  form.features.push_back({What::shear, -1, random.between(0.4, 1.5), {}});
-  form.features.push_back({What::rotary, -1, random.between(0.5, 1.2), {}});
+  form.features.push_back({What::shear, -1, random.between(0.0, 0.5), {}});
+  form.features.push_back({What::rotary, -1, random.between(0.0, 0.5), {}});
   if (layout.girder())
     draw_girder_form(layout, random, form);
   else
