@@ -2,6 +2,7 @@
 /// (docs/diagnosis.md section 7). From 400 trials on each line is judged by its point estimate, and a tenth as many trials with
 /// a form error of 4 % are shown beside: exit code 1 when a line is missed. Fewer trials are held against the method's own
 /// rates. blind_form --count N [first seed]: what N trials hide and how far their form errors reach, without a diagnosis.
+/// blind_form --explain SEED …: the form, its main features and the evidence of single trials.
 /// TWINDECK_BLIND_SECONDS: no trial starts after so many seconds; the table is of those that ran.
 /// Seeds 9000 to 9099 were looked at while the bench was written: they count for nothing.
 #include <fmt/format.h>
@@ -123,6 +124,10 @@ int run(int count, std::uint64_t first, const std::string& csv) {
 int main(int argc, char** argv) {
   using namespace twindeck::blind::form;
   Eigen::setNbThreads(1);
+  if (argc > 2 && std::string(argv[1]) == "--explain") {
+    for (int i = 2; i < argc; ++i) explain_form_case(static_cast<std::uint64_t>(std::atoll(argv[i])));
+    return 0;
+  }
   const bool counting = argc > 1 && std::string(argv[1]) == "--count";
   const int shift = counting ? 1 : 0;
   const int count = argc > 1 + shift ? std::atoi(argv[1 + shift]) : 20;

@@ -17,7 +17,8 @@ using Eigen::Index;
 
 constexpr double kLeastSigma = 6.0;  ///< a hidden cause that moves the rows by less is drawn anew
 constexpr int kAttempts = 10;
-constexpr double kMainFeature = 0.5;  ///< part of the form error that a feature makes alone, from which on it is a cause itself
+/// Part of the form error that the main feature leaves alone, from which on it is a cause itself.
+constexpr double kMainFeature = 1.0 / 3.0;
 
 double cpu_seconds() {
   timespec now{};
@@ -65,20 +66,23 @@ diagnosis::ReductionOptions reduction_for(int modes) {
   return reduction;
 }
 
-/// Whether an answer names a feature of the form that makes most of the form error by itself.
+/// Whether an answer names the one feature of the form that leaves more than any other by itself, if it sits at one place and
+/// leaves a third of the form error or more: that is a cause, though nobody hid it.
 bool names_main_feature(const FormCase& hidden, const std::vector<std::string>& answers) {
   const auto& features = hidden.calibrated.form.features;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (!is_local(features[i].what)) continue;
-    const Sought sought = sought_of(hidden.truth.layout, features[i]);
-    if (std::none_of(answers.begin(), answers.end(),
-                     [&](const std::string& a) { return names(hidden.truth.layout, sought, a); }))
-      continue;
-    const steps::LoadedModel loaded = steps::from_model(coarse_model(hidden.truth.layout));
-    if (rms_of_feature_alone(loaded.system, hidden.truth, static_cast<int>(i)) >= kMainFeature * hidden.calibrated.reached)
-      return true;
-  }
-  return false;
+  if (answers.empty() || features.empty()) return false;
+  const steps::LoadedModel loaded = steps::from_model(coarse_model(hidden.truth.layout));
+  std::size_t main = 0;
+  double most = -1.0;
+  for (std::size_t i = 0; i < features.size(); ++i)
+    if (const double alone = rms_of_feature_alone(loaded.system, hidden.truth, static_cast<int>(i)); alone > most) {
+      most = alone;
+      main = i;
+    }
+  if (!is_local(features[main].what) || most < kMainFeature * hidden.calibrated.reached) return false;
+  const Sought sought = sought_of(hidden.truth.layout, features[main]);
+  return std::any_of(answers.begin(), answers.end(),
+                     [&](const std::string& a) { return names(hidden.truth.layout, sought, a); });
 }
 
 void score_size(const FormCase& hidden, const diagnosis::Diagnosis& result, FormScore& score) {
@@ -147,8 +151,12 @@ void score_answer(const FormCase& hidden, const diagnosis::Diagnosis& result, Fo
   const bool something_else =
       std::any_of(answers.begin(), answers.end(), [](const std::string& a) { return a.starts_with("other@"); });
   score.reported = score.answered && !something_else;
-  score.in_set = std::any_of(answers.begin(), answers.end(),
-                             [&](const std::string& a) { return names(hidden.truth.layout, hidden.hidden.sought, a); });
+  const auto right = [&](const std::string& a) { return names(hidden.truth.layout, hidden.hidden.sought, a); };
+  score.in_set = std::any_of(answers.begin(), answers.end(), right);
+  score.further =
+      score.in_set && std::any_of(result.effects.begin(), result.effects.end(), [&](const diagnosis::Effect& effect) {
+        return std::none_of(effect.cluster.begin(), effect.cluster.end(), right);
+      });
   score.localised = names_main_feature(hidden, answers);
   if (result.form) {
     score.form_frequency = result.form->frequency.level;
@@ -179,7 +187,7 @@ FormScore prepare_score(const FormCase& hidden) {
   return score;
 }
 
-void run_form_case(const FormCase& hidden, FormScore& score) {
+void run_form_case(const FormCase& hidden, FormScore& score, const std::function<void(const diagnosis::Diagnosis&)>& look) {
   const Layout& layout = hidden.truth.layout;
   const double begin = cpu_seconds();
   constexpr double kTolerance_m = 0.5;  // of step 9
@@ -193,6 +201,7 @@ void run_form_case(const FormCase& hidden, FormScore& score) {
   const diagnosis::Diagnosis result = diagnosis::diagnose_with_form(inference, {}, hidden.seed);
   score.seconds = cpu_seconds() - begin;
   score_answer(hidden, result, score);
+  if (look) look(result);
 }
 
 }  // namespace twindeck::blind::form

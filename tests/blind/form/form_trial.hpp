@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,7 +40,8 @@ struct FormScore {
   bool reported = false;      ///< a cause is put forward, and "something else" is not among its rivals
   bool answered = false;      ///< named or ambiguous
   bool in_set = false;        ///< the truth is in the set of a cause
-  bool localised = false;     ///< the set holds a feature of the form that makes at least half of the form error by itself
+  bool further = false;       ///< … beside another that is not the truth
+  bool localised = false;     ///< the set holds the form's main feature, which sits at one place
   bool gain_claimed = false;  ///< the interval of the left-out modes' gain lies above zero
   bool sized = false, covered = false;
   double size = 0.0, found_size = 0.0, low = 0.0, high = 0.0;
@@ -49,8 +51,10 @@ struct FormScore {
 /// What is known of a trial before its diagnosis.
 [[nodiscard]] FormScore prepare_score(const FormCase& hidden);
 /// Runs the diagnosis with the form error on and nothing set by hand, and scores it.
-/// @throws what the diagnosis throws
-void run_form_case(const FormCase& hidden, FormScore& score);
+/// @param look  at the diagnosis while what it refers to lives; may be empty @throws what the diagnosis throws
+void run_form_case(const FormCase& hidden, FormScore& score, const std::function<void(const diagnosis::Diagnosis&)>& look = {});
+/// Prints what a trial hides, which features of the form make its error, and the evidence of the diagnosis.
+void explain_form_case(std::uint64_t seed);
 
 /// What a diagnosis is worth against what was hidden.
 void score_answer(const FormCase& hidden, const diagnosis::Diagnosis& result, FormScore& score);

@@ -1,7 +1,6 @@
 #include "blind/form/measurement.hpp"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <cmath>
 
 namespace twindeck::blind::form {
@@ -32,25 +31,33 @@ MatrixXd largest_is_one(MatrixXd shapes) {
   return shapes;
 }
 
-/// Names of a condition's modes: those of the state's first condition by likeness of shapes, each once; a mode that is like
-/// none of them gets a name of its own.
-std::vector<std::string> labels_like(const MatrixXd& first, const std::vector<std::string>& names, const MatrixXd& shapes,
-                                     std::size_t condition) {
-  std::vector<std::string> out(static_cast<std::size_t>(shapes.cols()));
-  std::vector<bool> taken(names.size(), false);
+/// Modes of a state that have names already, with the shapes that they had first.
+struct Named {
+  std::vector<std::string> names;
+  std::vector<VectorXd> shapes;
+};
+
+/// Names of a condition's modes by likeness of shapes, each name once; a mode that is like none gets the next number.
+std::vector<std::string> labels_like(Named& known, const MatrixXd& shapes) {
+  std::vector<std::string> out;
+  std::vector<bool> taken(known.names.size(), false);
   for (Index m = 0; m < shapes.cols(); ++m) {
-    Index best = -1;
+    std::size_t best = known.names.size();
     double most = kSameMode;
-    for (Index n = 0; n < first.cols(); ++n) {
-      if (taken[static_cast<std::size_t>(n)]) continue;
-      if (const double mac = mac_of(first.col(n), shapes.col(m)); mac > most) {
+    for (std::size_t n = 0; n < taken.size(); ++n) {
+      if (taken[n]) continue;
+      if (const double mac = mac_of(known.shapes[n], shapes.col(m)); mac > most) {
         most = mac;
         best = n;
       }
     }
-    if (best >= 0) taken[static_cast<std::size_t>(best)] = true;
-    out[static_cast<std::size_t>(m)] =
-        best >= 0 ? names[static_cast<std::size_t>(best)] : fmt::format("{}{}", static_cast<char>('p' + condition), m + 1);
+    if (best == known.names.size()) {
+      known.names.push_back(std::to_string(known.names.size() + 1));
+      known.shapes.emplace_back(shapes.col(m));
+    } else if (best < taken.size()) {
+      taken[best] = true;
+    }
+    out.push_back(known.names[best]);
   }
   return out;
 }
@@ -65,21 +72,11 @@ void set_after(Condition& condition) {
 
 Measured measure(const Truth& truth, const Hidden& hidden) {
   Measured out;
-  std::array<int, 2> first = {-1, -1};  // of each state
-  for (std::size_t c = 0; c < hidden.conditions.size(); ++c) {
-    out.modes.push_back(measurable_modes(truth, hidden.conditions[c].change));
-    const SeenModes& seen = out.modes.back();
-    const MatrixXd right = at_channels(truth.layout, seen.at_nodes);
-    out.shapes.push_back(largest_is_one(with_fault(right, hidden.fault)));
-    int& start = first[hidden.conditions[c].after ? 1 : 0];
-    if (start < 0) {
-      start = static_cast<int>(c);
-      out.labels.emplace_back();
-      for (Index m = 0; m < right.cols(); ++m) out.labels.back().push_back(std::to_string(m + 1));
-      continue;
-    }
-    const auto of = static_cast<std::size_t>(start);
-    out.labels.push_back(labels_like(out.shapes[of], out.labels[of], out.shapes[c], c));
+  std::array<Named, 2> known;  // of each state
+  for (const TestCondition& condition : hidden.conditions) {
+    out.modes.push_back(measurable_modes(truth, condition.change));
+    out.shapes.push_back(largest_is_one(with_fault(at_channels(truth.layout, out.modes.back().at_nodes), hidden.fault)));
+    out.labels.push_back(labels_like(known[condition.after ? 1 : 0], out.shapes.back()));
   }
   return out;
 }
