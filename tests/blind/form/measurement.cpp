@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSameMode = 0.6;  ///< least MAC of a mode in two conditions of one state
+constexpr double kSameMode = 0.3;  ///< least MAC of a mode in two conditions of one state
 
 double mac_of(const VectorXd& a, const VectorXd& b) { return std::pow(a.dot(b), 2) / (a.squaredNorm() * b.squaredNorm()); }
 
@@ -31,33 +31,39 @@ MatrixXd largest_is_one(MatrixXd shapes) {
   return shapes;
 }
 
-/// Modes of a state that have names already, with the shapes that they had first.
+/// Modes of a state that have names already, as they were when they got them.
 struct Named {
   std::vector<std::string> names;
   std::vector<VectorXd> shapes;
+  std::vector<double> frequency_Hz;
 };
 
-/// Names of a condition's modes by likeness of shapes, each name once; a mode that is like none gets the next number.
-std::vector<std::string> labels_like(Named& known, const MatrixXd& shapes) {
-  std::vector<std::string> out;
-  std::vector<bool> taken(known.names.size(), false);
+/// Names of a condition's modes: the most alike pair first, by shape and frequency, each name once. A mode that is like none
+/// gets the next number.
+std::vector<std::string> labels_like(Named& known, const MatrixXd& shapes, const VectorXd& frequency_Hz) {
+  const auto n = static_cast<Index>(known.names.size());
+  MatrixXd alike(shapes.cols(), n);
+  for (Index m = 0; m < shapes.cols(); ++m)
+    for (Index k = 0; k < n; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const double mac = mac_of(known.shapes[at], shapes.col(m));
+      alike(m, k) = mac < kSameMode ? -1e9 : mac - std::abs(std::log(frequency_Hz[m] / known.frequency_Hz[at]));
+    }
+  std::vector<std::string> out(static_cast<std::size_t>(shapes.cols()));
+  for (Index round = 0; round < std::min(shapes.cols(), n); ++round) {
+    Index m = 0, k = 0;
+    if (alike.maxCoeff(&m, &k) < -1e8) break;
+    out[static_cast<std::size_t>(m)] = known.names[static_cast<std::size_t>(k)];
+    alike.row(m).setConstant(-1e9);
+    alike.col(k).setConstant(-1e9);
+  }
   for (Index m = 0; m < shapes.cols(); ++m) {
-    std::size_t best = known.names.size();
-    double most = kSameMode;
-    for (std::size_t n = 0; n < taken.size(); ++n) {
-      if (taken[n]) continue;
-      if (const double mac = mac_of(known.shapes[n], shapes.col(m)); mac > most) {
-        most = mac;
-        best = n;
-      }
-    }
-    if (best == known.names.size()) {
-      known.names.push_back(std::to_string(known.names.size() + 1));
-      known.shapes.emplace_back(shapes.col(m));
-    } else if (best < taken.size()) {
-      taken[best] = true;
-    }
-    out.push_back(known.names[best]);
+    std::string& name = out[static_cast<std::size_t>(m)];
+    if (!name.empty()) continue;
+    name = std::to_string(known.names.size() + 1);
+    known.names.push_back(name);
+    known.shapes.emplace_back(shapes.col(m));
+    known.frequency_Hz.push_back(frequency_Hz[m]);
   }
   return out;
 }
@@ -76,7 +82,7 @@ Measured measure(const Truth& truth, const Hidden& hidden) {
   for (const TestCondition& condition : hidden.conditions) {
     out.modes.push_back(measurable_modes(truth, condition.change));
     out.shapes.push_back(largest_is_one(with_fault(at_channels(truth.layout, out.modes.back().at_nodes), hidden.fault)));
-    out.labels.push_back(labels_like(known[condition.after ? 1 : 0], out.shapes.back()));
+    out.labels.push_back(labels_like(known[condition.after ? 1 : 0], out.shapes.back(), out.modes.back().frequency_Hz));
   }
   return out;
 }
