@@ -176,7 +176,7 @@ std::optional<double> attribute_if(const Candidate& candidate, const Expression&
     const auto at = place->attributes.find(e.name);
     if (at != place->attributes.end()) return at->second;
   }
-  if (known.contains(e.name)) return std::nullopt;
+  if (known.contains(e.name) || e.name.starts_with("x_")) return std::nullopt;
   throw InputError({candidate.hypothesis->file, e.line, candidate.hypothesis->id},
                    fmt::format("'{}' is no number known at {}", e.name, candidate.location),
                    fmt::format("use a number, or one of {}", fmt::join(known, ", ")));
@@ -190,6 +190,30 @@ bool resolvable(const Candidate& candidate) {
   return std::all_of(candidate.hypothesis->unknowns.begin(), candidate.hypothesis->unknowns.end(), [&](const UnknownSpec& u) {
     return there(u.low) && there(u.high) && std::all_of(u.start.begin(), u.start.end(), there);
   });
+}
+
+/// A factor between two states of a structure: parts are replaced, cut or propped, so that bounds of a model's uncertainty say
+/// nothing of it.
+constexpr double kLeastChange = 0.05, kMostChange = 20.0;
+constexpr double kChangeStarts[] = {0.08, 0.2, 0.45, 0.75, 1.35, 2.2, 5.0, 12.0};
+
+/// Whether a cause is a part that is there, or as strong, in one state of the structure and not in another.
+bool is_a_part(const Hypothesis& h) {
+  return !h.measurement && std::all_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) {
+    static const std::set<std::string> kinds = {"scale", "element", "damper", "stay", "support"};
+    return action.kind == "mass.add" || kinds.contains(action.kind.substr(0, action.kind.find('.')));
+  });
+}
+
+/// States in which a hypothesis is asked alone; "" for all together.
+std::vector<std::string> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
+  if (states.size() < 2 || !is_a_part(h)) return {""};
+  std::vector<std::string> out(states.begin() + 1, states.end());
+  // What a later state has more of, the first may have lost: a factor says both, what is added needs to be asked twice.
+  const bool adds = std::all_of(h.actions.begin(), h.actions.end(),
+                                [](const ActionSpec& a) { return a.kind == "mass.add" || a.kind.starts_with("element."); });
+  if (adds) out.push_back(states.front());
+  return out;
 }
 
 /// Modes of the condition that has most of them: where something may resonate.
@@ -212,6 +236,11 @@ void bound(Candidate& candidate, const MeasuredModes& measured) {
     const UnknownSpec& u = h.unknowns[static_cast<std::size_t>(i)];
     const auto resolve = [&](const Expression& e) { return e.name.empty() ? e.factor : e.factor * attribute(candidate, e); };
     double low = resolve(u.low), high = resolve(u.high);
+    const bool change = !candidate.state.empty() && u.name == "factor";
+    if (change) {
+      low = std::min(low, kLeastChange);
+      high = std::max(high, kMostChange);
+    }
     if (!(low < high) || (u.log && !(low > 0.0))) {
       throw InputError({h.file, u.low.line, h.id + "." + u.name},
                        fmt::format("bounds {} and {} at {}, expected low < high{}", low, high, candidate.location,
@@ -230,6 +259,8 @@ void bound(Candidate& candidate, const MeasuredModes& measured) {
         tried.push_back({resolve(e), {}});
       }
     }
+    if (change)
+      for (const double start_at : kChangeStarts) tried.push_back({start_at, {}});
     for (Start s : tried) {
       if (!(s.value > low && s.value < high)) continue;
       if (u.log) s.value = std::log(s.value);
@@ -273,6 +304,7 @@ double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
 Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model, const FeatureSet& features) {
   Instantiated out;
   double weights = 0.0;
+  const std::vector<std::string> states = states_of(features);
   MeasuredModes measured;
   for (std::size_t c = 0; c < features.conditions.size(); ++c) {
     MeasuredModes here{static_cast<int>(c), {}};
@@ -287,7 +319,12 @@ Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const Reduced
       out.invisible.push_back({h.id, reason});
       continue;
     }
-    families.back() = locations(h, model, features);
+    for (const std::string& state : states_asked(h, states)) {
+      for (Candidate& candidate : locations(h, model, features)) {
+        candidate.state = state;
+        families.back().push_back(std::move(candidate));
+      }
+    }
     if (families.back().empty()) {
       out.invisible.push_back({h.id, fmt::format("this model and these rows have no {} for it", h.set)});
       continue;

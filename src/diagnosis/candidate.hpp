@@ -26,6 +26,7 @@ struct Candidate {
   std::vector<const ReducedPlace*> places;  ///< one, or two for a pair of nodes; empty for channels and modes
   std::vector<int> channels;              ///< one, or two for a pair
   std::string mode;                       ///< label of a measured mode
+  std::string state;                      ///< of the structure in which it acts alone, "" where it acts in all
   Eigen::VectorXd low, high;              ///< (k) bounds of the unknowns, in ln where they are logarithmic
   std::vector<bool> log;
   std::vector<Eigen::VectorXd> starts;    ///< magnitudes that the screen tries, in the same coordinates
@@ -35,6 +36,9 @@ struct Candidate {
   double log_prior = 0.0;                 ///< ln (weight of the family / sum of weights / number of locations)
 
   [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
+  /// The same, told apart by the state that it acts in.
+  [[nodiscard]] std::string key() const { return state.empty() ? id() : id() + " in " + state; }
+  [[nodiscard]] bool acts_in(const Condition& condition) const { return state.empty() || state == condition.state; }
   /// Unknown `i` in its own unit at coordinates `a`.
   [[nodiscard]] double physical(const Eigen::VectorXd& a, Eigen::Index i) const;
   /// Value of an expression at coordinates `a`.
@@ -57,7 +61,9 @@ struct Instantiated {
   std::vector<Invisible> invisible;
 };
 
-/// Every hypothesis at every location of its set. Families whose needs the data don't meet, or whose set is empty here, go to
+/// Every hypothesis at every location of its set. Where the rows come from several states of the structure, the question is what
+/// changed: a part that is other than modelled is so in one state alone, with factors from 0.05 to 20; what is measured wrongly is
+/// so in all. Families whose needs the data don't meet, or whose set is empty here, go to
 /// `invisible` with the reason.
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,

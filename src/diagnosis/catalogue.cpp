@@ -10,6 +10,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
       {"step.stiffness", {"factor", "below"}},                            // factor where v < below
       {"slip.stiffness", {"factor", "above"}},                            // factor where v > above
       {"soften.stiffness", {"half"}},                                     // factor 1/(1 + v/half): half is left at v = half
+      {"support.move", {"position"}},                                     // to another place on its line of beams
       {"mass.add", {"mass"}},                                             // point mass
       {"mass.per_count", {"mass", "assumed"}},                            // mass per person instead of the assumed one
       {"person.oscillator", {"mass", "frequency", "damping"}},            // people as masses on springs
@@ -48,7 +49,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
 }
 
 const std::vector<std::string>& location_sets() {
-  static const std::vector<std::string> sets = {"elements", "nodes",  "stays",    "dampers", "damper_types", "damper_moves", "supports",
+  static const std::vector<std::string> sets = {"elements", "nodes",  "stays",    "dampers", "damper_types", "damper_moves", "supports", "support_moves",
                                                 "foundations", "groups", "all_stays", "channels", "modes",
                                                 "global", "pairs(channels)", "pairs(nodes)"};
   return sets;

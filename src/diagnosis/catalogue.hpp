@@ -52,7 +52,7 @@ struct Hypothesis {
 
 /// Primitives with the numbers that each takes.
 [[nodiscard]] const std::map<std::string, std::vector<std::string>>& action_kinds();
-/// elements, nodes, stays, dampers, supports, foundations, groups, all_stays, channels, modes, global, pairs(channels), pairs(nodes).
+/// elements, nodes, stays, dampers, supports, support_moves, foundations, groups, all_stays, channels, modes, global, pairs(channels), pairs(nodes).
 [[nodiscard]] const std::vector<std::string>& location_sets();
 
 }  // namespace twindeck::diagnosis

@@ -40,6 +40,15 @@ fe::ElementMatrix element_stiffness(const fe::Model& model, const fe::Element& e
   }
 }
 
+const std::string& support_name(const fe::Spring& spring) { return spring.group.empty() ? spring.name : spring.group; }
+
+/// Two symmetric matrices that differ by a factor alone, or are both not there.
+bool alike(const Symmetric& a, const Symmetric& b) {
+  if (a.size() == 0 || b.size() == 0) return a.nonZeros() == 0 && b.nonZeros() == 0;
+  constexpr double kSame = 1e-9;
+  return std::abs(a.cwiseProduct(b).sum()) > (1.0 - kSame) * a.norm() * b.norm();
+}
+
 }  // namespace
 
 struct ElementPlaces::Sum {
@@ -121,6 +130,25 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
   }
 }
 
+double ElementPlaces::pull_of(std::size_t e) const {
+  return structure_.state != nullptr && structure_.state->stay_pull_N.size() > 0
+             ? structure_.state->stay_pull_N[static_cast<Index>(e)]
+             : model_.elements[e].pull_N;
+}
+
+fe::ElementMatrix ElementPlaces::stay_stiffness(std::size_t e, double pull) const {
+  const fe::Element& element = model_.elements[e];
+  const auto ends = fe::end_nodes(model_, element);
+  const double area = fe::section_of(model_, element).area_m2;
+  double modulus = fe::material_of(model_, element).youngs_modulus_Pa;
+  if (pull > 0.0) {
+    const double weight = fe::material_of(model_, element).density_kg_m3 * model_.gravity_m_s2;
+    const Eigen::Vector3d chord = ends[1] - ends[0];
+    modulus = fe::Dischinger{weight, chord.head<2>().norm(), pull / area}.modulus(modulus);
+  }
+  return {fe::three_per_node(element), fe::bar_stiffness(ends, modulus, area)};
+}
+
 void ElementPlaces::add_stays(Places& places) const {
   for (std::size_t e = 0; e < model_.elements.size(); ++e) {
     const fe::Element& element = model_.elements[e];
@@ -129,16 +157,9 @@ void ElementPlaces::add_stays(Places& places) const {
     const double length = (ends[1] - ends[0]).norm();
     const double area = fe::section_of(model_, element).area_m2;
     const double density = fe::material_of(model_, element).density_kg_m3;
-    const double pull = structure_.state != nullptr && structure_.state->stay_pull_N.size() > 0
-                            ? structure_.state->stay_pull_N[static_cast<Index>(e)]
-                            : element.pull_N;
-    double modulus = fe::material_of(model_, element).youngs_modulus_Pa;
-    if (pull > 0.0) {
-      const Eigen::Vector3d chord = ends[1] - ends[0];
-      modulus = fe::Dischinger{density * model_.gravity_m_s2, chord.head<2>().norm(), pull / area}.modulus(modulus);
-    }
+    const double pull = pull_of(e);
     Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
-    stiffness.add({fe::three_per_node(element), fe::bar_stiffness(ends, modulus, area)});
+    stiffness.add(stay_stiffness(e, pull));
     mass.add(fe::element_mass(model_, element));
     Place place{"stay:" + (element.name.empty() ? std::to_string(element.id) : element.name),
                 0.5 * (ends[0] + ends[1]),
@@ -171,8 +192,17 @@ void ElementPlaces::add_stays(Places& places) const {
 
 void ElementPlaces::add_springs(Places& places) const {
   std::vector<std::string> order;
+  // A spring may have the name of a support that is fixed in other directions: what is rigid there says nothing of the spring.
+  std::set<std::string> of_springs;
+  for (const fe::Spring& spring : model_.springs)
+    if (spring.damping == 0.0 && spring.friction_N == 0.0 && !stands_for_rigid(spring)) of_springs.insert(support_name(spring));
+  const auto place_name = [&](const fe::Spring& spring) {
+    const std::string name = support_name(spring);
+    return stands_for_rigid(spring) && of_springs.contains(name) ? name + " fixed" : name;
+  };
   std::map<std::string, std::array<Sum, 2>> grounded;  // translations, rotations
   std::map<std::string, Eigen::Vector3d> where;
+  std::set<std::string> rigid;
   std::vector<std::string> types;
   for (const fe::Spring& spring : model_.springs) {
     const bool damper = spring.damping > 0.0 || spring.friction_N > 0.0;
@@ -206,7 +236,8 @@ void ElementPlaces::add_springs(Places& places) const {
       continue;
     }
     if (!fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
-    const std::string name = spring.group.empty() ? spring.name : spring.group;
+    const std::string name = place_name(spring);
+    if (stands_for_rigid(spring)) rigid.insert(name);
     if (!grounded.contains(name)) {
       order.push_back(name);
       grounded[name][0].size = grounded[name][1].size = expansion_.rows();
@@ -235,8 +266,7 @@ void ElementPlaces::add_springs(Places& places) const {
       if (sum.entries.empty()) continue;
       Place place{"support:" + name, where.at(name), free(sum), {}, {}, {}, {}};
       // A spring that stands for a rigid support must fall by orders before anything moves; a bearing may err both ways.
-      const auto& rigid = structure_.rigid_supports;
-      const bool stiff = std::find(rigid.begin(), rigid.end(), name) != rigid.end();
+      const bool stiff = rigid.contains(name);
       place.attributes["f_low"] = stiff ? 1e-6 : 0.02;
       place.attributes["f_soft"] = stiff ? 2e-5 : 0.25;
       place.attributes["f_stiff"] = stiff ? 5e-4 : 4.0;
@@ -289,6 +319,59 @@ void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) co
                                     {},
                                     {}});
   }
+}
+
+void ElementPlaces::add_groups(Places& places) const {
+  struct Group {
+    Sum stiffness, mass;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+    std::vector<int> elements;
+  };
+  std::vector<std::string> order;
+  std::map<std::string, Group> groups;
+  const auto group_of = [&](const std::string& name) -> Group& {
+    const auto [at, is_new] = groups.try_emplace(name);
+    if (is_new) {
+      order.push_back(name);
+      at->second.stiffness.size = at->second.mass.size = expansion_.rows();
+    }
+    return at->second;
+  };
+  for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const fe::Element& element = model_.elements[e];
+    if (element.group.empty()) continue;
+    Group& group = group_of(element.group);
+    group.stiffness.add(element.type == fe::ElementType::stay ? stay_stiffness(e, pull_of(e)) : element_stiffness(model_, element));
+    group.mass.add(fe::element_mass(model_, element));
+    group.elements.push_back(static_cast<int>(e));
+    for (const int node : element.nodes) group.sum += model_.nodes[static_cast<std::size_t>(node)].x_m;
+    group.count += static_cast<int>(element.nodes.size());
+  }
+  for (const fe::Spring& spring : model_.springs) {
+    if (spring.node2 < 0 || spring.group.empty() || !fe::carries_stiffness(spring)) continue;
+    Group& group = group_of(spring.group);
+    group.stiffness.add(fe::spring_stiffness(spring));
+    group.sum += model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
+    ++group.count;
+  }
+  std::vector<Place>& set = places.sets["groups"];
+  const std::vector<Place> of_parameters = set;
+  for (const std::string& name : order) {
+    const Group& group = groups.at(name);
+    Place place{"group:" + name, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
+    if (!group.mass.entries.empty()) place.mass = free(group.mass);
+    const bool known = std::any_of(of_parameters.begin(), of_parameters.end(), [&](const Place& other) {
+      return other.id == place.id || (other.stiffness.nonZeros() > 0 && alike(other.stiffness, place.stiffness));
+    });
+    if (!known && place.stiffness.nonZeros() > 0) set.push_back(std::move(place));
+  }
+}
+
+bool ElementPlaces::stands_for_rigid(const fe::Spring& spring) const {
+  const auto& rigid = structure_.rigid_supports;
+  return spring.name.find(kRigidSpring) != std::string::npos &&
+         std::find(rigid.begin(), rigid.end(), support_name(spring)) != rigid.end();
 }
 
 void ElementPlaces::fill_global(Place& global) const {

@@ -22,7 +22,7 @@ bool is_logarithmic(RowType type) { return type != RowType::shape && type != Row
 }  // namespace
 
 FeatureMap::FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter)
-    : model_(model), features_(features), damping_by_state_(scatter.damping_by_state) {
+    : model_(model), features_(features), states_(states_of(features)), damping_by_state_(scatter.damping_by_state) {
   collect_modes();
   transform(scatter);
   list_nuisances(scatter);
@@ -95,7 +95,7 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
   }
   for (const MeasuredMode& a : modes_)
     for (const MeasuredMode& b : modes_)
-      if (a.frequency >= 0 && b.frequency >= 0 && a.label == b.label)
+      if (a.frequency >= 0 && b.frequency >= 0 && a.label == b.label && same_state(a.condition, b.condition))
         covariance_(a.frequency, b.frequency) += scatter.model_form * scatter.model_form;
   for (const MeasuredMode& mode : modes_) {
     double largest = 0.0;
@@ -175,9 +175,16 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
   }
 }
 
+bool FeatureMap::same_state(int a, int b) const {
+  return features_.conditions[static_cast<std::size_t>(a)].state == features_.conditions[static_cast<std::size_t>(b)].state;
+}
+
 std::string FeatureMap::damping_name(const std::string& label, int condition) const {
-  const bool on = features_.conditions[static_cast<std::size_t>(condition)].dampers_on.value_or(false);
-  return damping_by_state_ && on ? label + " with dampers" : label;
+  const Condition& c = features_.conditions[static_cast<std::size_t>(condition)];
+  std::string name = label;
+  if (c.state != states_.front()) name += " of state " + c.state;
+  if (damping_by_state_ && c.dampers_on.value_or(false)) name += " with dampers";
+  return name;
 }
 
 void FeatureMap::set_values(const Eigen::VectorXd& values) {

@@ -101,6 +101,8 @@ class FeatureMap {
   [[nodiscard]] const std::vector<MeasuredMode>& measured_modes() const { return modes_; }
   [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }          ///< (n_rows) y, transformed
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }  ///< (n_rows × n_rows) Sigma_id, transformed
+  /// Whether the structure was the same in two conditions.
+  [[nodiscard]] bool same_state(int a, int b) const;
   [[nodiscard]] int scales() const { return n_scales_; }
   /// Replaces the measured values by others (bootstrap, tests), in transformed units.
   void set_values(const Eigen::VectorXd& values);
@@ -109,7 +111,7 @@ class FeatureMap {
 
  private:
   friend class Predictor;
-  /// What a mode's structural damping goes by: its label, and the dampers' state where that counts.
+  /// What a mode's structural damping goes by: its label, the structure's state, and the dampers' where that counts.
   [[nodiscard]] std::string damping_name(const std::string& label, int condition) const;
   void collect_modes();
   void list_nuisances(const ScatterOptions& scatter);
@@ -117,6 +119,7 @@ class FeatureMap {
 
   const ReducedModel& model_;
   FeatureSet features_;
+  std::vector<std::string> states_;  ///< of the structure, the first the one that others are compared with
   std::vector<MeasuredMode> modes_;
   std::vector<Nuisance> nuisances_;
   std::vector<std::string> damping_modes_;

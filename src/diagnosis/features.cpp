@@ -43,6 +43,19 @@ void hold_out_by_rule(FeatureSet& features) {
   }
 }
 
+std::vector<std::string> states_of(const FeatureSet& features) {
+  std::vector<bool> used(features.conditions.size(), false);
+  for (const Row& row : features.rows) used[static_cast<std::size_t>(row.condition)] = true;
+  std::vector<std::string> out;
+  for (std::size_t c = 0; c < used.size(); ++c) {
+    const std::string& state = features.conditions[c].state;
+    if (used[c] && std::find(out.begin(), out.end(), state) == out.end()) out.push_back(state);
+  }
+  const auto reference = std::find(out.begin(), out.end(), "reference");
+  if (reference != out.end()) std::rotate(out.begin(), reference, reference + 1);
+  return out;
+}
+
 const std::vector<std::string>& row_type_names() {
   static const std::vector<std::string> names = {"frequency_Hz",      "damping_ratio_pct", "shape",           "shape_imag",
                                                  "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m"};

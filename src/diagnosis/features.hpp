@@ -15,6 +15,7 @@ enum class RowType { frequency, damping, shape, shape_imag, stay_frequency, rms,
 /// Under which circumstances a row was measured; what is not known is empty.
 struct Condition {
   std::string name;
+  std::string state = "reference";  ///< of the structure as it was then: conditions of one state share the structure
   std::optional<bool> dampers_on;
   std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
   std::string amplitude_channel;
@@ -47,6 +48,10 @@ struct FeatureSet {
 /// the highest of three or more temperatures, the fastest of three or more winds, and the highest mode of each condition with
 /// four or more modes.
 void hold_out_by_rule(FeatureSet& features);
+
+/// States of the structure that rows were measured in: first the one that the others are compared with, "reference" or else the
+/// first of the file. One name where the structure was the same throughout.
+[[nodiscard]] std::vector<std::string> states_of(const FeatureSet& features);
 
 /// "frequency_Hz" and so on, as in rows.csv.
 [[nodiscard]] const std::vector<std::string>& row_type_names();

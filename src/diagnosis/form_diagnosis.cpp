@@ -20,6 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFitted = 0.01;       // form error of frequencies and shapes that the fits stand
+constexpr double kAside = 10.0;        // deviation of rows that are set aside: e^10, far beyond any change
 constexpr double kGuardWithin = 15.0;  // nats of the leader: entries that a fold may choose
 /// Extra deviation of ln (size of an effect): a size is in units of a model that is wrong.
 constexpr double kSizeError = 0.1, kSizePerForm = 5.0, kMostSizeError = 0.4;
@@ -254,6 +255,158 @@ void finish(const Inference& plain, const std::vector<Cause>& causes, const Vect
   out.gain = held_out_gain(plain, out.before, out.after, options.bootstrap, seed);
 }
 
+/// Causes one after another, and what the rules say of each.
+class Chain {
+ public:
+  Chain(const FormSetting& setting, const DiagnoseOptions& options, std::uint64_t seed, const Fit& start, Diagnosis& out)
+      : setting_(setting), options_(options), seed_(seed), current_(start), out_(out) {}
+
+  void run() {
+    for (int step = 0; step <= options_.most_causes; ++step)
+      if (!take(step)) break;
+    if (causes_.size() > 1 && in_part_) judge_again();
+    out_.verdict = name_of(verdict_);
+  }
+  [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
+  [[nodiscard]] const Fit& current() const { return current_; }
+  [[nodiscard]] const Ruling& ruling() const { return ruling_; }
+  [[nodiscard]] const FormSearch& search() const { return search_; }
+  [[nodiscard]] const HypothesisEvidence& winner() const { return winner_; }
+  [[nodiscard]] double without_cause() const { return without_cause_; }  ///< form error of frequencies with no cause
+
+ private:
+  struct Step {
+    FormSearch search;
+    std::vector<Scored> ranking;
+    Weighing weighing;
+    Ruling of_rules, ruling;  ///< before the guard, after it
+  };
+
+  /// Searches beside the causes that are in a fit.
+  Step look(const Fit& base, const Leftover& leftover, bool always_guarded) {
+    Step out;
+    out.search = search_with_form(setting_, base, leftover);
+    for (const FormEntry& entry : out.search.entries) out.ranking.push_back(scored_of(out.search, entry, setting_.informed));
+    out.weighing = weighing_of(out.search, out.ranking, setting_.plain.dof(), options_);
+    out.of_rules = out.ruling = rule(out.weighing.weighed);
+    if (!out.search.entries.empty() && (always_guarded || out.ruling.against_none > out.ruling.threshold)) {
+      const PredictiveGain gain = predictive_gain(setting_, out.search, leftover, options_.bootstrap, seed_);
+      if (always_guarded) out_.form->gain = gain;
+      out.ruling = guarded(out.ruling, gain.low, out.weighing.weighed.in_all_conditions);
+    }
+    return out;
+  }
+
+  void begin_with(const Step& first) {
+    out_.ranking = first.ranking;
+    out_.log_odds = first.ruling.against_none;
+    out_.threshold = first.ruling.threshold;
+    winner_ = first.search.none;
+    without_cause_ = estimate(setting_.grid.frequency, first.search.none.frequency).level;
+    verdict_ = first.ruling.verdict;
+  }
+
+  /// Whether a cause was taken into the model.
+  bool take(int number) {
+    Step step = look(current_, leftover_, number == 0);
+    if (number == 0) begin_with(step);
+    ruling_ = step.ruling;
+    const bool stands_out = step.ruling.against_none > step.ruling.threshold;
+    const bool accepted = step.ruling.verdict == Verdict::named || step.ruling.verdict == Verdict::ambiguous;
+    // Between two states several parts may have changed: the first of them leaves the others unexplained. It is judged when they
+    // are in the model.
+    const bool of_a_change = stands_out && !step.search.entries.front().candidate->state.empty();
+    const bool goes_on = (accepted || of_a_change) && number < options_.most_causes;
+    if (step.of_rules.verdict == Verdict::unknown && !(of_a_change && goes_on))
+      verdict_ = Verdict::unknown;  // a name that leaves the main change unexplained is none
+    search_ = std::move(step.search);
+    if (!goes_on) return false;
+    if (!accepted) in_part_ = true;
+    if (step.ruling.verdict == Verdict::ambiguous) verdict_ = Verdict::ambiguous;
+    return accept(step.ranking, step.weighing);
+  }
+
+  bool accept(const std::vector<Scored>& ranking, const Weighing& weighing) {
+    const auto n = static_cast<Index>(setting_.plain.map().nuisances().size());
+    const FormEntry& leader = search_.entries.front();
+    out_.effects.push_back(effect_from(search_, ranking, weighing, ruling_, setting_));
+    causes_.push_back(out_.effects.back().cause);
+    const Fit with =
+        setting_.informed.fit(causes_, leader.refined ? VectorXd(leader.with.map.x.head(n)) : VectorXd(current_.map.x.head(n)));
+    if (with.chi_squared > 1e299) {
+      out_.effects.pop_back();
+      causes_.pop_back();
+      return false;
+    }
+    winner_ = leader.evidence;
+    if (leader.contrast >= 0) leftover_ = {leader.contrast, std::max(leader.effect, leftover_.effect)};
+    current_ = with;
+    for (std::size_t i = 0; i < causes_.size(); ++i) causes_[i] = current_.causes[i];
+    return true;
+  }
+
+  /// Each cause anew beside all the others: what was taken while a part of the change was unexplained has had no fair rivals.
+  void judge_again() {
+    const auto n = static_cast<Index>(setting_.plain.map().nuisances().size());
+    const VectorXd x = current_.map.x.head(n);
+    if (verdict_ != Verdict::unknown) verdict_ = Verdict::named;
+    for (std::size_t i = 0; i < causes_.size();) {
+      std::vector<Cause> others = causes_;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const Fit base = setting_.informed.fit(others, x);
+      Step step = look(base, leftover_, false);
+      const bool accepted = step.ruling.verdict == Verdict::named || step.ruling.verdict == Verdict::ambiguous;
+      if (accepted) {
+        search_ = std::move(step.search);
+        ruling_ = step.ruling;
+        out_.effects[i] = effect_from(search_, step.ranking, step.weighing, ruling_, setting_);
+        causes_[i] = out_.effects[i].cause;
+        if (ruling_.verdict == Verdict::ambiguous && verdict_ == Verdict::named) verdict_ = Verdict::ambiguous;
+        ++i;
+        continue;
+      }
+      if (step.of_rules.verdict == Verdict::unknown || step.ruling.verdict == Verdict::unknown) verdict_ = Verdict::unknown;
+      causes_ = others;
+      out_.effects.erase(out_.effects.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    if (causes_.empty() && verdict_ == Verdict::named) verdict_ = Verdict::unknown;
+    current_ = setting_.informed.fit(causes_, x);
+  }
+
+  const FormSetting& setting_;
+  const DiagnoseOptions& options_;
+  std::uint64_t seed_;
+  Fit current_;
+  Diagnosis& out_;
+  std::vector<Cause> causes_;
+  Leftover leftover_;
+  Ruling ruling_;
+  FormSearch search_;
+  HypothesisEvidence winner_;
+  double without_cause_ = 0.0;
+  Verdict verdict_ = Verdict::none;
+  bool in_part_ = false;  ///< a cause was taken while the change was explained in part only
+};
+
+/// The structure as its first state shows it. Rows of other states say what changed, and a compromise between states would be
+/// neither of them. Where there is one state, the fit to all rows.
+Fit first_fit(const Inference& informed, const std::vector<std::unique_ptr<Candidate>>& candidates) {
+  const FeatureMap& map = informed.map();
+  const std::vector<std::string> states = states_of(map.features());
+  if (states.size() < 2) return informed.fit({}, {});
+  FeatureMap first_map = map;
+  const auto n = std::ssize(map.features().rows);
+  MatrixXd aside = MatrixXd::Zero(n, n);
+  for (Index r = 0; r < n; ++r) {
+    const Row& row = map.features().rows[static_cast<std::size_t>(r)];
+    if (map.features().conditions[static_cast<std::size_t>(row.condition)].state != states.front()) aside(r, r) = kAside * kAside;
+  }
+  first_map.add_covariance(aside);
+  const Inference first(first_map, candidates);
+  const Fit fit = first.fit({}, {});
+  return fit.chi_squared > 1e299 ? fit : informed.stand(fit.map.x);
+}
+
 }  // namespace
 
 Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& options, std::uint64_t seed) {
@@ -262,74 +415,27 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   const FeatureMap& map = plain.map();
   const FeatureMap::Base prior = map.base(VectorXd::Zero(static_cast<Index>(map.nuisances().size())));
   const Prediction nominal = map.predict(prior, {}, false);
-  if (!nominal.valid) {
-    out.verdict = "unknown";
-    out.message = "the model predicts none of these rows";
-    return out;
-  }
+  out.verdict = name_of(Verdict::unknown);
+  out.message = "the model predicts none of these rows";
+  if (!nominal.valid) return out;
   const FeatureMap informed_map = with_form_error(map, prior, nominal.g, kFitted, kFitted);
   const Inference informed(informed_map, plain.candidates());
   const FormSetting setting{plain, informed, contrasts_of(map.features()), scale_grid()};
   const auto n = static_cast<Index>(map.nuisances().size());
-  Fit current = informed.fit({}, {});
-  if (current.chi_squared > 1e299) {
-    out.verdict = "unknown";
-    out.message = "the model predicts none of these rows: " + current.map.status.message;
+  out.before = first_fit(informed, plain.candidates());
+  if (out.before.chi_squared > 1e299) {
+    out.message += ": " + out.before.map.status.message;
     return out;
   }
-  out.before = current;
   out.form.emplace();
-  std::vector<Cause> causes;
-  Leftover leftover;
-  Ruling ruling;
-  FormSearch search;
-  HypothesisEvidence winner;
-  double without_cause = 0.0;
-  Verdict verdict = Verdict::none;
-  for (int step = 0; step <= options.most_causes; ++step) {
-    search = search_with_form(setting, current, leftover);
-    std::vector<Scored> ranking;
-    for (const FormEntry& entry : search.entries) ranking.push_back(scored_of(search, entry, informed));
-    const Weighing weighing = weighing_of(search, ranking, plain.dof(), options);
-    const Ruling of_rules = rule(weighing.weighed);
-    ruling = of_rules;
-    if (!search.entries.empty() && (step == 0 || ruling.against_none > ruling.threshold)) {
-      const PredictiveGain gain = predictive_gain(setting, search, leftover, options.bootstrap, seed);
-      if (step == 0) out.form->gain = gain;
-      ruling = guarded(ruling, gain.low, weighing.weighed.in_all_conditions);
-    }
-    if (step == 0) {
-      out.ranking = ranking;
-      out.log_odds = ruling.against_none;
-      out.threshold = ruling.threshold;
-      winner = search.none;
-      without_cause = estimate(setting.grid.frequency, search.none.frequency).level;
-      verdict = ruling.verdict;
-    }
-    if (of_rules.verdict == Verdict::unknown)
-      verdict = Verdict::unknown;  // a name that leaves the main change unexplained is none
-    const bool accepted = ruling.verdict == Verdict::named || ruling.verdict == Verdict::ambiguous;
-    if (!accepted || step == options.most_causes) break;
-    if (ruling.verdict == Verdict::ambiguous) verdict = Verdict::ambiguous;
-    const FormEntry& leader = search.entries.front();
-    out.effects.push_back(effect_from(search, ranking, weighing, ruling, setting));
-    causes.push_back(out.effects.back().cause);
-    winner = leader.evidence;
-    if (leader.contrast >= 0) leftover = {leader.contrast, leader.effect};
-    current = informed.fit(causes, leader.refined ? VectorXd(leader.with.map.x.head(n)) : VectorXd(current.map.x.head(n)));
-    if (current.chi_squared > 1e299) {
-      out.effects.pop_back();
-      causes.pop_back();
-      break;
-    }
-  }
-  out.form->frequency = estimate(setting.grid.frequency, winner.frequency);
-  out.form->shape = estimate(setting.grid.shape, winner.shape);
+  Chain chain(setting, options, seed, out.before, out);
+  chain.run();
+  out.form->frequency = estimate(setting.grid.frequency, chain.winner().frequency);
+  out.form->shape = estimate(setting.grid.shape, chain.winner().shape);
   add_warnings(*out.form);
-  out.verdict = name_of(verdict);
-  finish(plain, causes, out.before.map.x.head(n), causes.empty() ? VectorXd() : VectorXd(current.map.x.head(n)), without_cause,
-         options, seed, out);
-  out.message = message_of(out, ruling, *out.form, search);
+  finish(plain, chain.causes(), out.before.map.x.head(n),
+         chain.causes().empty() ? VectorXd() : VectorXd(chain.current().map.x.head(n)), chain.without_cause(), options, seed, out);
+  out.message = message_of(out, chain.ruling(), *out.form, chain.search());
   return out;
 }
 

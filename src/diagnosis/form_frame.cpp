@@ -12,6 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+const std::string kStateContrast = "state ";  // and its name
 constexpr double kFreeScale = 10.0;  // of a shape, relative: wide enough to cost nothing
 
 const std::vector<std::string>& contrast_keys() {
@@ -67,10 +68,27 @@ std::vector<Contrast> contrasts_of(const FeatureSet& features) {
       values.push_back(used[c] ? value_of(features.conditions[c], key) : std::nullopt);
     if (auto contrast = contrast_of(key, values)) out.push_back(std::move(*contrast));
   }
+  const std::vector<std::string> states = states_of(features);
+  for (std::size_t s = 1; s < states.size(); ++s) {
+    Contrast contrast{kStateContrast + states[s], VectorXd::Zero(std::ssize(used))};
+    for (std::size_t c = 0; c < used.size(); ++c)
+      if (used[c] && features.conditions[c].state == states[s]) contrast.weight[static_cast<Index>(c)] = 1.0;
+    if (contrast.weight.sum() > 0.0) out.push_back(std::move(contrast));
+  }
   return out;
 }
 
 int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
+  if (!candidate.state.empty()) {
+    // What acts in the first state alone tells it from every other: it is asked with the first of these.
+    int first = -1;
+    for (std::size_t c = 0; c < contrasts.size(); ++c) {
+      if (!contrasts[c].key.starts_with(kStateContrast)) continue;
+      if (first < 0) first = static_cast<int>(c);
+      if (contrasts[c].key == kStateContrast + candidate.state) return static_cast<int>(c);
+    }
+    return first;
+  }
   for (const ActionSpec& action : candidate.hypothesis->actions)
     for (const std::string& key : keys_of(action))
       for (std::size_t c = 0; c < contrasts.size(); ++c)

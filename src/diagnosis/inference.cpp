@@ -163,7 +163,7 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
   };
   Fit fit;
   updating::JointMapOptions options;
-  if (iterations > 0) options.max_iterations = iterations;
+  if (iterations != 0) options.max_iterations = std::max(iterations, 0);
   fit.map = updating::joint_map(predict, y_, sigma_factor_, x0, box, options);
   fit.causes = causes_at(fit.map.x);
   fit.base = map_.base(fit.map.x.head(n));

@@ -72,6 +72,8 @@ class Inference {
   /// Joint MAP of x and the causes' magnitudes. `start`: x of a neighbouring fit; empty for zero. `iterations`: at most so many
   /// (a first look); 0: to convergence.
   [[nodiscard]] Fit fit(const std::vector<Cause>& causes, const Eigen::VectorXd& start, int iterations = 0) const;
+  /// The same where it stands: `x` is not moved (the causes are none).
+  [[nodiscard]] Fit stand(const Eigen::VectorXd& x) const { return fit({}, x, kStand); }
   /// Candidates in descending order of odds against `base`; those already in it are left out.
   /// @param known  where the screen looks first, and from which only what promises is computed anew; null: that of `use`, or
   ///               everything is. @param record  takes what a screen without such a table computed; may be null
@@ -100,6 +102,7 @@ class Inference {
   [[nodiscard]] const std::vector<std::unique_ptr<Candidate>>& candidates() const { return candidates_; }
 
  private:
+  static constexpr int kStand = -1;  ///< in place of a number of iterations: none
   /// An entry that is worth new signatures, at those of its starts that are (empty: at all).
   struct Promise {
     const Candidate* candidate;

@@ -17,10 +17,16 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 namespace {
+
 /// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is rounding (1e-12 of a
 /// girder's vertical motion in its axial modes), which may look like any shape.
 constexpr double kAtRest = 1e-6;
 constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distance of frequencies weighs
+
+/// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may have
+/// changed so much that frequencies double, where shapes tell more.
+constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
+
 }  // namespace
 
 VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
@@ -40,7 +46,7 @@ const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
   const MeasuredMode* shaped = &measured;
   if (!has_shape(measured))
     for (const MeasuredMode& other : map_.modes_)
-      if (other.label == measured.label && has_shape(other)) {
+      if (other.label == measured.label && map_.same_state(other.condition, measured.condition) && has_shape(other)) {
         shaped = &other;
         break;
       }
@@ -106,11 +112,13 @@ void Predictor::pair(const std::vector<int>& conditions) {
     here.push_back(m);
     VectorXd& sum = cost.try_emplace(measured.label, VectorXd::Zero(n)).first->second;
     if (std::find(labels.begin(), labels.end(), measured.label) == labels.end()) labels.push_back(measured.label);
+    const bool first = map_.features().conditions[static_cast<std::size_t>(measured.condition)].state == map_.states_.front();
+    const double width = first ? kFrequencyWidth : kChangedWidth;
     if (measured.frequency >= 0)
       for (Index j = 0; j < n; ++j) {
         const double f = state.modes.frequency_Hz(j);
         if (!(f > 0.0)) continue;
-        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / 0.08;
+        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
         sum[j] += std::min(distance, 4.0) + 0.05 * distance;
       }
     // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
@@ -123,7 +131,8 @@ void Predictor::pair(const std::vector<int>& conditions) {
     }
     // Shapes are known from this condition, or from another in which the label was measured with one.
     const MeasuredMode& shaped = shaped_like(measured);
-    const auto bound = map_.bound_modes_.find(measured.label);
+    // Names of modes that are bound to the model's are those of the first state.
+    const auto bound = first ? map_.bound_modes_.find(measured.label) : map_.bound_modes_.end();
     if (shaped.real_rows.size() >= 2) {
       sum += (measured.real_rows.size() >= 2 ? 3.0 : 2.0) * unlike_measured(shaped, state);
     } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {

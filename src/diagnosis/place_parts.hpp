@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "diagnosis/structure.hpp"
+#include "fe/assembly_elements.hpp"
 
 /// Private to src/diagnosis: the places of a finite element model.
 namespace twindeck::diagnosis {
@@ -20,6 +21,10 @@ class ElementPlaces {
   void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
   void add_stays(Places& places) const;    ///< set stays
   void add_springs(Places& places) const;  ///< sets supports, foundations, dampers, damper_types
+  /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as.
+  void add_groups(Places& places) const;
+  /// Set support_moves: where a support on a line of beams may stand instead.
+  void add_support_moves(Places& places) const;
   /// Dampers at other nodes: their unit forces there, and the nodes as attributes node_0 …
   void add_moves(const std::vector<DamperMove>& moves, Places& places) const;
   void add_nodes(const std::vector<int>& chosen, Places& places) const;  ///< set nodes
@@ -28,6 +33,9 @@ class ElementPlaces {
  private:
   struct Sum;  // element matrices being added up over full dofs
   [[nodiscard]] Symmetric free(const Sum& sum) const;
+  [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
+  [[nodiscard]] double pull_of(std::size_t element) const;
+  [[nodiscard]] bool stands_for_rigid(const fe::Spring& spring) const;
 
   const Structure& structure_;
   const fe::Model& model_;

@@ -158,6 +158,8 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
     else elements.add_zones(nearest_of(elements.centroids(), options.zone_centres), places, options.zone_centres);
     elements.add_stays(places);
     elements.add_springs(places);
+    elements.add_groups(places);
+    elements.add_support_moves(places);
     elements.add_moves(options.moves, places);
     elements.add_nodes(options.node_positions.empty() ? spread(elements.node_positions(), elements.measured_nodes(), options.max_nodes)
                                                       : nearest_of(elements.node_positions(), options.node_positions),

@@ -177,18 +177,18 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
   const Complex s = state.modes.s[chosen];
   VectorXcd phi = state.modes.shapes.col(chosen);
   double shift = 0.0, added_pct = 0.0;
-  each_action("frequency.amplitude", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action("frequency.amplitude", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     if (!c.mode.empty() && c.mode != measured.label) return;
     const double amplitude = condition.amplitude_m.value_or(0.0);
     shift += std::log(std::max(1.0 + c.value(action.number.at("curvature"), a) * amplitude * amplitude, 0.05));
   });
-  each_action("damping.add", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action("damping.add", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     if (c.mode.empty() || c.mode == measured.label) added_pct += 100.0 * c.value(action.number.at("ratio"), a);
   });
-  each_action("wind.damping", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action("wind.damping", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     added_pct += 100.0 * c.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
   });
-  each_action("person.oscillator", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action("person.oscillator", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     const double people = condition.people.value_or(0.0);
     if (!(people > 0.0)) return;
     const ReducedPlace& place = *c.places[0];
@@ -258,10 +258,11 @@ void Predictor::predict_load(int c) {
     for (Index i = 0; i < state->modes.s.size(); ++i) {
       std::string label;
       for (std::size_t m = 0; m < map_.modes_.size(); ++m)
-        if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) && of_condition_.at(map_.modes_[m].condition) == state)
+        if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) &&
+            of_condition_.at(map_.modes_[m].condition) == state && map_.same_state(map_.modes_[m].condition, c))
           label = map_.modes_[m].label;
       double zeta_pct = (label.empty() ? 0.5 : structural_damping(map_.damping_name(label, c))) + 100.0 * state->modes.damping(i);
-      each_action("wind.damping", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+      each_action("wind.damping", condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
         zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
       });
       weight.push_back(std::abs(state->modes.s[i]) / std::max(zeta_pct, 0.02) * wind_weight(condition, *state, i, label));
@@ -334,10 +335,11 @@ void Predictor::predict_stays() {
           g += 0.5 * v.deviation * base_.x[static_cast<Index>(j)];  // f ~ sqrt(pull)
           if (with_jacobian_) out_.jacobian(at, static_cast<Index>(j)) = 0.5 * v.deviation;
         }
-        each_action("stay.frequency", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+        const Condition& condition = map_.features().conditions[static_cast<std::size_t>(row.condition)];
+        each_action("stay.frequency", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
           if (c.places[0] == &stay) g += std::log(c.value(action.number.at("factor"), a));
         });
-        each_action("stay.pull", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+        each_action("stay.pull", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
           if (c.places[0] == &stay) g += 0.5 * std::log(c.value(action.number.at("factor"), a));  // f ~ sqrt(pull)
         });
       }
@@ -366,7 +368,10 @@ Prediction Predictor::run() {
   for (std::size_t c = 0; c < modal.size(); ++c) {
     if (!modal[c]) continue;
     const auto condition = static_cast<int>(c);
-    const auto known = std::find_if(alike.begin(), alike.end(), [&](const auto& group) { return &solved(group[0]) == &solved(condition); });
+    // A mode's name holds within a state: two states are paired separately, though nothing may have changed between them yet.
+    const auto known = std::find_if(alike.begin(), alike.end(), [&](const auto& group) {
+      return &solved(group[0]) == &solved(condition) && map_.same_state(group[0], condition);
+    });
     if (known == alike.end())
       alike.push_back({condition});
     else

@@ -85,6 +85,15 @@ class Predictor {
       for (const ActionSpec& action : cause.candidate->hypothesis->actions)
         if (action.kind == kind) use(*cause.candidate, cause.a, action);
   }
+  /// The same of causes that act in the state of the structure that a condition is of.
+  template <typename Use>
+  void each_action(const std::string& kind, const Condition& condition, Use use) const {
+    for (const Cause& cause : causes_) {
+      if (!cause.candidate->acts_in(condition)) continue;
+      for (const ActionSpec& action : cause.candidate->hypothesis->actions)
+        if (action.kind == kind) use(*cause.candidate, cause.a, action);
+    }
+  }
   /// Weight of a mode in a record's variance under wind, beyond white excitation (wind_load.cpp).
   [[nodiscard]] double wind_weight(const Condition& condition, const SolvedState& state, Eigen::Index mode, const std::string& label) const;
   [[nodiscard]] double structural_damping(const std::string& label) const;  ///< in per cent

@@ -235,7 +235,9 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
       for (const Place& place : list) {
         const bool served = set == "dampers" || (set == "global" && place.directions.size() == 0);  // by the common vectors
         all.push_back(&place);
-        count.push_back(served ? 0 : options.vectors_per_place);
+        // A support may go to any of its stations, each with a static response of its own.
+        const int kept = set == "support_moves" ? options.vectors_per_move : options.vectors_per_place;
+        count.push_back(served ? 0 : kept);
       }
     std::vector<MatrixXd> vectors(all.size());
     parallel_for(all.size(), [&](std::size_t i) { vectors[i] = own_vectors(basis, factor, *all[i], low, count[i]); });

@@ -26,6 +26,7 @@ struct ReductionOptions {
   double element_change = 0.0;    ///< relative change of a group of elements by workmanship; 0: no corrections for it
   int corrected_modes = 8;        ///< lowest modes whose static response to a change at a place is kept …
   int vectors_per_place = 3;      ///< … in its strongest directions
+  int vectors_per_move = 24;      ///< the same for a support that may stand elsewhere on its line
   int full_below = 60;            ///< a structure with no more dofs is not reduced
 };
 

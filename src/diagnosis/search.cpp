@@ -104,7 +104,7 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
   std::vector<const Candidate*> all;
   for (const auto& candidate : candidates_)
     if (std::none_of(base.causes.begin(), base.causes.end(),
-                     [&](const Cause& cause) { return cause.candidate->id() == candidate->id(); }))
+                     [&](const Cause& cause) { return cause.candidate->key() == candidate->key(); }))
       all.push_back(candidate.get());
   if (known_changes == nullptr) {
     std::vector<Promise> everything;
@@ -115,7 +115,7 @@ std::vector<Inference::Promise> Inference::promising(const Fit& base, const Sear
   parallel_for(all.size(), [&](std::size_t i) {
     const Candidate* candidate = all[i];
     Promise promise{candidate, {}};
-    const auto known = known_changes->change.find(candidate->id());
+    const auto known = known_changes->change.find(candidate->key());
     double t = 1e300;
     if (known != known_changes->change.end()) {
       std::vector<std::pair<double, std::size_t>> by_start;
@@ -212,7 +212,7 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   parallel_for(chosen.size(),
                [&](std::size_t i) { all[i] = screen(base, chosen[i], nullptr, nullptr, records ? &changes[i] : nullptr); });
   if (records)
-    for (std::size_t i = 0; i < chosen.size(); ++i) record->change[chosen[i].candidate->id()] = std::move(changes[i]);
+    for (std::size_t i = 0; i < chosen.size(); ++i) record->change[chosen[i].candidate->key()] = std::move(changes[i]);
   std::vector<Scored> found;
   for (Scored& scored : all)
     if (scored.signature.size() > 0) found.push_back(std::move(scored));

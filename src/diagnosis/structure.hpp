@@ -17,6 +17,9 @@ namespace twindeck::diagnosis {
 /// its own direction, then global x, y, z at its node (zero where a model lacks the direction).
 using SensorValues = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& vectors)>;
 
+/// In the names of springs that stand for a rigid support, before their direction.
+inline constexpr const char* kRigidSpring = "_rigid_";
+
 /// A model as the diagnosis needs it, whether of finite elements or of matrices. Pointers are borrowed.
 struct Structure {
   const fe::ParametricSystem* system = nullptr;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 #include "core/error.hpp"
@@ -37,6 +38,35 @@ void grow(StructureState& state) {
   if (state.amplitude_row.size() > 0) state.amplitude_row.conservativeResizeLike(Eigen::RowVectorXd::Zero(n));
 }
 
+/// Directions of a place that an action goes by: the vertical one where it says so and the place can move so, else all.
+std::vector<Index> directions_of(const ReducedPlace& place, const ActionSpec& action) {
+  const auto named = action.text.find("direction");
+  const bool vertical = named != action.text.end() && named->second == "vertical";
+  if (vertical && place.directions.cols() == 3 && place.directions.col(2).squaredNorm() > 0.0) return {2};
+  std::vector<Index> all(static_cast<std::size_t>(place.directions.cols()));
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
+/// Takes a support away and puts it up again at a position on its line, between nodes by interpolation.
+void move_support(const ReducedPlace& support, double position, const std::vector<int>& columns, StructureState& state) {
+  const auto number = [&](const std::string& name) { return support.attributes.at(name); };
+  const auto stations = static_cast<Index>(number("stations"));
+  const Index per_node = support.directions.cols() / stations, n = state.stiffness.rows();
+  Index i = 0;
+  while (i + 2 < stations && position > number("x_" + std::to_string(i + 1))) ++i;
+  const double from = number("x_" + std::to_string(i)), to = number("x_" + std::to_string(i + 1));
+  const double t = std::clamp((position - from) / (to - from), 0.0, 1.0);
+  MatrixXd own = support.stiffness(columns, columns);
+  own.conservativeResizeLike(MatrixXd::Zero(n, n));
+  state.stiffness -= own;
+  for (Index d = 0; d < per_node; ++d) {
+    VectorXd b = ((1.0 - t) * support.directions.col(i * per_node + d) + t * support.directions.col((i + 1) * per_node + d))(columns);
+    b.conservativeResizeLike(VectorXd::Zero(n));
+    state.stiffness += number("k_" + std::to_string(d)) * b * b.transpose();
+  }
+}
+
 }  // namespace
 
 Predictor::Predictor(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, bool with_jacobian)
@@ -57,6 +87,7 @@ VectorXd Predictor::sliced(const VectorXd& full, const std::vector<int>& columns
 }
 
 bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const {
+  if (!cause.candidate->acts_in(condition)) return false;
   const std::string& kind = action.kind;
   if (kind.starts_with("damper."))
     return condition.dampers_on.value_or(cause.candidate->places[0]->attributes.at("always_on") != 0.0);
@@ -65,7 +96,7 @@ bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Conditi
   if (kind == "step.stiffness") return variable(action, condition) < value("below");
   if (kind == "slip.stiffness") return variable(action, condition) > value("above");
   if (kind == "mass.per_count") return condition.people.value_or(0.0) > 0.0;
-  return kind.starts_with("scale.") || kind == "mass.add" || kind.starts_with("element.");
+  return kind.starts_with("scale.") || kind == "mass.add" || kind == "support.move" || kind.starts_with("element.");
 }
 
 void Predictor::apply_dampers(const Condition& condition, StructureState& state) const {
@@ -82,6 +113,7 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
     VectorXd direction = damper.directions.col(0);
     bool series = number("series") != 0.0, absent = false, sliding = threshold > 0.0;
     for (const Cause& cause : causes_) {
+      if (!cause.candidate->acts_in(condition)) continue;
       const auto& places = cause.candidate->places;
       const auto here = std::find(places.begin(), places.end(), &damper);
       if (here == places.end()) continue;
@@ -137,6 +169,8 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   } else if (kind == "slip.stiffness") {
     if (variable(action, condition) > value("above"))
       state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
+  } else if (kind == "support.move") {
+    move_support(place, value("position"), columns_, state);
   } else if (kind == "mass.add") {
     for (Index d = 0; d < place.directions.cols(); ++d) {
       const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, n);
@@ -162,7 +196,7 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
         }
       }
     } else {
-      for (Index d = 0; d < place.directions.cols(); ++d) {
+      for (const Index d : directions_of(place, action)) {
         const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, n);
         state.stiffness += value("stiffness") * b * b.transpose();
       }
@@ -211,8 +245,10 @@ StructureState Predictor::build_state(const Condition& condition) const {
     }
   }
   apply_dampers(condition, state);
-  for (const Cause& cause : causes_)
+  for (const Cause& cause : causes_) {
+    if (!cause.candidate->acts_in(condition)) continue;
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) apply(cause, action, condition, state);
+  }
   return state;
 }
 

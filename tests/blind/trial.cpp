@@ -162,7 +162,7 @@ bool said_by_others(const Shared& shared, const Candidate& truth, const VectorXd
   if (s.size() == 0) return true;
   for (const auto& candidate : shared.diagnosing.candidates) {
     if (candidate->hypothesis == truth.hypothesis) continue;
-    const auto known = shared.table.change.find(candidate->id());
+    const auto known = shared.table.change.find(candidate->key());
     if (known == shared.table.change.end()) continue;  // a stay whose own frequency is measured: nothing else has that
     const bool tuned = candidate->tuned >= 0, here = candidate->location == truth.location;
     for (std::size_t k = 0; k < known->second.size(); ++k) {

@@ -182,6 +182,10 @@ class Reader {
         a.line = e.line;
       } else if (e.key == "variable")
         a.text[e.key] = text(e);
+      else if (e.key == "direction") {
+        a.text[e.key] = text(e);
+        if (a.text[e.key] != "vertical") fail(e.line, "direction", fmt::format("is '{}', expected \"vertical\"", a.text[e.key]), "leave it out for all directions");
+      }
       else if (e.key != "at")
         a.number[e.key] = expression(e);
     }

@@ -55,13 +55,67 @@ void scale_materials(fe::Model& model, const std::vector<int>& elements, double 
   }
 }
 
-void scale_parameter(std::vector<fe::Parameter>& parameters, Eigen::VectorXd& theta, const std::string& name, double factor) {
+/// @return whether there is a parameter of that name
+bool scale_parameter(std::vector<fe::Parameter>& parameters, Eigen::VectorXd& theta, const std::string& name, double factor) {
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (parameters[p].name != name) continue;
     double& value = theta[static_cast<Index>(p)];
     value = value != 0.0 && parameters[p].initial != 0.0 ? value * factor : value + factor - 1.0;
     parameters[p].lower = std::min(parameters[p].lower, value);
     parameters[p].upper = std::max(parameters[p].upper, value);
+    return true;
+  }
+  return false;
+}
+
+/// Elements and springs of a group.
+void scale_group(fe::Model& model, const std::string& name, double stiffness, double density, const std::string& tag) {
+  std::vector<int> elements;
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+    if (model.elements[e].group == name) elements.push_back(static_cast<int>(e));
+  scale_materials(model, elements, stiffness, density, tag);
+  for (fe::Spring& spring : model.springs)
+    if (spring.group == name && spring.node2 >= 0) spring.stiffness *= stiffness;
+}
+
+/// Whether a spring is of the support that a place names: "pier", or "pier fixed" for what is rigid of it where springs have the
+/// name too.
+bool of_support(const fe::Model& model, const fe::Spring& spring, std::string name) {
+  const auto group = [](const fe::Spring& s) { return s.group.empty() ? s.name : s.group; };
+  const auto rigid = [](const fe::Spring& s) { return s.name.find(diagnosis::kRigidSpring) != std::string::npos; };
+  static const std::string fixed = " fixed";
+  const bool asked_rigid = name.ends_with(fixed);
+  if (asked_rigid) name.resize(name.size() - fixed.size());
+  if (spring.node2 >= 0 || group(spring) != name || (asked_rigid && !rigid(spring))) return false;
+  if (asked_rigid || !rigid(spring)) return true;
+  return std::none_of(model.springs.begin(), model.springs.end(),
+                      [&](const fe::Spring& other) { return group(other) == name && other.node2 < 0 && !rigid(other); });
+}
+
+/// The support at the node of its line that is nearest to a position.
+void move_support(fe::Model& model, const Place& place, const std::string& name, double position) {
+  const auto stations = static_cast<int>(place.attributes.at("stations"));
+  int best = 0;
+  for (int i = 1; i < stations; ++i) {
+    const auto off = [&](int k) { return std::abs(place.attributes.at("x_" + std::to_string(k)) - position); };
+    if (off(i) < off(best)) best = i;
+  }
+  const int node = static_cast<int>(place.attributes.at("node_" + std::to_string(best)));
+  for (fe::Spring& spring : model.springs)
+    if (of_support(model, spring, name) && !spring.rotation) spring.node = node;
+}
+
+/// A spring from a node to the ground, in the direction of an action or in all.
+void add_prop(fe::Model& model, int node, const ActionSpec& action, double stiffness) {
+  const auto named = action.text.find("direction");
+  for (int d = named != action.text.end() && named->second == "vertical" ? 2 : 0; d < 3; ++d) {
+    fe::Spring spring;
+    spring.name = fmt::format("prop_{}_{}", model.nodes[static_cast<std::size_t>(node)].id, "xyz"[d]);
+    spring.group = "prop";
+    spring.node = node;
+    spring.direction = Eigen::Vector3d::Unit(d);
+    spring.stiffness = stiffness;
+    model.springs.push_back(spring);
   }
 }
 
@@ -95,7 +149,8 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
     const bool mass = action.kind == "scale.mass";
     const double factor = value("factor");
     if (c.hypothesis->set == "groups") {
-      scale_parameter(model.parameters, theta, name, factor);
+      if (scale_parameter(model.parameters, theta, name, factor)) return true;
+      scale_group(model, name, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
       return true;
     }
     if (c.hypothesis->set == "elements" || c.hypothesis->set == "stays") {
@@ -106,12 +161,20 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
     }
     if (c.hypothesis->set == "supports" || c.hypothesis->set == "foundations") {
       for (fe::Spring& spring : model.springs)
-        if ((spring.group.empty() ? spring.name : spring.group) == name && spring.node2 < 0 &&
-            spring.rotation == (c.hypothesis->set == "foundations"))
-          spring.stiffness *= factor;
+        if (of_support(model, spring, name) && spring.rotation == (c.hypothesis->set == "foundations")) spring.stiffness *= factor;
       return true;
     }
     return false;
+  }
+  if (action.kind == "support.move") {
+    const Place* place = place_of(places, c.hypothesis->set, c.location);
+    TWINDECK_ASSERT(place != nullptr);
+    move_support(model, *place, name, value("position"));
+    return true;
+  }
+  if (action.kind == "element.spring" && c.places.size() == 1) {
+    add_prop(model, node_position(model, name), action, value("stiffness"));
+    return true;
   }
   if (action.kind == "mass.add") {
     model.masses.push_back({"added_mass", node_position(model, name), value("mass"), Eigen::Vector3d::Zero()});

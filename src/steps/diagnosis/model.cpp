@@ -52,7 +52,7 @@ void release_supports(fe::Model& model, std::vector<std::string>& rigid) {
       const std::string group = support.name.empty() ? "node_" + node : support.name;
       const bool shared = !support.name.empty() && nodes_of.at(support.name) > 1;
       fe::Spring spring;
-      spring.name = group + (shared ? "_" + node : "") + "_rigid_" + names[d];
+      spring.name = group + (shared ? "_" + node : "") + diagnosis::kRigidSpring + names[d];
       spring.group = group;
       spring.node = support.node;
       spring.direction = Eigen::Vector3d::Unit(static_cast<Index>(d % 3));

@@ -72,7 +72,7 @@ void put_causes(std::ostream& key, const DiagnosisInputs& inputs, const diagnosi
   }
   key << "|candidates ";
   for (const auto& candidate : inference.candidates())
-    key << candidate->id() << ' ' << candidate->low.transpose() << ' ' << candidate->high.transpose() << ' '
+    key << candidate->key() << ' ' << candidate->low.transpose() << ' ' << candidate->high.transpose() << ' '
         << candidate->starts.size() << ' ' << candidate->log_prior << ';';
 }
 

@@ -45,12 +45,16 @@ std::string text_of(const io::TomlEntry& entry, const Place& place) {
 /// Enters one key of a condition's table.
 void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition& condition) {
   static const std::vector<std::string> known = {"dampers",  "amplitude_m",   "amplitude_channel", "temperature_C",
-                                                 "wind_m_s", "direction_deg", "people",            "load"};
+                                                 "wind_m_s", "direction_deg", "people",            "load",
+                                                 "state"};
   if (entry.key == "dampers") {
     const std::string text = text_of(entry, place);
     if (text != "on" && text != "off")
       throw InputError(place, fmt::format("is '{}', expected \"on\" or \"off\"", text), "say whether the dampers are fitted");
     condition.dampers_on = text == "on";
+  } else if (entry.key == "state") {
+    condition.state = text_of(entry, place);
+    if (condition.state.empty()) throw InputError(place, "is empty, expected the name of a state of the structure", "name it, or leave the key out");
   } else if (entry.key == "amplitude_channel") {
     condition.amplitude_channel = text_of(entry, place);
   } else if (entry.key == "load") {

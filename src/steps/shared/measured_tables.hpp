@@ -18,6 +18,7 @@ namespace twindeck::steps {
 /// A table of conditions.toml: under which circumstances was measured. What is not known is empty.
 struct MeasuredCondition {
   std::string name;
+  std::string state = "reference";  ///< of the structure as it was then
   std::optional<bool> dampers_on;
   std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
   std::string amplitude_channel;

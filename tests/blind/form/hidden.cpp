@@ -219,7 +219,8 @@ class Drawing {
     if (last || (!first && random_.chance(0.5))) by = -by;
     Change out;
     out.shift_m[b] = by;
-    hidden_.words += fmt::format(" moved by {:.2f} m", by);
+    const int node = layout_.bearings[static_cast<std::size_t>(b)].node;
+    size("x_m", layout_.nodes[static_cast<std::size_t>(node)].x() + by, fmt::format("{} moved by {:.2f} m", hidden_.words, by));
     return out;
   }
   Change prop() {

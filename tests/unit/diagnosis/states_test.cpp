@@ -1,0 +1,178 @@
+// Two states of one structure: what changed? Oracles: a chain whose springs and masses are changed between two measurements, by
+// dense matrices of its own.
+#include <gtest/gtest.h>
+
+#include "chain.hpp"
+#include "diagnosis/form_frame.hpp"
+
+namespace twindeck::tests {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Rows of two measurements, the second in state "after" with modes named by letters.
+diagnosis::FeatureSet two_states(diagnosis::FeatureSet before, const diagnosis::FeatureSet& after) {
+  for (auto& row : before.rows) row.held_out = false;
+  before.conditions.push_back(before.conditions.front());
+  before.conditions.back().name = "later";
+  before.conditions.back().state = "after";
+  for (auto row : after.rows) {
+    row.held_out = false;
+    row.condition = 1;
+    row.mode = std::string(1, static_cast<char>('a' + std::stoi(row.mode) - 1));
+    before.rows.push_back(row);
+  }
+  return before;
+}
+
+diagnosis::Diagnosis asked(const Examined& e) { return diagnosis::diagnose_with_form(*e.inference, {}, 1); }
+
+bool in_a_set(const diagnosis::Diagnosis& result, const std::string& id) {
+  return std::any_of(result.effects.begin(), result.effects.end(), [&](const diagnosis::Effect& effect) {
+    return std::find(effect.cluster.begin(), effect.cluster.end(), id) != effect.cluster.end();
+  });
+}
+
+TEST(States, TheFirstIsReferenceOrElseTheFirstOfTheFile) {
+  diagnosis::FeatureSet f;
+  for (const char* state : {"stiff", "reference", "flexible"}) {
+    f.conditions.emplace_back();
+    f.conditions.back().state = state;
+    f.rows.push_back({diagnosis::RowType::frequency, "1", -1, "", static_cast<int>(f.conditions.size()) - 1, 1.0, 0.01, false});
+  }
+  EXPECT_EQ(states_of(f), (std::vector<std::string>{"reference", "stiff", "flexible"}));
+  f.rows.erase(f.rows.begin() + 1);  // a state that no row was measured in is none
+  EXPECT_EQ(states_of(f), (std::vector<std::string>{"stiff", "flexible"}));
+}
+
+TEST(States, PartsChangeInOneStateAndSensorsInAll) {
+  const Chain chain({.masses = 6, .modes = 4});
+  const auto features = two_states(chain.measure(chain.as_modelled()), chain.measure(chain.as_modelled()));
+  const Examined e = examine(chain, features, catalogue({"stiffness", "mass", "gain"}));
+  for (const auto& candidate : e.entries.candidates) {
+    if (candidate->hypothesis->id == "gain") {
+      EXPECT_EQ(candidate->state, "") << candidate->id();
+    }
+    if (candidate->hypothesis->id == "stiffness") {
+      EXPECT_EQ(candidate->state, "after");
+      EXPECT_LE(candidate->low[0], std::log(0.05) + 1e-12);
+      EXPECT_GE(candidate->high[0], std::log(20.0) - 1e-12);
+    }
+    if (candidate->hypothesis->id == "mass") {
+      EXPECT_NE(candidate->state, "");
+    }
+  }
+  const auto contrasts = diagnosis::contrasts_of(features);
+  ASSERT_EQ(contrasts.size(), 1u);
+  EXPECT_EQ(contrasts[0].key, "state after");
+  EXPECT_EQ(contrasts[0].weight, (VectorXd(2) << 0.0, 1.0).finished());
+}
+
+TEST(States, ModesArePairedWithinTheirState) {
+  // In the second state everything is four times as stiff, so that its first mode has the frequency of the first state's second.
+  const Chain chain({.masses = 6, .modes = 4});
+  ChainTruth stiff = chain.as_modelled();
+  stiff.spring *= 4.0;
+  const auto features = two_states(chain.measure(chain.as_modelled()), chain.measure(stiff));
+  const Examined e = examine(chain, features, catalogue({"stiffness"}));
+  const auto base = e.map->base(VectorXd::Zero(static_cast<Index>(e.map->nuisances().size())));
+  const auto prediction = e.map->predict(base, {}, false);
+  ASSERT_TRUE(prediction.valid);
+  for (std::size_t m = 0; m < 8; ++m) EXPECT_EQ(prediction.paired[m], static_cast<int>(m % 4)) << m;
+}
+
+TEST(States, ACauseActsInItsStateAlone) {
+  const Chain chain({.masses = 6, .modes = 4});
+  const auto features = two_states(chain.measure(chain.as_modelled()), chain.measure(chain.as_modelled()));
+  const Examined e = examine(chain, features, catalogue({"stiffness"}));
+  const auto base = e.map->base(VectorXd::Zero(static_cast<Index>(e.map->nuisances().size())));
+  const auto without = e.map->predict(base, {}, false);
+  const auto with = e.map->predict(base, {{&e.entry("stiffness@group:g2"), VectorXd::Constant(1, std::log(3.0))}}, false);
+  ChainTruth changed = chain.as_modelled();
+  changed.spring[2] = 3.0;
+  const auto expected = chain.measure(changed);
+  for (std::size_t r = 0; r < features.rows.size(); ++r) {
+    const auto at = static_cast<Index>(r);
+    if (features.rows[r].condition == 0) {
+      EXPECT_DOUBLE_EQ(with.g[at], without.g[at]) << r;
+    } else if (features.rows[r].type == diagnosis::RowType::frequency) {
+      EXPECT_NEAR(std::exp(with.g[at]) / expected.rows[r - features.rows.size() / 2].value, 1.0, 1e-6) << r;
+    }
+  }
+}
+
+TEST(States, NothingChangedIsNone) {
+  const Chain chain({.masses = 10, .modes = 6});
+  for (unsigned i = 0; i < 4; ++i) {
+    std::mt19937_64 random(60 + i);
+    const ChainTruth truth = chain.scattered(random);
+    const auto result = asked(examine(chain, two_states(chain.measure(truth, &random), chain.measure(truth, &random)), catalogue()));
+    EXPECT_EQ(result.verdict, "none") << i << ": " << result.message;
+  }
+}
+
+TEST(States, FindsWhatWasCut) {
+  const Chain chain({.masses = 10, .modes = 6});
+  std::mt19937_64 random(7);
+  const ChainTruth before = chain.scattered(random);
+  ChainTruth after = before;
+  after.spring[6] *= 0.4;
+  const Examined e = examine(chain, two_states(chain.measure(before, &random), chain.measure(after, &random)), catalogue());
+  const auto result = asked(e);
+  ASSERT_FALSE(result.effects.empty()) << result.message;
+  EXPECT_TRUE(in_a_set(result, "stiffness@group:g6"));
+  EXPECT_EQ(result.effects.front().cause.candidate->state, "after");
+  EXPECT_NE(result.verdict, "none");
+  if (result.effects.front().cause.candidate->id() == "stiffness@group:g6") {
+    EXPECT_LT(result.effects.front().parameters[0].low, 0.4);
+    EXPECT_GT(result.effects.front().parameters[0].high, 0.4);
+  }
+}
+
+TEST(States, FindsWhatWasAddedAndWhatWasTakenAway) {
+  const Chain chain({.masses = 10, .modes = 6});
+  std::mt19937_64 random(8);
+  const ChainTruth light = chain.scattered(random);
+  ChainTruth heavy = light;
+  heavy.mass[3] += 700.0;
+  const auto lighter = chain.measure(light, &random), heavier = chain.measure(heavy, &random);
+  const Examined more = examine(chain, two_states(lighter, heavier), catalogue());
+  const auto added = asked(more);
+  ASSERT_FALSE(added.effects.empty()) << added.message;
+  EXPECT_TRUE(in_a_set(added, "mass@node:4"));
+  const Examined less = examine(chain, two_states(heavier, lighter), catalogue());
+  const auto taken = asked(less);
+  ASSERT_FALSE(taken.effects.empty()) << taken.message;
+  EXPECT_TRUE(in_a_set(taken, "mass@node:4"));
+  EXPECT_EQ(added.effects.front().cause.candidate->state, "after");
+  EXPECT_EQ(taken.effects.front().cause.candidate->state, "reference");
+}
+
+TEST(States, FindsSeveralPartsThatChangedTogether) {
+  // Three storeys, all several times stiffer afterwards: frequencies more than double.
+  const Chain chain({.masses = 3, .modes = 3, .parameters = true, .frequency_std = 0.002});
+  std::mt19937_64 random(9);
+  const ChainTruth before = chain.scattered(random);
+  ChainTruth after = before;
+  const VectorXd ratio = (VectorXd(4) << 4.6, 5.7, 6.1, 1.0).finished();
+  after.spring = before.spring.cwiseProduct(ratio);
+  const Examined e = examine(chain, two_states(chain.measure(before, &random), chain.measure(after, &random)),
+                             catalogue({"stiffness", "gain", "pol"}));
+  const auto result = asked(e);
+  EXPECT_NE(result.verdict, "none") << result.message;
+  for (int storey = 0; storey < 3; ++storey) {
+    const std::string id = "stiffness@group:g" + std::to_string(storey);
+    bool found = false;
+    for (const auto& effect : result.effects) {
+      if (effect.cause.candidate->id() != id) continue;
+      found = true;
+      EXPECT_LT(effect.parameters[0].low, ratio[storey]) << id;
+      EXPECT_GT(effect.parameters[0].high, ratio[storey]) << id;
+    }
+    EXPECT_TRUE(found) << id << ": " << result.verdict << ", " << result.message;
+  }
+}
+
+}  // namespace
+}  // namespace twindeck::tests
