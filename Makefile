@@ -108,10 +108,11 @@ smoke: build ## the whole chain, small, under results/smoke
 N ?= 400
 TIER ?= features
 SEED ?= 1
-BLIND = $(if $(filter features,$(TIER)),blind_trials,blind_records)
-blind-trials: build ## make blind-trials N=400 TIER=features, records or time: hidden effects looked for on another mesh, scored with intervals
+BLIND = $(if $(filter features,$(TIER)),blind_trials,$(if $(filter form,$(TIER)),blind_form,blind_records))
+BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))
+blind-trials: build ## make blind-trials N=400 TIER=features, form, records or time: hidden effects looked for on another mesh or by a model of another class, scored with intervals
 	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
-	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(filter-out features,$(TIER))
+	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(BLIND_LAST)
 
 BATCH ?= -j$(JOBS)
 batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as independent jobs of Snakemake (docs/batch.md)

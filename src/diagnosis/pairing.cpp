@@ -18,6 +18,11 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is rounding (1e-12 of a
+/// girder's vertical motion in its axial modes), which may look like any shape.
+constexpr double kAtRest = 1e-6;
+constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distance of frequencies weighs
+
 /// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may have
 /// changed so much that frequencies double, where shapes tell more.
 constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
@@ -26,10 +31,12 @@ constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
 
 VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
   VectorXd mac(shapes.cols());
+  if (shapes.cols() == 0) return mac;
   const double norm = measured.squaredNorm();
+  const double least = kAtRest * kAtRest * shapes.colwise().squaredNorm().maxCoeff();
   for (Index j = 0; j < mac.size(); ++j) {
-    const double norms = norm * shapes.col(j).squaredNorm();
-    mac[j] = norms > 0.0 ? std::norm(shapes.col(j).dot(measured)) / norms : 0.0;
+    const double own = shapes.col(j).squaredNorm(), norms = norm * own;
+    mac[j] = norms > 0.0 && own > least ? std::norm(shapes.col(j).dot(measured)) / norms : 0.0;
   }
   return mac;
 }
@@ -67,7 +74,12 @@ VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedStat
       if (shaped.imag_channels[q] == shaped.real_channels[k]) value += Complex(0.0, map_.values_[shaped.imag_rows[q]]);
     y[static_cast<Index>(k)] = value;
   }
-  return 1.0 - likeness(motion(state)(shaped.real_channels, Eigen::all), y).array();
+  const MatrixXcd moved = motion(state)(shaped.real_channels, Eigen::all);
+  VectorXd unlike = 1.0 - likeness(moved, y).array();
+  const VectorXd own = moved.colwise().squaredNorm();  // a shape was measured, so it was none of those at rest, however near in frequency
+  for (Index j = 0; j < own.size(); ++j)
+    if (own[j] <= kAtRest * kAtRest * own.maxCoeff()) unlike[j] = kNever;
+  return unlike;
 }
 
 VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {

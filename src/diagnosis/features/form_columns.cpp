@@ -29,7 +29,9 @@ double mixing(double wi, double wj) {
   return 1.0 / (std::copysign(std::max(std::abs(gap), kLeastGap), gap) * (wi + wj) / mean);
 }
 
-/// Factor from the mass-normalised shape to what the rows hold.
+constexpr double kAtRest = 1e-6;  // of the largest motion of the channels in any mode: less is rounding
+
+/// Factor from the mass-normalised shape to what the rows hold; 0 for a mode that moves none of the channels.
 double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& predicted) {
   double along = 0.0, norm = 0.0;
   for (std::size_t k = 0; k < mode.shape_rows.size(); ++k) {
@@ -37,7 +39,8 @@ double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& 
     along += phi * predicted[mode.shape_rows[k]];
     norm += phi * phi;
   }
-  return norm > 0.0 ? along / norm : 0.0;
+  const double largest = modes.shapes.colwise().squaredNorm().maxCoeff();
+  return norm > kAtRest * kAtRest * largest ? along / norm : 0.0;
 }
 
 }  // namespace

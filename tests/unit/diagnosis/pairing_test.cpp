@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
+#include "diagnosis/predictor.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -29,6 +30,16 @@ std::vector<int> paired(const Chain& chain, const FeatureSet& features) {
   const diagnosis::FeatureMap map(chain.reduced(), features, {});
   const VectorXd zero = VectorXd::Zero(static_cast<Index>(map.nuisances().size()));
   return map.predict(map.base(zero), {}, false).paired;
+}
+
+TEST(Pairing, AModeThatDoesNotMoveTheChannelsIsLikeNothing) {
+  // An axial mode of a girder moves vertical channels by rounding alone, which may have the shape that was measured.
+  Eigen::MatrixXcd shapes(3, 3);
+  shapes << 1.0, 1e-13, 0.0, 2.0, 2e-13, 0.0, 1.0, 1e-13, 0.0;
+  const VectorXd mac = diagnosis::likeness(shapes, shapes.col(0));
+  EXPECT_NEAR(mac[0], 1.0, 1e-12);
+  EXPECT_EQ(mac[1], 0.0);
+  EXPECT_EQ(mac[2], 0.0);
 }
 
 TEST(Pairing, ModesThatFrequenciesDoNotTellApartAreKnownByWhatTheDamperAdds) {
