@@ -138,7 +138,8 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
     json["effects"].push_back(one);
   }
   json["localisation"] = nlohmann::ordered_json::array();
-  for (const auto& at : result.localisation) json["localisation"].push_back({{"location", at.location}, {"score", at.score}});
+  for (const auto& at : result.localisation) 
+    json["localisation"].push_back({{"location", at.location}, {"score", at.score}, {"words", told.places.at(at.location).words}});
   const diagnosis::Gain gain = told_gain(result);
   json["gain"] = {{"held_out", gain.held_out},
                   {"rows", gain.rows},
