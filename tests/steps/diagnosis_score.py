@@ -34,10 +34,14 @@ def si(value, unit):
     return f"{value / 1e6:g} M{unit}" if value >= 1e6 else f"{value:g} {unit}"
 
 
-def hidden_dampers(settings, truth):
-    """One a make of damper: cause, places that are right, sizes that were imposed."""
-    with open(truth / "dampers.csv", newline="", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
+def read_rows(file):
+    with open(file, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def hidden_dampers(settings, truth, conditions):
+    """One a make of damper: cause, places that are right, sizes that were imposed. @param conditions  that the diagnosis was given"""
+    rows = [r for r in read_rows(truth / "dampers.csv") if r["condition"] in conditions]
     for make in settings.get("damper", []):
         names = sorted({r["damper"] for r in rows if r["damper"].startswith(make["type"])})
         if not names or "friction" not in make:
@@ -102,7 +106,8 @@ def score(campaign, imposed, diagnosis):
         return stamp | {"scored": False, "why": f"{campaign / 'truth'} is not there"}
     told = json.loads(text)
     settings = tomllib.loads(imposed.read_text(encoding="utf-8"))
-    hidden = [*hidden_dampers(settings, campaign / "truth"), *hidden_stays(settings)]
+    conditions = {r["condition"] for r in read_rows(diagnosis / "residuals.csv")}
+    hidden = [*hidden_dampers(settings, campaign / "truth", conditions), *hidden_stays(settings)]
     wrong = [effect["sentence"] for effect in told["effects"]
              if not any(effect["location"] in h["locations"] or any(is_of(h, member) for member in effect["cluster"]) for h in hidden)]
     return stamp | {"scored": True, "verdict": told["verdict"], "hidden": [answer(h, told) for h in hidden], "not_hidden": wrong,

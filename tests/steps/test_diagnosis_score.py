@@ -6,6 +6,7 @@ none; and a campaign whose truth is not there.
 import copy
 import hashlib
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
 SCORER = ROOT / "tests/steps/diagnosis_score.py"
 IMPOSED = '''vibrating_stays = ["NE5", "NE7"]
 [[damper]]
@@ -32,6 +34,8 @@ windy,A1,90,0,0
 windy,A2,90,0,0
 windy,C1,700,72,0
 windy,C2,700,68,0
+storm,C1,900,91,0
+storm,C2,900,90,0
 '''
 FRICTION = {"cause": "fric", "location": "dampers:C1,C2", "cluster": ["fric@dampers:C1,C2"], "probability": 0.97, "sentence": "The dampers C1 and C2 stick.",
             "parameters": [{"name": "Fc_N", "value": 434.0, "low": 181.0, "high": 608.0}, {"name": "k_lock_N_m", "value": 5.4e6, "low": 4.7e6, "high": 6.4e6}]}
@@ -45,6 +49,7 @@ class Score(unittest.TestCase):
             (self.folder / part).mkdir(parents=True, exist_ok=True)
             (self.folder / part / name).write_text(text)
         (self.folder / "s9").mkdir()
+        (self.folder / "s9/residuals.csv").write_text("type,mode,condition\nfrequency_Hz,1,calm\nfrequency_Hz,1,windy\n")
 
     def run_scorer(self, *effects, verdict="named"):
         told = {"verdict": verdict, "effects": list(effects), "gain": {"rows": 4, "reduction_pct": 11.0}}
@@ -88,6 +93,27 @@ class Score(unittest.TestCase):
         score = self.run_scorer(FRICTION)
         self.assertFalse(score["scored"])
         self.assertNotIn("hidden", score)
+
+
+class Rules(unittest.TestCase):
+    """Oracle: what make says that it would run, with everything taken as out of date."""
+
+    def dry(self, *goals):
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+        done = subprocess.run(["make", "-n", "-B", "NO_BUILD=1", f"BIN={BIN}", *goals], cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_all_diagnoses_and_scores_the_virtual_campaign_before_the_report(self):
+        said = self.dry("all", "STUDY=ponte_del_mare")
+        order = [said.index(part) for part in ("s3_identification --study", "s9_diagnosis --study workflows/ponte_del_mare_virtual", "diagnosis_score.py",
+                                               "twindeck_report report")]
+        self.assertEqual(order, sorted(order))
+        self.assertIn("s9_diagnosis --study workflows/ponte_del_mare --", said)
+        self.assertEqual(said.count("s9_diagnosis --study workflows/ponte_del_mare_virtual"), 1)
+
+    def test_a_study_without_one_has_nothing_to_score(self):
+        self.assertNotIn("diagnosis_score.py", self.dry("all", "STUDY=template"))
 
 
 class OnlyTheScorerReadsTheTruth(unittest.TestCase):

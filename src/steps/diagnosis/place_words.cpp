@@ -229,7 +229,7 @@ PlaceInWords PlaceWords::node(const std::string& name) const {
   }
   const auto part = part_of_node_.find(name);
   if (part == part_of_node_.end()) return {fmt::format("node {} at {}{}", name, here, near(x)), x};
-  return {fmt::format("the {} at {}{} (node {})", part->second, here, near(x), name), x};
+  return {fmt::format("the {} at {} (node {}{})", part->second, here, name, near(x)), x};
 }
 
 PlaceInWords PlaceWords::nodes(const std::vector<std::string>& names) const {

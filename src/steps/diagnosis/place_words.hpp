@@ -17,7 +17,7 @@ namespace twindeck::steps {
 
 /// Where a person would look.
 struct PlaceInWords {
-  std::string words;    ///< "the deck at x = 34 m, at the sensor A5 (node 725)"
+  std::string words;    ///< "the deck at x = 34 m (node 725, at the sensor A5)"
   Eigen::Vector3d x_m;  ///< NaN where no single point can be named
 };
 

@@ -9,7 +9,6 @@ namespace twindeck::steps {
 
 namespace {
 
-constexpr int kDigits = 3;            ///< significant ones: sizes are known to a per cent at best
 constexpr double kPlainBelow = 1e6;   ///< numbers from here on are told in millions
 constexpr double kPlainAbove = 1e-4;  ///< smaller ones are told by powers of ten
 
@@ -21,12 +20,12 @@ std::string in_threes(long number) {
   return digits;
 }
 
-/// `kDigits` significant digits without an exponent, zeros at the end left out.
-std::string plain(double size) {
+/// So many significant digits without an exponent, zeros at the end left out.
+std::string plain(double size, int digits) {
   const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
-  const double step = std::pow(10.0, before - kDigits), rounded = std::round(size / step) * step;
+  const double step = std::pow(10.0, before - digits), rounded = std::round(size / step) * step;
   if (rounded >= 1000.0) return in_threes(std::lround(rounded));
-  std::string text = fmt::format("{:.{}f}", rounded, std::max(0, kDigits - before));
+  std::string text = fmt::format("{:.{}f}", rounded, std::max(0, digits - before));
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
@@ -38,14 +37,15 @@ bool part_of_a_name(char c) { return std::isalnum(static_cast<unsigned char>(c))
 
 }  // namespace
 
-std::string number_in_words(double value) {
+std::string number_in_words(double value, int digits) {
   if (!std::isfinite(value)) return "unknown";
   if (value == 0.0) return "0";
   const double size = std::abs(value);
   const std::string sign = value < 0.0 ? "-" : "";
-  if (size < kPlainAbove) return fmt::format("{}{:.{}g}", sign, size, kDigits);
-  if (size < kPlainBelow) return sign + plain(size);
-  return size < 1000.0 * kPlainBelow ? sign + plain(size / 1e6) + " million" : fmt::format("{}{:.{}g}", sign, size, kDigits);
+  if (size < kPlainAbove) return fmt::format("{}{:.{}g}", sign, size, digits);
+  if (size < kPlainBelow) return sign + plain(size, digits);
+  return size < 1000.0 * kPlainBelow ? sign + plain(size / 1e6, digits) + " million"
+                                     : fmt::format("{}{:.{}g}", sign, size, digits);
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -75,7 +75,7 @@ void IdsInWords::add_cause(const std::string& id, const std::string& title, cons
   std::string small = title;
   if (small.size() > 1 && std::islower(static_cast<unsigned char>(small[1])) != 0)
     small[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(small[0])));
-  words_[id] = fmt::format("{} ({})", small, place_words);
+  words_[id] = place_words.empty() ? small : fmt::format("{} at {}", small, place_words);
 }
 
 std::string IdsInWords::in_text(const std::string& text) const {

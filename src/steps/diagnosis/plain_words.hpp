@@ -7,8 +7,8 @@
 /// Numbers, lists and ids as a sentence for people has them.
 namespace twindeck::steps {
 
-/// Three significant digits: "0.612", "434", "18,500", "5.4 million".
-[[nodiscard]] std::string number_in_words(double value);
+/// Significant digits (three, since sizes are known to a per cent at best): "0.612", "434", "18,500", "5.4 million".
+[[nodiscard]] std::string number_in_words(double value, int digits = 3);
 
 /// "A, B and C".
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
@@ -24,6 +24,7 @@ namespace twindeck::steps {
 class IdsInWords {
  public:
   void add_location(const std::string& location, const std::string& words);
+  /// @param place_words  empty where the cause is of the whole structure
   void add_cause(const std::string& id, const std::string& title, const std::string& place_words);
   /// The text with every id that was added in words. Of ids that begin alike the longest is taken; a part of a longer name is
   /// left alone.

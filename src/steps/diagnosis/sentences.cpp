@@ -20,6 +20,7 @@ using diagnosis::RowType;
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr int kMeasuredDigits = 4;        ///< of measured values: frequencies are known to a part in a thousand
 constexpr std::size_t kRivals = 3;        ///< that are named one by one
 constexpr double kAlmostOne = 0.995;      ///< probabilities that two digits would show as 1
 constexpr double kAlmostNothing = 0.005;  ///< … or as 0
@@ -112,9 +113,10 @@ std::string block_words(const Block& block, const Inference& inference, const Di
                        block.rows.size());
   } else {
     const auto r = static_cast<Index>(block.rows.front());
-    text = fmt::format("{} is measured as {} {}, the best admissible model has {}: {:.1f} standard deviations", block.words,
-                       number_in_words(row.value), unit_of(row.type), number_in_words(std::exp(result.before.all.g[r])),
-                       std::abs(before[r]));
+    const double computed = std::exp(result.before.all.g[r]);
+    text = fmt::format("{} is measured as {} {}, the best admissible model has {} {}: {:.1f} standard deviations", block.words,
+                       number_in_words(row.value, kMeasuredDigits), unit_of(row.type),
+                       number_in_words(computed, kMeasuredDigits), unit_of(row.type), std::abs(before[r]));
   }
   if (!result.effects.empty()) text += fmt::format("; with what is named below, {:.1f}", std::sqrt(mean_square(block, after)));
   return text;
@@ -156,7 +158,8 @@ std::string with_intervals(const Effect& effect) {
   const std::string in_state = effect.state.empty() ? "" : fmt::format(" (state {})", effect.state);
   std::vector<std::string> words;
   for (const EffectParameter& p : effect.parameters)
-    if (effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos) words.push_back(interval_words(p));
+    if (effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos)
+      words.push_back(interval_words(p));
   return ended(effect.sentence + in_state) + (words.empty() ? "" : fmt::format(" With 90 %: {}.", fmt::join(words, "; ")));
 }
 
@@ -205,7 +208,7 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
                                          number_in_words(result.residual.statistic), result.residual.dof)
                            : result.message);
   const Effect& first = result.effects.front();
-  text += fmt::format("Among the causes of the catalogue and none of them the {}cause has probability {}. ",
+  text += fmt::format("Weighed against all other causes of the catalogue and against none, the {}cause has probability {}. ",
                       result.effects.size() > 1 ? "first " : "", probability_words(first.probability));
   return text + rivals_words(first, ids);
 }
@@ -253,7 +256,7 @@ IdsInWords ids_in_words(const PlaceWords& places, const Inference& inference) {
   for (const auto& candidate : inference.candidates()) {
     const std::string words = places.at(candidate->location).words;
     ids.add_location(candidate->location, words);
-    ids.add_cause(candidate->id(), candidate->hypothesis->title, words);
+    ids.add_cause(candidate->id(), candidate->hypothesis->title, candidate->location == "global" ? "" : words);
   }
   for (const auto& [name, set] : inference.map().model().sets)
     for (const diagnosis::ReducedPlace& place : set) ids.add_location(place.id, places.at(place.id).words);
@@ -324,8 +327,12 @@ Sentences sentences_of(const Inference& inference, const Diagnosis& result, cons
   out.why = why_it_is(result);
   out.how_sure = how_sure_it_is(result, ids);
   out.how_much_better = how_much_better_it_is(result);
+  const bool rival =
+      !result.effects.empty() && result.effects.front().cluster.size() > 1 && !result.effects.front().split_by.empty();
   const bool open = !next.empty() && !next.front().starts_with("Cannot be asked");
-  if (open)
+  if (rival)
+    out.next = fmt::format("To tell the cause from its nearest rival, measure {}.", result.effects.front().split_by);
+  else if (open)
     out.next = next.front();
   else if (!result.effects.empty())
     out.next = ended(result.effects.front().remedy);

@@ -419,8 +419,10 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
   const Told told{places, ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result)};
-  write_diagnosis(result, inputs.account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
-  for (const Finding& finding : inputs.account) context.say(finding.text);
+  std::vector<Finding> account = inputs.account;
+  for (Finding& finding : account) finding.text = ids.in_text(finding.text);
+  write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  for (const Finding& finding : account) context.say(finding.text);
   if (result.form) say_form(*result.form, context);
   say_sentences(result.verdict, told.sentences, context);
   return {};

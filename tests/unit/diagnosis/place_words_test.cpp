@@ -63,8 +63,8 @@ TEST(PlaceWords, APointOfTheGirderIsItsPartItsCoordinateAndWhatIsNear) {
   const fe::Model model = girder();
   const diagnosis::Places none;
   const PlaceWords words(&model, {}, {sensor("A5", "P5", Vector3d(35.0, 0.0, 0.0))}, none);
-  EXPECT_EQ(words.at("node:107").words, "the deck at x = 35 m, at the sensor A5 (node 107)");
-  EXPECT_EQ(words.at("node:104").words, "the deck at x = 20 m, at the support pier_W (node 104)");
+  EXPECT_EQ(words.at("node:107").words, "the deck at x = 35 m (node 107, at the sensor A5)");
+  EXPECT_EQ(words.at("node:104").words, "the deck at x = 20 m (node 104, at the support pier_W)");
   EXPECT_EQ(words.at("node:101").words, "the deck at x = 5 m (node 101)");  // 5 m from anything: no help to name it
   EXPECT_DOUBLE_EQ(words.at("node:107").x_m.x(), 35.0);
   EXPECT_EQ(words.at("nodes:101,103").words, "the deck at x = 5 m (node 101) and the deck at x = 15 m (node 103)");
@@ -75,7 +75,7 @@ TEST(PlaceWords, ASensorBesideANodeIsTheDistanceAway) {
   const fe::Model model = girder();
   const diagnosis::Places none;
   const PlaceWords words(&model, {}, {sensor("A5", "", Vector3d(36.5, 0.0, 2.0))}, none);
-  EXPECT_EQ(words.at("node:107").words, "the deck at x = 35 m, 2.5 m from the sensor A5 (node 107)");
+  EXPECT_EQ(words.at("node:107").words, "the deck at x = 35 m (node 107, 2.5 m from the sensor A5)");
 }
 
 TEST(PlaceWords, SupportsAreCalledAsTheUserCalledThem) {
@@ -130,7 +130,7 @@ TEST(PlaceWords, AStayIsFoundAtItsLowerEnd) {
   const diagnosis::Places none;
   const PlaceWords words(&model, {}, {}, none);
   EXPECT_EQ(words.at("stay:NE5").words, "the stay NE5, anchored at x = 35 m, z = 0 m");
-  EXPECT_EQ(words.at("node:107").words, "the deck at x = 35 m, z = 0 m, at the anchorage of the stay NE5 (node 107)");
+  EXPECT_EQ(words.at("node:107").words, "the deck at x = 35 m, z = 0 m (node 107, at the anchorage of the stay NE5)");
 }
 
 TEST(PlaceWords, AMatrixModelWithoutCoordinatesHasNamesAlone) {

@@ -22,6 +22,7 @@ TEST(PlainWords, NumbersHaveThreeDigitsAndNoExponentWherePeopleUseNone) {
   EXPECT_EQ(steps::number_in_words(2.1e11), "2.1e+11");
   EXPECT_EQ(steps::number_in_words(-0.0051), "-0.0051");
   EXPECT_EQ(steps::number_in_words(1e-5), "1e-05");
+  EXPECT_EQ(steps::number_in_words(12.3449, 4), "12.34");
   EXPECT_EQ(steps::number_in_words(std::nan("")), "unknown");
 }
 
@@ -43,9 +44,11 @@ TEST(PlainWords, IdsBecomeWordsAndLongerNamesAreLeftAlone) {
   ids.add_cause("brg@support:pier_W", "Support softer or stiffer than modelled", "the support pier_W");
   EXPECT_EQ(
       ids.in_text("it acts like brg@support:pier_W; see support:pier, support:pier_W."),
-      "it acts like support softer or stiffer than modelled (the support pier_W); see the support pier, the support pier_W.");
+      "it acts like support softer or stiffer than modelled at the support pier_W; see the support pier, the support pier_W.");
   EXPECT_EQ(ids.in_text("support:pier_East"), "support:pier_East");
   EXPECT_EQ(ids.in_text("mysupport:pier"), "mysupport:pier");
+  ids.add_cause("tempE@global", "Stiffness that changes with temperature", "");
+  EXPECT_EQ(ids.in_text("like tempE@global"), "like stiffness that changes with temperature");
   EXPECT_EQ(ids.in_text("a global change"), "a global change");  // a word of everyday, no id
 }
 
