@@ -47,10 +47,10 @@ class FirstScreen(unittest.TestCase):
         page = (self.case.results / "report/report.html").read_text(encoding="utf-8")
         first = words_of(page[page.index('id="overview"'):page.index('id="steps"')])
         order = [first.index(part) for part in (
-            "virtual campaign, whose truth is known", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
+            "Made-up bridge, virtual campaign (its truth is known)", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
             "How much better", made_up_answer.SENTENCES["how_much_better"], "What next", made_up_answer.SENTENCES["next"], "What was hidden",
-            "stand still below 500 N each. in the set", "hidden 500 N, found 434 N (181 N to 608 N, 90 %); the interval holds it",
-            "hidden 10 MN/m, found 5.4 MN/m (4.7 MN/m to 6.4 MN/m, 90 %); the interval misses it", "The stays S1 and S2 vibrate. missed",
+            "In the set. Friction: the dampers C1 and C2 stand still below 500 N each.", "hidden 500 N, found 434 N (181 N to 608 N, 90 %); the interval holds it",
+            "hidden 10 MN/m, found 5.4 MN/m (4.7 MN/m to 6.4 MN/m, 90 %); the interval misses it", "Missed. The stays S1 and S2 vibrate.",
             "Every number on this page")]
         self.assertEqual(order, sorted(order))
         self.assertNotIn("node:725", first, "a place has words on the first screen")
@@ -90,7 +90,7 @@ class OneStudy(unittest.TestCase):
 
     def test_five_sentences_and_no_word_of_a_truth(self):
         text = self.answer(made_up_answer.diagnosis())
-        for part in (*made_up_answer.SENTENCES.values(), "Made-up frame: published measurements", "Verdict: named"):
+        for part in (*made_up_answer.SENTENCES.values(), "Made-up frame (published measurements)", "Verdict: named"):
             self.assertIn(part, text)
         self.assertNotIn("hidden", text)
 

@@ -42,7 +42,7 @@ def read_rows(file):
 def hidden_dampers(settings, truth, conditions):
     """One a make of damper: cause, places that are right, sizes that were imposed. @param conditions  that the diagnosis was given"""
     rows = [r for r in read_rows(truth / "dampers.csv") if r["condition"] in conditions]
-    for make in settings.get("damper", []):
+    for make in sorted(settings.get("damper", []), key=lambda make: -quantity(make.get("friction", "0 N"))):  # what shows most comes first
         names = sorted({r["damper"] for r in rows if r["damper"].startswith(make["type"])})
         if not names or "friction" not in make:
             continue

@@ -62,10 +62,10 @@ class Score(unittest.TestCase):
     def test_what_is_named_is_scored_with_its_sizes(self):
         score = self.run_scorer(FRICTION)
         self.assertTrue(score["scored"])
-        self.assertEqual([h["answer"] for h in score["hidden"]], ["missed", "named", "missed"])
-        right = score["hidden"][1]
+        self.assertEqual([h["answer"] for h in score["hidden"]], ["named", "missed", "missed"])
+        right = score["hidden"][0]
         self.assertIn("C1 and C2 stand still below 500 N each, held by mounts of 10 MN/m; they slide 72 % of the time in windy", right["what"])
-        self.assertIn("they slide at no time", score["hidden"][0]["what"])
+        self.assertIn("they slide at no time", score["hidden"][1]["what"])
         self.assertEqual([(s["name"], s["truth"], s["value"], s["inside"]) for s in right["sizes"]],
                          [("Fc_N", 500.0, 434.0, True), ("k_lock_N_m", 1e7, 5.4e6, False)])
         self.assertEqual((score["not_hidden"], score["gain"]["reduction_pct"]), ([], 11.0))
@@ -81,12 +81,12 @@ class Score(unittest.TestCase):
                                                 ([WRONG], "named", "missed", ["A mass."]), ([], "none", "missed", [])):
             with self.subTest(answer=answer, verdict=verdict):
                 score = self.run_scorer(*effects, verdict=verdict)
-                self.assertEqual(score["hidden"][1]["answer"], answer)
+                self.assertEqual(score["hidden"][0]["answer"], answer)
                 self.assertEqual(score["not_hidden"], wrong)
 
     def test_stays_that_vibrate_are_a_cause(self):
         bars = {"cause": "barstays", "location": "global", "cluster": ["barstays@global"], "probability": 0.9, "sentence": "s", "parameters": []}
-        self.assertEqual([h["answer"] for h in self.run_scorer(FRICTION, bars)["hidden"]], ["missed", "named", "named"])
+        self.assertEqual([h["answer"] for h in self.run_scorer(FRICTION, bars)["hidden"]], ["named", "missed", "named"])
 
     def test_without_a_truth_nothing_is_scored_and_nothing_fails(self):
         (self.folder / "campaign/truth/dampers.csv").unlink()

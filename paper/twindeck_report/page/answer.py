@@ -9,7 +9,7 @@ from .numbers import physical
 
 QUESTIONS = (("what", "What is wrong"), ("why", "Why"), ("how_sure", "How sure"), ("how_much_better", "How much better"), ("next", "What next"))
 SCORE = "score/score.json"
-MEASURED = {"published": "published measurements", "virtual": "virtual campaign, whose truth is known"}
+MEASURED = {"published": "published measurements", "virtual": "its truth is known"}
 ANSWERS = {"named": "good", "in the set": "good", "missed": "bad"}
 
 
@@ -49,9 +49,8 @@ def _score(study: Study, diagnosis) -> dict | None:
 def _hidden(hidden: dict) -> dict:
     sizes = []
     for s in hidden["sizes"]:
-        text = f"{s['words']}: hidden {physical(s['truth'], s['unit'])}"
-        if s["value"] is not None:
-            text += (f", found {physical(s['value'], s['unit'])} ({physical(s['low'], s['unit'])} to {physical(s['high'], s['unit'])}, 90 %); "
-                     + ("the interval holds it" if s["inside"] else "the interval misses it"))
-        sizes.append(text)
+        if s["value"] is not None:  # what was hidden stands in `what` already
+            sizes.append(f"{s['words']}: hidden {physical(s['truth'], s['unit'])}, found {physical(s['value'], s['unit'])} "
+                         f"({physical(s['low'], s['unit'])} to {physical(s['high'], s['unit'])}, 90 %); "
+                         + ("the interval holds it" if s["inside"] else "the interval misses it"))
     return {"what": hidden["what"], "answer": hidden["answer"], "tone": ANSWERS.get(hidden["answer"], "warn"), "sizes": sizes}

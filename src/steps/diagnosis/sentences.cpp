@@ -21,6 +21,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kMeasuredDigits = 4;        ///< of measured values: frequencies are known to a part in a thousand
+constexpr int kCountDigits = 9;           ///< of a number of rows: all of them
 constexpr std::size_t kRivals = 3;        ///< that are named one by one
 constexpr double kAlmostOne = 0.995;      ///< probabilities that two digits would show as 1
 constexpr double kAlmostNothing = 0.005;  ///< … or as 0
@@ -135,7 +136,7 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
   if (result.verdict == "none" && beyond == 0)
     return fmt::format("Nothing that chance does not allow. The largest deviation: {}.", most);
   return fmt::format("{}. Of {} measured values {} lie further off than the {:.1f} standard deviations that chance allows.",
-                     capitalised(most), before.size(), beyond, limit);
+                     capitalised(most), number_in_words(static_cast<double>(before.size()), kCountDigits), beyond, limit);
 }
 
 /// "factor 0.55 to 0.68", "Fc at least 181 N": what is not in the sentence already.
@@ -163,16 +164,16 @@ std::string with_intervals(const Effect& effect) {
   return ended(effect.sentence + in_state) + (words.empty() ? "" : fmt::format(" With 90 %: {}.", fmt::join(words, "; ")));
 }
 
-std::string why_it_is(const Diagnosis& result) {
+std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.verdict == "none")
     return "No cause is needed: the model with its parameters inside their bounds explains the measurement.";
   if (result.effects.empty()) return ended(capitalised(result.message));
-  std::string text = result.verdict == "unknown" ? "Not known. What comes nearest: " : "";
-  for (const Effect& effect : result.effects) {
-    if (&effect != &result.effects.front()) text += " Beside it: ";
-    text += with_intervals(effect);
-  }
-  return text;
+  std::string text =
+      (result.verdict == "unknown" ? "Not known. What comes nearest: " : "") + with_intervals(result.effects.front());
+  std::vector<std::string> others;
+  for (std::size_t i = 1; i < result.effects.size(); ++i)
+    others.push_back(ids.in_text(result.effects[i].cause.candidate->id()));
+  return others.empty() ? text : fmt::format("{} Beside it: {}.", text, fmt::join(others, "; "));
 }
 
 std::string probability_words(double p) {
@@ -210,6 +211,7 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   const Effect& first = result.effects.front();
   text += fmt::format("Weighed against all other causes of the catalogue and against none, the {}cause has probability {}. ",
                       result.effects.size() > 1 ? "first " : "", probability_words(first.probability));
+  if (result.verdict == "unknown" && first.rivals.empty()) return text + "It is not the whole of what is wrong.";
   return text + rivals_words(first, ids);
 }
 
@@ -224,6 +226,14 @@ std::string how_much_better_it_is(const Diagnosis& result) {
       gain.rows, gain.before, gain.after, gain.reduction_pct, gain.low_pct, gain.high_pct);
   if (shows_gain(gain)) return capitalised(numbers) + ".";
   return fmt::format("No gain shown: {}.", numbers);
+}
+
+std::string left_over_words(const Diagnosis& result, const PlaceWords& places) {
+  return fmt::format(
+      "What is left sits about {}: more points of the shapes there, and a second condition (amplitude, temperature), would "
+      "show "
+      "what it depends on.",
+      places.at(result.localisation.front().location).words);
 }
 
 /// The hypothesis' own sentence with place and numbers in words.
@@ -306,11 +316,7 @@ std::vector<std::string> measure_next(const Diagnosis& result, const PlaceWords&
                                  ids.in_text(effect.cause.candidate->id()), p.at_high_bound ? "a lower" : "an upper"));
     }
   }
-  if (result.verdict == "unknown" && !result.localisation.empty())
-    next.push_back(fmt::format(
-        "What is left sits about {}: more points of the shapes there, and a second condition (amplitude, temperature), "
-        "would show what it depends on.",
-        places.at(result.localisation.front().location).words));
+  if (result.verdict == "unknown" && !result.localisation.empty()) next.push_back(left_over_words(result, places));
   std::map<std::string, std::vector<std::string>> lacking;
   for (const auto& none : invisible)
     if (none.reason.find("this model") == std::string::npos) lacking[none.reason].push_back(none.hypothesis);
@@ -324,14 +330,18 @@ Sentences sentences_of(const Inference& inference, const Diagnosis& result, cons
                        const std::vector<std::string>& next) {
   Sentences out;
   out.what = what_is_wrong(inference, result, places);
-  out.why = why_it_is(result);
+  out.why = why_it_is(result, ids);
   out.how_sure = how_sure_it_is(result, ids);
   out.how_much_better = how_much_better_it_is(result);
-  const bool rival =
-      !result.effects.empty() && result.effects.front().cluster.size() > 1 && !result.effects.front().split_by.empty();
+  const auto rivalled = std::find_if(result.effects.begin(), result.effects.end(),
+                                     [](const Effect& e) { return e.cluster.size() > 1 && !e.split_by.empty(); });
   const bool open = !next.empty() && !next.front().starts_with("Cannot be asked");
-  if (rival)
-    out.next = fmt::format("To tell the cause from its nearest rival, measure {}.", result.effects.front().split_by);
+  if (result.verdict == "unknown" && !result.localisation.empty())
+    out.next = left_over_words(result, places);
+  else if (rivalled != result.effects.end())
+    out.next = fmt::format("To tell {} from its nearest rival, measure {}.",
+                           rivalled == result.effects.begin() ? "the cause" : ids.in_text(rivalled->cluster.front()),
+                           rivalled->split_by);
   else if (open)
     out.next = next.front();
   else if (!result.effects.empty())
