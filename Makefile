@@ -21,9 +21,10 @@ STEP ?= $(word 2,$(MAKECMDGOALS))
 $(filter-out why,$(MAKECMDGOALS)): why ; @:
 else
 include workflows/steps.mk
+include workflows/virtual.mk
 endif
 
-.PHONY: baseline moves checksums check-power paper blind-trials help all look deps build test unit steps tables figures report verify \
+.PHONY: baseline moves checksums check-power paper blind-trials score help all look deps build test unit steps tables figures report verify \
   smoke bench fuzz sanitize processors calibrate why new reference clean FORCE
 
 help: ## this page
@@ -35,7 +36,7 @@ help: ## this page
 	@echo "  make sN          step N of the study (s1_model … ): $(STEPS)"
 	@echo "  STUDY=$(STUDY)   the study; MODES=dir  measured modes of your own for s4 and s6; THREADS=$(THREADS)"
 
-all: report verify ## everything of the study: install, build, steps, tables, figures, report, check against the paper
+all: report verify ## everything of the study and its virtual campaign: install, build, steps, tables, figures, report, check against the paper
 
 deps: ## packages and versions; what is missing is installed (apt, as root or with sudo)
 	@workflows/deps.sh $(if $(filter deps,$(MAKECMDGOALS)),--report)
@@ -63,6 +64,9 @@ look: $(RESULTS)/s1_model/manifest.json ## a first look: compiles step 1 alone, 
 
 steps: $(STEP_MANIFESTS) ## every step of the study
 
+score: $(SCORE) ## diagnosis of the study's virtual campaign, held against what was hidden in it (the scorer alone reads the truth)
+	@$(if $(SCORE),:,echo "score: study $(STUDY) has no virtual campaign (workflows/$(STUDY)_virtual)" >&2; exit 2)
+
 tables: $(RESULTS)/tables/manifest.json ## tables as CSV, TeX, HTML
 figures: $(RESULTS)/figures/manifest.json ## figures as PDF, PNG and their data
 report: $(RESULTS)/report/report.html ## one self-contained page; refused where a file was changed after it was written
@@ -77,7 +81,7 @@ $(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) workflows/p
 $(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(wildcard results/scoring/*.csv) workflows/python.sh
 	@$(REPORT) figures $(REPORT_ARGUMENTS)
 
-$(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json $(wildcard results/check_power/power.csv)
+$(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json $(wildcard results/check_power/power.csv) $(SCORE)
 	@$(REPORT) report $(REPORT_ARGUMENTS)
 
 paper: $(RESULTS)/paper/paper.pdf ## our article as PDF, with the generated tables, figures and numbers (needs LaTeX; says how to get it)

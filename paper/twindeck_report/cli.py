@@ -70,6 +70,9 @@ def _report(study: Study) -> int:
 
 def _unchanged(study: Study) -> int:
     refuse_changed(study, changed_steps(study) + changed_pages(study))
+    virtual = study.virtual()
+    if virtual is not None:
+        refuse_changed(virtual, changed_steps(virtual))
     return 0
 
 

@@ -61,6 +61,11 @@ class Study:
         """A study without printed tables has nothing to be compared with."""
         return (self.data / "paper").is_dir()
 
+    def virtual(self) -> "Study | None":
+        """The study that diagnoses this one's virtual campaign, workflows/<study>_virtual; None where there is none."""
+        workflow, results, data = (path.with_name(f"{path.name}_virtual") for path in (self.workflow, self.results, self.data))
+        return Study(f"{self.name}_virtual", results, data, workflow) if (workflow / "study.toml").is_file() else None
+
     def _mend(self, path: Path) -> str:
         try:
             first = path.relative_to(self.results).parts[0]

@@ -27,6 +27,13 @@ double tempered(const Scored& scored, double ratio) {
   return scored.log_odds < -1e299 ? -1e300 : (scored.log_odds - prior) / ratio + prior;
 }
 
+/// The ranking as it is told: one number an entry, the same as that of an effect or of the detection. The leader stays the first.
+std::vector<Scored> with_widened_odds(std::vector<Scored> ranking, double ratio) {
+  for (Scored& scored : ranking) scored.log_odds = tempered(scored, ratio);
+  std::stable_sort(ranking.begin() + 1, ranking.end(), [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; });
+  return ranking;
+}
+
 /// What is known beforehand does not widen with the misfit: an entry to which a study gives more weight than the catalogue does
 /// leads where its odds are the largest once the likelihoods are widened.
 void prefer_stated_priors(std::vector<Scored>& ranking, double ratio) {
@@ -108,7 +115,9 @@ std::string splitting_measurement(const Inference& inference, const Fit& base, c
     const double difference = (values - other->second).cwiseAbs().maxCoeff(&mode);
     if (difference > largest) {
       largest = difference;
-      where = fmt::format("the shape of mode {} at {}", map.measured_modes()[static_cast<std::size_t>(mode)].label, name);
+      const auto space = name.rfind(' ');  // "node:17 z"
+      where = fmt::format("the shape of mode {} at {} along {}", map.measured_modes()[static_cast<std::size_t>(mode)].label,
+                          name.substr(0, space), name.substr(space + 1));
     }
   }
   return where.empty() ? "" : fmt::format("{} (differs by {:.1f} % of the largest)", where, 100.0 * largest);
@@ -290,7 +299,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
       extended = weigh();
     }
     if (step == 0) {
-      out.ranking = ranking;
+      out.ranking = with_widened_odds(ranking, ratio);
       out.log_odds = tempered(ranking.front(), ratio);
       out.localisation = location_map(inference, current, ranking);
     }
@@ -304,7 +313,12 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     for (const Scored& scored : ranking)
       if (const double d = tempered(scored, ratio); d > top - 40.0) scaled += std::exp(d - top);
     effect.probability = 1.0 / scaled;
-    for (const Scored* member : members) effect.cluster.push_back(member->candidate->id());
+    std::vector<double> probability;
+    for (const Scored* member : members) {
+      effect.cluster.push_back(member->candidate->id());
+      probability.push_back(effect.probability * std::exp(tempered(*member, ratio) - top));
+    }
+    effect.rivals = rivals_of(members, probability, ratio);
     effect.split_by = splitting_measurement(inference, current, members);
     current = std::move(extended);
     out.effects.push_back(effect);

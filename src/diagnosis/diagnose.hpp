@@ -33,9 +33,19 @@ struct EffectParameter {
   bool at_low_bound = false, at_high_bound = false;  ///< the interval reaches the prior's end: a one-sided limit
 };
 
+/// Another member of a cause's cluster.
+struct Rival {
+  std::string id;                           ///< "mass@node:7"; "other@global" is something else that changed
+  const Candidate* candidate = nullptr;     ///< null where it is no entry of the catalogue
+  double probability = 0.0;
+  std::vector<EffectParameter> parameters;  ///< 90 % intervals; empty where its magnitudes are not known
+};
+
 struct Effect {
   Cause cause;
+  std::string state;                 ///< of the structure in which it acts; empty: in all
   std::vector<std::string> cluster;  ///< "fric@damper:C1", the best first
+  std::vector<Rival> rivals;         ///< the others of the cluster, in its order
   double log_odds = 0.0, probability = 0.0;
   std::string split_by, sentence, remedy;
   std::vector<EffectParameter> parameters;  ///< 90 % intervals
@@ -72,7 +82,7 @@ struct Diagnosis {
   Gain gain;
   std::vector<std::string> on_bounds;  ///< of the model without causes
   Fit before, after;
-  std::vector<Scored> ranking;  ///< of the first search
+  std::vector<Scored> ranking;  ///< of the first search, odds widened as those of the effects are
   std::optional<FormReport> form;  ///< where the model's form was a competitor
 };
 

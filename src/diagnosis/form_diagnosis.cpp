@@ -164,6 +164,29 @@ double probability_of_leader(const FormSearch& search, double misfit) {
   return 1.0 / sum;
 }
 
+/// The others of a cluster; magnitudes of those that were linearised with the entry in the model.
+std::vector<Rival> form_rivals(const FormSearch& search, const Weighing& weighing, const std::vector<const Scored*>& members,
+                               double probability_of_leader, const FormSetting& setting) {
+  const double misfit = std::max(1.0, weighing.weighed.chi_squared_ratio), leader = search.entries.front().log_weight;
+  std::vector<double> probability;
+  for (const std::size_t i : weighing.members)
+    probability.push_back(probability_of_leader * std::exp((search.entries[i].log_weight - leader) / misfit));
+  std::vector<Rival> out = rivals_of(members, probability, misfit);
+  for (std::size_t m = 1; m < weighing.members.size(); ++m) {
+    const FormEntry& entry = search.entries[weighing.members[m]];
+    if (entry.refined && !entry.with.causes.empty() && entry.with.causes.back().candidate == entry.candidate)
+      out[m - 1].parameters = effect_parameters(setting.informed, entry.with, entry.with.causes.size() - 1);
+  }
+  return out;
+}
+
+double probability_of_something_else(const FormSearch& search, const Weighing& weighing, double probability_of_leader) {
+  const double misfit = std::max(1.0, weighing.weighed.chi_squared_ratio), leader = search.entries.front().log_weight;
+  double sum = 0.0;
+  for (const double w : search.else_weight) sum += std::exp((w - leader) / misfit);
+  return probability_of_leader * sum;
+}
+
 Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking, const Weighing& weighing, const Ruling& ruling,
                    const FormSetting& setting) {
   Effect effect;
@@ -173,7 +196,11 @@ Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking,
   std::vector<const Scored*> members;
   for (const std::size_t i : weighing.members) members.push_back(&ranking[i]);
   for (const Scored* member : members) effect.cluster.push_back(member->candidate->id());
-  if (ruling.something_else_in_set) effect.cluster.emplace_back("other@global");
+  effect.rivals = form_rivals(search, weighing, members, effect.probability, setting);
+  if (ruling.something_else_in_set) {
+    effect.cluster.emplace_back("other@global");
+    effect.rivals.push_back({"other@global", nullptr, probability_of_something_else(search, weighing, effect.probability), {}});
+  }
   effect.split_by = splitting_measurement(setting.plain, search.base, members);
   return effect;
 }
@@ -245,6 +272,7 @@ void finish(const Inference& plain, const std::vector<Cause>& causes, const Vect
     out.effects[i].cause = out.after.causes[i];
     out.effects[i].parameters = effect_parameters(inference, out.after, i);
     widen(out.effects[i].parameters, without_cause);
+    for (Rival& rival : out.effects[i].rivals) widen(rival.parameters, without_cause);
     out.effects[i].sentence = sentence_of(out.effects[i]);
     out.effects[i].remedy = out.effects[i].cause.candidate->hypothesis->remedy;
   }
@@ -299,6 +327,7 @@ class Chain {
 
   void begin_with(const Step& first) {
     out_.ranking = first.ranking;
+    for (Scored& scored : out_.ranking) scored.log_odds /= std::max(1.0, first.weighing.weighed.chi_squared_ratio);
     out_.log_odds = first.ruling.against_none;
     out_.threshold = first.ruling.threshold;
     winner_ = first.search.none;

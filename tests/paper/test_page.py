@@ -16,6 +16,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 
 import browser  # noqa: E402
+import made_up_answer  # noqa: E402
 import made_up_study  # noqa: E402
 from twindeck_report import cli  # noqa: E402
 from twindeck_report.page import scripts  # noqa: E402
@@ -50,6 +51,7 @@ class Page(unittest.TestCase):
         cls.folder = cls.enterClassContext(tempfile.TemporaryDirectory())
         cls.addClassCleanup(os.chdir, os.getcwd())
         data, workflow, results = made_up_study.make_study(cls.folder)
+        made_up_answer.add_virtual(workflow, results)
         cls.page = results / "report/report.html"
         os.chdir(cls.folder)
         for command in ("tables", "figures", "report"):
@@ -143,6 +145,15 @@ class Page(unittest.TestCase):
 
     def test_without_webgl(self):
         self.assertEqual(self.looked_at(webgl=False), "canvas")
+
+    def test_nothing_sticks_out_sideways_on_a_telephone_or_a_desk(self):
+        """And the first sentence of the diagnosis is in view at both widths."""
+        with browser.Browser(webgl=False) as b:
+            for width, height in ((390, 844), (1400, 900)):
+                b.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+                b.open(self.page.resolve())
+                self.assertLessEqual(b.run("document.documentElement.scrollWidth"), width)
+                self.assertLess(b.run("document.querySelector('.answer dd').getBoundingClientRect().top"), height)
 
     def test_page_can_be_sent_by_mail(self):
         self.assertLess(self.page.stat().st_size, LARGEST)

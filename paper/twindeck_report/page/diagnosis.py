@@ -3,6 +3,7 @@ import json
 
 from ..study import Study
 from .heatmap import heatmaps
+from .numbers import physical, span
 from .places import places
 
 VERDICTS = {
@@ -28,7 +29,12 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
     where = places(study, settings, folder, told.get("localisation", []))
     return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
-            "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity}
+            "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity, "physical": physical, "parameters": _parameters(told)}
+
+
+def _parameters(told: dict) -> list:
+    """The extended model's parameters in their own units, as the best admissible model has them and with the causes in it."""
+    return [{"name": p["name"], "before": span(p["before"], p["unit"]), "after": span(p["after"], p["unit"])} for p in told.get("model_parameters", [])]
 
 
 def _sure(probability: float) -> str:
@@ -58,11 +64,12 @@ def _count(study: Study) -> int:
 
 
 def _tried(study: Study) -> list:
-    """The likeliest entries: log odds against `nothing`."""
+    """The likeliest entries in the order of the file: log odds against `nothing` before any cause is in the model. The first entry's are those
+    of the detection."""
     if not (study.results / "s9_diagnosis/hypotheses.csv").is_file():
         return []
     table = study.step_csv("s9_diagnosis/hypotheses.csv", ["cause", "location", "log_odds"])
-    table = table[table["log_odds"].notna()].sort_values("log_odds", ascending=False, kind="stable").drop_duplicates(["cause", "location"])
+    table = table[table["log_odds"].notna()].drop_duplicates(["cause", "location"])
     most = max(1.0, float(table["log_odds"].max())) if len(table) else 1.0
     return [{"cause": r["cause"], "location": r["location"], "odds": r["log_odds"], "share": max(0.0, 100.0 * r["log_odds"] / most),
              "status": r.get("status", "") if isinstance(r.get("status", ""), str) else ""} for r in table.head(12).to_dict("records")]

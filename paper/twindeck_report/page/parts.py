@@ -1,7 +1,7 @@
 """What every report page shows, ready for templates/parts/."""
 from ..figures.flow import flow
 from ..study import Study
-from . import diagnosis, flowchart, model_facts, places, poles, processors, provenance, scripts, shapes, still
+from . import answer, diagnosis, flowchart, model_facts, places, poles, processors, provenance, scripts, shapes, still
 
 
 def common_parts(study: Study, settings: dict) -> dict:
@@ -33,6 +33,7 @@ def common_parts(study: Study, settings: dict) -> dict:
         "processors": processors.processors(study),
         "pulls": model_facts.pulls(study),
         "convergence": model_facts.convergence(study),
+        "answers": answer.answers(study),
         "diagnosis": told,
         "modes": modes,
         "poles": data["poles"],

@@ -14,7 +14,7 @@ def places(study: Study, settings: dict, folder: str | None, localisation: list)
     drawing = read_drawing(study, folder) if folder else None
     finder = _Finder(study, settings, folder, drawing)
     ordered = sorted(localisation, key=lambda entry: -entry["score"])
-    return [{"location": e["location"], "score": e["score"], **finder.find(e["location"])} for e in ordered]
+    return [{"location": e["location"], "words": e.get("words", e["location"]), "score": e["score"], **finder.find(e["location"])} for e in ordered]
 
 
 def where_data(found: list, nodes: int) -> dict:

@@ -28,39 +28,7 @@ std::string channel_of(const Inference& inference, const Row& row) {
   return row.channel >= 0 ? inference.map().features().channels[static_cast<std::size_t>(row.channel)] : row.stay;
 }
 
-/// Two-sided limit that n standard normal residuals keep together with 99 % (Sidak 1967).
-double sidak_limit(std::size_t n) {
-  const double each = std::pow(0.99, 1.0 / static_cast<double>(n));
-  double low = 0.0, high = 10.0;
-  for (int i = 0; i < 80; ++i) (std::erf(0.5 * (low + high) / std::sqrt(2.0)) < each ? low : high) = 0.5 * (low + high);
-  return high;
-}
-
-/// What would decide what is open, in words: between the members of a cluster, beyond one-sided limits, about what is left, and for
-/// families that these rows show nothing of.
-std::vector<std::string> measure_next(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible) {
-  std::vector<std::string> next;
-  for (const auto& effect : result.effects) {
-    if (effect.cluster.size() > 1 && !effect.split_by.empty())
-      next.push_back(fmt::format("To tell {} from {}: {}.", effect.cluster[0], effect.cluster[1], effect.split_by));
-    for (const auto& p : effect.parameters) {
-      if (p.at_low_bound == p.at_high_bound) continue;
-      next.push_back(fmt::format("{} of {} has only {} limit: a record in which it is reached would give its size.", p.name,
-                                 effect.cause.candidate->id(), p.at_high_bound ? "a lower" : "an upper"));
-    }
-  }
-  if (result.verdict == "unknown" && !result.localisation.empty())
-    next.push_back(fmt::format("What is left sits about {}: more points of the shapes there, and a second condition (amplitude, temperature), "
-                               "would show what it depends on.", result.localisation.front().location));
-  std::map<std::string, std::vector<std::string>> lacking;
-  for (const auto& none : invisible)
-    if (none.reason.find("this model") == std::string::npos) lacking[none.reason].push_back(none.hypothesis);
-  for (const auto& [reason, families] : lacking)
-    next.push_back(fmt::format("These rows can show nothing of {}: {}.", fmt::join(families, ", "), reason));
-  return next;
-}
-
-/// The form error's scales, and the gain on modes left out, of which `before` and `after` are given where no row was held out.
+/// The form error's scales, and the gain on modes left out.
 void add_form(const diagnosis::FormReport& form, nlohmann::ordered_json& json) {
   const auto percent = [](const diagnosis::ScaleEstimate& e) {
     return nlohmann::ordered_json{{"level", 100.0 * e.level}, {"low", 100.0 * e.low}, {"high", 100.0 * e.high}};
@@ -70,31 +38,61 @@ void add_form(const diagnosis::FormReport& form, nlohmann::ordered_json& json) {
   gain["log_gain"] = form.gain.log_gain;
   gain["log_gain_interval"] = {form.gain.low, form.gain.high};
   gain["blocks"] = form.gain.blocks.size();
-  if (gain["rows"] != 0 || form.gain.blocks.empty()) return;
-  double before = 0.0, after = 0.0;
-  int rows = 0;
-  for (const auto& block : form.gain.blocks) {
-    before += block.before;
-    after += block.after;
-    rows += block.rows;
-  }
-  gain["held_out"] = "each mode in turn, in all conditions";
-  gain["rows"] = rows;
-  gain["before"] = std::sqrt(before / rows);
-  gain["after"] = std::sqrt(after / rows);
-  gain["reduction_pct"] = form.gain.reduction_pct;
-  gain["interval_pct"] = {form.gain.low_pct, form.gain.high_pct};
+}
+
+nlohmann::ordered_json listed_parameters(const std::vector<diagnosis::EffectParameter>& parameters) {
+  auto out = nlohmann::ordered_json::array();
+  for (const auto& p : parameters)
+    out.push_back({{"name", p.name},
+                   {"unit", p.unit},
+                   {"value", p.value},
+                   {"low", p.low},
+                   {"high", p.high},
+                   {"level", 0.90},
+                   {"one_sided", p.at_low_bound && p.at_high_bound ? "open"
+                                 : p.at_high_bound                 ? "lower limit"
+                                 : p.at_low_bound                  ? "upper limit"
+                                                                   : ""}});
+  return out;
+}
+
+/// State, place and rivals of an effect. A coordinate that is not known is null.
+void add_place_and_rivals(const diagnosis::Effect& effect, const Told& told, nlohmann::ordered_json& json) {
+  const PlaceInWords place = told.places.at(effect.cause.candidate->location);
+  json["state"] = effect.state;
+  json["place"] = {{"words", place.words}, {"x_m", place.x_m.x()}, {"y_m", place.x_m.y()}, {"z_m", place.x_m.z()}};
+  json["rivals"] = nlohmann::ordered_json::array();
+  for (const diagnosis::Rival& rival : effect.rivals)
+    json["rivals"].push_back({{"id", rival.id},
+                              {"words", rival.candidate == nullptr ? "something else that changed" : told.ids.in_text(rival.id)},
+                              {"probability", rival.probability},
+                              {"parameters", listed_parameters(rival.parameters)}});
+}
+
+nlohmann::ordered_json listed_model_parameters(const std::vector<diagnosis::ModelParameter>& parameters) {
+  const auto numbers = [](const diagnosis::ParameterEstimate& e) {
+    return nlohmann::ordered_json{{"value", e.value}, {"low", e.low}, {"high", e.high}};
+  };
+  auto out = nlohmann::ordered_json::array();
+  for (const auto& p : parameters)
+    out.push_back({{"name", p.name}, {"unit", p.unit}, {"before", numbers(p.before)}, {"after", numbers(p.after)}, {"level", 0.90}});
+  return out;
+}
+
+nlohmann::ordered_json listed_sentences(const Sentences& sentences) {
+  return {{"what", sentences.what}, {"why", sentences.why}, {"how_sure", sentences.how_sure}, {"how_much_better", sentences.how_much_better},
+          {"next", sentences.next}};
 }
 
 }  // namespace
 
-void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const std::vector<diagnosis::Invisible>& invisible,
-                     const diagnosis::FullCheck& check, double residual_alpha, double seconds, const std::string& threshold_from,
-                     const std::filesystem::path& file) {
+void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const Told& told, const diagnosis::FullCheck& check,
+                     double residual_alpha, double seconds, const std::string& threshold_from, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
   json["verdict"] = result.verdict;
   json["message"] = result.message;
+  json["sentences"] = listed_sentences(told.sentences);
   json["detection"] = {{"log_odds", result.log_odds},
                        {"threshold", result.threshold},
                        {"alpha", result.alpha},
@@ -133,37 +131,30 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
     one["probability"] = effect.probability;
     one["log_odds"] = effect.log_odds;
     one["split_by"] = effect.split_by;
-    one["parameters"] = nlohmann::ordered_json::array();
-    for (const auto& p : effect.parameters)
-      one["parameters"].push_back({{"name", p.name},
-                                   {"unit", p.unit},
-                                   {"value", p.value},
-                                   {"low", p.low},
-                                   {"high", p.high},
-                                   {"level", 0.90},
-                                   {"one_sided", p.at_low_bound && p.at_high_bound ? "open"
-                                                 : p.at_high_bound                 ? "lower limit"
-                                                 : p.at_low_bound                  ? "upper limit"
-                                                                                   : ""}});
+    one["parameters"] = listed_parameters(effect.parameters);
+    add_place_and_rivals(effect, told, one);
     one["sentence"] = effect.sentence;
     one["remedy"] = effect.remedy;
     json["effects"].push_back(one);
   }
   json["localisation"] = nlohmann::ordered_json::array();
-  for (const auto& at : result.localisation) json["localisation"].push_back({{"location", at.location}, {"score", at.score}});
-  json["gain"] = {{"held_out", result.gain.held_out},
-                  {"rows", result.gain.rows},
-                  {"before", result.gain.before},
-                  {"after", result.gain.after},
-                  {"reduction_pct", result.gain.reduction_pct},
-                  {"interval_pct", {result.gain.low_pct, result.gain.high_pct}},
+  for (const auto& at : result.localisation) 
+    json["localisation"].push_back({{"location", at.location}, {"score", at.score}, {"words", told.places.at(at.location).words}});
+  const diagnosis::Gain gain = told_gain(result);
+  json["gain"] = {{"held_out", gain.held_out},
+                  {"rows", gain.rows},
+                  {"before", gain.before},
+                  {"after", gain.after},
+                  {"reduction_pct", gain.reduction_pct},
+                  {"interval_pct", {gain.low_pct, gain.high_pct}},
                   {"level", 0.90}};
   if (result.form) add_form(*result.form, json);
-  json["measure_next"] = measure_next(result, invisible);
+  json["measure_next"] = told.measure_next;
   const auto listed = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
   json["full_model"] = {{"frequency_Hz", listed(check.full_Hz)},
                         {"reduced_Hz", listed(check.reduced_Hz)},
                         {"largest_deviation_pct", check.largest_pct}};
+  json["model_parameters"] = listed_model_parameters(told.model_parameters);
   json["parameters_on_bounds"] = result.on_bounds;
   json["seconds"] = seconds;
   json["extended_model"] = "extended_model/";

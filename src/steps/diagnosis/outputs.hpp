@@ -5,15 +5,26 @@
 
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/full_check.hpp"
+#include "diagnosis/model_parameters.hpp"
 #include "steps/diagnosis/evidence.hpp"
+#include "steps/diagnosis/sentences.hpp"
 
 namespace twindeck::steps {
 
+/// What a diagnosis is told with. The first two are borrowed.
+struct Told {
+  const PlaceWords& places;
+  const IdsInWords& ids;
+  Sentences sentences;
+  std::vector<std::string> measure_next;
+  std::vector<diagnosis::ModelParameter> model_parameters;
+};
+
 /// diagnosis.json, as docs/ describes it.
 /// @param check  of the winner against the full model
-void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<Finding>& account,
-                     const std::vector<diagnosis::Invisible>& invisible, const diagnosis::FullCheck& check, double residual_alpha,
-                     double seconds, const std::string& threshold_from, const std::filesystem::path& file);
+void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<Finding>& account, const Told& told,
+                     const diagnosis::FullCheck& check, double residual_alpha, double seconds, const std::string& threshold_from,
+                     const std::filesystem::path& file);
 /// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
 /// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
 /// it lies outside the limit that all rows together keep with 99 % (Sidak).

@@ -349,10 +349,19 @@ void say_form(const diagnosis::FormReport& form, StepContext& context) {
                           100.0 * form.frequency.level, 100.0 * form.frequency.low, 100.0 * form.frequency.high, 100.0 * form.shape.level,
                           100.0 * form.shape.low, 100.0 * form.shape.high));
   if (!form.gain.blocks.empty())
-    context.say(fmt::format("  left out mode by mode ({} modes): gain {:.1f} nats ({:.1f} to {:.1f}), misfit {:.0f} % less ({:.0f} to {:.0f})",
-                            form.gain.blocks.size(), form.gain.log_gain, form.gain.low, form.gain.high, form.gain.reduction_pct,
-                            form.gain.low_pct, form.gain.high_pct));
+    context.say(fmt::format("  left out mode by mode ({} modes): gain {:.1f} nats ({:.1f} to {:.1f})", form.gain.blocks.size(),
+                            form.gain.log_gain, form.gain.low, form.gain.high));
   for (const std::string& warning : form.warnings) context.say("  warning: " + warning);
+}
+
+/// The last lines of the step.
+void say_sentences(const std::string& verdict, const Sentences& sentences, StepContext& context) {
+  context.say("verdict: " + verdict);
+  context.say("  what is wrong: " + sentences.what);
+  context.say("  why: " + sentences.why);
+  context.say("  how sure: " + sentences.how_sure);
+  context.say("  how much better: " + sentences.how_much_better);
+  context.say("  next: " + sentences.next);
 }
 
 }  // namespace
@@ -390,6 +399,9 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   diagnosis::Diagnosis result = with_form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
                                           : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
+  const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels, inputs.places);
+  const IdsInWords ids = ids_in_words(places, inference);
+  put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
   write_residuals(inference, result, context.out / "residuals.csv");
   write_hypotheses(result, entries.invisible, context.out / "hypotheses.csv");
@@ -408,18 +420,14 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   else
     context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_diagnosis(result, inputs.account, entries.invisible, check, config.residual_alpha, seconds, threshold.from,
-                  context.out / "diagnosis.json");
-  for (const Finding& finding : inputs.account) context.say(finding.text);
-  context.say(fmt::format("{}: {}", result.verdict, result.message));
-  for (const auto& effect : result.effects)
-    context.say(fmt::format("  {} (log odds {:.1f}){}", effect.cause.candidate->id(), effect.log_odds,
-                            effect.cluster.size() < 2 ? "" : fmt::format("; one of {}", fmt::join(effect.cluster, ", "))));
+  const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
+  const Told told{places, ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result)};
+  std::vector<Finding> account = inputs.account;
+  for (Finding& finding : account) finding.text = ids.in_text(finding.text);
+  write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  for (const Finding& finding : account) context.say(finding.text);
   if (result.form) say_form(*result.form, context);
-  if (result.gain.rows > 0)
-    context.say(fmt::format("  held out {} rows: {:.2f} -> {:.2f} standard deviations, {:.0f} % less ({:.0f} to {:.0f})",
-                            result.gain.rows, result.gain.before, result.gain.after, result.gain.reduction_pct,
-                            result.gain.low_pct, result.gain.high_pct));
+  say_sentences(result.verdict, told.sentences, context);
   return {};
 }
 

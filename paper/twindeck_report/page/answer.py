@@ -1,0 +1,56 @@
+"""The first screen of a report: what a diagnosis says in a sentence each, the virtual campaign's first, scored against what was hidden in it."""
+import json
+
+from ..errors import InputError
+from ..manifests import sha256
+from ..study import Study
+from .diagnosis import VERDICTS
+from .numbers import physical
+
+QUESTIONS = (("what", "What is wrong"), ("why", "Why"), ("how_sure", "How sure"), ("how_much_better", "How much better"), ("next", "What next"))
+SCORE = "score/score.json"
+MEASURED = {"published": "published measurements", "virtual": "its truth is known"}
+ANSWERS = {"named": "good", "in the set": "good", "missed": "bad"}
+
+
+def answers(study: Study) -> list:
+    """One a diagnosis: that of the study's virtual campaign, where there is one, then the study's own."""
+    return [found for each in (study.virtual(), study) if each is not None and (found := _answer(each)) is not None]
+
+
+def _answer(study: Study) -> dict | None:
+    path = study.results / "s9_diagnosis" / "diagnosis.json"
+    if "s9_diagnosis" not in study.steps() or not path.is_file():
+        return None
+    told = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(told.get("sentences"), dict):
+        raise InputError(f"{path}: sentences: missing; it was written by an earlier version: run `make s9 STUDY={study.name}`")
+    settings = study.read_toml(study.workflow / "study.toml")
+    tone, title, _ = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    return {"title": settings.get("title", study.name), "kind": MEASURED.get(settings.get("measured", "published"), ""), "verdict": told["verdict"],
+            "tone": tone, "heading": title, "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS],
+            "score": _score(study, path)}
+
+
+def _score(study: Study, diagnosis) -> dict | None:
+    """What `make score` wrote; None where no truth is known.
+    @throws InputError  where it is of another run"""
+    path = study.results / SCORE
+    if not path.is_file():
+        return None
+    score = json.loads(path.read_text(encoding="utf-8"))
+    if not score.get("scored"):
+        return None
+    if score.get("diagnosis_sha256") != sha256(diagnosis):
+        raise InputError(f"{path}: it scores another run than {diagnosis}; run `make score`")
+    return {"hidden": [_hidden(h) for h in score["hidden"]], "not_hidden": score["not_hidden"], "also": score["also"]}
+
+
+def _hidden(hidden: dict) -> dict:
+    sizes = []
+    for s in hidden["sizes"]:
+        if s["value"] is not None:  # what was hidden stands in `what` already
+            sizes.append(f"{s['words']}: hidden {physical(s['truth'], s['unit'])}, found {physical(s['value'], s['unit'])} "
+                         f"({physical(s['low'], s['unit'])} to {physical(s['high'], s['unit'])}, 90 %); "
+                         + ("the interval holds it" if s["inside"] else "the interval misses it"))
+    return {"what": hidden["what"], "answer": hidden["answer"], "tone": ANSWERS.get(hidden["answer"], "warn"), "sizes": sizes}

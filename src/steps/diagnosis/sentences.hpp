@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnose.hpp"
+#include "steps/diagnosis/place_words.hpp"
+#include "steps/diagnosis/plain_words.hpp"
+
+/// What a diagnosis says, in a sentence each: the same words and numbers on the terminal, in diagnosis.json and in the report.
+namespace twindeck::steps {
+
+struct Sentences {
+  std::string what;  ///< the measured quantity that the best admissible model misses most, and by how many standard deviations
+  std::string why;   ///< the cause in words, its place, its sizes with intervals
+  std::string how_sure;         ///< probability and rivals
+  std::string how_much_better;  ///< the gain with its interval, or that none is shown
+  std::string next;             ///< one thing to do
+};
+
+/// Words for every location and cause that the entries of a diagnosis name.
+[[nodiscard]] IdsInWords ids_in_words(const PlaceWords& places, const diagnosis::Inference& inference);
+
+/// Puts the sentences and measurements of the effects, and the message, into words for people: their ids and locations become
+/// places, their numbers get three digits.
+void put_into_words(diagnosis::Diagnosis& result, const PlaceWords& places, const IdsInWords& ids);
+
+/// The gain that is told: that of the rows that were held out, or of each mode left out in turn where none was.
+[[nodiscard]] diagnosis::Gain told_gain(const diagnosis::Diagnosis& result);
+
+/// Whether the gain's interval lies above zero.
+[[nodiscard]] bool shows_gain(const diagnosis::Gain& gain);
+
+/// What would decide what is open, the most wanted first: between the members of a cluster, beyond one-sided limits, about what
+/// is left; in the last line, what cannot be asked with these rows.
+[[nodiscard]] std::vector<std::string> measure_next(const diagnosis::Diagnosis& result, const PlaceWords& places,
+                                                    const IdsInWords& ids, const std::vector<diagnosis::Invisible>& invisible);
+
+/// @param next  as measure_next gives it
+[[nodiscard]] Sentences sentences_of(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
+                                     const PlaceWords& places, const IdsInWords& ids, const std::vector<std::string>& next);
+
+/// Two-sided limit that n standard normal residuals keep together with 99 % (Sidak 1967).
+[[nodiscard]] double sidak_limit(std::size_t n);
+
+}  // namespace twindeck::steps
