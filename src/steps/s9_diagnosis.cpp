@@ -1,6 +1,7 @@
 /// Step 9: what the best admissible model still gets wrong, the cause out of the catalogue, the model extended by it, and the
 /// gain on rows that were held out (docs/diagnosis.md).
 #include "steps/diagnosis/setup.hpp"
+#include "steps/shared/measured_choice.hpp"
 
 int main(int argc, char** argv) {
   using namespace twindeck;
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   step.configured_inputs = {"model"};
   step.flags = {{"catalogue", true, "folder of hypotheses, one TOML file each"},
                 {"plan", false, "only say what these rows would see: plan.csv"}};
+  for (const steps::Flag& flag : steps::measured_flags()) step.flags.push_back(flag);
   step.run = [&config](steps::StepContext& context) { return steps::run_diagnosis(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

@@ -90,7 +90,7 @@ void add_form(const diagnosis::FormReport& form, nlohmann::ordered_json& json) {
 
 void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const std::vector<diagnosis::Invisible>& invisible,
                      const diagnosis::FullCheck& check, double residual_alpha, double seconds, const std::string& threshold_from,
-                     const std::filesystem::path& file) {
+                     const std::vector<Correction>& corrections, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
   json["verdict"] = result.verdict;
@@ -149,6 +149,10 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
     one["remedy"] = effect.remedy;
     json["effects"].push_back(one);
   }
+  json["measurement_corrections"] = nlohmann::ordered_json::array();
+  for (const Correction& c : corrections)
+    json["measurement_corrections"].push_back(
+        {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}});
   json["localisation"] = nlohmann::ordered_json::array();
   for (const auto& at : result.localisation) json["localisation"].push_back({{"location", at.location}, {"score", at.score}});
   json["gain"] = {{"held_out", result.gain.held_out},

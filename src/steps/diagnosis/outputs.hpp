@@ -6,14 +6,16 @@
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/full_check.hpp"
 #include "steps/diagnosis/evidence.hpp"
+#include "steps/shared/corrections.hpp"
 
 namespace twindeck::steps {
 
 /// diagnosis.json, as docs/ describes it.
-/// @param check  of the winner against the full model
+/// @param check  of the winner against the full model  @param corrections  of corrections_of
 void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<Finding>& account,
                      const std::vector<diagnosis::Invisible>& invisible, const diagnosis::FullCheck& check, double residual_alpha,
-                     double seconds, const std::string& threshold_from, const std::filesystem::path& file);
+                     double seconds, const std::string& threshold_from, const std::vector<Correction>& corrections,
+                     const std::filesystem::path& file);
 /// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
 /// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
 /// it lies outside the limit that all rows together keep with 99 % (Sidak).

@@ -18,6 +18,7 @@
 #include "io/toml_value.hpp"
 #include "modal/mode_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
+#include "steps/diagnosis/measurement_corrections.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
 #include "steps/shared/measured_tables.hpp"
@@ -268,7 +269,9 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
     folder = read_study(context.study).features;
   if (folder.empty()) throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
   context.input(folder);
-  inputs.features = read_all_features(folder);
+  const MeasuredChoice choice = asked_choice(context);
+  inputs.features = read_all_features(folder, choice);
+  inputs.corrected = choice.corrections;
   choose_rows(config, inputs.features);
   const auto catalogue = catalogue_folder(config, context);
   inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
@@ -405,8 +408,10 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
                           check.full_Hz.size(), check.largest_pct));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_diagnosis(result, inputs.account, entries.invisible, check, config.residual_alpha, seconds, threshold.from,
+  const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
+  write_diagnosis(result, inputs.account, entries.invisible, check, config.residual_alpha, seconds, threshold.from, corrections,
                   context.out / "diagnosis.json");
+  write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
   for (const Finding& finding : inputs.account) context.say(finding.text);
   context.say(fmt::format("{}: {}", result.verdict, result.message));
   for (const auto& effect : result.effects)
@@ -417,6 +422,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
     context.say(fmt::format("  held out {} rows: {:.2f} -> {:.2f} standard deviations, {:.0f} % less ({:.0f} to {:.0f})",
                             result.gain.rows, result.gain.before, result.gain.after, result.gain.reduction_pct,
                             result.gain.low_pct, result.gain.high_pct));
+  for (const std::string& line : correction_advice(corrections)) context.say(line);
   return {};
 }
 
