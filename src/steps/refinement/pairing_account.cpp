@@ -131,17 +131,16 @@ void warn_of_pairing(StepContext& context, const PairingAccount& account, const 
 
 void refuse_few_pairs(const PairingAccount& account, double least_paired, double minimum_mac, const std::string& source,
                       const std::optional<std::string>& factor) {
-  if (!account.by_shape) return;
-  if (account.measured > 0 && account.paired() >= least_paired * account.measured && account.paired() > 0) return;
-  const std::string lacking = account.unpaired.empty() ? few(account.beyond) : few(account.unpaired);
+  if (!account.by_shape || account.paired() >= least_paired * std::max(account.measured, 1)) return;
+  const std::vector<std::string>& lacking = account.measured > 0 ? account.unpaired : account.beyond;
+  const std::size_t of = account.measured > 0 ? static_cast<std::size_t>(account.measured) : account.beyond.size();
   throw InputError(
       {source, 0, ""},
       fmt::format("only {} of {} measured modes are like a computed one (MAC of at least {:g}, frequency within "
-                  "maximum_frequency_error), expected a share of at least {:g}: {} {} unpaired",
-                  account.paired(), account.measured + (account.measured == 0 ? account.beyond.size() : 0), minimum_mac,
-                  least_paired, lacking, account.unpaired.size() == 1 ? "is" : "are"),
-      factor.value_or("check directions, signs and places of the channels and the model's axes; s9_diagnosis looks for wrong "
-                      "channels; `minimum_mac` and `least_paired` say what is enough"));
+                  "maximum_frequency_error), expected a share of at least {:g}: unpaired {} {}",
+                  account.paired(), of, minimum_mac, least_paired, lacking.size() == 1 ? "mode" : "modes", few(lacking)),
+      factor.value_or("check directions, signs and places of the channels and the model's axes; s9_diagnosis looks for "
+                      "wrong channels; `minimum_mac` and `least_paired` say what is enough"));
 }
 
 }  // namespace twindeck::steps
