@@ -41,7 +41,7 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   const steps::LoadedModel after = steps::with_values(before, result.theta);
   const dynamics::EigenModes modes_after = steps::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
   const steps::Pairing followed = steps::followed_pairing(config, pairing, result, after, modes_after, *measured);
-  const steps::PairingAccount account = steps::account_after(context, config, pairing, followed, after, modes_after, *measured);
+  const steps::PairingAccount account = steps::account_after(context, config, followed, after, modes_after, *measured);
   std::vector<steps::ComparisonRow> comparison = steps::compare("before", *measured, modes_before.frequency_Hz, pairing);
   const auto rows_after = steps::compare("after", *measured, modes_after.frequency_Hz, followed);
   comparison.insert(comparison.end(), rows_after.begin(), rows_after.end());

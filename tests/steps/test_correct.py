@@ -22,15 +22,15 @@ BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin"))
 
 
 def faulty(y):
-    """As recorded: c2 and c5 in each other's sockets, then c3 upside down and c7 reading 1.6 times what it should."""
+    """As recorded: c2 and c5 in each other's sockets, what stands under c2 upside down, and c7 reading 1.6 times what it should."""
     y = y.copy()
     y[[1, 4]] = y[[4, 1]]
-    y[2] *= -1.0
+    y[1] *= -1.0
     y[6] *= 1.6
     return y
 
 
-ALL_THREE = ('[[correction]]\nchannel = "c3"\naction = "reverse"\n[[correction]]\nchannel = "c7"\naction = "scale"\nfactor = 0.625\n'
+ALL_THREE = ('[[correction]]\nchannel = "c2"\naction = "reverse"\n[[correction]]\nchannel = "c7"\naction = "scale"\nfactor = 0.625\n'
              '[[correction]]\nchannel = "c2"\naction = "exchange"\nwith = "c5"\n')
 
 
@@ -71,7 +71,7 @@ class CorrectedFeatures(OnAChain):
             if token == "s4_refinement":  # and the faults were no trifle
                 self.assertGreater(max(abs(float(a["mac"]) - float(c["mac"])) for a, c in zip(self.rows(right / "mac.csv"), wrong)), 0.1)
             manifest = json.loads((mended / "manifest.json").read_text())
-            self.assertEqual(manifest["corrections"], ["c3 reversed", "c7 multiplied by 0.625", "c2 and c5 exchanged"])
+            self.assertEqual(manifest["corrections"], ["c2 reversed", "c7 multiplied by 0.625", "c2 and c5 exchanged"])
             self.assertTrue(any("all_three.toml" in name for name in manifest["inputs"]))
             self.assertNotIn("corrections", json.loads((right / "manifest.json").read_text()))
 
@@ -129,10 +129,9 @@ class WhatIsWritten(OnAChain):
             self.assertEqual(self.found(again)["verdict"], "none", self.found(again)["message"])
             self.assertEqual(self.found(again)["measurement_corrections"], [])
 
-    def test_two_faults_of_one_channel_come_in_the_order_that_undoes_them(self):
+    def test_two_faults_are_both_offered(self):
         def fault(y):
-            y = chain.exchanged(1, 4)(y)
-            return chain.changed(1, -1.0)(y)  # what stands under c2 is c5's, upside down
+            return chain.changed(6, -1.0)(chain.exchanged(1, 4)(y))
         chain.write_features(self.folder / "both", channel=fault)
         out = self.good("s9_diagnosis", "both", out="both_out")
         actions = [c["action"] for c in self.found(out)["measurement_corrections"]]

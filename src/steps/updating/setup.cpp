@@ -175,7 +175,7 @@ Pairing pair_for_updating(StepContext& context, const UpdatingConfig& config, co
   const PairingAccount account = account_of(measured, pairing, modes.frequency_Hz);
   const std::optional<std::string> factor = common_factor(measured, pairing, modes.frequency_Hz);
   refuse_few_pairs(account, config.least_paired, config.minimum_mac, measured.source, factor);
-  warn_of_pairing(context, account, factor, "");
+  if (factor) context.warn(*factor);
   if (pairing.pairs.empty()) {
     throw InputError({measured.source, 0, ""}, "no measured mode has a computed partner",
                      "check frequencies and pairs, or raise maximum_frequency_error");
@@ -213,8 +213,8 @@ Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before, co
   return pairing;
 }
 
-PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& before, const Pairing& followed,
-                             const LoadedModel& after, const dynamics::EigenModes& modes, const Measured& measured) {
+PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& followed, const LoadedModel& after,
+                             const dynamics::EigenModes& modes, const Measured& measured) {
   Pairing judged = followed;
   if (measured.modes.has_shapes()) {
     const Pairing anew = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
@@ -222,9 +222,8 @@ PairingAccount account_after(StepContext& context, const UpdatingConfig& config,
       for (const modal::ModePair& other : anew.pairs)
         if (other.clustered && other.experimental == pair.experimental && other.numerical == pair.numerical) pair.mac = other.mac;
   }
-  PairingAccount account = account_of(measured, judged, modes.frequency_Hz);
-  if (account_of(measured, before, modes.frequency_Hz).unlike.empty())
-    warn_of_pairing(context, account, std::nullopt, "after the updating");
+  const PairingAccount account = account_of(measured, judged, modes.frequency_Hz);
+  warn_of_pairing(context, account, std::nullopt, "after the updating");
   return account;
 }
 

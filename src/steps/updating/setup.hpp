@@ -57,8 +57,8 @@ struct UpdatingConfig {
                                                             const std::vector<fe::Parameter>& parameters,
                                                             const std::vector<int>& active, StepContext& context);
 
-/// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order. Warns of what is odd in
-/// them (pairing_account.hpp).
+/// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order. Warns of pairs of
+/// a list that are not measured, and of one factor between all frequencies.
 /// @throws InputError  where no pair is left, or fewer than the share that the configuration asks for
 [[nodiscard]] Pairing pair_for_updating(StepContext& context, const UpdatingConfig& config, const LoadedModel& loaded,
                                         const dynamics::EigenModes& modes, const Measured& measured);
@@ -74,10 +74,10 @@ struct UpdatingConfig {
                                        const updating::UpdatingResult& result, const LoadedModel& after,
                                        const dynamics::EigenModes& modes, const Measured& measured);
 
-/// What the pairs are worth after the updating; close modes that have turned into each other count by their common subspace. Warns where
-/// shapes disagree that agreed before.
-[[nodiscard]] PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& before,
-                                           const Pairing& followed, const LoadedModel& after, const dynamics::EigenModes& modes,
+/// What the pairs are worth after the updating; close modes that have turned into each other count by their common subspace.
+/// Warns where shapes disagree; where they did before and no longer do, the updating has shown the pairs right.
+[[nodiscard]] PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& followed,
+                                           const LoadedModel& after, const dynamics::EigenModes& modes,
                                            const Measured& measured);
 
 /// "mean |error| of 9 pairs: 5.12 % before, 0.04 % after; 1 of 10 measured modes unpaired, worst MAC 0.93 (4X-4N)".
