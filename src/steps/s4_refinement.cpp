@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   step.examples = {
       "s4_refinement --study workflows/ponte_del_mare --out results/ponte_del_mare/s4_refinement",
       "s4_refinement --model my_bridge/model --modes my_bridge/measured --out my_bridge/comparison",
+      "s4_refinement --model my_bridge/model --features my_bridge/features --condition summer --out my_bridge/summer",
   };
   step.fields = config.fields();
   step.flags = measured_flags();

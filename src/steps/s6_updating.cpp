@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   step.token = "s6_updating";
   step.summary = "Updates parameters within their bounds to the measured frequencies (dogleg, several starts).";
   step.examples = {"s6_updating --study workflows/ponte_del_mare --out results/ponte_del_mare/s6_updating",
-                   "s6_updating --model my_bridge/model --features my_bridge/features --out my_bridge/updated --set starts=4"};
+                   "s6_updating --model my_bridge/model --features my_bridge/features --correct my_bridge/diagnosis/corrections.toml --out my_bridge/updated"};
   step.fields = config.fields();
   step.flags = steps::measured_flags();
   step.configured_inputs = {"model"};
