@@ -191,6 +191,7 @@ Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking,
                    const FormSetting& setting) {
   Effect effect;
   effect.cause = {search.entries.front().candidate, search.entries.front().a};
+  effect.state = effect.cause.candidate->state;
   effect.log_odds = ruling.against_none;
   effect.probability = probability_of_leader(search, std::max(1.0, weighing.weighed.chi_squared_ratio));
   std::vector<const Scored*> members;

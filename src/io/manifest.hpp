@@ -14,6 +14,7 @@ struct Manifest {
   std::string status = "converged";  ///< "converged" | "unconverged"
   std::string message;               ///< one line
   std::vector<std::string> warnings;  ///< what the step found odd in its inputs and took as it is
+  std::vector<std::string> corrections;  ///< what of the measurement was put right first, in words; empty where nothing was
   std::string config_toml;           ///< resolved configuration
   std::vector<std::string> command_line;
   std::uint64_t seed = 0;

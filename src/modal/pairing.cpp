@@ -77,7 +77,7 @@ std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eige
     }
   }
   const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> admissible = error.array() <= options.maximum_frequency_error;
-  gain = admissible.select(gain, 0.0);
+  gain = (admissible && !(value.array() < options.minimum_mac)).select(gain, 0.0);  // what will be left out must not crowd out a good pair
 
   std::vector<ModePair> pairs;
   const std::vector<int> column = best_assignment(gain);

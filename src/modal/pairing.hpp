@@ -23,7 +23,7 @@ struct PairingOptions {
   double cluster_mac = 0.8;               ///< subspace MAC from which a shape counts as lying in the span of close modes
 };
 
-/// One-to-one pairing that maximises the sum of MAC (Hungarian assignment, not greedy), admissible pairs only. Close numerical
+/// One-to-one pairing that maximises the sum of MAC (Hungarian assignment, not greedy), admissible pairs only; a mode may stay unpaired. Close numerical
 /// modes that rotate into each other are recognised by their subspace: a pair of low MAC whose experimental shape lies within
 /// the span of a cluster is marked `clustered` with the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span.
 /// Without sensors (no rows) the pairing is by frequency alone, and MAC is NaN.

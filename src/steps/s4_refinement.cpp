@@ -1,4 +1,5 @@
 #include "steps/refinement/refinement.hpp"
+#include "steps/shared/measured_choice.hpp"
 #include "steps/shared/run_step.hpp"
 
 /// Step 4: as-built changes, comparison with the measured modes, pairing (paper section 4.1, Tables 6 and 7).
@@ -13,8 +14,10 @@ int main(int argc, char** argv) {
   step.examples = {
       "s4_refinement --study workflows/ponte_del_mare --out results/ponte_del_mare/s4_refinement",
       "s4_refinement --model my_bridge/model --modes my_bridge/measured --out my_bridge/comparison",
+      "s4_refinement --model my_bridge/model --features my_bridge/features --condition summer --out my_bridge/summer",
   };
   step.fields = config.fields();
+  step.flags = measured_flags();
   step.configured_inputs = {"model"};
   step.run = [&](StepContext& context) { return run_refinement(context, config); };
   return run_step(argc, argv, std::move(step));

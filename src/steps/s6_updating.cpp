@@ -1,11 +1,11 @@
 /// Step 6 (paper section 4.2, Tables 8 to 10): parameters updated within their bounds to the measured frequencies.
-#include <fmt/format.h>
-
 #include "model_io/export.hpp"
+#include "steps/shared/measured_choice.hpp"
 #include "steps/shared/model_outputs.hpp"
 #include "steps/shared/unit_slips.hpp"
 #include "steps/updating/outputs.hpp"
 #include "steps/updating/setup.hpp"
+#include "steps/updating/twins.hpp"
 
 namespace {
 
@@ -26,8 +26,8 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
       steps::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
   steps::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
-  const steps::Pairing pairing = steps::pair_for_updating(config, before, modes_before, *measured);
-  steps::warn_of_unmeasured(context, pairing);
+  const steps::Pairing pairing = steps::pair_for_updating(context, config, before, modes_before, *measured);
+  steps::warn_of_twins(context, steps::indistinct_parameters(before, modes_before, active, *measured, pairing));
 
   // 3. The update.
   updating::UpdatingOptions options = config.options(context.seed);
@@ -41,6 +41,7 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   const steps::LoadedModel after = steps::with_values(before, result.theta);
   const dynamics::EigenModes modes_after = steps::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
   const steps::Pairing followed = steps::followed_pairing(config, pairing, result, after, modes_after, *measured);
+  const steps::PairingAccount account = steps::account_after(context, config, followed, after, modes_after, *measured);
   std::vector<steps::ComparisonRow> comparison = steps::compare("before", *measured, modes_before.frequency_Hz, pairing);
   const auto rows_after = steps::compare("after", *measured, modes_after.frequency_Hz, followed);
   comparison.insert(comparison.end(), rows_after.begin(), rows_after.end());
@@ -58,9 +59,8 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   model_io::write_modes(steps::published_modes(after.fe_model(), after.system, modes_after), context.out);
   steps::save_model(before, result.theta, context.out / "model");
   for (const std::string& line : steps::report_lines(parameters, active, result)) context.say(line);
-  context.say(fmt::format("mean |error| of {} pairs: {:.2f} % before, {:.2f} % after", pairing.pairs.size(),
-                          steps::mean_abs_error_pct(comparison, "before"), steps::mean_abs_error_pct(comparison, "after")));
-  return result.status.converged ? modes_after.status : result.status;
+  context.say(steps::summary_line(comparison, account));
+  return result.status.converged ? steps::outcome(modes_after.status, account) : result.status;
 }
 
 }  // namespace
@@ -71,8 +71,9 @@ int main(int argc, char** argv) {
   step.token = "s6_updating";
   step.summary = "Updates parameters within their bounds to the measured frequencies (dogleg, several starts).";
   step.examples = {"s6_updating --study workflows/ponte_del_mare --out results/ponte_del_mare/s6_updating",
-                   "s6_updating --model my_bridge/model --features my_bridge/features --out my_bridge/updated --set starts=4"};
+                   "s6_updating --model my_bridge/model --features my_bridge/features --correct my_bridge/diagnosis/corrections.toml --out my_bridge/updated"};
   step.fields = config.fields();
+  step.flags = steps::measured_flags();
   step.configured_inputs = {"model"};
   step.run = [&config](steps::StepContext& context) { return run(config, context); };
   return steps::run_step(argc, argv, std::move(step));

@@ -1,6 +1,7 @@
 /// Step 9: what the best admissible model still gets wrong, the cause out of the catalogue, the model extended by it, and the
 /// gain on rows that were held out (docs/diagnosis.md).
 #include "steps/diagnosis/setup.hpp"
+#include "steps/shared/measured_choice.hpp"
 
 int main(int argc, char** argv) {
   using namespace twindeck;
@@ -10,11 +11,14 @@ int main(int argc, char** argv) {
   step.summary = "Finds what the model gets wrong, names the cause, extends the model, measures the gain on held-out rows.";
   step.examples = {"s9_diagnosis --study workflows/ponte_del_mare --out results/ponte_del_mare/s9_diagnosis",
                    "s9_diagnosis --model my_bridge/model --features my_bridge/features --out my_bridge/diagnosis",
+                   "s9_diagnosis --model my_bridge/model --features my_bridge/features --correct my_bridge/diagnosis/corrections.toml --out "
+                   "my_bridge/corrected",
                    "s9_diagnosis --model my_bridge/model --features planned/features --plan --out my_bridge/plan"};
   step.fields = config.fields();
   step.configured_inputs = {"model"};
   step.flags = {{"catalogue", true, "folder of hypotheses, one TOML file each"},
                 {"plan", false, "only say what these rows would see: plan.csv"}};
+  for (const steps::Flag& flag : steps::measured_flags()) step.flags.push_back(flag);
   step.run = [&config](steps::StepContext& context) { return steps::run_diagnosis(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

@@ -3,12 +3,13 @@
 #include "fuzz/target.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/shared/measured.hpp"
+#include "steps/shared/measured_choice.hpp"
 
 namespace twindeck::fuzz {
 
 int read_features(const std::string& name, const std::uint8_t* data, std::size_t size) {
   const std::string folder = "features/features";
-  read_folder(folder, name, data, size, [](const auto& at) { static_cast<void>(steps::read_measured_features(at, "")); });
+  read_folder(folder, name, data, size, [](const auto& at) { static_cast<void>(steps::read_measured_features(at, {})); });
   return read_folder(folder, name, data, size, [](const auto& at) { static_cast<void>(steps::read_all_features(at)); });
 }
 

@@ -48,6 +48,8 @@ def _box(step, x: float, y: float) -> str:
         for i, line in enumerate(lines)
     )
     state = COLOURS.get(step.status, "bad")
+    if state == "ok" and step.message:  # it converged, and something beside it is to be read
+        state = "warn"
     foot = html.escape(duration(step.seconds) if step.status == "converged" else step.status)
     title = html.escape(f"{step.token}: {step.status}{'. ' + step.message if step.message else ''}")
     return (

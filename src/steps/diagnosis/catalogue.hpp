@@ -6,6 +6,7 @@
 #include "diagnosis/catalogue.hpp"
 #include "diagnosis/features.hpp"
 #include "diagnosis/structure.hpp"
+#include "steps/shared/measured_choice.hpp"
 
 /// What s9_diagnosis reads.
 namespace twindeck::steps {
@@ -17,8 +18,9 @@ namespace twindeck::steps {
 
 /// All rows of a features folder (docs/my_records.md) with their conditions and channels, quality.csv and covariance.npy where
 /// they are there. Rows of load tests are checked and counted, not kept: no cause is told by them.
-/// @throws InputError  with file, line, column: see steps/shared/feature_rows.hpp and measured_tables.hpp
-[[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder);
+/// @param choice  which conditions are kept, with their rows; what is put right in them first
+/// @throws InputError  with file, line, column: see steps/shared/feature_rows.hpp, measured_tables.hpp and corrections.hpp
+[[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder, const MeasuredChoice& choice = {});
 
 /// @throws InputError  naming the line of rows.csv, for a frequency of a stay that the model lacks, or has without a pull
 void refuse_unknown_stays(const diagnosis::FeatureSet& features, const diagnosis::Places& places,

@@ -51,11 +51,11 @@ Row to_row(const FeatureRow& read, const std::vector<MeasuredCondition>& conditi
   return row;
 }
 
-void read_quality(const std::filesystem::path& file, FeatureSet& features) {
+void read_quality(const std::filesystem::path& file, const std::vector<Correction>& corrections, FeatureSet& features) {
   if (!std::filesystem::exists(file)) return;
   const auto table = io::CsvTable::read(file, {"channel"}, {}, true);
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string channel = table.text(row, "channel");
+    const std::string channel = corrected(corrections, table.text(row, "channel")).name;
     const double samples = table.number_or(row, "samples", 0.0);
     if (samples > 0.0)
       features.clipped[channel] = std::max(features.clipped[channel], table.number_or(row, "clipped", 0.0) / samples);
@@ -65,9 +65,11 @@ void read_quality(const std::filesystem::path& file, FeatureSet& features) {
 
 }  // namespace
 
-FeatureSet read_all_features(const std::filesystem::path& folder) {
+FeatureSet read_all_features(const std::filesystem::path& folder, const MeasuredChoice& choice) {
   FeatureSet features;
-  const std::vector<MeasuredCondition> conditions = read_conditions(folder / "conditions.toml");
+  const std::vector<MeasuredCondition> listed = read_conditions(folder / "conditions.toml");
+  std::vector<MeasuredCondition> conditions = chosen_conditions(folder / "conditions.toml", listed, choice.conditions);
+  correct(choice.corrections, conditions);
   features.conditions = all_of(conditions);
   std::vector<Channel> channels;
   if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
@@ -75,6 +77,7 @@ FeatureSet read_all_features(const std::filesystem::path& folder) {
     features.channels.push_back(channel.name);
     features.direction.push_back(channel.direction);
   }
+  refuse_unknown_channels(choice.corrections, features.channels, (folder / "channels.csv").string());
   for (const Condition& condition : features.conditions) {
     if (!condition.amplitude_channel.empty() &&
         std::find(features.channels.begin(), features.channels.end(), condition.amplitude_channel) == features.channels.end())
@@ -83,9 +86,12 @@ FeatureSet read_all_features(const std::filesystem::path& folder) {
                                    did_you_mean(condition.amplitude_channel, features.channels)),
                        "");
   }
-  const FeatureRows read = read_feature_rows(folder, conditions, channels);
+  FeatureRows read = read_feature_rows(folder, listed, channels);
+  correct(choice.corrections, read);
   std::vector<int> kept;
   for (std::size_t r = 0; r < read.rows.size(); ++r) {
+    const auto is_its = [&](const MeasuredCondition& c) { return c.name == read.rows[r].condition; };
+    if (std::none_of(conditions.begin(), conditions.end(), is_its)) continue;
     const Row row = to_row(read.rows[r], conditions, features);
     if (row.type == RowType::static_displacement) {
       ++features.load_test_rows;
@@ -96,7 +102,7 @@ FeatureSet read_all_features(const std::filesystem::path& folder) {
   }
   if (features.rows.empty()) throw InputError({(folder / "rows.csv").string(), 0, ""}, "holds no row that can be used", "");
   if (read.covariance.size() > 0) features.covariance = read.covariance(kept, kept);
-  read_quality(folder / "quality.csv", features);
+  read_quality(folder / "quality.csv", choice.corrections, features);
   return features;
 }
 

@@ -137,6 +137,10 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
     one["remedy"] = effect.remedy;
     json["effects"].push_back(one);
   }
+  json["measurement_corrections"] = nlohmann::ordered_json::array();
+  for (const Correction& c : told.corrections)
+    json["measurement_corrections"].push_back(
+        {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}});
   json["localisation"] = nlohmann::ordered_json::array();
   for (const auto& at : result.localisation) 
     json["localisation"].push_back({{"location", at.location}, {"score", at.score}, {"words", told.places.at(at.location).words}});

@@ -8,6 +8,7 @@
 #include "diagnosis/model_parameters.hpp"
 #include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/sentences.hpp"
+#include "steps/shared/corrections.hpp"
 
 namespace twindeck::steps {
 
@@ -18,6 +19,7 @@ struct Told {
   Sentences sentences;
   std::vector<std::string> measure_next;
   std::vector<diagnosis::ModelParameter> model_parameters;
+  std::vector<Correction> corrections;  ///< of corrections_of
 };
 
 /// diagnosis.json, as docs/ describes it.

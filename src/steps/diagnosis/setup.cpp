@@ -18,6 +18,7 @@
 #include "io/toml_value.hpp"
 #include "modal/mode_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
+#include "steps/diagnosis/measurement_corrections.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
 #include "steps/shared/measured_tables.hpp"
@@ -268,7 +269,9 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
     folder = read_study(context.study).features;
   if (folder.empty()) throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
   context.input(folder);
-  inputs.features = read_all_features(folder);
+  const MeasuredChoice choice = asked_choice(context);
+  inputs.features = read_all_features(folder, choice);
+  inputs.corrected = choice.corrections;
   choose_rows(config, inputs.features);
   const auto catalogue = catalogue_folder(config, context);
   inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
@@ -420,14 +423,17 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   else
     context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
   const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
-  const Told told{places, ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result)};
+  const Told told{places, ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result), corrections};
   std::vector<Finding> account = inputs.account;
   for (Finding& finding : account) finding.text = ids.in_text(finding.text);
   write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
   for (const Finding& finding : account) context.say(finding.text);
   if (result.form) say_form(*result.form, context);
   say_sentences(result.verdict, told.sentences, context);
+  for (const std::string& line : correction_advice(corrections)) context.say(line);
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include "io/config.hpp"
 #include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/model.hpp"
+#include "steps/shared/corrections.hpp"
 #include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
@@ -41,6 +42,7 @@ struct DiagnosisInputs {
   diagnosis::Places places;
   std::unique_ptr<diagnosis::ReducedModel> reduced;
   diagnosis::FeatureSet features;
+  std::vector<Correction> corrected;  ///< what of the features --correct has put right
   std::vector<diagnosis::Hypothesis> catalogue;
   std::vector<Finding> account;  ///< what claims and rows say before any odds
 };

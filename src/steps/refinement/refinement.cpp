@@ -25,8 +25,11 @@ io::FieldTable RefinementConfig::fields() {
       .texts("pairs", pairs,
              "published assignment, measured-numerical (\"7X-8N\"), used where no shape was measured; empty: by order")
       .text("condition", condition,
-            "condition of the measured features; empty: the only one, or the only one with dampers = \"off\"")
-      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairs by MAC below it are left out")
+            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where dampers were "
+            "switched the only one without")
+      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairs by MAC below it are none; the modes stay unpaired")
+      .number("least_paired", least_paired, "", {0.0, 1.0},
+              "by MAC: share of the measured modes that must have a partner, else the step refuses")
       .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
               "relative; pairs by MAC further off are not admitted")
       .number("cluster_gap", cluster_gap, "", io::non_negative(),
@@ -62,17 +65,22 @@ Pairing pair_refined(const StepContext& context, const RefinementConfig& config,
   return pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place);
 }
 
-void compare_with_measurement(StepContext& context, const RefinementConfig& config, const SolvedModel& initial,
-                              const SolvedModel& refined) {
+PairingAccount compare_with_measurement(StepContext& context, const RefinementConfig& config, const SolvedModel& initial,
+                                        const SolvedModel& refined) {
   const std::optional<Measured> measured = find_measured(context, config.condition);
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
   const Measured some = measured.value_or(Measured{});
   warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
   const modal::PairingOptions options{config.minimum_mac, config.maximum_frequency_error, config.cluster_gap};
   Pairing after, before;
+  PairingAccount account;
   if (measured) {
     after = pair_refined(context, config, some, refined, options);
     warn_of_unmeasured(context, after);
+    account = account_of(some, after, refined.modes.frequency_Hz);
+    const std::optional<std::string> factor = common_factor(some, after, refined.modes.frequency_Hz);
+    refuse_few_pairs(account, config.least_paired, config.minimum_mac, some.source, factor);
+    warn_of_pairing(context, account, factor, "");
     before = some.modes.has_shapes() ? pair_at_sensors(some, initial.loaded, initial.modes, options, config.sensor_tolerance_m)
                                      : pair_by_order(some, initial.modes.frequency_Hz.size(), compared_modes(some, after));
   }
@@ -82,9 +90,10 @@ void compare_with_measurement(StepContext& context, const RefinementConfig& conf
   write_mac(some, after, context.out);
   write_pairs(some, after, context.out);
   if (!rows.empty()) {
-    context.say(fmt::format("mean |error| of {} pairs: initial {:.2f} %, refined {:.2f} % (pairs by {})", after.pairs.size(),
-                            mean_abs_error_pct(rows, "initial"), mean_abs_error_pct(rows, "refined"), after.method));
+    context.say(fmt::format("mean |error| of {} pairs: initial {:.2f} %, refined {:.2f} % (pairs by {}){}", after.pairs.size(),
+                            mean_abs_error_pct(rows, "initial"), mean_abs_error_pct(rows, "refined"), after.method, pairing_words(account)));
   }
+  return account;
 }
 
 }  // namespace
@@ -102,7 +111,7 @@ Status run_refinement(StepContext& context, const RefinementConfig& config) {
   save_model(refined.loaded, refined.loaded.theta, context.out / "model");
 
   // 2. Against the measurement.
-  compare_with_measurement(context, config, initial, refined);
+  const PairingAccount account = compare_with_measurement(context, config, initial, refined);
 
   // 3. What each as-built change does.
   ChangeStudy changes;
@@ -114,7 +123,7 @@ Status run_refinement(StepContext& context, const RefinementConfig& config) {
   for (const Status& status : {initial.modes.status, refined.modes.status, changes.status}) {
     if (!status.converged) return status;
   }
-  return {};
+  return outcome({}, account);
 }
 
 }  // namespace twindeck::steps

@@ -10,6 +10,7 @@
 #include "io/config.hpp"
 #include "linalg/types.hpp"
 #include "ponte/generator.hpp"
+#include "steps/refinement/pairing_account.hpp"
 #include "steps/shared/model_source.hpp"
 
 /// As-built changes and comparison with the measurement: paper section 4.1, Tables 6 and 7.
@@ -20,8 +21,9 @@ struct RefinementConfig {
   long extra_modes = 5;             ///< solved for beyond them, so that followed modes are among them
   std::string variant = "refined";  ///< of the generator
   std::vector<std::string> pairs;   ///< published assignment, used where no shape was measured; empty = by order
-  std::string condition;            ///< of the measured features; "" = the only one, or the only one without dampers
-  double minimum_mac = 0.0;
+  std::string condition;            ///< of the measured features; "" = as choose_condition has it
+  double minimum_mac = usual_minimum_mac;
+  double least_paired = usual_least_paired;
   double maximum_frequency_error = 0.35;
   double cluster_gap = 0.02;
   double sensor_tolerance_m = 0.5;  ///< largest distance of a sensor from its node

@@ -11,6 +11,7 @@
 #include "modal/mode_name.hpp"
 #include "model_io/export.hpp"
 #include "steps/shared/feature_rows.hpp"
+#include "steps/shared/measured_choice.hpp"
 #include "steps/shared/measured_tables.hpp"
 #include "steps/shared/study.hpp"
 
@@ -19,6 +20,12 @@ namespace twindeck::steps {
 namespace {
 
 using Eigen::Index;
+
+std::vector<std::string> names_of(const std::vector<Channel>& channels) {
+  std::vector<std::string> names;
+  for (const Channel& channel : channels) names.push_back(channel.name);
+  return names;
+}
 
 /// What rows.csv says of one mode.
 struct MeasuredMode {
@@ -86,13 +93,15 @@ Measured assemble_measured(const io::CsvTable& table, const std::vector<std::str
 
 }  // namespace
 
-Measured read_measured_features(const std::filesystem::path& folder, const std::string& condition) {
+Measured read_measured_features(const std::filesystem::path& folder, const MeasuredChoice& choice) {
   const std::filesystem::path conditions_file = folder / "conditions.toml";
   const std::vector<MeasuredCondition> conditions = read_conditions(conditions_file);
-  const std::string chosen = choose_condition(conditions_file, conditions, condition);
+  const std::string chosen = choose_condition(conditions_file, conditions, choice.conditions);
   std::vector<Channel> channels;
   if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
-  const FeatureRows read = read_feature_rows(folder, conditions, channels);
+  FeatureRows read = read_feature_rows(folder, conditions, channels);
+  refuse_unknown_channels(choice.corrections, names_of(channels), (folder / "channels.csv").string());
+  correct(choice.corrections, read);
 
   std::map<std::string, MeasuredMode> found;
   std::vector<std::string> names;
@@ -108,14 +117,14 @@ Measured read_measured_features(const std::filesystem::path& folder, const std::
   }
   if (names.empty()) {
     throw InputError({(folder / "rows.csv").string(), 0, ""}, fmt::format("has no modes of condition '{}'", chosen),
-                     "check the column `condition`, or the key `condition` of the step");
+                     "check the column `condition`, or take another condition (--condition)");
   }
   Measured measured = assemble_measured(read.table, names, found, std::move(channels));
   measured.source = folder.string();
   return measured;
 }
 
-Measured read_measured_modes(const std::filesystem::path& folder) {
+Measured read_measured_modes(const std::filesystem::path& folder, const MeasuredChoice& choice) {
   Measured measured;
   measured.source = folder.string();
   std::vector<long> lines;
@@ -134,16 +143,31 @@ Measured read_measured_modes(const std::filesystem::path& folder) {
     measured.labels.push_back(modal::experimental_label(name));
   }
   if (std::filesystem::exists(folder / "channels.csv")) measured.channels = read_channels(folder / "channels.csv");
+  correct(choice.corrections, measured.modes, (folder / "shapes.csv").string());
   return measured;
 }
 
 std::optional<Measured> find_measured(StepContext& context, const std::string& condition) {
-  if (context.modes) return read_measured_modes(context.input(*context.modes));
-  if (context.features) return read_measured_features(context.input(*context.features), condition);
-  if (context.study.empty()) return std::nullopt;
-  const Study study = read_study(context.study);
-  if (study.features.empty()) return std::nullopt;
-  return read_measured_features(context.input(study.features), condition);
+  if (context.modes) {
+    for (const char* flag : {"condition", "state"}) {
+      if (context.has_flag(flag))
+        throw InputError({"command line", 0, std::string("--") + flag}, "does not go with --modes: modes.csv knows no conditions",
+                         "leave it out, or give --features");
+    }
+    return read_measured_modes(context.input(*context.modes), asked_choice(context));
+  }
+  std::filesystem::path folder;
+  if (context.features)
+    folder = *context.features;
+  else if (!context.study.empty())
+    folder = read_study(context.study).features;
+  const MeasuredChoice choice = asked_choice(context, condition);
+  if (!folder.empty()) return read_measured_features(context.input(folder), choice);
+  for (const Flag& flag : measured_flags()) {
+    if (context.has_flag(flag.name))
+      throw InputError({"command line", 0, "--" + flag.name}, "is given, but no measured modes are", "give --features DIR or --modes DIR");
+  }
+  return std::nullopt;
 }
 
 }  // namespace twindeck::steps

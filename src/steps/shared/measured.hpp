@@ -30,20 +30,23 @@ struct Measured {
   std::string source;               ///< folder, for messages
 };
 
+struct MeasuredChoice;
+
 /// Reads the modes of one condition out of a features folder (docs/my_records.md): rows.csv, conditions.toml and, where there
 /// are shapes, channels.csv. Modes come in ascending frequency; rows that are held out stay out.
-/// @param condition  a table of conditions.toml; "" means the only one, or the only one with dampers = "off"
-/// @throws InputError  with file, line, column: an unknown type, condition or channel, a row without a standard deviation, a
+/// @param choice  which condition (choose_condition), and what is put right first (corrections.hpp)
+/// @throws InputError  with file, line, column: an unknown type, condition, state or channel, a row without a standard deviation, a
 /// mode
 ///                     without a frequency, a mode without a shape where others have one. Channels that one mode lacks are NaN there
-[[nodiscard]] Measured read_measured_features(const std::filesystem::path& folder, const std::string& condition);
+[[nodiscard]] Measured read_measured_features(const std::filesystem::path& folder, const MeasuredChoice& choice);
 
 /// Reads modes.csv, and shapes.csv and channels.csv where they are there, from a folder (`--modes DIR`).
 /// @throws InputError  as above
-[[nodiscard]] Measured read_measured_modes(const std::filesystem::path& folder);
+[[nodiscard]] Measured read_measured_modes(const std::filesystem::path& folder, const MeasuredChoice& choice);
 
 /// The measured modes that a step works with: `--modes DIR`, else `--features DIR`, else the study's features, registered as
 /// inputs. Nothing if none of the three is there.
+/// @param condition  of the step's configuration; --condition goes before it
 [[nodiscard]] std::optional<Measured> find_measured(StepContext& context, const std::string& condition);
 
 }  // namespace twindeck::steps

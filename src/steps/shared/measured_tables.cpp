@@ -15,6 +15,13 @@ namespace twindeck::steps {
 namespace {
 
 constexpr double absolute_zero_C = -273.15;
+constexpr const char* reference_state = "reference";  ///< of a condition that names none
+
+std::vector<std::string> names_of(const std::vector<MeasuredCondition>& conditions) {
+  std::vector<std::string> names;
+  for (const MeasuredCondition& condition : conditions) names.push_back(condition.name);
+  return names;
+}
 
 double finite_number(const io::TomlEntry& entry, const Place& place) {
   double value = 0.0;
@@ -52,13 +59,14 @@ void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition
     if (text != "on" && text != "off")
       throw InputError(place, fmt::format("is '{}', expected \"on\" or \"off\"", text), "say whether the dampers are fitted");
     condition.dampers_on = text == "on";
-  } else if (entry.key == "state") {
-    condition.state = text_of(entry, place);
-    if (condition.state.empty()) throw InputError(place, "is empty, expected the name of a state of the structure", "name it, or leave the key out");
   } else if (entry.key == "amplitude_channel") {
     condition.amplitude_channel = text_of(entry, place);
   } else if (entry.key == "load") {
     condition.load = text_of(entry, place);
+  } else if (entry.key == "state") {
+    condition.state = text_of(entry, place);
+    if (condition.state.empty())
+      throw InputError(place, "is empty, expected the name of a state of the structure", "leave the key out for \"reference\"");
   } else if (entry.key == "amplitude_m") {
     condition.amplitude_m = number_from(entry, place, 0.0);
   } else if (entry.key == "temperature_C") {
@@ -151,28 +159,66 @@ std::vector<MeasuredCondition> read_conditions(const std::filesystem::path& file
     if (table == nullptr) throw InputError({file.string(), entry.line, entry.key}, "is no table", "give one table a condition");
     MeasuredCondition& condition = conditions.emplace_back();
     condition.name = entry.key;
+    condition.line = entry.line;
     for (const io::TomlEntry& e : *table) enter_key(e, {file.string(), e.line, e.key}, condition);
   }
   return conditions;
 }
 
-std::string choose_condition(const std::filesystem::path& file, const std::vector<MeasuredCondition>& conditions,
-                             const std::string& asked) {
-  std::vector<std::string> names, off;
+std::vector<std::string> states_of(const std::vector<MeasuredCondition>& conditions) {
+  std::vector<const MeasuredCondition*> in_file;
+  for (const MeasuredCondition& condition : conditions) in_file.push_back(&condition);
+  std::stable_sort(in_file.begin(), in_file.end(), [](const auto* a, const auto* b) { return a->line < b->line; });
+  std::vector<std::string> states;
+  for (const MeasuredCondition* condition : in_file)
+    if (std::find(states.begin(), states.end(), condition->state) == states.end()) states.push_back(condition->state);
+  const auto reference = std::find(states.begin(), states.end(), reference_state);
+  if (reference != states.end()) std::rotate(states.begin(), reference, reference + 1);
+  return states;
+}
+
+std::vector<MeasuredCondition> chosen_conditions(const std::filesystem::path& file, const std::vector<MeasuredCondition>& conditions,
+                                                 const ConditionChoice& choice) {
+  const std::vector<std::string> states = states_of(conditions), names = names_of(conditions);
+  if (!choice.state.empty() && std::find(states.begin(), states.end(), choice.state) == states.end())
+    throw InputError({file.string(), 0, choice.state}, "is no state of this file" + did_you_mean(choice.state, states),
+                     fmt::format("it has {}: give one of them as --state", fmt::join(states, ", ")));
+  if (!choice.condition.empty() && std::find(names.begin(), names.end(), choice.condition) == names.end())
+    throw InputError({file.string(), 0, choice.condition}, "is no condition of this file" + did_you_mean(choice.condition, names),
+                     fmt::format("it has {}: give one of them as --condition, or in the key `condition`", fmt::join(names, ", ")));
+  std::vector<MeasuredCondition> chosen;
   for (const MeasuredCondition& condition : conditions) {
-    names.push_back(condition.name);
-    if (condition.dampers_on == false) off.push_back(condition.name);
+    if (!choice.condition.empty() && condition.name != choice.condition) continue;
+    if (!choice.state.empty() && condition.state != choice.state) {
+      if (choice.condition.empty()) continue;
+      throw InputError({file.string(), condition.line, condition.name},
+                       fmt::format("is a condition of state '{}', not of '{}'", condition.state, choice.state),
+                       "leave --state or --condition out");
+    }
+    chosen.push_back(condition);
   }
-  if (!asked.empty()) {
-    if (std::find(names.begin(), names.end(), asked) != names.end()) return asked;
-    throw InputError({file.string(), 0, asked}, "is no condition of this file" + did_you_mean(asked, names),
-                     "give one of its tables as `condition`");
+  return chosen;
+}
+
+std::string choose_condition(const std::filesystem::path& file, const std::vector<MeasuredCondition>& conditions,
+                             const ConditionChoice& choice) {
+  ConditionChoice complete = choice;
+  if (choice.condition.empty() && choice.state.empty() && !conditions.empty()) complete.state = states_of(conditions).front();
+  std::vector<std::string> names, off;
+  bool dampers = false;
+  for (const MeasuredCondition& condition : chosen_conditions(file, conditions, complete)) {
+    names.push_back(condition.name);
+    dampers = dampers || condition.dampers_on.has_value();
+    if (condition.dampers_on == false) off.push_back(condition.name);
   }
   if (names.size() == 1) return names.front();
   if (off.size() == 1) return off.front();
+  const std::string of_state = states_of(conditions).size() > 1 ? fmt::format(" of state '{}'", complete.state) : std::string();
   throw InputError({file.string(), 0, ""},
-                   fmt::format("has {} conditions, {} of them with dampers = \"off\"", names.size(), off.size()),
-                   "name the one to use in the key `condition` of the step");
+                   fmt::format("has {} conditions{}{}", names.size(), of_state,
+                               dampers ? fmt::format(", {} of them with dampers = \"off\"", off.size()) : std::string()),
+                   names.empty() ? "add a table for each condition of rows.csv"
+                                 : fmt::format("give one of {} as --condition, or in the key `condition` of the step", fmt::join(names, ", ")));
 }
 
 }  // namespace twindeck::steps

@@ -135,6 +135,7 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
   // 3. The manifest comes last.
   io::Manifest manifest = manifest_of(status, step, context);
   manifest.warnings = context.warnings_;
+  manifest.corrections = context.corrections_;
   manifest.command_line.assign(argv, argv + argc);
   manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   io::write_manifest(manifest, context.out);
@@ -148,6 +149,8 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
   replacement.publish();
   std::error_code ignored;
   fs::remove_all(unconverged, ignored);  // of an earlier attempt, now overtaken
+  if (!context.corrections_.empty())
+    context.say(fmt::format("the measurement was corrected first: {}", fmt::join(context.corrections_, ", ")));
   context.say(fmt::format("{} in {:.1f} s, written to {}", status.converged ? "done" : "accepted though not converged",
                           manifest.seconds, out.string()));
   return 0;

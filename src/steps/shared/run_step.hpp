@@ -43,6 +43,7 @@ class StepContext {
   std::vector<std::filesystem::path> inputs_;
   std::map<std::string, std::string> input_hashes_;  ///< path as given -> SHA-256 when it was registered
   std::vector<std::string> warnings_;
+  std::vector<std::string> corrections_;  ///< of --correct, in words
   std::vector<std::pair<std::string, std::string>> flags_;
   std::string token_;
 };

@@ -47,7 +47,9 @@ io::FieldTable UpdatingConfig::fields() {
       .texts("pairs", pairs, "published assignment such as \"7X-8N\", used where no shape was measured; empty: by order")
       .texts("common_pairs", common_pairs,
              "measured modes (\"7X\") of a second mean error, over pairs that an earlier table has too")
-      .text("condition", condition, "condition of the measured features; empty: the only one, or the only one without dampers")
+      .text("condition", condition,
+            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where dampers were "
+            "switched the only one without")
       .number("trust_radius", trust_radius, "", io::positive(), "initial trust radius of the dogleg, in normalised parameters")
       .integer("starts", starts, {1.0, 1000.0}, "searches: from the initial values, and from seeded points inside the bounds")
       .integer("n_modes", n_modes, {1.0, 200.0}, "modes solved for, among which the paired ones are followed")
@@ -55,7 +57,9 @@ io::FieldTable UpdatingConfig::fields() {
       .integer("outer_iterations", outer_iterations, {1.0, 1000.0}, "most prestress states of one search")
       .number("optimality_tolerance", optimality_tolerance, "", {1e-12, 1e-2, true},
               "projected gradient at which a solve has converged, relative to the gradient at its start")
-      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: pairs below it are left out")
+      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: pairs below it are none; the modes stay unpaired")
+      .number("least_paired", least_paired, "", {0.0, 1.0},
+              "pairing by MAC: share of the measured modes that must have a partner, else the step refuses")
       .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
               "pairing by MAC: a pair further apart in frequency (relative) is not admitted")
       .number("cluster_gap", cluster_gap, "", io::non_negative(),
@@ -157,8 +161,8 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
   return {values};
 }
 
-Pairing pair_for_updating(const UpdatingConfig& config, const LoadedModel& loaded, const dynamics::EigenModes& modes,
-                          const Measured& measured) {
+Pairing pair_for_updating(StepContext& context, const UpdatingConfig& config, const LoadedModel& loaded,
+                          const dynamics::EigenModes& modes, const Measured& measured) {
   Pairing pairing;
   if (measured.modes.has_shapes()) {
     pairing = pair_at_sensors(measured, loaded, modes, pairing_options(config), config.sensor_tolerance_m);
@@ -167,6 +171,11 @@ Pairing pair_for_updating(const UpdatingConfig& config, const LoadedModel& loade
   } else {
     pairing = pair_by_order(measured, modes.frequency_Hz.size());
   }
+  warn_of_unmeasured(context, pairing);
+  const PairingAccount account = account_of(measured, pairing, modes.frequency_Hz);
+  const std::optional<std::string> factor = common_factor(measured, pairing, modes.frequency_Hz);
+  refuse_few_pairs(account, config.least_paired, config.minimum_mac, measured.source, factor);
+  if (factor) context.warn(*factor);
   if (pairing.pairs.empty()) {
     throw InputError({measured.source, 0, ""}, "no measured mode has a computed partner",
                      "check frequencies and pairs, or raise maximum_frequency_error");
@@ -202,6 +211,25 @@ Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before, co
     if (pairing.mac.size() > 0) pair.mac = pairing.mac(pair.numerical, pair.experimental);
   }
   return pairing;
+}
+
+PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& followed, const LoadedModel& after,
+                             const dynamics::EigenModes& modes, const Measured& measured) {
+  Pairing judged = followed;
+  if (measured.modes.has_shapes()) {
+    const Pairing anew = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
+    for (modal::ModePair& pair : judged.pairs)
+      for (const modal::ModePair& other : anew.pairs)
+        if (other.clustered && other.experimental == pair.experimental && other.numerical == pair.numerical) pair.mac = other.mac;
+  }
+  const PairingAccount account = account_of(measured, judged, modes.frequency_Hz);
+  warn_of_pairing(context, account, std::nullopt, "after the updating");
+  return account;
+}
+
+std::string summary_line(const std::vector<ComparisonRow>& comparison, const PairingAccount& account) {
+  return fmt::format("mean |error| of {} pairs: {:.2f} % before, {:.2f} % after{}", comparison.size() / 2,
+                     mean_abs_error_pct(comparison, "before"), mean_abs_error_pct(comparison, "after"), pairing_words(account));
 }
 
 }  // namespace twindeck::steps

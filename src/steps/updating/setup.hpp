@@ -6,6 +6,7 @@
 #include "dynamics/eigenmodes.hpp"
 #include "io/config.hpp"
 #include "steps/refinement/comparison.hpp"
+#include "steps/refinement/pairing_account.hpp"
 #include "steps/shared/measured.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
@@ -26,7 +27,8 @@ struct UpdatingConfig {
   long max_iterations = 100;
   long outer_iterations = 12;
   double optimality_tolerance = 1e-6;
-  double minimum_mac = 0.0;
+  double minimum_mac = usual_minimum_mac;
+  double least_paired = usual_least_paired;
   double maximum_frequency_error = 0.35;
   double cluster_gap = 0.02;
   double sensor_tolerance_m = 0.5;
@@ -55,9 +57,10 @@ struct UpdatingConfig {
                                                             const std::vector<fe::Parameter>& parameters,
                                                             const std::vector<int>& active, StepContext& context);
 
-/// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order.
-/// @throws InputError  where no pair is left
-[[nodiscard]] Pairing pair_for_updating(const UpdatingConfig& config, const LoadedModel& loaded,
+/// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order. Warns of pairs of
+/// a list that are not measured, and of one factor between all frequencies.
+/// @throws InputError  where no pair is left, or fewer than the share that the configuration asks for
+[[nodiscard]] Pairing pair_for_updating(StepContext& context, const UpdatingConfig& config, const LoadedModel& loaded,
                                         const dynamics::EigenModes& modes, const Measured& measured);
 
 [[nodiscard]] std::vector<updating::FrequencyTarget> frequency_targets(const Measured& measured, const Pairing& pairing);
@@ -70,5 +73,14 @@ struct UpdatingConfig {
 [[nodiscard]] Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before,
                                        const updating::UpdatingResult& result, const LoadedModel& after,
                                        const dynamics::EigenModes& modes, const Measured& measured);
+
+/// What the pairs are worth after the updating; close modes that have turned into each other count by their common subspace.
+/// Warns where shapes disagree; where they did before and no longer do, the updating has shown the pairs right.
+[[nodiscard]] PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& followed,
+                                           const LoadedModel& after, const dynamics::EigenModes& modes,
+                                           const Measured& measured);
+
+/// "mean |error| of 9 pairs: 5.12 % before, 0.04 % after; 1 of 10 measured modes unpaired, worst MAC 0.93 (4X-4N)".
+[[nodiscard]] std::string summary_line(const std::vector<ComparisonRow>& comparison, const PairingAccount& account);
 
 }  // namespace twindeck::steps

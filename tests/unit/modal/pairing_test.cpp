@@ -57,6 +57,21 @@ TEST(PairByMac, LeavesOutWhatIsNotAdmissible) {
   EXPECT_EQ(pair_by_mac(one, mixed, one, phi, {.minimum_mac = 0.6}).size(), 0U);
 }
 
+// Oracle: hand calculation. MACs are 0.6 and 0.4 of the first measured mode, 0.3 and 0 of the second. The largest sum, 0.4 + 0.3, is made
+// of pairs that are both too unlike to be kept; the good pair must not be crowded out by them.
+TEST(PairByMac, UnlikePairsDoNotCrowdOutAGoodOne) {
+  const Eigen::MatrixXcd phi_n = shapes(2);
+  Eigen::MatrixXcd phi_x = Eigen::MatrixXcd::Zero(6, 2);
+  phi_x.col(0) << std::sqrt(0.6), std::sqrt(0.4), 0.0, 0.0, 0.0, 0.0;
+  phi_x.col(1) << std::sqrt(0.3), 0.0, std::sqrt(0.7), 0.0, 0.0, 0.0;
+  const Eigen::Vector2d f_x(1.0, 1.1), f_n(1.0, 1.2);
+  const std::vector<ModePair> kept = pair_by_mac(f_x, phi_x, f_n, phi_n, {.minimum_mac = 0.5});
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept[0].experimental, 0);
+  EXPECT_EQ(kept[0].numerical, 0);
+  EXPECT_EQ(pair_by_mac(f_x, phi_x, f_n, phi_n)[0].numerical, 1);
+}
+
 // Oracle: hand calculation. Two close computed modes rotated by 45 degrees: each measured shape has MAC 1/2 with either, and
 // lies wholly in their span. Modes that are not close are not a cluster, whatever their span.
 TEST(PairByMac, RecognisesARotatedPair) {
