@@ -8,6 +8,7 @@
 
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
+#include "steps/diagnosis/extended_stays.hpp"
 
 namespace twindeck::steps {
 
@@ -158,6 +159,11 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                   {"reduction_pct", result.gain.reduction_pct},
                   {"interval_pct", {result.gain.low_pct, result.gain.high_pct}},
                   {"level", 0.90}};
+  if (const auto explained = explained_gain(result)) {
+    json["gain"]["modes_measured"] = explained->measured;
+    json["gain"]["modes_explained_before"] = explained->before;
+    json["gain"]["modes_explained_after"] = explained->after;
+  }
   if (result.form) add_form(*result.form, json);
   json["measure_next"] = measure_next(result, invisible);
   const auto listed = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
