@@ -23,8 +23,10 @@ constexpr std::size_t least_channels = 3;  ///< a shape of two channels is like 
 constexpr double cable_reach = 2.0;  ///< [-] of the highest measured frequency: a stay that begins above it moves as its ends
                                      ///< do, but for a third of its inertia
 constexpr double least_harmonic_std = 0.002;  ///< [-] of a stay's own frequency: what the ends' motion changes it by
-constexpr double model_force_std = 0.10;      ///< [-] of a force that nobody measured, as scatter.stay_pull
-constexpr double ninety = 1.645;              ///< [-] deviations of a 90 % interval
+constexpr double twin_force_std =
+    0.05;  ///< [-] of a force that was measured on the mirror image: what the site's own sheets differ by
+constexpr double twin_tolerance = 0.01;   ///< [-] of length and modelled force: what meshing leaves between mirror images
+constexpr double model_force_std = 0.10;  ///< [-] of a force that nobody measured, as scatter.stay_pull
 
 std::vector<MeasuredShape> shapes_of(const FeatureSet& features) {
   std::map<std::pair<int, std::string>, MeasuredShape> found;
@@ -57,10 +59,28 @@ std::vector<MeasuredShape> shapes_of(const FeatureSet& features) {
   return out;
 }
 
-/// A stay's force: from its measured frequencies, else the model's.
-FoundStay force_of(const Structure& structure, int element, const std::vector<Row>& stay_rows) {
+double model_force(const Structure& structure, int element) {
+  return structure.state->stay_pull_N.size() > 0 ? structure.state->stay_pull_N[element]
+                                                 : structure.model->elements[static_cast<std::size_t>(element)].pull_N;
+}
+
+/// Whether two stays are each other's mirror image: of one section and material, length and force in the model.
+bool are_twins(const Structure& structure, int a, int b) {
+  const fe::Element& one = structure.model->elements[static_cast<std::size_t>(a)];
+  const fe::Element& other = structure.model->elements[static_cast<std::size_t>(b)];
+  const auto length = [&](const fe::Element& stay) {
+    const auto& nodes = structure.model->nodes;
+    return (nodes[static_cast<std::size_t>(stay.nodes[1])].x_m - nodes[static_cast<std::size_t>(stay.nodes[0])].x_m).norm();
+  };
+  const double forces = model_force(structure, a) / model_force(structure, b);
+  return one.section == other.section && one.material == other.material &&
+         std::abs(length(one) / length(other) - 1.0) < twin_tolerance && std::abs(forces - 1.0) < twin_tolerance;
+}
+
+/// The force with which a stay shows its measured frequencies; 0 where it has none.
+FoundStay measured_force(const Structure& structure, int element, const std::vector<Row>& stay_rows) {
   const fe::Element& stay = structure.model->elements[static_cast<std::size_t>(element)];
-  FoundStay out{fe::stay_name(stay), element, 0.0, 0.0, 0.0, false};
+  FoundStay out{fe::stay_name(stay), element, 0.0, 0.0, ForceSource::measured};
   std::vector<fe::StayHarmonic> harmonics;
   double weight = 0.0;
   for (const Row& row : stay_rows) {
@@ -69,15 +89,32 @@ FoundStay force_of(const Structure& structure, int element, const std::vector<Ro
         {std::max(1, std::atoi(row.mode.c_str())), row.value, std::max(row.std / row.value, least_harmonic_std)});
     weight += std::pow(harmonics.back().relative_std, -2);
   }
-  double std = model_force_std;
   out.force_N = fe::force_of_harmonics(*structure.model, stay, harmonics, cable_pieces);
-  out.measured = out.force_N > 0.0;
-  if (out.measured)
-    std = 2.0 / std::sqrt(weight);  // the force goes with the square of the frequency
-  else
-    out.force_N = structure.state->stay_pull_N.size() > 0 ? structure.state->stay_pull_N[element] : stay.pull_N;
-  out.low_N = out.force_N * std::exp(-ninety * std);
-  out.high_N = out.force_N * std::exp(ninety * std);
+  if (out.force_N > 0.0) out.relative_std = 2.0 / std::sqrt(weight);  // the force goes with the square of the frequency
+  return out;
+}
+
+/// Every stay under force: by its own frequencies, else as its measured twins, else as the model has it.
+std::vector<FoundStay> forces(const Structure& structure, const std::vector<Row>& stay_rows) {
+  std::vector<FoundStay> out;
+  for (std::size_t e = 0; e < structure.model->elements.size(); ++e)
+    if (structure.model->elements[e].type == fe::ElementType::stay)
+      out.push_back(measured_force(structure, static_cast<int>(e), stay_rows));
+  for (FoundStay& stay : out) {
+    if (stay.force_N > 0.0) continue;
+    double sum = 0.0;
+    int twins = 0;
+    for (const FoundStay& other : out) {
+      if (other.source != ForceSource::measured || !(other.force_N > 0.0) || !are_twins(structure, stay.element, other.element))
+        continue;
+      sum += other.force_N;
+      ++twins;
+    }
+    stay.source = twins > 0 ? ForceSource::twin : ForceSource::model;
+    stay.force_N = twins > 0 ? sum / twins : model_force(structure, stay.element);
+    stay.relative_std = twins > 0 ? twin_force_std : model_force_std;
+  }
+  std::erase_if(out, [](const FoundStay& stay) { return !(stay.force_N > 0.0); });
   return out;
 }
 
@@ -89,11 +126,8 @@ struct Candidates {
 };
 Candidates stays_that_may_swing(const Structure& structure, const std::vector<Row>& stay_rows, double highest_Hz) {
   Candidates out;
-  for (std::size_t e = 0; e < structure.model->elements.size(); ++e) {
-    const fe::Element& stay = structure.model->elements[e];
-    if (stay.type != fe::ElementType::stay) continue;
-    FoundStay found = force_of(structure, static_cast<int>(e), stay_rows);
-    if (!(found.force_N > 0.0)) continue;
+  for (FoundStay& found : forces(structure, stay_rows)) {
+    const fe::Element& stay = structure.model->elements[static_cast<std::size_t>(found.element)];
     fe::Cable cable = fe::cable_beyond_bar(*structure.model, stay, found.force_N, cable_pieces);
     const double own = fe::in_plane_frequencies(*structure.model, stay, cable)[0];
     if (own > highest_Hz) continue;
@@ -105,7 +139,7 @@ Candidates stays_that_may_swing(const Structure& structure, const std::vector<Ro
 }
 
 /// Whether a multiple of a stay's first frequency lies near a mode that the model does not explain.
-bool any_near(const Candidates& candidates, const std::vector<MeasuredShape>& measured, const Explanation& before,
+bool any_near(const Candidates& candidates, const std::vector<MeasuredShape>& measured, const ExplainedModes& before,
               double within) {
   for (std::size_t m = 0; m < measured.size(); ++m)
     for (const double own : candidates.own_Hz)
@@ -125,6 +159,25 @@ std::vector<SwingingCable> reduced(const Structure& structure, const Candidates&
     out.push_back(swinging_cable(candidates.cables[i].stiffness, candidates.cables[i].mass, ends, highest_Hz));
   }
   return out;
+}
+
+/// ln of how much better a stay's own frequencies are foretold by its cable than by a bar, which has none. The lowest of them
+/// is what the force was found from and does not count.
+double own_log_odds(const FoundStay& stay, const fe::Cable& cable, const Structure& structure,
+                    const std::vector<Row>& stay_rows, const ExplanationRule& rule) {
+  const fe::Element& element = structure.model->elements[static_cast<std::size_t>(stay.element)];
+  const Eigen::VectorXd own = fe::in_plane_frequencies(*structure.model, element, cable);
+  std::vector<MeasuredShape> measured;
+  int lowest = static_cast<int>(own.size()) + 1;
+  for (const Row& row : stay_rows)
+    if (row.stay == stay.name) lowest = std::min(lowest, std::max(1, std::atoi(row.mode.c_str())));
+  for (const Row& row : stay_rows) {
+    const int number = std::max(1, std::atoi(row.mode.c_str()));
+    if (row.stay == stay.name && number > lowest && number <= own.size())
+      measured.push_back({row.mode, row.condition, row.value, {0}, Eigen::VectorXcd::Ones(1)});
+  }
+  const VisibleModes none{Eigen::VectorXd::Zero(1), MatrixXd::Ones(1, 1)}, swinging{own, MatrixXd::Ones(1, own.size())};
+  return explain(measured, swinging, rule).log_likelihood - explain(measured, none, rule).log_likelihood;
 }
 
 int count_below(const Eigen::VectorXd& frequency_Hz, double limit) {
@@ -159,9 +212,18 @@ std::optional<BarStays> find_bar_stays(const Structure& structure, const Feature
 
   // 2. The stays whose swinging explains it.
   const std::vector<SwingingCable> cables = reduced(structure, candidates, modes.shapes, cable_reach * highest);
-  const StayChoice choice = choose_swinging(bars, cables, candidates.own_Hz, measured, out.rule);
-  out.log_odds = choice.log_odds;
-  if (!(out.log_odds >= least_log_odds) || choice.after.count <= choice.before.count) return std::nullopt;
+  std::vector<int> known;
+  for (std::size_t i = 0; i < candidates.stays.size(); ++i)
+    if (candidates.stays[i].source != ForceSource::model) known.push_back(static_cast<int>(i));
+  const StayChoice choice = choose_swinging(bars, cables, candidates.own_Hz, known, measured, out.rule, least_log_odds);
+  out.deck_log_odds = out.log_odds = choice.log_odds;
+  for (const int i : choice.swinging) {
+    const auto k = static_cast<std::size_t>(i);
+    if (candidates.stays[k].source == ForceSource::measured)
+      out.log_odds += own_log_odds(candidates.stays[k], candidates.cables[k], structure, stay_rows, out.rule);
+  }
+  if (!(out.log_odds >= least_log_odds) || !(out.deck_log_odds > 0.0) || choice.after.count <= choice.before.count)
+    return std::nullopt;
 
   // 3. The model in which they do.
   std::vector<fe::SwingingStay> swinging;

@@ -16,17 +16,21 @@ struct BarStaysOptions {
   int modes = 48;          ///< of the structure with bars, in whose coordinates the cables are tried
 };
 
+/// Where the force of a cable comes from: the stay's own measured frequencies, those of its mirror image, or the model.
+enum class ForceSource { measured, twin, model };
+
 /// A stay that swings in the extended model.
 struct FoundStay {
   std::string name;
   int element = -1;
-  double force_N = 0.0, low_N = 0.0, high_N = 0.0;  ///< 90 % interval
-  bool measured = false;                            ///< from its own frequencies; else the model's force
+  double force_N = 0.0, relative_std = 0.0;
+  ForceSource source = ForceSource::model;
 };
 
 struct BarStays {
   std::vector<FoundStay> stays;
-  double log_odds = 0.0;
+  double deck_log_odds = 0.0;  ///< of the modes that the channels saw
+  double log_odds = 0.0;       ///< with the stays' own measured frequencies
   ExplanationRule rule;
   fe::Model extended;      ///< the model with these stays as cables of `cable_pieces`
   int modes_in_basis = 0;  ///< that many modes of it lie where the reduced model of bars had `modes` / 2

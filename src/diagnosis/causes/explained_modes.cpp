@@ -54,8 +54,8 @@ double chance(const Eigen::RowVectorXd& mac, const VisibleModes& modes, const Ex
 
 }  // namespace
 
-Explanation explain(const std::vector<MeasuredShape>& measured, const VisibleModes& modes, const ExplanationRule& rule) {
-  Explanation out;
+ExplainedModes explain(const std::vector<MeasuredShape>& measured, const VisibleModes& modes, const ExplanationRule& rule) {
+  ExplainedModes out;
   const std::size_t n = measured.size();
   out.mode.assign(n, -1);
   out.explained.assign(n, false);
@@ -107,7 +107,7 @@ Explanation explain(const std::vector<MeasuredShape>& measured, const VisibleMod
 }
 
 double frequency_scatter(const std::vector<MeasuredShape>& measured, const VisibleModes& modes, double least_mac) {
-  const Explanation nearest = explain(measured, modes, {least_mac, most_within});
+  const ExplainedModes nearest = explain(measured, modes, {least_mac, most_within});
   std::vector<double> off;
   for (std::size_t i = 0; i < measured.size(); ++i)
     if (nearest.explained[i]) off.push_back(std::abs(std::log(modes.frequency_Hz[nearest.mode[i]] / measured[i].frequency_Hz)));

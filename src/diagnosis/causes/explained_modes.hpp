@@ -38,14 +38,14 @@ struct ExplanationRule {
 ///
 /// a mode of several conditions counting once, by its mean. A model with many modes explains much by accident: its c_i are
 /// large.
-struct Explanation {
+struct ExplainedModes {
   std::vector<int> mode;        ///< (n_measured) of the model, one-to-one in each condition; -1: none left
   std::vector<bool> explained;  ///< (n_measured)
   int count = 0;                ///< of those explained
   double log_likelihood = 0.0;  ///< ln L
 };
-[[nodiscard]] Explanation explain(const std::vector<MeasuredShape>& measured, const VisibleModes& modes,
-                                  const ExplanationRule& rule);
+[[nodiscard]] ExplainedModes explain(const std::vector<MeasuredShape>& measured, const VisibleModes& modes,
+                                     const ExplanationRule& rule);
 
 /// The rule's `within` by what the model itself shows: twice the robust deviation of ln f of the modes that it resembles
 /// (median of |ln f| / 0.6745), between 2 % (cables are not known better) and 10 % (a mode further off is another one).

@@ -87,7 +87,8 @@ VisibleModes modes_with(const BarModes& bars, const std::vector<const SwingingCa
 }
 
 StayChoice choose_swinging(const BarModes& bars, const std::vector<SwingingCable>& cables, const std::vector<double>& own_Hz,
-                           const std::vector<MeasuredShape>& measured, const ExplanationRule& rule) {
+                           const std::vector<int>& known, const std::vector<MeasuredShape>& measured,
+                           const ExplanationRule& rule, double least_gain) {
   const auto likelihood = [&](const std::vector<int>& swinging) {
     return explain(measured, modes_with(bars, of(cables, swinging)), rule).log_likelihood;
   };
@@ -97,6 +98,11 @@ StayChoice choose_swinging(const BarModes& bars, const std::vector<SwingingCable
   const double price = std::log(static_cast<double>(std::max<std::size_t>(choices.size(), 2)));
   double best = out.before.log_likelihood, paid = 0.0;
   std::vector<int>& chosen = out.swinging;
+  if (const double value = likelihood(known); value > best) {
+    best = value;
+    chosen = known;
+  }
+  const std::vector<int> kept = chosen;
   while (true) {  // forwards
     std::vector<double> value(choices.size());
     parallel_for(choices.size(), [&](std::size_t i) {
@@ -104,12 +110,16 @@ StayChoice choose_swinging(const BarModes& bars, const std::vector<SwingingCable
       value[i] = tried.size() > chosen.size() ? likelihood(tried) : best;
     });
     const auto at = std::max_element(value.begin(), value.end());
-    if (!(*at > best + price)) break;
+    if (!(*at > best + price + least_gain)) break;
     best = *at;
     paid += price;
     chosen = joined(chosen, choices[static_cast<std::size_t>(at - value.begin())]);
   }
   for (std::size_t i = 0; i < chosen.size();) {  // backwards
+    if (std::find(kept.begin(), kept.end(), chosen[i]) != kept.end()) {
+      ++i;
+      continue;
+    }
     std::vector<int> without = chosen;
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
     const double value = likelihood(without);
@@ -122,7 +132,7 @@ StayChoice choose_swinging(const BarModes& bars, const std::vector<SwingingCable
   }
   std::vector<int> all(cables.size());
   std::iota(all.begin(), all.end(), 0);
-  if (const double value = likelihood(all); value > best - paid) {
+  if (const double value = likelihood(all); value > best - paid + least_gain) {
     best = value;
     paid = 0.0;
     chosen = all;

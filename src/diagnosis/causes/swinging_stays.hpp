@@ -34,16 +34,21 @@ struct SwingingCable {
 struct StayChoice {
   std::vector<int> swinging;  ///< positions among the cables, ascending; empty where none helps
   double log_odds = 0.0;      ///< of these stays as cables against all as bars
-  Explanation before, after;
+  ExplainedModes before, after;
   VisibleModes modes;  ///< with these stays swinging
 };
 
-/// Looks for the stays whose swinging explains the most, forwards: the stay, or the stays of one frequency together (twins move
-/// together), that raises ln L (explained_modes.hpp) most comes in while it raises it by more than what choosing it costs, ln
-/// of the number of choices; then any that no longer helps goes. All stays at once are tried too, which costs no choice.
+/// Looks for the stays whose swinging explains the most. Stays that are known to swing, since their own frequencies were
+/// measured, come in first and together where that raises ln L (explained_modes.hpp); there is nothing to choose. Then,
+/// forwards, the stay, or the stays of one frequency together (twins move together), that raises ln L most comes in while it
+/// raises it by more than what choosing it costs, ln of the number of choices; then any chosen one that no longer helps goes.
+/// All stays at once are tried too, which costs no choice.
 /// @param own_Hz  (n_cables) first frequency of each between fixed ends
+/// @param least_gain  [nats] that a stay must bring of which nobody measured that it swings
+/// @param known   positions of those whose own frequencies were measured, or their mirror images'
 [[nodiscard]] StayChoice choose_swinging(const BarModes& bars, const std::vector<SwingingCable>& cables,
-                                         const std::vector<double>& own_Hz, const std::vector<MeasuredShape>& measured,
-                                         const ExplanationRule& rule);
+                                         const std::vector<double>& own_Hz, const std::vector<int>& known,
+                                         const std::vector<MeasuredShape>& measured, const ExplanationRule& rule,
+                                         double least_gain);
 
 }  // namespace twindeck::diagnosis

@@ -30,7 +30,7 @@ TEST(ExplainedModes, CountsAndWeighsAsWrittenOut) {
   // 1 is the first mode, 2 looks like it but lies elsewhere, 3 is the second mode seen in two conditions, once too far off.
   const std::vector<MeasuredShape> measured = {mode("1", 0, 1.01, {2, 2, 2}), mode("2", 0, 1.4, {1, 1, 0.9}),
                                                mode("3", 0, 2.05, {1, 0, -1}), mode("3", 1, 2.4, {1, 0, -1})};
-  const diagnosis::Explanation found = explain(measured, two_modes(), {0.6, 0.05});
+  const diagnosis::ExplainedModes found = explain(measured, two_modes(), {0.6, 0.05});
   EXPECT_EQ(found.explained, (std::vector<bool>{true, false, true, false}));
   EXPECT_EQ(found.count, 2);
   EXPECT_EQ(found.mode[0], 0);

@@ -109,17 +109,27 @@ TEST(SwingingStays, TheOneThatSwingsIsFound) {
   const Deck deck;
   const auto truth = modes_with(deck.bars(), {&deck.cables[1]});
   const auto measured = Deck::measured(truth, 7);
-  const auto choice = choose_swinging(deck.bars(), deck.cables, deck.own_Hz, measured, {0.6, 0.02});
+  const auto choice = choose_swinging(deck.bars(), deck.cables, deck.own_Hz, {}, measured, {0.6, 0.02}, 0.0);
   EXPECT_EQ(choice.swinging, (std::vector<int>{1}));
   EXPECT_EQ(choice.after.count, 7);
   EXPECT_LT(choice.before.count, 7);
   EXPECT_GT(choice.log_odds, 0.0);
 }
 
+TEST(SwingingStays, OneThatIsKnownToSwingCostsNoChoice) {
+  const Deck deck;
+  const auto measured = Deck::measured(modes_with(deck.bars(), {&deck.cables[1]}), 7);
+  const auto choice = choose_swinging(deck.bars(), deck.cables, deck.own_Hz, {1}, measured, {0.6, 0.02}, 0.0);
+  const auto chosen = choose_swinging(deck.bars(), deck.cables, deck.own_Hz, {}, measured, {0.6, 0.02}, 0.0);
+  EXPECT_EQ(choice.swinging, (std::vector<int>{1}));
+  EXPECT_TRUE(choose_swinging(deck.bars(), deck.cables, deck.own_Hz, {}, measured, {0.6, 0.02}, 50.0).swinging.empty());
+  EXPECT_NEAR(choice.log_odds, chosen.log_odds + std::log(2.0), 1e-12);  // of two stays
+}
+
 TEST(SwingingStays, WhereNoneSwingsNoneIsNamed) {
   const Deck deck;
   const auto measured = Deck::measured(modes_with(deck.bars(), {}), 7);
-  const auto choice = choose_swinging(deck.bars(), deck.cables, deck.own_Hz, measured, {0.6, 0.02});
+  const auto choice = choose_swinging(deck.bars(), deck.cables, deck.own_Hz, {}, measured, {0.6, 0.02}, 0.0);
   EXPECT_EQ(choice.before.count, 7);
   EXPECT_TRUE(choice.swinging.empty());
   EXPECT_EQ(choice.log_odds, 0.0);
