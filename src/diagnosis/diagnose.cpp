@@ -307,6 +307,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     const auto members = cluster_of(ranking, ratio, options);
     Effect effect;
     effect.cause = {ranking.front().candidate, ranking.front().a};
+    effect.state = effect.cause.candidate->state;
     effect.log_odds = tempered(ranking.front(), ratio);
     const double top = effect.log_odds;
     double scaled = std::exp(-top);  // nothing missing has odds 1

@@ -8,6 +8,7 @@
 
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
+#include "steps/diagnosis/extended_stays.hpp"
 
 namespace twindeck::steps {
 
@@ -152,6 +153,11 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                   {"reduction_pct", gain.reduction_pct},
                   {"interval_pct", {gain.low_pct, gain.high_pct}},
                   {"level", 0.90}};
+  if (const auto explained = explained_gain(result)) {
+    json["gain"]["modes_measured"] = explained->measured;
+    json["gain"]["modes_explained_before"] = explained->before;
+    json["gain"]["modes_explained_after"] = explained->after;
+  }
   if (result.form) add_form(*result.form, json);
   json["measure_next"] = told.measure_next;
   const auto listed = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };

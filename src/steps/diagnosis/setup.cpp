@@ -86,7 +86,8 @@ void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features)
 
 /// Leaves out the modes of which the model has none with a MAC of `least_mac`: what it has no mode for, such as a stay that
 /// swings by itself where stays are bars, cannot be a residual of it.
-std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model,
+/// @param swinging  how many stays the model has as cables
+std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model, std::size_t swinging,
                                           diagnosis::FeatureSet& features) {
   if (!(config.least_mac > 0.0)) return std::nullopt;
   const diagnosis::FeatureMap map(model, features, config.scatter);
@@ -120,9 +121,11 @@ std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const d
                      "");
   keep(features, kept);
   found.text = fmt::format(
-      "{} of {} measured modes are like no mode of the model (MAC below {}) and are left out: {}. Stays whose own frequency "
-      "this is are named; the model's stays do not vibrate",
-      unpaired.size(), map.measured_modes().size(), config.least_mac, fmt::join(found.names, "; "));
+      "{} of {} measured modes are like no mode of the model (MAC below {}) and are left out: {}", unpaired.size(),
+      map.measured_modes().size(), config.least_mac, fmt::join(found.names, "; "));
+  if (stays != model.sets.end() && !stays->second.empty())
+    found.text += swinging > 0 ? fmt::format(". Stays whose own frequency this is are named; {} of the model's stays vibrate", swinging)
+                               : ". Stays whose own frequency this is are named; the model's stays do not vibrate";
   return found;
 }
 
@@ -204,6 +207,52 @@ std::vector<MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& fea
   return conditions;
 }
 
+/// How many modes a basis takes up.
+struct BasisSize {
+  int modes = 0;      ///< of the structure as it stands
+  int corrected = 0;  ///< least number of the lowest that corrections are made for
+};
+
+/// Places and reduced model of the model as it is now.
+void reduce(const diagnosis::PlaceOptions& place_options, const BasisSize& size, DiagnosisInputs& inputs) {
+  const diagnosis::Structure structure = inputs.model->structure();
+  inputs.places = diagnosis::find_places(structure, place_options);
+  diagnosis::ReductionOptions reduction;
+  reduction.modes = size.modes;
+  // Fits end far from where the basis is made (full_model): parameters on bounds, workmanship off by several deviations.
+  reduction.parameter_vectors = 60;
+  reduction.least_correction = 2.5e-4;
+  reduction.element_change = 0.1;
+  std::set<std::string> measured;
+  for (const diagnosis::Row& row : inputs.features.rows)
+    if (row.type == diagnosis::RowType::frequency) measured.insert(row.mode);
+  reduction.corrected_modes = std::max({12, static_cast<int>(measured.size()) + 2, size.corrected});
+  inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
+}
+
+/// Where measured modes are those of stays that swing, the model gets these stays as cables. It stays as it was where no more modes
+/// are explained then, dampers and all conditions included.
+void swing_stays(const DiagnosisConfig& config, const diagnosis::PlaceOptions& place_options,
+                 const std::vector<diagnosis::Row>& stay_rows, DiagnosisInputs& inputs) {
+  constexpr double alike = 0.6;  // MAC where least_mac says nothing: below it two shapes share less than they do not
+  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : alike, 2 * static_cast<int>(config.modes)};
+  auto found = diagnosis::find_bar_stays(inputs.model->structure(), inputs.features, stay_rows, options);
+  if (!found) return;
+  const ModesExplained before = modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
+  auto bars = inputs.model;
+  inputs.model = std::make_shared<DiagnosedModel>(*bars);
+  inputs.model->loaded = from_model(std::move(found->extended));
+  const BasisSize as_bars{static_cast<int>(config.modes), 0};
+  reduce(place_options, {std::max(as_bars.modes, found->modes_in_basis), found->modes_in_band + 2}, inputs);
+  const ModesExplained after = modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
+  if (after.explained > before.explained) {
+    inputs.bar_stays.emplace(std::move(found->stays), found->log_odds, before, after);
+    return;
+  }
+  inputs.model = bars;
+  reduce(place_options, as_bars, inputs);
+}
+
 }  // namespace
 
 io::FieldTable DiagnosisConfig::fields() {
@@ -237,6 +286,10 @@ io::FieldTable DiagnosisConfig::fields() {
               "farthest that a sensor may lie from the node that stands for it")
       .choice("form", form, {"on", "off"},
               "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is exact but for scatter")
+      .choice("stays", stays, {"auto", "as_modelled"},
+              "auto: stays that the model has as bars become cables in several elements where that explains measured modes which the model "
+              "resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the fit, not from here), else "
+              "from the model; as_modelled: they stay bars")
       .text("threshold_cache", threshold_cache, "folder of thresholds by hash (default: <results>/thresholds, or beside --out)")
       .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),
               "relative deviation of an element's stiffness")
@@ -272,6 +325,9 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   const MeasuredChoice choice = asked_choice(context);
   inputs.features = read_all_features(folder, choice);
   inputs.corrected = choice.corrections;
+  std::vector<diagnosis::Row> stay_rows;
+  for (const diagnosis::Row& row : inputs.features.rows)
+    if (row.type == diagnosis::RowType::stay_frequency) stay_rows.push_back(row);
   choose_rows(config, inputs.features);
   const auto catalogue = catalogue_folder(config, context);
   inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
@@ -292,27 +348,17 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   const LoadedModel loaded = own ? load_study_model(context, "") : load_model(context, updated);
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
   inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
-  const diagnosis::Structure structure = inputs.model->structure();
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
   if (!config.damper_places.empty()) place_options.moves = read_damper_places(context.input(config.damper_places));
-  inputs.places = diagnosis::find_places(structure, place_options);
+  reduce(place_options, {static_cast<int>(config.modes), 0}, inputs);
   refuse_unknown_stays(inputs.features, inputs.places, folder);
+  if (config.stays == "auto") swing_stays(config, place_options, stay_rows, inputs);
   if (inputs.features.load_test_rows > 0)
     context.warn(fmt::format("{} rows of load tests are not used: no cause here is told by them", inputs.features.load_test_rows));
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
-  diagnosis::ReductionOptions reduction;
-  reduction.modes = static_cast<int>(config.modes);
-  // Fits end far from where the basis is made (full_model): parameters on bounds, workmanship off by several deviations.
-  reduction.parameter_vectors = 60;
-  reduction.least_correction = 2.5e-4;
-  reduction.element_change = 0.1;
-  std::set<std::string> measured;
-  for (const diagnosis::Row& row : inputs.features.rows)
-    if (row.type == diagnosis::RowType::frequency) measured.insert(row.mode);
-  reduction.corrected_modes = std::max(12, static_cast<int>(measured.size()) + 2);
-  inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
   warn_of_unit_slips(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
-  if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, inputs.features)) inputs.account.push_back(*unpaired);
+  const std::size_t swinging = inputs.bar_stays ? inputs.bar_stays->stays() : 0;
+  if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, swinging, inputs.features)) inputs.account.push_back(*unpaired);
   hold_out(config, inputs.features);
   return inputs;
 }
@@ -378,7 +424,8 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   map.bind_modes(bound_modes(config, inputs, &unmeasured));
   if (!unmeasured.empty())
     context.warn(fmt::format("pairs: no row in use has the mode of {}", fmt::join(unmeasured, ", ")));
-  const diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
+  diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
+  if (inputs.bar_stays) inputs.bar_stays->take_out_entries(entries);
   const diagnosis::Inference inference(map, entries.candidates);
   context.say(fmt::format("{} rows ({} held out), {} unknowns, {} entries of {} families, basis of {}",
                           inputs.features.rows.size(), inference.held_out().size(), map.nuisances().size(),
@@ -402,6 +449,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   diagnosis::Diagnosis result = with_form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
                                           : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
+  if (inputs.bar_stays) inputs.bar_stays->put_first(result);
   const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels, inputs.places);
   const IdsInWords ids = ids_in_words(places, inference);
   put_into_words(result, places, ids);
@@ -431,6 +479,8 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
   write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
   for (const Finding& finding : account) context.say(finding.text);
+  if (const auto gain = explained_gain(result))
+    context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
   if (result.form) say_form(*result.form, context);
   say_sentences(result.verdict, told.sentences, context);
   for (const std::string& line : correction_advice(corrections)) context.say(line);

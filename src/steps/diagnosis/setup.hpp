@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
 #include "io/config.hpp"
 #include "steps/diagnosis/evidence.hpp"
+#include "steps/diagnosis/extended_stays.hpp"
 #include "steps/diagnosis/model.hpp"
 #include "steps/shared/corrections.hpp"
 #include "steps/shared/run_step.hpp"
@@ -30,6 +32,7 @@ struct DiagnosisConfig {
   long nulls = 0, most_causes = 4, modes = 24, zones = 24, nodes = 24;
   double sensor_tolerance_m = 0.5;
   std::string form = "off";     ///< "on": the model's form may be wrong, and competes with every cause (decision 0013)
+  std::string stays = "auto";   ///< "as_modelled": stays stay the bars that they are in the model
   std::string threshold_cache;  ///< folder of thresholds by hash
   diagnosis::ScatterOptions scatter;
 
@@ -44,7 +47,8 @@ struct DiagnosisInputs {
   diagnosis::FeatureSet features;
   std::vector<Correction> corrected;  ///< what of the features --correct has put right
   std::vector<diagnosis::Hypothesis> catalogue;
-  std::vector<Finding> account;  ///< what claims and rows say before any odds
+  std::vector<Finding> account;             ///< what claims and rows say before any odds
+  std::optional<BarStaysEffect> bar_stays;  ///< where stays swing that the model had as bars; `model` has them as cables
 };
 
 [[nodiscard]] DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext& context);

@@ -1,0 +1,119 @@
+#include "fe/cable.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "fe/assembly_elements.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double force_range =
+    4.0;                        ///< [-] the force is looked for within this factor of the taut string's, which sag never leaves
+constexpr int force_cuts = 50;  ///< golden sections: 0.618^50 of the range is below rounding
+
+double mass_per_length(const Model& model, const Element& stay) {
+  return material_of(model, stay).density_kg_m3 * section_of(model, stay).area_m2;
+}
+
+/// Nodes of the chain from end to end (pieces + 1).
+std::vector<Vector3d> hanging(const Model& model, const Element& stay, double force_N, int pieces) {
+  const auto ends = end_nodes(model, stay);
+  const double length = (ends[1] - ends[0]).norm();
+  const double sag = mass_per_length(model, stay) * model.gravity_m_s2 * length * length / (8.0 * force_N);
+  std::vector<Vector3d> nodes;
+  for (int i = 0; i <= pieces; ++i) {
+    const double xi = static_cast<double>(i) / pieces;
+    nodes.emplace_back(ends[0] + xi * (ends[1] - ends[0]) - 4.0 * sag * xi * (1.0 - xi) * Vector3d::UnitZ());
+  }
+  return nodes;
+}
+
+}  // namespace
+
+Cable cable_beyond_bar(const Model& model, const Element& stay, double force_N, int pieces) {
+  TWINDECK_ASSERT(pieces >= 2 && stay.type == ElementType::stay);
+  if (!(force_N > 0.0))
+    throw InputError({model.source, 0, stay.name}, "has no force, a cable of it would not hang",
+                     "give its pull in elements.csv and a rule of prestress in model.toml");
+  const std::vector<Vector3d> nodes = hanging(model, stay, force_N, pieces);
+  const double modulus = material_of(model, stay).youngs_modulus_Pa, area = section_of(model, stay).area_m2;
+  const Index n = 3 * (pieces + 1);
+  Cable cable{{nodes.begin() + 1, nodes.end() - 1}, MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
+  const auto place = [&](int node) { return node == 0 ? Index{0} : node == pieces ? Index{3} : Index{3 + 3 * node}; };
+  for (int i = 0; i < pieces; ++i) {
+    const std::array<Vector3d, 2> ends = {nodes[static_cast<std::size_t>(i)], nodes[static_cast<std::size_t>(i) + 1]};
+    const double m = mass_per_length(model, stay);
+    const Matrix6 k = bar_stiffness(ends, modulus, area) + string_stiffness(ends, force_N);
+    const Matrix6 mass = 0.5 * (bar_mass_consistent(ends, m) + bar_mass_lumped(ends, m));
+    const std::array<Index, 2> at = {place(i), place(i + 1)};
+    for (std::size_t a = 0; a < 2; ++a)
+      for (std::size_t b = 0; b < 2; ++b) {
+        const auto row = static_cast<Index>(3 * a), column = static_cast<Index>(3 * b);
+        cable.stiffness.block<3, 3>(at[a], at[b]) += k.block<3, 3>(row, column);
+        cable.mass.block<3, 3>(at[a], at[b]) += mass.block<3, 3>(row, column);
+      }
+  }
+  const Index inner = n - 6;
+  const MatrixXd coupling = cable.stiffness.bottomLeftCorner(inner, 6);
+  // What is left of the ends' block once the inner nodes follow statically is the bar's.
+  cable.stiffness.topLeftCorner<6, 6>() =
+      coupling.transpose() * cable.stiffness.bottomRightCorner(inner, inner).llt().solve(coupling);
+  cable.mass.topLeftCorner<6, 6>() -= element_mass(model, stay).matrix;
+  return cable;
+}
+
+VectorXd in_plane_frequencies(const Model& model, const Element& stay, const Cable& cable) {
+  const auto ends = end_nodes(model, stay);
+  const Vector3d along = (ends[1] - ends[0]).normalized();
+  Vector3d across = Vector3d::UnitZ() - along.z() * along;
+  if (across.norm() < 1e-6) across = along.unitOrthogonal();  // a vertical stay has no sag: every plane is alike
+  across.normalize();
+  const auto n = static_cast<Index>(cable.inner_x_m.size());
+  MatrixXd plane = MatrixXd::Zero(3 * n, 2 * n);
+  for (Index i = 0; i < n; ++i) plane.block<3, 2>(3 * i, 2 * i) << along, across;
+  const MatrixXd k = plane.transpose() * cable.stiffness.bottomRightCorner(3 * n, 3 * n) * plane;
+  const MatrixXd m = plane.transpose() * cable.mass.bottomRightCorner(3 * n, 3 * n) * plane;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(k, m, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+  return solver.eigenvalues().head((n + 1) / 2).cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+}
+
+double force_of_harmonics(const Model& model, const Element& stay, const std::vector<StayHarmonic>& harmonics, int pieces) {
+  const auto ends = end_nodes(model, stay);
+  const double length = (ends[1] - ends[0]).norm();
+  double sum = 0.0;
+  int used = 0;
+  for (const StayHarmonic& h : harmonics) {
+    if (h.number > pieces / 2) continue;
+    sum += std::log(h.frequency_Hz / h.number);
+    ++used;
+  }
+  if (used == 0) return 0.0;
+  const double string = mass_per_length(model, stay) * std::pow(2.0 * length * std::exp(sum / used), 2);
+  const auto misfit = [&](double log_force) {
+    const double force = std::exp(log_force);
+    const VectorXd f = in_plane_frequencies(model, stay, cable_beyond_bar(model, stay, force, pieces));
+    double out = 0.0;
+    for (const StayHarmonic& h : harmonics)
+      if (h.number <= pieces / 2) out += std::pow(std::log(f[h.number - 1] / h.frequency_Hz) / h.relative_std, 2);
+    return out;
+  };
+  const double cut = 0.5 * (std::sqrt(5.0) - 1.0);
+  double low = std::log(string / force_range), high = std::log(string * force_range);
+  for (int i = 0; i < force_cuts; ++i) {
+    const double a = high - cut * (high - low), b = low + cut * (high - low);
+    (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
+  }
+  return std::exp(0.5 * (low + high));
+}
+
+}  // namespace twindeck::fe

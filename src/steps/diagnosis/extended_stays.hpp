@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/bar_stays.hpp"
+#include "diagnosis/diagnose.hpp"
+
+namespace twindeck::steps {
+
+/// How many of the measured modes with a shape a model explains: paired with a mode that is alike and near in frequency.
+struct ModesExplained {
+  int measured = 0, explained = 0;
+};
+[[nodiscard]] ModesExplained modes_explained(const diagnosis::ReducedModel& model, const diagnosis::FeatureSet& features,
+                                             const diagnosis::ScatterOptions& scatter, const diagnosis::ExplanationRule& rule);
+
+/// Cause `barstays` at `global` as an effect beside those of the catalogue. The model that is diagnosed holds it already.
+class BarStaysEffect {
+ public:
+  BarStaysEffect(std::vector<diagnosis::FoundStay> stays, double log_odds, const ModesExplained& before,
+                 const ModesExplained& after);
+
+  /// Puts the effect before all others. Where nothing else was found the verdict is `named`.
+  void put_first(diagnosis::Diagnosis& result) const;
+  /// Takes out the entries that let one of these stays swing once more.
+  void take_out_entries(diagnosis::Instantiated& entries) const;
+  [[nodiscard]] std::size_t stays() const { return stays_.size(); }
+
+ private:
+  std::vector<diagnosis::FoundStay> stays_;
+  std::unique_ptr<diagnosis::Hypothesis> hypothesis_;
+  std::unique_ptr<diagnosis::Candidate> candidate_;
+  diagnosis::Effect effect_;
+};
+
+/// Modes explained before and after, of the effect `barstays`; nothing where it is not among them.
+struct ExplainedGain {
+  double measured = 0.0, before = 0.0, after = 0.0;
+};
+[[nodiscard]] std::optional<ExplainedGain> explained_gain(const diagnosis::Diagnosis& result);
+
+}  // namespace twindeck::steps
