@@ -36,6 +36,12 @@ const std::vector<YawRule>& published_yaw_rules() {
   return rules;
 }
 
+std::vector<std::string> published_yaw_rule_names() {
+  std::vector<std::string> names;
+  for (const YawRule& rule : published_yaw_rules()) names.push_back(rule.name);
+  return names;
+}
+
 YawRule oblique_rule_H() {
   YawRule rule = published_yaw_rule("H");
   rule.name = "H_oblique";

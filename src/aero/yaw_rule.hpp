@@ -33,6 +33,8 @@ struct YawRule {
 /// Models A, C, D, G, H, I of Table 11 as printed. H has derivatives H*(alpha, 0, K') with factor 1, B' and L' in its static
 /// part alone.
 [[nodiscard]] const std::vector<YawRule>& published_yaw_rules();
+/// "A", "C", … in that order.
+[[nodiscard]] std::vector<std::string> published_yaw_rule_names();
 /// Another reading of H, which is not the printed one: its block on the oblique strip as its static part is. B'²L' gives 1/cos
 /// for forces due to y and z, 1/cos² across to alpha, 1/cos³ for the moment due to alpha. The printed speeds of C, H and G form
 /// a geometric ladder, as factors 1, 1/cos and 1/cos² give.

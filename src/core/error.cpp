@@ -1,7 +1,6 @@
 #include "core/error.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/printable.hpp"
 
@@ -25,16 +24,24 @@ std::string compose(const Place& place, const std::string& problem, const std::s
   return text;
 }
 
+/// Cost of a slip, and of a letter that differs from the right one in its case alone: of "Z_m" and the columns x_m, y_m and
+/// z_m, the last is the nearest.
+constexpr std::size_t kSlip = 2, kSlipOfCase = 1;
+
+char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }
+
+std::size_t substitution_cost(char a, char b) { return a == b ? 0 : lower(a) == lower(b) ? kSlipOfCase : kSlip; }
+
 /// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours (the commonest slip).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
-  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j * kSlip;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    now[0] = i;
+    now[0] = i * kSlip;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      now[j] = std::min({substitution, last[j] + 1, now[j - 1] + 1});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+      const std::size_t substitution = last[j - 1] + substitution_cost(a[i - 1], b[j - 1]);
+      now[j] = std::min({substitution, last[j] + kSlip, now[j - 1] + kSlip});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + kSlip);
     }
     before.swap(last);
     last.swap(now);
@@ -52,7 +59,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
   std::size_t smallest = std::string::npos;
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(name, candidate);
-    const std::size_t near = std::max(name.size(), candidate.size()) / 3;  // letters of the longer name: "Es" is near "E_s"
+    // Of the longer name, so that "Es" is near "E_s"; a single letter of the wrong case is near too.
+    const std::size_t near = std::max(kSlipOfCase, kSlip * (std::max(name.size(), candidate.size()) / 3));
     if (distance <= near && distance < smallest) {
       smallest = distance;
       nearest = candidate;

@@ -48,6 +48,17 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
   return kinds;
 }
 
+const std::vector<std::string>& condition_keys() {
+  static const std::vector<std::string> keys = {"amplitude_m",   "temperature_C", "wind_m_s",
+                                                "direction_deg", "people",        "dampers"};
+  return keys;
+}
+
+const std::vector<std::string>& condition_demands() {
+  static const std::vector<std::string> demands = {"known", "on", "off", "above_zero"};
+  return demands;
+}
+
 const std::vector<std::string>& location_sets() {
   static const std::vector<std::string> sets = {"elements", "nodes",  "stays",    "dampers", "damper_types", "damper_moves", "supports", "support_moves",
                                                 "foundations", "groups", "all_stays", "channels", "modes",

@@ -52,6 +52,10 @@ struct Hypothesis {
 
 /// Primitives with the numbers that each takes.
 [[nodiscard]] const std::map<std::string, std::vector<std::string>>& action_kinds();
+/// Keys of a condition that a cause's needs may name, and what `conditions` may ask of one: "known" for any value, "on" or
+/// "off" for dampers, "above_zero" for a number.
+[[nodiscard]] const std::vector<std::string>& condition_keys();
+[[nodiscard]] const std::vector<std::string>& condition_demands();
 /// elements, nodes, stays, dampers, supports, support_moves, foundations, groups, all_stays, channels, modes, global, pairs(channels), pairs(nodes).
 [[nodiscard]] const std::vector<std::string>& location_sets();
 

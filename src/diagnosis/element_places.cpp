@@ -285,9 +285,7 @@ void ElementPlaces::add_moves(const std::vector<DamperMove>& moves, Places& plac
     for (std::size_t i = 0; i < move.dampers.size(); ++i) {
       const auto spring = std::find_if(model_.springs.begin(), model_.springs.end(),
                                        [&](const fe::Spring& s) { return s.name == move.dampers[i]; });
-      if (spring == model_.springs.end() || spring->rotation || spring->node2 >= 0)
-        throw InputError({model_.source, 0, move.dampers[i]}, "is no damper between a node and the ground",
-                         "name one of springs.csv");
+      TWINDECK_ASSERT(spring != model_.springs.end() && can_be_moved(*spring));
       const int node = nearest(nodes, move.x_m[i]);
       for (int d = 0; d < 3; ++d)
         if (spring->direction[d] != 0.0) entries.emplace_back(6 * node + d, static_cast<int>(i), spring->direction[d]);

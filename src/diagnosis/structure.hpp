@@ -61,6 +61,9 @@ struct DamperMove {
   std::vector<Eigen::Vector3d> x_m;   ///< (n_dampers) each goes to the nearest node
 };
 
+/// Whether a spring may be such a damper: between a node and the ground, against a displacement.
+[[nodiscard]] inline bool can_be_moved(const fe::Spring& spring) { return !spring.rotation && spring.node2 < 0; }
+
 struct PlaceOptions {
   int max_zones = 24;  ///< of elements
   int max_nodes = 24;  ///< those of channels first, then nodes far from each other

@@ -47,6 +47,27 @@ Place at_line(const TomlValue& node, Place place) {
   return place;
 }
 
+std::string read_choice(const TomlValue& node, const std::vector<std::string>& allowed, const Place& place) {
+  const std::string value = read_text(node, place);
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+    throw InputError(place, "is " + toml_text(value) + did_you_mean(value, allowed),
+                     fmt::format("choose one of {}", fmt::join(allowed, ", ")));
+  }
+  return value;
+}
+
+/// The texts of an array. @param read  one of them, with its place
+template <typename Read>
+std::vector<std::string> read_texts(const TomlValue& node, const Place& place, Read&& read) {
+  std::vector<std::string> values;
+  for (const TomlValue& item : as_array(node, place, "texts")) {
+    Place element = at_line(item, place);
+    element.key += "[" + std::to_string(values.size()) + "]";
+    values.push_back(read(item, element));
+  }
+  return values;
+}
+
 }  // namespace
 
 FieldTable::FieldTable() = default;
@@ -122,14 +143,7 @@ FieldTable& FieldTable::choice(const std::string& key, std::string& target, cons
   Field& field = bind_key(fields_, key, "text", meaning);
   field.allowed = fmt::format("one of {}", fmt::join(allowed, ", "));
   field.takes_text = true;
-  field.read = [&target, allowed](const TomlValue& node, const Place& place) {
-    const std::string value = read_text(node, place);
-    if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
-      throw InputError(place, "is " + toml_text(value) + did_you_mean(value, allowed),
-                       fmt::format("choose one of {}", fmt::join(allowed, ", ")));
-    }
-    target = value;
-  };
+  field.read = [&target, allowed](const TomlValue& node, const Place& place) { target = read_choice(node, allowed, place); };
   field.write = [&target] { return toml_text(target); };
   field.default_value = field.write();
   return *this;
@@ -156,23 +170,34 @@ FieldTable& FieldTable::numbers(const std::string& key, std::vector<double>& tar
 
 FieldTable& FieldTable::texts(const std::string& key, std::vector<std::string>& target, const std::string& meaning) {
   Field& field = bind_key(fields_, key, "array of texts", meaning);
-  field.read = [&target](const TomlValue& node, const Place& place) {
-    std::vector<std::string> values;
-    for (const TomlValue& item : as_array(node, place, "texts")) {
-      Place element = at_line(item, place);
-      element.key += "[" + std::to_string(values.size()) + "]";
-      values.push_back(read_text(item, element));
-    }
-    target = std::move(values);
-  };
+  field.read = [&target](const TomlValue& node, const Place& place) { target = read_texts(node, place, read_text); };
   field.write = [&target] { return toml_array(target, toml_text); };
   field.default_value = field.write();
   return *this;
 }
 
-FieldTable& FieldTable::tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning) {
+FieldTable& FieldTable::choices(const std::string& key, std::vector<std::string>& target,
+                                const std::vector<std::string>& allowed, const std::string& meaning) {
+  texts(key, target, meaning);
+  Field& field = *fields_.back();
+  field.allowed = fmt::format("each one of {}", fmt::join(allowed, ", "));
+  field.read = [&target, allowed](const TomlValue& node, const Place& place) {
+    target = read_texts(node, place, [&](const TomlValue& item, const Place& at) { return read_choice(item, allowed, at); });
+  };
+  return *this;
+}
+
+FieldTable& FieldTable::tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning,
+                               const std::string& named_by) {
   Field& field = bind_key(fields_, key, "array of tables", meaning);
   field.add = std::move(add);
+  field.named_by = named_by;
+  if (!named_by.empty()) field.allowed = "no two with the same " + named_by;
+  return *this;
+}
+
+FieldTable& FieldTable::rule(std::function<std::optional<Broken>()> broken) {
+  rules_.push_back(std::move(broken));
   return *this;
 }
 

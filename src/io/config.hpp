@@ -51,17 +51,30 @@ class FieldTable {
   FieldTable& numbers(const std::string& key, std::vector<double>& target, const std::string& unit, Range range,
                       const std::string& meaning);
   FieldTable& texts(const std::string& key, std::vector<std::string>& target, const std::string& meaning);
+  /// An array of texts, each of which must be one of `allowed`.
+  FieldTable& choices(const std::string& key, std::vector<std::string>& target, const std::vector<std::string>& allowed,
+                      const std::string& meaning);
   /// `[[key]]` array of tables: for each table, `add` appends an element to the caller's list and returns the FieldTable
   /// bound to that element. `describe` calls `add` once for the keys of an element, so it is for programs that end after it.
-  FieldTable& tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning);
+  /// @param named_by  key of an element that no two elements may have the same value of; "" for none
+  FieldTable& tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning,
+                     const std::string& named_by = "");
+
+  /// What a rule between keys finds: the key that is to blame, what is wrong with it, how to mend it.
+  struct Broken {
+    std::string key, problem, mend;
+  };
+  /// A rule between several keys, which `require` checks once all of them are read. @param broken  nothing where the rule holds
+  FieldTable& rule(std::function<std::optional<Broken>()> broken);
 
   /// Reads a TOML file into the bound members.
   /// @throws InputError for an unknown key (naming the nearest known one), a wrong type or unit, a value out of range,
-  ///         a required key that is missing; each with file, line, key, value and what is allowed.
+  ///         a required key that is missing, two elements of one name; each with file, line, key, value and what is allowed.
   void load(const std::filesystem::path& file);
   /// Applies one `key=value` of the command line; the value is TOML (a bare word is taken as text).
   void set(const std::string& key_equals_value);
-  /// For a run without a file: @throws InputError  if a required key was given neither by `load` nor by `set`.
+  /// After the last `load` and `set`: @throws InputError  if a required key was given by neither, or a rule between keys is
+  /// broken.
   void require() const;
   /// Where a key was given last: file and line, or "--set"; an empty file where it was not given. An element ("pairs[2]"), a key of an
   /// array of tables ("record.point") and the last part of a dotted key ("maximum_order" of "decay.maximum_order") count as the key.
@@ -79,6 +92,7 @@ class FieldTable {
   [[nodiscard]] std::vector<std::string> lines(const std::string& above = "") const;
 
   std::vector<std::shared_ptr<Field>> fields_;
+  std::vector<std::function<std::optional<Broken>()>> rules_;
 };
 
 }  // namespace twindeck::io

@@ -25,6 +25,7 @@ struct FieldTable::Field {
   std::function<void(const TomlValue&, const Place&)> read;  ///< checks and stores
   std::function<std::string()> write;                        ///< the present value as TOML
   std::function<FieldTable()> add;                           ///< of an array of tables only
+  std::string named_by;  ///< of an array of tables: key that tells its elements apart, or ""
   std::vector<std::vector<std::string>> elements;            ///< of an array of tables: each element's lines as printed
 };
 

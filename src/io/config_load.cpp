@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "io/config.hpp"
 #include "io/config_field.hpp"
@@ -78,6 +79,19 @@ struct Reader {
 
   void elements(FieldTable::Field& field, const TomlValue& node, const Place& place) const;
 
+  /// Refuses an element of the same name as an earlier one. @param lines  of the names so far
+  void refuse_second(const FieldTable::Field& field, const TomlValue::Table& element,
+                     std::map<std::string, long>& lines) const {
+    const auto name =
+        std::find_if(element.begin(), element.end(), [&](const TomlEntry& entry) { return entry.key == field.named_by; });
+    if (field.named_by.empty() || name == element.end()) return;
+    const auto [first, is_new] = lines.emplace(shown(name->value), name->line);
+    if (!is_new) {
+      throw InputError({file, name->line, above + name->key}, fmt::format("is {}, as on line {}", first->first, first->second),
+                       "give each [[" + field.key + "]] a " + field.named_by + " of its own, or remove one of the two");
+    }
+  }
+
   void require(long line) const {
     for (const auto& field : fields) {
       if (field->required && !field->given) {
@@ -93,6 +107,7 @@ void Reader::elements(FieldTable::Field& field, const TomlValue& node, const Pla
   if (array == nullptr) {
     throw InputError(place, "is " + shown(node) + ", expected an array of tables", "begin each with [[" + field.key + "]]");
   }
+  std::map<std::string, long> lines;
   for (const TomlValue& item : *array) {
     const auto* values = item.as<TomlValue::Table>();
     if (values == nullptr) {
@@ -103,6 +118,7 @@ void Reader::elements(FieldTable::Field& field, const TomlValue& node, const Pla
                         above + field.key + "[" + std::to_string(field.elements.size()) + "]."};
     reader.table(*values, "");
     reader.require(item.line);
+    reader.refuse_second(field, *values, lines);
     // Printed now: the next `add` may move the caller's list, and with it the members that `element` is bound to.
     field.elements.push_back(FieldAccess::lines(element));
   }
@@ -130,7 +146,7 @@ void FieldTable::set(const std::string& key_equals_value) {
     throw InputError({"--set", 0, key}, "is an array of tables and cannot be set on the command line",
                      "write it into the configuration file");
   }
-  TomlValue parsed = toml_of_command_line(value);
+  TomlValue parsed = toml_of_command_line(value, key);
   if (field->takes_text && parsed.as<std::string>() == nullptr) parsed = {value, 0};  // --set version=5: the text "5"
   reader.read(*field, parsed, {"--set", 0, key});
 }
@@ -147,6 +163,15 @@ std::optional<Place> FieldTable::place_of(const std::string& key) const {
   return found->place;
 }
 
-void FieldTable::require() const { Reader{fields_, "", ""}.require(0); }
+void FieldTable::require() const {
+  Reader{fields_, "", ""}.require(0);
+  for (const auto& check : rules_) {
+    const std::optional<Broken> broken = check();
+    if (!broken) continue;
+    Place place = place_of(broken->key).value_or(Place{});
+    place.key = broken->key;
+    throw InputError(place, broken->problem, broken->mend);
+  }
+}
 
 }  // namespace twindeck::io

@@ -44,11 +44,12 @@ TomlValue converted(const toml::node& node) {
   return result;
 }
 
-/// @param source  the file, or the option of the command line, which has no lines
-void refuse_deep_nesting(const std::string& text, const std::string& source, bool has_lines) {
+/// @param place  the file, whose line is told, or an option of the command line with its key
+void refuse_deep_nesting(const std::string& text, Place place) {
   const std::optional<long> line = line_nested_too_deep(text);
   if (!line) return;
-  throw InputError({source, has_lines ? *line : 0, ""}, fmt::format("nests more than {} levels of tables or arrays", most_toml_levels),
+  if (place.key.empty()) place.line = *line;
+  throw InputError(place, fmt::format("nests more than {} levels of tables or arrays", most_toml_levels),
                    "no file of this program needs more than four; mend the brackets or the dots of the key");
 }
 
@@ -61,7 +62,7 @@ TomlValue::Table read_toml(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened", "check that you may read it");
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  refuse_deep_nesting(text, file.string(), true);
+  refuse_deep_nesting(text, {file.string(), 0, ""});
   try {
     return converted_table(toml::parse(text, file.string()));
   } catch (const toml::parse_error& error) {
@@ -70,8 +71,8 @@ TomlValue::Table read_toml(const std::filesystem::path& file) {
   }
 }
 
-TomlValue toml_of_command_line(const std::string& text) {
-  refuse_deep_nesting(text, "--set", false);
+TomlValue toml_of_command_line(const std::string& text, const std::string& key) {
+  refuse_deep_nesting(text, {"--set", 0, key});
   try {
     const toml::table parsed = toml::parse("value = " + text);
     if (parsed.size() == 1) return converted(*parsed.get("value"));

@@ -32,7 +32,8 @@ struct TomlEntry {
 /// @throws InputError  naming file and line, if it cannot be opened or is no TOML
 [[nodiscard]] TomlValue::Table read_toml(const std::filesystem::path& file);
 /// The value of a `--set key=value`: TOML, or the text itself where it is a bare word ("refined", "210 GPa").
-[[nodiscard]] TomlValue toml_of_command_line(const std::string& text);
+/// @param key  for the message
+[[nodiscard]] TomlValue toml_of_command_line(const std::string& text, const std::string& key);
 /// A value as the user would recognise it, for messages: 3.5, "abc", true, a table.
 [[nodiscard]] std::string shown(const TomlValue& value);
 /// Shortest text that reads back to the same double; a whole number keeps no point (integers are accepted for numbers).

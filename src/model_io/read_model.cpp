@@ -56,7 +56,7 @@ bool is_matrix_model(const std::filesystem::path& folder) {
 std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const char* name : {"model.toml", "nodes.csv", "elements.csv", "materials.csv", "sections.csv", "supports.csv",
-                           "springs.csv", "links.csv", "masses.csv", "points.csv", "dofs.csv"}) {
+                           "springs.csv", "links.csv", "masses.csv", "points.csv", "loads.csv", "dofs.csv"}) {
     if (std::filesystem::exists(folder / name)) files.push_back(folder / name);
   }
   if (!is_matrix_model(folder)) {

@@ -1,6 +1,6 @@
 #include "sensors/score.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
@@ -29,9 +29,14 @@ double decoupling_score(const Eigen::Ref<const MatrixXd>& phi) {
 }
 
 double log_determinant(const Eigen::Ref<const MatrixXd>& phi) {
-  const Eigen::LLT<MatrixXd> factor(phi.transpose() * phi);
-  if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
-  return 2.0 * MatrixXd(factor.matrixL()).diagonal().array().log().sum();
+  // A pivot of R below this share of the largest is rounding: it stands at 1e-15, and shapes are known to 1e-9 at best.
+  constexpr double least_pivot = 1e-12;
+  constexpr double nothing = -std::numeric_limits<double>::infinity();
+  if (phi.rows() < phi.cols()) return nothing;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(phi);
+  qr.setThreshold(least_pivot);
+  if (qr.rank() < phi.cols()) return nothing;
+  return 2.0 * qr.matrixQR().diagonal().cwiseAbs().array().log().sum();
 }
 
 }  // namespace twindeck::sensors

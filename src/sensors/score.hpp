@@ -14,8 +14,10 @@ namespace twindeck::sensors {
 /// @param phi  (n_sensors × n_modes), n_modes >= 2 @return [-] in [0, 1]
 [[nodiscard]] double decoupling_score(const Eigen::Ref<const Eigen::MatrixXd>& phi);
 
-/// ln det(Phi' Phi) after each mode is scaled to unit norm over all candidates: how large the volume is that the shapes span at the
-/// sensors; -infinity where they depend on each other. The scaling by candidates keeps the value comparable between subsets.
+/// ln det(Phi' Phi) after each mode is scaled to unit norm over all candidates: how large the volume is that the shapes span at
+/// the sensors; -infinity where they depend on each other, as they do for fewer sensors than modes. By QR with column pivoting
+/// of Phi, det(Phi' Phi) = product of r_ii²: the rank of the product Phi' Phi itself is lost in rounding. The scaling by
+/// candidates keeps the value comparable between subsets.
 /// @param phi  rows of a subset (n_sensors × n_modes), already scaled
 [[nodiscard]] double log_determinant(const Eigen::Ref<const Eigen::MatrixXd>& phi);
 

@@ -1,14 +1,40 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "steps/aerodynamics/aerodynamics.hpp"
-
 #include "steps/shared/limits.hpp"
 
 namespace twindeck::steps {
+namespace {
+
+const std::string kObliqueH = "H_oblique";  ///< aero::oblique_rule_H, beside the published models
+
+std::vector<std::string> all_models() {
+  std::vector<std::string> names = aero::published_yaw_rule_names();
+  names.push_back(kObliqueH);
+  return names;
+}
+
+/// Each zone of the hybrid deployment lies on a deck.
+std::optional<io::FieldTable::Broken> zone_without_a_deck(const AerodynamicsConfig& config) {
+  const std::vector<std::string> known = config.deck_names();
+  for (const HybridZone& zone : config.hybrid) {
+    if (std::find(known.begin(), known.end(), zone.deck) != known.end()) continue;
+    return io::FieldTable::Broken{"hybrid.deck",
+                                  fmt::format("'{}' is no [[deck]]{}", zone.deck, did_you_mean(zone.deck, known)),
+                                  known.empty() ? "add its [[deck]]" : fmt::format("choose one of {}", fmt::join(known, ", "))};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 io::FieldTable AerodynamicsConfig::fields() {
+  const std::vector<std::string> published = aero::published_yaw_rule_names();
   io::FieldTable t;
   t.number("density", density_kg_m3, "kg/m3", io::positive(), "density of air")
       .number("direction_deg", direction_deg, "", {-360.0, 360.0},
@@ -35,17 +61,17 @@ io::FieldTable AerodynamicsConfig::fields() {
                        "laws that the data break, each with its reason: \"quasi_steady: only h1 was measured\"");
             return d;
           },
-          "a deck's aerodynamic data")
+          "a deck's aerodynamic data", "name")
       .choice("below_range", below_range, {"refuse", "hold"}, "what a derivative table does below its reduced velocities")
       .choice("above_range", above_range, {"refuse", "hold"}, "what a derivative table does above its reduced velocities")
       .texts("sets", sets,
              "aerodynamic sets: standin (the files), quasi_steady (derivatives from the polars); the first is the main one")
-      .text("fit_model", fit_model, "model of Table 11 at which a set's level is fitted")
+      .choice("fit_model", fit_model, published, "model of Table 11 at which a set's level is fitted")
       .number("fit_speed", fit_speed_m_s, "m/s", io::non_negative(),
               "critical speed to fit it to; 0: take the sets as they are")
-      .texts("models", models, "models of Table 11")
-      .text("hybrid_inner", hybrid_inner, "model of Table 14 at the decks' middle")
-      .text("hybrid_outer", hybrid_outer, "model of Table 14 towards the ends")
+      .choices("models", models, all_models(), "models of Table 11")
+      .choice("hybrid_inner", hybrid_inner, published, "model of Table 14 at the decks' middle")
+      .choice("hybrid_outer", hybrid_outer, published, "model of Table 14 towards the ends")
       .tables(
           "hybrid",
           [this] {
@@ -56,7 +82,7 @@ io::FieldTable AerodynamicsConfig::fields() {
                         "yaw beyond which the outer model holds, degrees", true);
             return d;
           },
-          "Table 14, a deck")
+          "Table 14, a deck", "deck")
       .number("structural_damping", structural_damping, "", {0.0, 0.2}, "damping ratio of each mode without wind")
       .number("identified_damping", identified_damping, "", {0.0, 0.2}, "damping ratio of mode 1 as identified, for comparison")
       .integer("n_modes", n_modes, {1.0, 200.0}, "modes of the reduced structure")
@@ -67,7 +93,8 @@ io::FieldTable AerodynamicsConfig::fields() {
       .number("design_speed", design_speed_m_s, "m/s", {0.0, highest_wind_m_s, true},
               "design wind speed: of the static comparison and the check with dampers")
       .choice("equations", equations, {"consistent", "as_printed"},
-              "Eq. (7) of the moment with its missing chord put in, or as printed");
+              "Eq. (7) of the moment with its missing chord put in, or as printed")
+      .rule([this] { return zone_without_a_deck(*this); });
   return t;
 }
 
@@ -89,7 +116,7 @@ aero::Equations AerodynamicsConfig::equation_choice() const {
 std::vector<aero::Deployment> AerodynamicsConfig::deployments() const {
   std::vector<aero::Deployment> list;
   for (const std::string& name : models) {
-    list.push_back(aero::everywhere(name == "H_oblique" ? aero::oblique_rule_H() : aero::published_yaw_rule(name)));
+    list.push_back(aero::everywhere(name == kObliqueH ? aero::oblique_rule_H() : aero::published_yaw_rule(name)));
   }
   if (!hybrid.empty()) {
     aero::Deployment mixed = aero::everywhere(aero::published_yaw_rule(hybrid_inner));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/error.hpp"
@@ -14,6 +15,7 @@
 #include "records/column_match.hpp"
 #include "records/record.hpp"
 #include "records/recorded_unit.hpp"
+#include "steps/shared/limits.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -21,6 +23,7 @@ using Eigen::Index;
 
 namespace {
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 const std::vector<std::string> kKinds = {"ambient", "free_decay", "wind", "earthquake", "stay"};
 
 std::vector<std::string> condition_names(const fs::path& file) {
@@ -182,8 +185,8 @@ Campaign read_campaign(const fs::path& folder) {
             .text("file", r.file,
                   "samples: CSV as loggers write it, NPY, MAT 4, 5 or 7.3, HDF5, universal file; relative to campaign.toml",
                   true)
-            .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", io::positive(), "samples a second of each channel",
-                    true)
+            .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", {lowest_rate_Hz, kNoLimit},
+                    "samples a second of each channel", true)
             .texts("channels", r.record.channels,
                    "what is recorded, names of channels.csv; the columns' order where the file has no names")
             .texts("columns", r.record.columns,

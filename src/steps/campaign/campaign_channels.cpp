@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/path_name.hpp"
 #include "records/recorded_unit.hpp"
 
 namespace twindeck::steps {
@@ -91,7 +92,7 @@ std::vector<CampaignChannel> read_campaign_channels(const std::filesystem::path&
   for (std::size_t row = 0; row < table.rows(); ++row) {
     CampaignChannel channel;
     channel.name = table.text(row, "channel");
-    if (channel.name.empty()) table.fail(row, "channel", "is empty", "name the channel");
+    io::check_inner_name(channel.name, "channel", {file.string(), table.line(row), "channel"});
     if (!names.insert(channel.name).second)
       table.fail(row, "channel", fmt::format("'{}' appears twice", channel.name), "remove one row");
     channel.point = table.text(row, "point").empty() ? channel.name : table.text(row, "point");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "steps/aerodynamics/aerodynamics.hpp"
 #include "steps/shared/limits.hpp"
 
 namespace twindeck::steps {
@@ -96,14 +97,14 @@ io::FieldTable CampaignSettings::fields() {
                                  "calibration starts here: position among the uncorrected modes that are not mostly stays",
                                  true);
                   }),
-              "a named mode")
+              "a named mode", "name")
       .tables("temperature_effect",
               appending<TemperatureEffect>(temperature,
                                            [](io::FieldTable& t, TemperatureEffect& e) {
                                              t.text("parameter", e.parameter, "parameter of the definition", true)
                                                  .number("per_K", e.per_K, "", {-0.1, 0.1}, "relative change per kelvin", true);
                                            }),
-              "what the temperature changes")
+              "what the temperature changes", "parameter")
       .tables("damper",
               appending<DamperSettings>(dampers,
                                         [](io::FieldTable& t, DamperSettings& d) {
@@ -115,8 +116,8 @@ io::FieldTable CampaignSettings::fields() {
                                               .number("friction", d.friction_N, "N", io::non_negative(),
                                                       "force below which the dashpot stands still");
                                         }),
-              "what the definition does not say about a type of damper")
-      .tables("condition", appending<ConditionSettings>(conditions, bind_condition), "a condition")
+              "what the definition does not say about a type of damper", "type")
+      .tables("condition", appending<ConditionSettings>(conditions, bind_condition), "a condition", "name")
       .tables("record", appending<RecordSettings>(records, bind_record), "a record")
       .tables("stay_test", appending<StayTest>(stays, bind_stay), "a test of a stay by an accelerometer on it")
       .number("stay.duration", stay_duration_s, "s", {0.0, longest_record_s, true}, "length of a stay's record")
@@ -133,7 +134,8 @@ io::FieldTable CampaignSettings::fields() {
       .text("wind.aerodynamics", wind_aerodynamics, "wind events: configuration of step 7 whose decks and data hold")
       .text("wind.turbulence_file", wind_turbulence_file, "wind events: file of turbulence sets")
       .text("wind.turbulence_set", wind_turbulence_set, "wind events: which of them")
-      .text("wind.model", wind_model, "wind events: model of Table 11 that holds on the virtual bridge")
+      .choice("wind.model", wind_model, aero::published_yaw_rule_names(),
+              "wind events: model of Table 11 that holds on the virtual bridge")
       .number("wind.height", wind_height_m, "m", io::positive(), "wind events: height of the decks above ground")
       .number("wind.level", wind_level, "", io::positive(), "wind events: level of the synthetic aerodynamic set")
       .number("calibration.spread", correction_spread, "", io::positive(),

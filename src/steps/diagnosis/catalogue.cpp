@@ -181,7 +181,7 @@ class Reader {
         a.kind = text(e);
         a.line = e.line;
       } else if (e.key == "variable")
-        a.text[e.key] = text(e);
+        a.text[e.key] = condition_key(text(e), e.line, "action.variable");
       else if (e.key == "direction") {
         a.text[e.key] = text(e);
         if (a.text[e.key] != "vertical") fail(e.line, "direction", fmt::format("is '{}', expected \"vertical\"", a.text[e.key]), "leave it out for all directions");
@@ -211,12 +211,37 @@ class Reader {
         fail(value.line, "action." + name, fmt::format("names '{}', which is no [[parameter]]", value.name), "");
     }
   }
+  /// One of the keys of a condition. @param key  of the catalogue that names it
+  std::string condition_key(const std::string& name, long line, const std::string& key) const {
+    const auto& known = diagnosis::condition_keys();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      fail(line, key, fmt::format("'{}' is no key of a condition{}", name, did_you_mean(name, known)),
+           fmt::format("use one of {}", fmt::join(known, ", ")));
+    return name;
+  }
+  std::string demand(const io::TomlEntry& entry) const {
+    const auto& known = diagnosis::condition_demands();
+    const std::string asked = text(entry);
+    if (std::find(known.begin(), known.end(), asked) == known.end())
+      fail(entry.line, "needs.conditions." + entry.key, fmt::format("is '{}'{}", asked, did_you_mean(asked, known)),
+           fmt::format("use one of {}", fmt::join(known, ", ")));
+    return asked;
+  }
+  int count(const io::TomlEntry& entry) const {
+    constexpr long most = 1000;  // different values of a condition: more than anybody measures at
+    const auto* whole = entry.value.as<long>();
+    if (whole == nullptr || *whole < 1 || *whole > most)
+      fail(entry.line, "needs.distinct." + entry.key,
+           fmt::format("is {}, expected a whole number from 1 to {}", io::shown(entry.value), most),
+           "say how many different values the rows must have");
+    return static_cast<int>(*whole);
+  }
   void needs(const Table& entries) {
     for (const auto& e : entries) {
       if (e.key == "conditions")
-        for (const auto& c : table(e)) h_.needs.conditions[c.key] = text(c);
+        for (const auto& c : table(e)) h_.needs.conditions[condition_key(c.key, c.line, "needs.conditions")] = demand(c);
       else if (e.key == "distinct")
-        for (const auto& c : table(e)) h_.needs.distinct[c.key] = static_cast<int>(expression(c).factor);
+        for (const auto& c : table(e)) h_.needs.distinct[condition_key(c.key, c.line, "needs.distinct")] = count(c);
       else if (e.key == "rows") {
         const auto* list = e.value.as<io::TomlValue::Array>();
         if (list == nullptr) fail(e.line, "rows", "is no list", "");

@@ -26,4 +26,10 @@ namespace twindeck::steps {
 void refuse_unknown_stays(const diagnosis::FeatureSet& features, const diagnosis::Places& places,
                           const std::filesystem::path& folder);
 
+/// @param folder  of the features
+/// @param model   folder of the model, or another source, which has no load cases
+/// @throws InputError  naming the line of conditions.toml, for a condition whose `load` is no load case of the model's
+/// loads.csv
+void refuse_unknown_loads(const std::filesystem::path& folder, const std::filesystem::path& model);
+
 }  // namespace twindeck::steps

@@ -9,6 +9,7 @@
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
+#include "model_io/load_cases.hpp"
 #include "model_io/model_folder.hpp"
 #include "steps/diagnosis/model.hpp"
 
@@ -313,6 +314,7 @@ void write_extended_model(const DiagnosedModel& model, const diagnosis::Places& 
     }
     model_io::write_matrix_model(extended.system, folder);
   }
+  model_io::carry_load_cases(model.loaded.source, folder);
   if (measurement) write_corrected_channels(model, result, folder / "channels.csv");
   io::write_file_atomically(folder / "extension.toml", list);
 }

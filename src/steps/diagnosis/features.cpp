@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "model_io/load_cases.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/shared/feature_rows.hpp"
 #include "steps/shared/measured_tables.hpp"
@@ -124,6 +125,21 @@ void refuse_unknown_stays(const FeatureSet& features, const diagnosis::Places& p
     if (!found->second)
       throw InputError(place, fmt::format("stay '{}' has no pull in the model, so that its frequency is not computed", row.stay),
                        "give its pull in elements.csv and a rule of prestress in model.toml, or leave the row out");
+  }
+}
+
+void refuse_unknown_loads(const std::filesystem::path& folder, const std::filesystem::path& model) {
+  const std::filesystem::path file = folder / "conditions.toml", loads = model / "loads.csv";
+  const std::vector<std::string> known = model_io::load_case_names(model);
+  for (const MeasuredCondition& condition : read_conditions(file)) {
+    if (condition.load_line == 0 || std::find(known.begin(), known.end(), condition.load) != known.end()) continue;
+    throw InputError({file.string(), condition.load_line, "load"},
+                     known.empty() ? fmt::format("names the load case '{}', but the model has none: {} is not there or empty",
+                                                 condition.load, loads.string())
+                                   : fmt::format("'{}' is no load case of {}{}", condition.load, loads.string(),
+                                                 did_you_mean(condition.load, known)),
+                     known.empty() ? "write the file with columns load,node,direction,value,unit, or leave the key out"
+                                   : fmt::format("name one of {}, or add it there", fmt::join(known, ", ")));
   }
 }
 

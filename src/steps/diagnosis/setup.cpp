@@ -166,13 +166,24 @@ void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
   }
 }
 
-std::vector<diagnosis::DamperMove> read_damper_places(const std::filesystem::path& file) {
+/// @param model  null for a matrix model, which has no dampers
+std::vector<diagnosis::DamperMove> read_damper_places(const std::filesystem::path& file, const fe::Model* model) {
   const auto table = io::CsvTable::read(file, {"alternative", "damper", "x_m", "y_m", "z_m"}, {});
+  std::vector<std::string> known;
+  if (model != nullptr)
+    for (const fe::Spring& spring : model->springs)
+      if (diagnosis::can_be_moved(spring)) known.push_back(spring.name);
   std::vector<diagnosis::DamperMove> moves;
   for (std::size_t r = 0; r < table.rows(); ++r) {
-    const std::string name = table.text(r, "alternative");
+    const std::string name = table.text(r, "alternative"), damper = table.text(r, "damper");
+    if (std::find(known.begin(), known.end(), damper) == known.end())
+      table.fail(
+          r, "damper",
+          fmt::format("'{}' is no damper of the model between a node and the ground{}", damper, did_you_mean(damper, known)),
+          known.empty() ? "the model has none: leave damper_places out"
+                        : fmt::format("name one of its springs.csv: {}", fmt::join(known, ", ")));
     if (moves.empty() || moves.back().name != name) moves.push_back({name, {}, {}});
-    moves.back().dampers.push_back(table.text(r, "damper"));
+    moves.back().dampers.push_back(damper);
     moves.back().x_m.emplace_back(table.number(r, "x_m"), table.number(r, "y_m"), table.number(r, "z_m"));
   }
   return moves;
@@ -347,9 +358,11 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
                    !read_study(context.study).model_folder.empty();
   const LoadedModel loaded = own ? load_study_model(context, "") : load_model(context, updated);
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
+  refuse_unknown_loads(folder, loaded.source);
   inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
-  if (!config.damper_places.empty()) place_options.moves = read_damper_places(context.input(config.damper_places));
+  if (!config.damper_places.empty())
+    place_options.moves = read_damper_places(context.input(config.damper_places), loaded.fe_model());
   reduce(place_options, {static_cast<int>(config.modes), 0}, inputs);
   refuse_unknown_stays(inputs.features, inputs.places, folder);
   if (config.stays == "auto") swing_stays(config, place_options, stay_rows, inputs);

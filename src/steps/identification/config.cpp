@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "steps/identification/identification.hpp"
 #include "steps/shared/limits.hpp"
+#include "steps/shared/order_range.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -76,7 +77,8 @@ io::FieldTable IdentificationConfig::fields() {
       .integer("decay.decimation", decay_decimation, {0.0, 1000.0}, "free decays: as decimation; 0: the same")
       .integer("decay.block_rows", decay_block_rows, {2.0, 1000.0}, "free decays: block rows of the Hankel matrix")
       .integer("decay.maximum_order", decay_maximum_order, {2.0, 500.0}, "free decays: largest model order")
-      .number("decay.start", decay_start_s, "s", {0.0, longest_record_s}, "free decays are read from this time after the release on")
+      .number("decay.start", decay_start_s, "s", {0.0, longest_record_s},
+              "free decays are read from this time after the release on")
       .number("decay.length", decay_length_s, "s", {0.0, longest_record_s, true}, "length that is read")
       .number("decay.band", decay_band_Hz, "Hz", io::positive(),
               "half width of the filter that isolates a mode for frequency and damping by amplitude")
@@ -100,15 +102,17 @@ io::FieldTable IdentificationConfig::fields() {
                 .number("length", stay.length_m, "m", io::positive(), "free length", true);
             return entry;
           },
-          "a stay's length; without one its tension can't be told");
+          "a stay's length; without one its tension can't be told", "name")
+      .rule([this] { return orders_exchanged("", minimum_order, maximum_order); });
   return table;
 }
 
 sysid::IdentifyOptions IdentificationConfig::options(double rate_Hz, const std::vector<CampaignChannel>& channels) const {
   sysid::IdentifyOptions options;
   options.block_rows = block_rows;
-  options.minimum_order = static_cast<int>(minimum_order);
-  options.maximum_order = static_cast<int>(std::max(maximum_order, minimum_order));
+  options.minimum_order =
+      static_cast<int>(std::min(minimum_order, maximum_order));  // free decays and stays have maxima of their own
+  options.maximum_order = static_cast<int>(maximum_order);
   options.order_step = static_cast<int>(order_step);
   options.criteria = criteria;
   options.limits = {lowest_Hz, highest_of(*this, rate_Hz), largest_damping};

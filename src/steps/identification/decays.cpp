@@ -130,9 +130,10 @@ std::vector<DecayResult> identify_free_decays(const Campaign& campaign, const st
         quiet.emplace_back(rest.rowwise() - rest.colwise().mean());
       }
     }
-    sysid::IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
-    options.block_rows = config.decay_block_rows;
-    options.maximum_order = static_cast<int>(config.decay_maximum_order);
+    IdentificationConfig own = config;
+    own.block_rows = config.decay_block_rows;
+    own.maximum_order = config.decay_maximum_order;
+    const sysid::IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
     result.found = sysid::identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
     to_physical_shapes(result.found, conditioned.channels, scale);
     const ConditionResult* ambient = condition_named(results, group.condition);

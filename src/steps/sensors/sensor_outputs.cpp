@@ -9,7 +9,9 @@
 #include "sensors/score.hpp"
 #include "steps/sensors/sensor_layout.hpp"
 #include "steps/shared/limits.hpp"
+#include "steps/shared/model_check.hpp"
 #include "steps/shared/model_source.hpp"
+#include "steps/shared/order_range.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -46,7 +48,8 @@ io::FieldTable SensorsConfig::fields() {
       .number("cleaning.frequency", cleaning.frequency, "", io::positive(),
               "relative distance of frequencies that may count as the same")
       .number("cleaning.recursion", cleaning.recursion, "", io::non_negative(),
-              "Eq. (4): index of recursion that a mode exceeds");
+              "Eq. (4): index of recursion that a mode exceeds")
+      .rule([this] { return orders_exchanged("blind.", minimum_order, maximum_order); });
   return table;
 }
 
@@ -167,8 +170,9 @@ Status run_sensors(StepContext& context, const SensorsConfig& config) {
     throw InputError({loaded.source, 0, ""}, "is a matrix model, whose points have no place",
                      "give a model of finite elements");
   dynamics::ModalSolver solver(loaded.system);
-  const dynamics::EigenModes modes = solver.solve(loaded.theta, static_cast<int>(config.n_modes));
+  const dynamics::EigenModes modes = solver.solve_available(loaded.theta, static_cast<int>(config.n_modes));
   if (!modes.status.converged) return modes.status;
+  refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
   const MatrixXd full = loaded.system.expand(modes.shapes);
   std::vector<Eigen::Vector3d> places;
   for (const LayoutPoint& point : points) places.push_back(point.x_m);

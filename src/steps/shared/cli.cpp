@@ -1,6 +1,10 @@
 #include "steps/shared/cli.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <limits>
 #include <map>
 
 #include "core/build_info.hpp"
@@ -34,6 +38,15 @@ std::string help_footer(const Step& step) {
   throw InputError({"command line", 0, ""}, "has '" + word + "', which belongs to no option", "--help shows two examples");
 }
 
+/// What is wrong with the text of a seed; "" if nothing is. CLI11 takes a number that 64 bits do not hold for the largest that
+/// they do.
+std::string problem_of_seed(const std::string& text) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value >= 0) return "";
+  return fmt::format("is '{}', expected a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max());
+}
+
 void check_folder(const char* option, const std::optional<fs::path>& folder) {
   if (folder && !fs::is_directory(*folder)) {
     throw InputError({"command line", 0, option}, "'" + folder->string() + "' is no folder", "name a folder that exists");
@@ -65,7 +78,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
       ->type_name("KEY=VALUE");
   CLI::Option* seed_option = app.add_option("--seed", seed, "seed of everything random, 0 or more (default: the study's)")
                                  ->type_name("N")
-                                 ->check(CLI::NonNegativeNumber);
+                                 ->check(CLI::Validator(problem_of_seed, ""));
   app.add_option("--threads", line.threads, "threads to use (default: all); results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

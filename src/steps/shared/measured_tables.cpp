@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/path_name.hpp"
 #include "io/toml_value.hpp"
 #include "records/recorded_unit.hpp"
 
@@ -63,6 +64,7 @@ void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition
     condition.amplitude_channel = text_of(entry, place);
   } else if (entry.key == "load") {
     condition.load = text_of(entry, place);
+    condition.load_line = place.line;
   } else if (entry.key == "state") {
     condition.state = text_of(entry, place);
     if (condition.state.empty())
@@ -133,7 +135,7 @@ std::vector<Channel> read_channels(const std::filesystem::path& file) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     Channel channel;
     channel.name = table.text(row, "channel");
-    if (channel.name.empty()) table.fail(row, "channel", "is empty", "name the channel");
+    io::check_inner_name(channel.name, "channel", {file.string(), table.line(row), "channel"});
     for (const Channel& other : channels) {
       if (other.name == channel.name)
         table.fail(row, "channel", fmt::format("'{}' appears twice", channel.name), "remove one of the two rows");

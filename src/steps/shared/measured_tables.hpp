@@ -23,7 +23,8 @@ struct MeasuredCondition {
   std::optional<bool> dampers_on;
   std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
   std::string amplitude_channel;
-  std::string load;  ///< load case of a load test
+  std::string load;    ///< load case of a load test
+  long load_line = 0;  ///< of conditions.toml
   std::optional<double> temperature_C, wind_m_s, direction_deg, people;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model_io/inp.hpp"
+#include "model_io/load_cases.hpp"
 #include "model_io/model_folder.hpp"
 #include "ponte/generator.hpp"
 #include "steps/shared/model_check.hpp"
@@ -83,11 +84,13 @@ LoadedModel with_displacements(LoadedModel loaded, const std::string& displaceme
 void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
   if (loaded.model) {
     model_io::write_model(fe::with_parameters(*loaded.model, theta), folder);
-    return;
+  } else {
+    fe::ParametricSystem system = loaded.system;
+    for (std::size_t p = 0; p < system.parameters.size(); ++p)
+      system.parameters[p].initial = theta[static_cast<Eigen::Index>(p)];
+    model_io::write_matrix_model(system, folder);
   }
-  fe::ParametricSystem system = loaded.system;
-  for (std::size_t p = 0; p < system.parameters.size(); ++p) system.parameters[p].initial = theta[static_cast<Eigen::Index>(p)];
-  model_io::write_matrix_model(system, folder);
+  model_io::carry_load_cases(loaded.source, folder);
 }
 
 }  // namespace twindeck::steps

@@ -48,7 +48,7 @@ struct LoadedModel {
 /// a matrix model: as it is.
 [[nodiscard]] LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps);
 
-/// Writes the model as a model folder, with `theta` as its values.
+/// Writes the model as a model folder, with `theta` as its values, and the load cases of the folder that it came from.
 void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

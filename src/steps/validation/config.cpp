@@ -40,7 +40,7 @@ io::FieldTable ValidationConfig::fields() {
                       "condition of the campaign whose wind records are the measured side; empty: none");
             return e;
           },
-          "a wind event")
+          "a wind event", "name")
       .tables(
           "run",
           [this] {
@@ -51,7 +51,7 @@ io::FieldTable ValidationConfig::fields() {
                 .text("model", run.model, "model of Table 11 (A, C, D, G, H, I), or hybrid", true);
             return r;
           },
-          "a numerical simulation of Table 13")
+          "a numerical simulation of Table 13", "name")
       .number("comfort_vertical", comfort_vertical_m_s2, "m/s^2", io::positive(),
               "comfort limit of vertical acceleration (EN 1990 A2.4.3.2)")
       .number("comfort_lateral", comfort_lateral_m_s2, "m/s^2", io::positive(),

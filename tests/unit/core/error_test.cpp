@@ -29,6 +29,10 @@ TEST(NearestName, FindsSlipsAndLeavesStrangersAlone) {
 TEST(NearestName, PrefersTheNearer) {
   const std::vector<std::string> known{"stay_group_2", "stay_group"};
   EXPECT_EQ(nearest_name("stay_grup", known), "stay_group");
+  // A letter of the wrong case is nearer than another letter.
+  EXPECT_EQ(nearest_name("Z_m", std::vector<std::string>{"node", "x_m", "y_m", "z_m"}), "z_m");
+  EXPECT_EQ(nearest_name("Y", std::vector<std::string>{"x", "y"}), "y");
+  EXPECT_EQ(nearest_name("w", std::vector<std::string>{"x", "y"}), "");
 }
 
 // Oracle: TWINDECK_ASSERT is for our own mistakes, so it raises InternalError (exit code 3), never InputError.

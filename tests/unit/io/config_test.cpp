@@ -223,6 +223,61 @@ TEST_F(ConfigTest, DescribeTellsMeaningUnitRangeDefault) {
               std::string::npos);
 }
 
+// Oracle: the messages as a user reads them, with the lines of both elements.
+TEST_F(ConfigTest, TwoElementsOfOneNameAreRefused) {
+  const auto events = [&](const std::string& toml) {
+    std::vector<std::string> names;
+    names.reserve(4);
+    FieldTable table;
+    table.tables(
+        "event",
+        [&names] {
+          FieldTable element;
+          element.text("name", names.emplace_back(), "its name", true);
+          return element;
+        },
+        "events", "name");
+    return refusal([&] { table.load(write("c.toml", toml)); });
+  };
+  EXPECT_EQ(events("[[event]]\nname = \"April\"\n[[event]]\nname = \"May\"\n"), "");
+  EXPECT_EQ(
+      events("[[event]]\nname = \"April\"\n[[event]]\nname = \"May\"\n[[event]]\nname = \"April\"\n"),
+      "c.toml:6: event[2].name: is \"April\", as on line 2; give each [[event]] a name of its own, or remove one of the two");
+  EXPECT_EQ(load("[[damper]]\nname = \"A\"\n[[damper]]\nname = \"A\"\n"), "");  // where nobody asked for it
+}
+
+// Oracle: the rule of `choice`, for each text of an array.
+TEST_F(ConfigTest, EachOfSeveralChoicesIsChecked) {
+  std::vector<std::string> models = {"A"};
+  FieldTable table;
+  table.choices("models", models, {"A", "C", "hybrid"}, "models");
+  table.set("models=[\"C\", \"hybrid\"]");
+  EXPECT_EQ(models, (std::vector<std::string>{"C", "hybrid"}));
+  EXPECT_EQ(refusal([&] { table.set("models=[\"C\", \"hybrd\"]"); }),
+            "--set: models[1]: is \"hybrd\" (did you mean 'hybrid'?); choose one of A, C, hybrid");
+  EXPECT_EQ(models, (std::vector<std::string>{"C", "hybrid"}));
+  EXPECT_NE(table.describe("models").find("array of texts, each one of A, C, hybrid, default [\"A\"]"), std::string::npos);
+}
+
+// Oracle: a rule between keys is checked when all are read, at the place of the key that it blames.
+TEST_F(ConfigTest, ARuleBetweenKeysIsCheckedAtTheEnd) {
+  long least = 2, most = 10;
+  FieldTable table;
+  table.integer("least", least, {1, 100}, "least")
+      .integer("most", most, {1, 100}, "most")
+      .rule([&]() -> std::optional<FieldTable::Broken> {
+        if (least <= most) return std::nullopt;
+        return FieldTable::Broken{"most", "is below least", "raise it"};
+      });
+  const auto file = write("c.toml", "least = 5\nmost = 3\n");
+  table.load(file);
+  EXPECT_EQ(refusal([&] { table.require(); }), "c.toml:2: most: is below least; raise it");
+  table.set("most=4");
+  EXPECT_EQ(refusal([&] { table.require(); }), "--set: most: is below least; raise it");
+  table.set("most=5");
+  EXPECT_EQ(refusal([&] { table.require(); }), "");
+}
+
 // Oracle: two bindings of one key are a mistake of ours.
 TEST_F(ConfigTest, AKeyBoundTwiceIsOurMistake) {
   bool a = false;

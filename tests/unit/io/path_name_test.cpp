@@ -22,5 +22,19 @@ TEST_F(PathNameTest, OnlyNamesOfOneFolderArePassed) {
   EXPECT_TRUE(said("").starts_with("c.toml:3: condition: is empty"));
 }
 
+// Oracle: "folder / name" stays below the folder for the first list and not for the second.
+TEST_F(PathNameTest, InnerNamesStayBelowTheirFolder) {
+  const auto said = [&](const std::string& name) {
+    return refusal([&] { check_inner_name(name, "channel", {"channels.csv", 2, "channel"}); });
+  };
+  for (const char* name : {"A_x", "Dev1/ai0", "run/acc/1", "a..b", "..a", "x.", "Süd-Deck 2"})
+    EXPECT_EQ(said(name), "") << name;
+  EXPECT_EQ(said("../../x"),
+            "channels.csv:2: channel: is '../../x', which leads out of a folder; choose another channel name, such as A_x");
+  for (const std::string& name : {std::string("/x"), std::string("a/../b"), std::string("a\\..\\b"), std::string(".."),
+                                  std::string("a/.."), std::string("a\nb"), std::string("a\0b", 3), std::string()})
+    EXPECT_NE(said(name), "") << name;
+}
+
 }  // namespace
 }  // namespace twindeck::io

@@ -31,5 +31,33 @@ TEST(LogDeterminant, OfTheGramMatrix) {
   EXPECT_EQ(log_determinant((MatrixXd(2, 2) << 1, 2, 2, 4).finished()), -std::numeric_limits<double>::infinity());
 }
 
+// Oracle: rank. Fewer sensors than modes span no volume, and a mode that is a sum of others adds none. The entries have no
+// short binary form, so that products of the columns are singular but for rounding, which may leave a determinant of either
+// sign.
+TEST(LogDeterminant, OfNothingForDependentShapes) {
+  constexpr double nothing = -std::numeric_limits<double>::infinity();
+  for (const Eigen::Index sensors : {1, 2, 3, 4}) {
+    for (const double shift : {0.1, 0.2, 0.3, 0.7}) {
+      MatrixXd few(sensors, 5), dependent(sensors + 3, 3);
+      for (Eigen::Index i = 0; i < few.size(); ++i) few(i) = std::sin(1.0 + shift * static_cast<double>(i * i));
+      for (Eigen::Index i = 0; i < dependent.rows(); ++i) {
+        dependent(i, 0) = std::sin(0.3 + shift * static_cast<double>(i));
+        dependent(i, 1) = std::cos(0.9 + 2.0 * shift * static_cast<double>(i * i));
+        dependent(i, 2) = 0.3 * dependent(i, 0) - 0.7 * dependent(i, 1);
+      }
+      EXPECT_EQ(log_determinant(few), nothing) << sensors << " sensors, shift " << shift;
+      EXPECT_EQ(log_determinant(dependent), nothing) << sensors + 3 << " sensors, shift " << shift;
+    }
+  }
+}
+
+// Oracle: a scaled orthogonal basis, whose determinant is the product of the squared scales: shapes that are small, or alike to
+// 1e-5, are not dependent.
+TEST(LogDeterminant, OfSmallAndOfSimilarShapes) {
+  EXPECT_NEAR(log_determinant(1e-8 * MatrixXd::Identity(4, 3)), 6.0 * std::log(1e-8), 1e-12);
+  const MatrixXd alike = (MatrixXd(2, 2) << 1, 1, 0, 1e-5).finished();
+  EXPECT_NEAR(log_determinant(alike), 2.0 * std::log(1e-5), 1e-9);
+}
+
 }  // namespace
 }  // namespace twindeck::sensors

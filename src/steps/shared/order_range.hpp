@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/config.hpp"
+
+namespace twindeck::steps {
+
+/// The rule of an identification's keys `minimum_order` and `maximum_order`: the smallest model order is not above the largest.
+/// @param above  what stands before the two keys ("blind."), or ""
+[[nodiscard]] inline std::optional<io::FieldTable::Broken> orders_exchanged(const std::string& above, long minimum,
+                                                                            long maximum) {
+  if (minimum <= maximum) return std::nullopt;
+  const std::string smallest = above + "minimum_order";
+  return io::FieldTable::Broken{
+      above + "maximum_order",
+      "is " + std::to_string(maximum) + ", expected at least " + smallest + ", which is " + std::to_string(minimum),
+      "raise it, or lower " + smallest};
+}
+
+}  // namespace twindeck::steps
