@@ -1,5 +1,5 @@
-// Corrections of channels out of a diagnosis. Oracle: the diagnosis's own model of faulty channels, which they have to undo: what it
-// predicts with the faults, corrected, is what it predicts without them, up to the free scale of each shape.
+// Corrections of channels out of a diagnosis. Oracle: the diagnosis's own model of faulty channels, which they have to undo:
+// what it predicts with the faults, corrected, is what it predicts without them, up to the free scale of each shape.
 #include "steps/diagnosis/measurement_corrections.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,9 @@ struct Faulty {
     for (const auto& effect : result.effects) list.push_back(effect.cause);
     return list;
   }
-  [[nodiscard]] std::vector<steps::Correction> corrections() const { return steps::corrections_of(result, e.map->features().channels); }
+  [[nodiscard]] std::vector<steps::Correction> corrections() const {
+    return steps::corrections_of(result, e.map->features().channels);
+  }
 };
 
 TEST(CorrectionsOf, UndoWhatTheModelOfTheChannelsDoes) {
@@ -38,7 +40,8 @@ TEST(CorrectionsOf, UndoWhatTheModelOfTheChannelsDoes) {
   faulty.has("swap@channels:c3,c5");  // with the one before it a ring of three
   const auto& features = faulty.e.map->features();
   const auto base = faulty.e.map->base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(faulty.e.map->nuisances().size())));
-  const Eigen::VectorXd right = faulty.e.map->predict(base, {}, false).g, wrong = faulty.e.map->predict(base, faulty.causes(), false).g;
+  const Eigen::VectorXd right = faulty.e.map->predict(base, {}, false).g,
+                        wrong = faulty.e.map->predict(base, faulty.causes(), false).g;
   const std::vector<steps::Correction> corrections = faulty.corrections();
   ASSERT_EQ(corrections.size(), 4U);
   std::map<std::string, std::map<std::string, double>> plain, mended;  // by mode and channel
@@ -73,7 +76,8 @@ TEST(CorrectionsOf, LeavesOutWhatIsNotDecidedAndWhatIsNoFaultOfSignGainOrName) {
 
 TEST(WriteCorrections, AddsToWhatWasGivenAndTakesBackWhatWasWrong) {
   const auto file = std::filesystem::temp_directory_path() / "twindeck_measurement_corrections.toml";
-  const steps::Correction a{"a", steps::Correction::Action::reverse, "", 1.0, {}}, b{"b", steps::Correction::Action::scale, "", 0.5, {}};
+  const steps::Correction a{"a", steps::Correction::Action::reverse, "", 1.0, {}},
+      b{"b", steps::Correction::Action::scale, "", 0.5, {}};
   std::filesystem::remove(file);
   steps::write_corrections({a}, {}, file);
   EXPECT_FALSE(std::filesystem::exists(file));

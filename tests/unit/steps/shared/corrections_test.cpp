@@ -1,4 +1,5 @@
-/// Oracle: by construction, and the contract: corrections act in the order of the file, by the names that those before have left.
+/// Oracle: by construction, and the contract: corrections act in the order of the file, by the names that those before have
+/// left.
 #include "steps/shared/corrections.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,8 @@ TEST(CorrectedRows, TakeSignSizeAndSquareAsTheirTypeNeeds) {
   features.covariance = Eigen::MatrixXd::Constant(6, 6, 0.01);
   correct({reverse("a"), scale("a", 2.0)}, features);
   const std::vector<double> expected = {-2.0, 6.0, 20.0, -14.0, 2.0, 4.0};
-  for (std::size_t r = 0; r < expected.size(); ++r) EXPECT_DOUBLE_EQ(features.rows[r].value, expected[r]) << features.rows[r].type;
+  for (std::size_t r = 0; r < expected.size(); ++r)
+    EXPECT_DOUBLE_EQ(features.rows[r].value, expected[r]) << features.rows[r].type;
   EXPECT_DOUBLE_EQ(features.rows[0].std, 0.2);
   EXPECT_DOUBLE_EQ(features.rows[2].std, 0.4);
   EXPECT_DOUBLE_EQ(features.covariance(0, 1), -0.04);
@@ -73,7 +75,8 @@ TEST(CorrectedConditions, TheAmplitudesChannelGoesAlong) {
 
 TEST(Corrections, ReadBackAsTheyWereWritten) {
   const auto file = std::filesystem::temp_directory_path() / "twindeck_corrections.toml";
-  std::ofstream(file) << "# a comment\n" << corrections_toml({reverse("A 5"), exchange("b", "c"), scale("d", 0.7142857142857143)});
+  std::ofstream(file) << "# a comment\n"
+                      << corrections_toml({reverse("A 5"), exchange("b", "c"), scale("d", 0.7142857142857143)});
   const std::vector<Correction> read = read_corrections(file);
   std::filesystem::remove(file);
   ASSERT_EQ(read.size(), 3U);
