@@ -117,6 +117,12 @@ class OneStudy(unittest.TestCase):
         self.assertIn("E_s 210 GPa (205 GPa to 216 GPa) 204 GPa (200 GPa to 209 GPa)", text)
         self.assertIn("the deck at x = 34 m (node 725) node:725", text)
 
+    def test_an_unknown_that_the_data_do_not_show_has_no_number(self):
+        told = made_up_answer.diagnosis()
+        for side, words in (("open", "mass not known"), ("lower limit", "mass at least 600 kg"), ("upper limit", "mass at most 1,100 kg")):
+            told["effects"][0]["rivals"][0]["parameters"][0]["one_sided"] = side
+            self.assertIn(f"probability 0.11: {words}", self.account(told))
+
     def test_a_gain_whose_interval_holds_zero_is_not_claimed(self):
         gain = made_up_answer.diagnosis()["gain"]
         self.assertIn("No gain shown. Held out from the fit", self.account(made_up_answer.diagnosis(gain=gain | {"interval_pct": [-2.0, 40.0]})))

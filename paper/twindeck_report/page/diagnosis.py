@@ -29,7 +29,7 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
     where = places(study, settings, folder, told.get("localisation", []))
     return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
-            "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity, "physical": physical, "parameters": _parameters(told)}
+            "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity, "size": _size, "physical": physical, "parameters": _parameters(told)}
 
 
 def _parameters(told: dict) -> list:
@@ -44,6 +44,13 @@ def _sure(probability: float) -> str:
         if probability >= least:
             return words
     return "unknown"
+
+
+def _size(parameter: dict) -> str:
+    """Value and interval of an unknown as the data know it: nothing, a limit, or both."""
+    value, low, high = (physical(parameter[k], parameter.get("unit", "")) for k in ("value", "low", "high"))
+    told = {"open": "not known", "lower limit": f"at least {low}", "upper limit": f"at most {high}"}
+    return told.get(parameter.get("one_sided", ""), f"{value} ({low} … {high})")
 
 
 def _quantity(parameter: dict) -> str:

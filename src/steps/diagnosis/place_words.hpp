@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "diagnosis/structure.hpp"
-#include "fe/model.hpp"
-#include "fe/parametric_system.hpp"
 #include "steps/shared/measured.hpp"
 
 /// Locations of the diagnosis ("node:725", "support:pier_W", "group:E_s") in the words of somebody who stands before the

@@ -4,6 +4,8 @@
 
 #include <cctype>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace twindeck::steps {
 
@@ -46,6 +48,15 @@ std::string number_in_words(double value, int digits) {
   if (size < kPlainBelow) return sign + plain(size, digits);
   return size < 1000.0 * kPlainBelow ? sign + plain(size / 1e6, digits) + " million"
                                      : fmt::format("{}{:.{}g}", sign, size, digits);
+}
+
+std::string quantity_in_words(double value, const std::string& unit) {
+  static const std::set<std::string> takes_prefix = {"Pa", "N", "N/m", "N m/rad", "N s/m"};
+  if (unit.empty() || unit == "-") return number_in_words(value);
+  if (takes_prefix.contains(unit))
+    for (const auto& [size, prefix] : {std::pair{1e9, "G"}, std::pair{1e6, "M"}, std::pair{1e3, "k"}})
+      if (std::abs(value) >= size) return fmt::format("{} {}{}", number_in_words(value / size), prefix, unit);
+  return number_in_words(value) + " " + unit;
 }
 
 std::string listed(const std::vector<std::string>& names) {

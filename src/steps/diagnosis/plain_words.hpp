@@ -10,6 +10,10 @@ namespace twindeck::steps {
 /// Significant digits (three, since sizes are known to a per cent at best): "0.612", "434", "18,500", "5.4 million".
 [[nodiscard]] std::string number_in_words(double value, int digits = 3);
 
+/// The same with its unit, in thousands, millions or billions of it where engineers say so: "434 N", "5.4 MN/m", "18,500 kg",
+/// "0.612" ("-" is no unit).
+[[nodiscard]] std::string quantity_in_words(double value, const std::string& unit);
+
 /// "A, B and C".
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 

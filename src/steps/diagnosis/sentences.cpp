@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <utility>
 
 namespace twindeck::steps {
 
@@ -147,11 +147,11 @@ std::string interval_words(const EffectParameter& p) {
   std::erase(tail, '^');
   if (name.size() > tail.size() && name.ends_with(tail)) name.resize(name.size() - tail.size());
   std::replace(name.begin(), name.end(), '_', ' ');
-  const std::string unit = p.unit.empty() || p.unit == "-" ? "" : " " + p.unit;
+  const std::string low = quantity_in_words(p.low, p.unit), high = quantity_in_words(p.high, p.unit);
   if (p.at_low_bound && p.at_high_bound) return name + " not known";
-  if (p.at_high_bound) return fmt::format("{} at least {}{}", name, number_in_words(p.low), unit);
-  if (p.at_low_bound) return fmt::format("{} at most {}{}", name, number_in_words(p.high), unit);
-  return fmt::format("{} {} to {}{}", name, number_in_words(p.low), number_in_words(p.high), unit);
+  if (p.at_high_bound) return fmt::format("{} at least {}", name, low);
+  if (p.at_low_bound) return fmt::format("{} at most {}", name, high);
+  return fmt::format("{} {} to {}", name, low, high);
 }
 
 /// The effect's sentence and the intervals that it does not tell itself.
@@ -245,9 +245,12 @@ std::string effect_words(const Effect& effect, const PlaceWords& places) {
   };
   replace("{location}", places.at(effect.cause.candidate->location).words);
   for (const EffectParameter& p : effect.parameters) {
-    replace("{" + p.name + "}", number_in_words(p.value));
-    replace("{" + p.name + ".low}", number_in_words(p.low));
-    replace("{" + p.name + ".high}", number_in_words(p.high));
+    for (const auto& [key, value] :
+         {std::pair{p.name, p.value}, std::pair{p.name + ".low", p.low}, std::pair{p.name + ".high", p.high}}) {
+      if (!p.unit.empty() && p.unit != "-")  // a unit behind the number takes a prefix
+        replace("{" + key + "} " + p.unit, quantity_in_words(value, p.unit));
+      replace("{" + key + "}", number_in_words(value));
+    }
   }
   return capitalised(text);
 }

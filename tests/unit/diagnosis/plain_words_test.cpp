@@ -26,6 +26,15 @@ TEST(PlainWords, NumbersHaveThreeDigitsAndNoExponentWherePeopleUseNone) {
   EXPECT_EQ(steps::number_in_words(std::nan("")), "unknown");
 }
 
+TEST(PlainWords, QuantitiesTakeThePrefixesThatEngineersUse) {
+  EXPECT_EQ(steps::quantity_in_words(2.1e11, "Pa"), "210 GPa");
+  EXPECT_EQ(steps::quantity_in_words(5.4e6, "N/m"), "5.4 MN/m");
+  EXPECT_EQ(steps::quantity_in_words(956350.0, "N/m"), "956 kN/m");
+  EXPECT_EQ(steps::quantity_in_words(434.0, "N"), "434 N");
+  EXPECT_EQ(steps::quantity_in_words(18549.0, "kg"), "18,500 kg");
+  EXPECT_EQ(steps::quantity_in_words(0.612, "-"), "0.612");
+}
+
 TEST(PlainWords, ListsAndSentences) {
   EXPECT_EQ(steps::listed({}), "");
   EXPECT_EQ(steps::listed({"A"}), "A");
