@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 namespace twindeck::diagnosis {
@@ -46,8 +47,12 @@ void hold_out_by_rule(FeatureSet& features) {
 std::vector<std::string> states_of(const FeatureSet& features) {
   std::vector<bool> used(features.conditions.size(), false);
   for (const Row& row : features.rows) used[static_cast<std::size_t>(row.condition)] = true;
+  std::vector<std::size_t> in_order(used.size());
+  std::iota(in_order.begin(), in_order.end(), std::size_t{0});
+  std::stable_sort(in_order.begin(), in_order.end(),
+                   [&](std::size_t a, std::size_t b) { return features.conditions[a].line < features.conditions[b].line; });
   std::vector<std::string> out;
-  for (std::size_t c = 0; c < used.size(); ++c) {
+  for (const std::size_t c : in_order) {
     const std::string& state = features.conditions[c].state;
     if (used[c] && std::find(out.begin(), out.end(), state) == out.end()) out.push_back(state);
   }

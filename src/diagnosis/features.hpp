@@ -20,6 +20,7 @@ struct Condition {
   std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
   std::string amplitude_channel;
   std::optional<double> temperature_C, wind_m_s, direction_deg, people;
+  long line = 0;  ///< of conditions.toml: the order of the file
 };
 
 /// A number of the measurement. Frequencies in Hz, damping ratios in per cent, the rest in SI units.

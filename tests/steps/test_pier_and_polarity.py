@@ -145,9 +145,7 @@ class PierAndPolarity(Girder):
         self.assertIn("k_pier_W", result["parameters_on_bounds"])
         self.assertNotIn("k_pier_E", result["parameters_on_bounds"])
 
-    @unittest.expectedFailure
     def test_a_spring_that_bears_the_name_of_a_support_is_named(self):
-        """Not so yet: such a spring counts as rigid, and an oscillator at node 8 is named in the pier's place."""
         self.assert_pier_named("shared", "off")
 
 

@@ -23,7 +23,7 @@ std::vector<Condition> all_of(const std::vector<MeasuredCondition>& measured) {
   std::vector<Condition> conditions;
   for (const MeasuredCondition& c : measured)
     conditions.push_back({c.name, c.state, c.dampers_on, c.amplitude_m, c.amplitude_channel, c.temperature_C, c.wind_m_s, c.direction_deg,
-                          c.people});
+                          c.people, c.line});
   return conditions;
 }
 
