@@ -108,7 +108,7 @@ def score(campaign, imposed, diagnosis):
     settings = tomllib.loads(imposed.read_text(encoding="utf-8"))
     conditions = {r["condition"] for r in read_rows(diagnosis / "residuals.csv")}
     hidden = [*hidden_dampers(settings, campaign / "truth", conditions), *hidden_stays(settings)]
-    wrong = [effect["sentence"] for effect in told["effects"]
+    wrong = [effect["sentence"].rstrip(".") for effect in told["effects"]
              if not any(effect["location"] in h["locations"] or any(is_of(h, member) for member in effect["cluster"]) for h in hidden)]
     return stamp | {"scored": True, "verdict": told["verdict"], "hidden": [answer(h, told) for h in hidden], "not_hidden": wrong,
                     "gain": told["gain"], "also": ALSO}

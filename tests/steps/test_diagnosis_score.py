@@ -78,7 +78,7 @@ class Score(unittest.TestCase):
         for effects, verdict, answer, wrong in (([in_set], "ambiguous", "in the set", []), ([behind], "ambiguous", "in the set", []),
                                                 ([mount], "named", "another cause at the same place", []),
                                                 ([FRICTION], "unknown", "found, under the verdict unknown", []),
-                                                ([WRONG], "named", "missed", ["A mass."]), ([], "none", "missed", [])):
+                                                ([WRONG], "named", "missed", ["A mass"]), ([], "none", "missed", [])):
             with self.subTest(answer=answer, verdict=verdict):
                 score = self.run_scorer(*effects, verdict=verdict)
                 self.assertEqual(score["hidden"][0]["answer"], answer)
