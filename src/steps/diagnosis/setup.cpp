@@ -426,6 +426,24 @@ void say_sentences(const std::string& verdict, const Sentences& sentences, StepC
   context.say("  next: " + sentences.next);
 }
 
+diagnosis::DiagnoseOptions options_of(const DiagnosisConfig& config, const Threshold& threshold) {
+  diagnosis::DiagnoseOptions options;
+  options.alpha = config.alpha;
+  options.threshold = threshold.value;
+  options.least_log_odds = config.least_log_odds;
+  options.either_within = config.either_within;
+  options.residual_alpha = config.residual_alpha;
+  options.search = config.search;
+  options.search.most_refined = static_cast<int>(config.most_refined);
+  options.most_causes = static_cast<int>(config.most_causes);
+  return options;
+}
+
+void say_modes_explained(const diagnosis::Diagnosis& result, StepContext& context) {
+  if (const auto gain = explained_gain(result))
+    context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
+}
+
 }  // namespace
 
 Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
@@ -448,17 +466,9 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
     context.say("plan.csv says what these rows would see");
     return {};
   }
-  diagnosis::DiagnoseOptions options;
   const bool with_form = config.form == "on";  // its rules have thresholds of their own
   const Threshold threshold = with_form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
-  options.alpha = config.alpha;
-  options.threshold = threshold.value;
-  options.least_log_odds = config.least_log_odds;
-  options.either_within = config.either_within;
-  options.residual_alpha = config.residual_alpha;
-  options.search = config.search;
-  options.search.most_refined = static_cast<int>(config.most_refined);
-  options.most_causes = static_cast<int>(config.most_causes);
+  const diagnosis::DiagnoseOptions options = options_of(config, threshold);
   diagnosis::Diagnosis result = with_form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
                                           : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
@@ -492,8 +502,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
   write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
   for (const Finding& finding : account) context.say(finding.text);
-  if (const auto gain = explained_gain(result))
-    context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
+  say_modes_explained(result, context);
   if (result.form) say_form(*result.form, context);
   say_sentences(result.verdict, told.sentences, context);
   for (const std::string& line : correction_advice(corrections)) context.say(line);
