@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "linalg/dense.hpp"
+#include "linalg/unsymmetric_eigen.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -110,21 +111,20 @@ StateModes state_space(const StructureState& state, const UndampedModes& undampe
       system.block(m, m, m, m) -= d.imag() / omega * b * b.transpose();
     }
   }
-  const Eigen::EigenSolver<MatrixXd> eigen(system);
+  const linalg::UnsymmetricEigen eigen = linalg::unsymmetric_eigen(std::move(system));
   std::vector<Index> kept;
-  for (Index i = 0; i < system.rows(); ++i) {
-    const Complex s = eigen.eigenvalues()[i];
+  for (Index i = 0; i < eigen.values.size(); ++i) {
+    const Complex s = eigen.values[i];
     if (s.imag() > 1e-6 && -s.real() < 0.6 * std::abs(s)) kept.push_back(i);
   }
-  std::sort(kept.begin(), kept.end(),
-            [&](Index a, Index b) { return std::abs(eigen.eigenvalues()[a]) < std::abs(eigen.eigenvalues()[b]); });
+  std::sort(kept.begin(), kept.end(), [&](Index a, Index b) { return std::abs(eigen.values[a]) < std::abs(eigen.values[b]); });
   StateModes out;
   out.s.resize(static_cast<Index>(kept.size()));
   out.shapes.resize(shapes.rows(), out.s.size());
   for (Index i = 0; i < out.s.size(); ++i) {
     const Index k = kept[static_cast<std::size_t>(i)];
-    out.s[i] = eigen.eigenvalues()[k];
-    out.shapes.col(i) = shapes.cast<Complex>() * eigen.eigenvectors().col(k).head(m);
+    out.s[i] = eigen.values[k];
+    out.shapes.col(i) = shapes.cast<Complex>() * eigen.vectors.col(k).head(m);
   }
   return out;
 }
@@ -248,7 +248,7 @@ class ModalRoots {
     if (sliders_) {  // held by friction first; then as the lowest mode makes them slide
       for (Index k = 0; k < b_.cols(); ++k) forces[k] = state_.attachments[static_cast<std::size_t>(k)].stiffness;
       Found first;
-      for (const Complex s : starts(forces, 2.0 * std::numbers::pi * highest_Hz)) {
+      for (const auto& [s, none] : starts(forces, 2.0 * std::numbers::pi * highest_Hz, false)) {
         if (!add(s, {}, forces, first, false) || first.empty()) continue;
         for (Index k = 0; k < b_.cols(); ++k) {
           const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
@@ -258,11 +258,18 @@ class ModalRoots {
         break;
       }
     }
-    Found found;
-    for (const Complex s : starts(forces, 2.0 * std::numbers::pi * 1.1 * highest_Hz))
-      if (!add(s, {}, forces, found, false)) return false;
-    gather(found, out);
-    return out.s.size() > 0;
+    // Where two modes have nearly one frequency, as stays that are alike, their values alone start both at one root: then with
+    // shapes, which tell them apart. Strokes of sliders go by the shape, so that those start from the values.
+    for (const bool with_shapes : {false, true}) {
+      if (with_shapes && sliders_) break;
+      Found found;
+      const Found all = starts(forces, 2.0 * std::numbers::pi * 1.1 * highest_Hz, with_shapes);
+      if (!std::all_of(all.begin(), all.end(), [&](const auto& start) { return add(start.first, start.second, forces, found, false); }))
+        continue;
+      gather(found, out);
+      return out.s.size() > 0;
+    }
+    return false;
   }
 
  private:
@@ -313,7 +320,8 @@ class ModalRoots {
   /// Eigenvalues that vibrate, |s| below `highest`, with sliders as springs and dashpots `forces` [N/m]. In the low modes y:
   /// y'' = -Lambda y - B f; each attachment follows the residual flexibility R of the other modes and its own spring:
   /// f = (R + 1/k)^-1 (B'y - z) with z the stroke of its dashpot, c dz/dt = f.
-  [[nodiscard]] std::vector<Complex> starts(const VectorXcd& forces, double highest) const {
+  /// @param with_shapes  gives the shape in the low modes too; else it is empty
+  [[nodiscard]] Found starts(const VectorXcd& forces, double highest, bool with_shapes) const {
     const Index p = b_.cols(), m = count_below(modes_, 1.5 * highest * highest);
     if (m == 0) return {};  // no mode lies so low: the eigensolver takes no empty matrix
     const MatrixXd low = modes_.mu.head(m).cwiseSqrt().cwiseInverse().asDiagonal() * bm_.topRows(m);
@@ -337,13 +345,13 @@ class ModalRoots {
       }
     }
     const MatrixXd stiff = flexibility.llt().solve(MatrixXd::Identity(p, p));
-    std::vector<Complex> roots;
+    Found roots;
     if (rate.cwiseAbs().maxCoeff() == 0.0) {  // all held: springs
       MatrixXd held = low * stiff * low.transpose();
       for (Index i = 0; i < m; ++i) held(i, i) += modes_.eigenvalue(i);
       const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(held, Eigen::EigenvaluesOnly);
       for (const double square : eigen.eigenvalues())
-        if (square > 1e-12 && square <= highest * highest) roots.emplace_back(0.0, std::sqrt(square));
+        if (square > 1e-12 && square <= highest * highest) roots.emplace_back(Complex(0.0, std::sqrt(square)), VectorXcd());
       return roots;
     }
     MatrixXd system = MatrixXd::Zero(2 * m + p, 2 * m + p);
@@ -354,10 +362,20 @@ class ModalRoots {
     system.block(2 * m, 0, p, m) = rate.asDiagonal() * stiff * low.transpose();
     system.block(2 * m, 2 * m, p, p) = -(rate.asDiagonal() * stiff);
     system.block(2 * m, 2 * m, p, p).diagonal() -= back;
-    for (const Complex s : linalg::eigenvalues(std::move(system))) {
-      if (s.imag() > 1e-6 && oscillates(s) && std::abs(s) <= highest) roots.push_back(s);
+    const linalg::UnsymmetricEigen eigen = with_shapes ? linalg::unsymmetric_eigen(std::move(system))
+                                                       : linalg::UnsymmetricEigen{linalg::eigenvalues(std::move(system)), {}};
+    for (Index i = 0; i < eigen.values.size(); ++i) {
+      const Complex s = eigen.values[i];
+      if (!(s.imag() > 1e-6) || !oscillates(s) || std::abs(s) > highest) continue;
+      VectorXcd z;
+      if (with_shapes) {  // from mass-normalised modes to those of unit stiffness
+        z = VectorXcd::Zero(modes_.size());
+        z.head(m) = eigen.vectors.col(i).head(m).cwiseQuotient(modes_.mu.head(m).cwiseSqrt().cast<Complex>());
+        z.normalize();
+      }
+      roots.emplace_back(s, std::move(z));
     }
-    std::sort(roots.begin(), roots.end(), [](Complex a, Complex c) { return std::abs(a) < std::abs(c); });
+    std::sort(roots.begin(), roots.end(), [](const auto& a, const auto& c) { return std::abs(a.first) < std::abs(c.first); });
     return roots;
   }
 

@@ -162,7 +162,7 @@ void score_answer(const FormCase& hidden, const diagnosis::Diagnosis& result, Fo
     score.form_frequency = result.form->frequency.level;
     score.form_shape = result.form->shape.level;
     score.gain_low = result.form->gain.low;
-    score.gain_claimed = result.form->gain.low > 0.0;
+    score.gain_claimed = !result.effects.empty() && result.form->gain.low > 0.0;
   }
   score_size(hidden, result, score);
 }

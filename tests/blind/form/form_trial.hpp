@@ -42,7 +42,7 @@ struct FormScore {
   bool in_set = false;        ///< the truth is in the set of a cause
   bool further = false;       ///< … beside another that is not the truth
   bool localised = false;     ///< the set holds the form's main feature, which sits at one place
-  bool gain_claimed = false;  ///< the interval of the left-out modes' gain lies above zero
+  bool gain_claimed = false;  ///< a cause is put forward and the interval of the left-out modes' gain lies above zero
   bool sized = false, covered = false;
   double size = 0.0, found_size = 0.0, low = 0.0, high = 0.0;
   double seconds_made = 0.0, seconds = 0.0;  ///< CPU: to make the truth, to diagnose it

@@ -1,5 +1,6 @@
 // Dense kernels. Oracle: the definitions, by products that are written out.
 #include "linalg/dense.hpp"
+#include "linalg/unsymmetric_eigen.hpp"
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,18 @@ TEST(Dense, EigenvaluesOfACompanionMatrixAreTheRoots) {
   const Eigen::VectorXcd found = linalg::eigenvalues(companion);
   for (const auto root : roots) EXPECT_LT((found.array() - root).abs().minCoeff(), 1e-12);
   EXPECT_FALSE(linalg::eigenvalues(MatrixXd::Constant(3, 3, std::nan(""))).allFinite());
+}
+
+// Oracle: A v = lambda v, and the values of the routine without vectors.
+TEST(UnsymmetricEigen, VectorsAreThoseOfTheValues) {
+  std::srand(5);
+  const MatrixXd a = MatrixXd::Random(9, 9);  // with conjugate pairs and real values
+  const linalg::UnsymmetricEigen found = linalg::unsymmetric_eigen(a);
+  EXPECT_LT((a.cast<std::complex<double>>() * found.vectors - found.vectors * found.values.asDiagonal()).norm(), 1e-12);
+  for (Eigen::Index j = 0; j < 9; ++j) EXPECT_NEAR(found.vectors.col(j).norm(), 1.0, 1e-12);
+  const Eigen::VectorXcd alone = linalg::eigenvalues(a);
+  for (const auto value : found.values) EXPECT_LT((alone.array() - value).abs().minCoeff(), 1e-12);
+  EXPECT_FALSE(linalg::unsymmetric_eigen(MatrixXd::Constant(3, 3, std::nan(""))).values.allFinite());
 }
 
 }  // namespace
