@@ -5,8 +5,7 @@ equal floors that shear have three frequencies and three unknown stiffnesses, fo
 solutions that three frequencies have, those whose shapes are most like the measured ones. 4.6, 5.7 and 6.1 are what another identification gave the same way. The
 product of the ratios needs no solution: it is that of the squared frequencies' ratios (determinant of the stiffness).
 dropbear_beam: the channel of the roller's position, in volts, read here and nowhere else; places in metres follow from the beam's first mode, by the study's own beam.
-painter_street_overpass: peaks of the transfer function from the ground to the deck. munich_test_bridge: the raw arrays. (All five places of dropbear_beam:
-TWINDECK_SLOW=1, a minute.)
+painter_street_overpass: peaks of the transfer function from the ground to the deck. munich_test_bridge: the raw arrays.
 """
 import csv
 import importlib.util
@@ -159,8 +158,7 @@ def beam_of_the_study():
 class MovedRoller(Study):
     STUDY = "dropbear_beam"
     VOLTS = {"reference": 1.23, "step1": 1.65, "step2": 2.08, "step3": 2.50, "step4": 2.94, "step5": 3.37}
-    PLACES = ("step1", "step2", "step3", "step4", "step5") if os.environ.get("TWINDECK_SLOW") else ("step3",)
-    TARGETS = tuple(f"results/dropbear_beam/{'s9_diagnosis' if p == 'step5' else p}/manifest.json" for p in PLACES)
+    PLACES = ("step1", "step2", "step3", "step4", "step5")
 
     def first_mode(self, place):
         file = self.results / f"inputs/features/{'step1' if place == 'reference' else place}/rows.csv"
