@@ -20,10 +20,10 @@ $(RESULTS)/s9_diagnosis/manifest.json: $(WEAK_FIT)/manifest.json $(wildcard $(WO
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
 	@workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)
 
-$(WEAK_FIT)/manifest.json: $(INPUTS)/model/model.toml $(WORKFLOW)/s9_diagnosis.toml $(WORKFLOW)/narrow.py $(BIN)/s9_diagnosis
+$(WEAK_FIT)/manifest.json: $(INPUTS)/model/model.toml $(WORKFLOW)/s9_diagnosis.toml workflows/common/narrow.py $(BIN)/s9_diagnosis
 	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $(WEAK_FIT) --model $(INPUTS)/model --threads $(THREADS) --quiet \
 	  --set most_causes=0 --set 'hold_out=[$(subst $() ,$(comma),$(STRONG:%="%"))]'
-	@workflows/python.sh $(WORKFLOW)/narrow.py $(WEAK_FIT)/extended_model $(INPUTS)/fitted_model
+	@workflows/python.sh workflows/common/narrow.py $(WEAK_FIT)/extended_model $(INPUTS)/fitted_model
 
 # make windows: the strong earthquakes in two parts, each identified by itself (25 Hz, fewer block rows: the shortest part is 10 s); the weak ones and the strong
 # parts of 1987 and 2009 are fitted, the strong part of 1979 and what followed in all three held out.

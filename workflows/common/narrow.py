@@ -1,8 +1,9 @@
-"""The model as the weak earthquakes leave it, as what the diagnosis starts from: narrow.py MODEL OUT
+"""A model as a fit leaves it, as what a diagnosis starts from: narrow.py MODEL OUT
 
-Each parameter keeps its fitted value and may move by 20 % (prior deviation 10 %) about it: that is what one event in weak shaking differs from
-another by (temperature, moisture, what the soil went through before), and several times what the fit leaves open of the frequency. A cause
-that acts on a part scales it as it was fitted, which holds as long as the part stays near that."""
+Each parameter keeps its fitted value and may move by 20 % (prior deviation 10 %) about it: that is what one test of a structure differs from
+another by (temperature, moisture, what the soil went through before, joints that settle), and several times what the fit leaves open of the
+frequency. A cause that acts on a part scales it as the model has it before any fit, so that a factor means a ratio to the fitted part
+as long as the part stays near that."""
 import pathlib
 import re
 import shutil
