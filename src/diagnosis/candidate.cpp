@@ -238,8 +238,12 @@ void bound(Candidate& candidate, const MeasuredModes& measured) {
     double low = resolve(u.low), high = resolve(u.high);
     const bool change = !candidate.state.empty() && u.name == "factor";
     if (change) {
-      low = std::min(low, kLeastChange);
-      high = std::max(high, kMostChange);
+      const auto of_material = [&](const char* name, double otherwise) {
+        const auto found = candidate.places.empty() ? std::map<std::string, double>::const_iterator{} : candidate.places[0]->attributes.find(name);
+        return candidate.places.empty() || found == candidate.places[0]->attributes.end() ? otherwise : found->second;
+      };
+      low = of_material("least_change", std::min(low, kLeastChange));
+      high = of_material("most_change", std::max(high, kMostChange));
     }
     if (!(low < high) || (u.log && !(low > 0.0))) {
       throw InputError({h.file, u.low.line, h.id + "." + u.name},

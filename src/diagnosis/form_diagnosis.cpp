@@ -20,6 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFitted = 0.01;       // form error of frequencies and shapes that the fits stand
+constexpr int kFewestBlocks = 3;       // that can be drawn anew
 constexpr double kAside = 10.0;        // deviation of rows that are set aside: e^10, far beyond any change
 constexpr double kGuardWithin = 15.0;  // nats of the leader: entries that a fold may choose
 /// Extra deviation of ln (size of an effect): a size is in units of a model that is wrong.
@@ -47,16 +48,18 @@ Scored scored_of(const FormSearch& search, const FormEntry& entry, const Inferen
   return out;
 }
 
-/// Rows of whole modes: those of one model mode in all conditions.
-std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit) {
+/// Rows of whole modes: those of one model mode in all conditions. Of fewer than kFewestBlocks modes each condition's part is a
+/// block of its own: with the form error in the model these leak little.
+std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit, bool by_condition = false) {
   const FormModes modes = plain.map().form_modes(fit.base, fit.causes);
   std::map<int, int> place;  // of a row among the training rows
   for (std::size_t r = 0; r < plain.training().size(); ++r) place[plain.training()[r]] = static_cast<int>(r);
   std::map<std::string, std::vector<int>> blocks;
   for (std::size_t m = 0; m < modes.paired.size(); ++m) {
     const MeasuredMode& mode = plain.map().measured_modes()[m];
-    std::vector<int>& block =
-        blocks[modes.paired[m].model_mode >= 0 ? std::to_string(modes.paired[m].model_mode) : "label " + mode.label];
+    std::string name = modes.paired[m].model_mode >= 0 ? std::to_string(modes.paired[m].model_mode) : "label " + mode.label;
+    if (by_condition) name += " in " + std::to_string(mode.condition);
+    std::vector<int>& block = blocks[name];
     std::vector<int> rows = mode.real_rows;
     rows.insert(rows.end(), mode.imag_rows.begin(), mode.imag_rows.end());
     rows.push_back(mode.frequency);
@@ -67,7 +70,7 @@ std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit
   std::vector<std::vector<int>> out;
   for (auto& [name, block] : blocks)
     if (!block.empty()) out.push_back(std::move(block));
-  return out;
+  return std::ssize(out) < kFewestBlocks && !by_condition ? mode_blocks(plain, fit, true) : out;
 }
 
 /// An entry's best point as a Gaussian law of the rows; its magnitudes are unknowns as wide as their range.
@@ -272,8 +275,10 @@ void finish(const Inference& plain, const std::vector<Cause>& causes, const Vect
   for (std::size_t i = 0; i < out.effects.size(); ++i) {
     out.effects[i].cause = out.after.causes[i];
     out.effects[i].parameters = effect_parameters(inference, out.after, i);
-    widen(out.effects[i].parameters, without_cause);
-    for (Rival& rival : out.effects[i].rivals) widen(rival.parameters, without_cause);
+    // Between states the model's error is the same in both: what is left of it is that with the causes in the model.
+    const double form_error = out.effects[i].state.empty() ? without_cause : out.form->frequency.level;
+    widen(out.effects[i].parameters, form_error);
+    for (Rival& rival : out.effects[i].rivals) widen(rival.parameters, form_error);
     out.effects[i].sentence = sentence_of(out.effects[i]);
     out.effects[i].remedy = out.effects[i].cause.candidate->hypothesis->remedy;
   }
@@ -340,15 +345,17 @@ class Chain {
   bool take(int number) {
     Step step = look(current_, leftover_, number == 0);
     if (number == 0) begin_with(step);
-    ruling_ = step.ruling;
+    if (number == 0 || verdict_ != Verdict::unknown) ruling_ = step.ruling;
     const bool stands_out = step.ruling.against_none > step.ruling.threshold;
     const bool accepted = step.ruling.verdict == Verdict::named || step.ruling.verdict == Verdict::ambiguous;
     // Between two states several parts may have changed: the first of them leaves the others unexplained. It is judged when they
     // are in the model.
-    const bool of_a_change = stands_out && !step.search.entries.front().candidate->state.empty();
+    // A wrong channel leaves what is wrong with the structure unexplained too.
+    const auto goes_beside = [](const Candidate& c) { return !c.state.empty() || c.hypothesis->measurement; };
+    const bool of_a_change = stands_out && goes_beside(*step.search.entries.front().candidate);
     const bool goes_on = (accepted || of_a_change) && number < options_.most_causes;
     if (step.of_rules.verdict == Verdict::unknown && !(of_a_change && goes_on))
-      verdict_ = Verdict::unknown;  // a name that leaves the main change unexplained is none
+      be_unknown(step.ruling);  // a name that leaves the main change unexplained is none
     search_ = std::move(step.search);
     if (!goes_on) return false;
     if (!accepted) in_part_ = true;
@@ -385,22 +392,27 @@ class Chain {
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
       const Fit base = setting_.informed.fit(others, x);
       Step step = look(base, leftover_, false);
-      const bool accepted = step.ruling.verdict == Verdict::named || step.ruling.verdict == Verdict::ambiguous;
-      if (accepted) {
+      if (step.ruling.verdict == Verdict::unknown) be_unknown(step.ruling);
+      if (step.ruling.against_none > step.ruling.threshold) {  // it stays, named or not
         search_ = std::move(step.search);
-        ruling_ = step.ruling;
-        out_.effects[i] = effect_from(search_, step.ranking, step.weighing, ruling_, setting_);
+        out_.effects[i] = effect_from(search_, step.ranking, step.weighing, step.ruling, setting_);
         causes_[i] = out_.effects[i].cause;
-        if (ruling_.verdict == Verdict::ambiguous && verdict_ == Verdict::named) verdict_ = Verdict::ambiguous;
+        if (verdict_ != Verdict::unknown) ruling_ = step.ruling;
+        if (step.ruling.verdict == Verdict::ambiguous && verdict_ == Verdict::named) verdict_ = Verdict::ambiguous;
         ++i;
         continue;
       }
-      if (step.of_rules.verdict == Verdict::unknown || step.ruling.verdict == Verdict::unknown) verdict_ = Verdict::unknown;
       causes_ = others;
       out_.effects.erase(out_.effects.begin() + static_cast<std::ptrdiff_t>(i));
     }
     if (causes_.empty() && verdict_ == Verdict::named) verdict_ = Verdict::unknown;
     current_ = setting_.informed.fit(causes_, x);
+  }
+
+  /// The first reason why nothing can be named is the one that is told.
+  void be_unknown(const Ruling& why) {
+    if (verdict_ != Verdict::unknown) ruling_ = why;
+    verdict_ = Verdict::unknown;
   }
 
   const FormSetting& setting_;

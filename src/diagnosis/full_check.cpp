@@ -37,7 +37,14 @@ template <typename Matrix, typename OnePlace>
 struct Assembly {
   Matrix stiffness, mass;
   const std::map<std::string, std::vector<OnePlace>>& sets;
+  const VectorXd &reduced_at, &theta;  ///< values of the parameters at the places' matrices, and here
 
+  [[nodiscard]] double ratio(const OnePlace& place) const {
+    const auto parameter = place.attributes.find("parameter");
+    if (parameter == place.attributes.end()) return 1.0;
+    const auto p = static_cast<Index>(parameter->second);
+    return reduced_at[p] != 0.0 ? theta[p] / reduced_at[p] : 1.0;
+  }
   [[nodiscard]] const OnePlace* find(const std::string& id) const {
     for (const auto& [set, list] : sets)
       for (const OnePlace& place : list)
@@ -73,8 +80,8 @@ struct Assembly {
       if (!structural) continue;
       TWINDECK_ASSERT(place != nullptr);
       const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
-      if (action.kind == "scale.stiffness") add(stiffness, value("factor") - 1.0, place->stiffness);
-      if (action.kind == "scale.mass") add(mass, value("factor") - 1.0, place->mass);
+      if (action.kind == "scale.stiffness") add(stiffness, ratio(*place) * (value("factor") - 1.0), place->stiffness);
+      if (action.kind == "scale.mass") add(mass, ratio(*place) * (value("factor") - 1.0), place->mass);
       if (action.kind == "mass.add")
         for (Index d = 0; d < place->directions.cols(); ++d)
           add_outer(mass, value("mass"), direction(*place, d), direction(*place, d));
@@ -125,13 +132,14 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
                              int modes) {
   const fe::ParametricSystem& system = *structure.system;
   Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
-                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets};
+                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets, map.model().theta,
+                                  fit.base.theta};
   full.scatter(map, fit.base.x);
   // What the map assembles holds parameters and workmanship already.
   std::vector<int> all(static_cast<std::size_t>(map.model().size()));
   std::iota(all.begin(), all.end(), 0);
   const auto [stiffness, mass] = map.matrices(fit.base, all);
-  Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets};
+  Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets, map.model().theta, fit.base.theta};
   std::vector<int> columns;
   for (int k = 0; k < map.model().common; ++k) columns.push_back(k);
   for (const Cause& cause : fit.causes) {

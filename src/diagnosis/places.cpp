@@ -72,6 +72,14 @@ std::vector<Place> group_places(const Structure& structure) {
     const double value = structure.theta[static_cast<Index>(p)];
     Place place{"group:" + system.parameters[p].name, kNowhere, {}, {}, {}, {}, {}};
     const double scale = value != 0.0 ? value : 1.0;  // a correction term that starts at zero is counted in its own unit
+    const fe::Parameter& parameter = system.parameters[p];
+    if (value != 0.0) place.attributes["parameter"] = static_cast<double>(p);  // the matrices are those at its value here
+    // A material's modulus or density may be uncertain within its bounds, but it does not change from one state to another.
+    const bool of_material = parameter.target == fe::Target::youngs_modulus || parameter.target == fe::Target::density;
+    if (of_material && parameter.lower > 0.0 && parameter.upper > parameter.lower) {
+      place.attributes["least_change"] = parameter.lower / parameter.upper;
+      place.attributes["most_change"] = parameter.upper / parameter.lower;
+    }
     place.stiffness = of_terms(system, system.stiffness_terms, structure.theta, static_cast<int>(p), scale);
     place.mass = of_terms(system, system.mass_terms, structure.theta, static_cast<int>(p), scale);
     places.push_back(std::move(place));

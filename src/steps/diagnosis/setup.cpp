@@ -129,9 +129,14 @@ std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const d
   return found;
 }
 
+/// Whether the model's form competes: asked for, or two states are compared, whose common error it takes out.
+bool with_form(const DiagnosisConfig& config, const diagnosis::FeatureSet& features) {
+  return config.form == "on" || (config.form == "auto" && diagnosis::states_of(features).size() > 1);
+}
+
 void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
   if (config.hold_out.empty()) {
-    if (config.form == "off") diagnosis::hold_out_by_rule(features);  // with "on" whole modes are left out one after another
+    if (!with_form(config, features)) diagnosis::hold_out_by_rule(features);  // with "on" whole modes are left out one after another
     return;
   }
   for (diagnosis::Row& row : features.rows) row.held_out = false;
@@ -466,10 +471,10 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
     context.say("plan.csv says what these rows would see");
     return {};
   }
-  const bool with_form = config.form == "on";  // its rules have thresholds of their own
-  const Threshold threshold = with_form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
+  const bool form = with_form(config, inputs.features);  // its rules have thresholds of their own
+  const Threshold threshold = form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
   const diagnosis::DiagnoseOptions options = options_of(config, threshold);
-  diagnosis::Diagnosis result = with_form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
+  diagnosis::Diagnosis result = form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
                                           : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
