@@ -87,10 +87,20 @@ FoundStay measured_force(const Structure& structure, int element, const std::vec
     if (row.stay != out.name || !(row.value > 0.0)) continue;
     harmonics.push_back(
         {std::max(1, std::atoi(row.mode.c_str())), row.value, std::max(row.std / row.value, least_harmonic_std)});
-    weight += std::pow(harmonics.back().relative_std, -2);
   }
   out.force_N = fe::force_of_harmonics(*structure.model, stay, harmonics, cable_pieces);
-  if (out.force_N > 0.0) out.relative_std = 2.0 / std::sqrt(weight);  // the force goes with the square of the frequency
+  if (!(out.force_N > 0.0)) return out;
+  const Eigen::VectorXd f =
+      fe::in_plane_frequencies(*structure.model, stay, fe::cable_beyond_bar(*structure.model, stay, out.force_N, cable_pieces));
+  double misfit = 0.0, rows = 0.0;
+  for (const fe::StayHarmonic& h : harmonics) {
+    if (h.number > f.size()) continue;
+    misfit += std::pow(std::log(f[h.number - 1] / h.frequency_Hz) / h.relative_std, 2);
+    weight += std::pow(h.relative_std, -2);
+    rows += 1.0;
+  }
+  // The force goes with the square of the frequency. Rows that disagree (with sleeves and without) widen it (Birge 1932).
+  out.relative_std = 2.0 * std::sqrt(std::max(1.0, misfit / std::max(1.0, rows - 1.0)) / weight);
   return out;
 }
 
