@@ -22,11 +22,16 @@ class VirtualDiagnosis(unittest.TestCase):
         environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
         done = subprocess.run(["make", "steps", "STUDY=ponte_del_mare_virtual"], cwd=ROOT, env=environment, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
+        out = RESULTS / "ponte_del_mare_virtual/s9_with_stays"
+        done = subprocess.run([ROOT / "build/bin/s9_diagnosis", "--study", "workflows/ponte_del_mare_virtual", "--results",
+                               "results/ponte_del_mare_virtual", "--out", out, "--set", "stays=auto"],
+                              cwd=ROOT, env=environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
         with open(RESULTS / "ponte_del_mare/s0_campaign/truth/dampers.csv", newline="") as stream:
             sliding = {(r["condition"], r["damper"]): float(r["sliding_pct"]) for r in csv.DictReader(stream)}
         self.assertEqual(sliding["with_dampers", "C1"], 0.0)
         self.assertGreater(sliding["with_dampers_high", "C1"], 50.0)
-        told = json.loads((RESULTS / "ponte_del_mare_virtual/s9_diagnosis/diagnosis.json").read_text())
+        told = json.loads((out / "diagnosis.json").read_text())
         stays, dampers = told["effects"][:2]
         self.assertEqual((stays["cause"], stays["location"]), ("barstays", "global"))
         gain = told["gain"]

@@ -300,8 +300,9 @@ io::FieldTable DiagnosisConfig::fields() {
       .integer("nodes", nodes, {2, 200}, "nodes at which masses, oscillators and ties are looked for")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
-      .choice("form", form, {"on", "off"},
-              "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is exact but for scatter")
+      .choice("form", form, {"auto", "on", "off"},
+              "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is exact but for scatter; "
+              "auto: on where two states are compared")
       .choice("stays", stays, {"auto", "as_modelled"},
               "auto: stays that the model has as bars become cables in several elements where that explains measured modes which the model "
               "resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the fit, not from here), else "
