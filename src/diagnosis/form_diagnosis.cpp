@@ -370,9 +370,11 @@ class Chain {
     causes_.push_back(out_.effects.back().cause);
     const Fit with =
         setting_.informed.fit(causes_, leader.refined ? VectorXd(leader.with.map.x.head(n)) : VectorXd(current_.map.x.head(n)));
-    if (with.chi_squared > 1e299) {
+    if (with.chi_squared > 1e299) {  // it stands out and cannot be put into the model: nothing is named
       out_.effects.pop_back();
       causes_.pop_back();
+      ruling_.reason = "the best cause cannot be put into the model";
+      verdict_ = Verdict::unknown;
       return false;
     }
     winner_ = leader.evidence;

@@ -94,6 +94,14 @@ double leftover_effect(const FormEntry& entry, double own, const Leftover& lefto
   return entry.contrast == leftover.contrast ? std::max(own, leftover.effect) : own;
 }
 
+/// Whether an effect grows with the magnitude. What is tuned turns with its frequency, a support's place is no size, and what has no
+/// unknown is there or not.
+bool is_a_size(const Candidate& candidate) {
+  const auto& actions = candidate.hypothesis->actions;
+  return candidate.low.size() > 0 && candidate.tuned < 0 &&
+         std::none_of(actions.begin(), actions.end(), [](const ActionSpec& action) { return action.kind == "support.move"; });
+}
+
 /// A start for a fit where the effect should be t times as large: ln of a factor and rates scale, other logarithms shift.
 double scaled_magnitude(const Candidate& candidate, double a, double t) {
   const bool factor = candidate.hypothesis->unknowns[0].name == "factor" || !candidate.log[0];
@@ -213,7 +221,7 @@ class Screen {
     const Quadratic& q =
         contrast < 0 ? at.without
                      : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(entry.evidence.best.kappa)];
-    const bool scales = entry.candidate->low.size() > 0 && entry.candidate->tuned < 0;
+    const bool scales = is_a_size(*entry.candidate);
     double best = -1e300;
     for (std::size_t i = 0; i < entry.tried.size(); ++i) {
       const Index s = position_[static_cast<std::size_t>(entry.first_signature) + i];
@@ -333,8 +341,7 @@ double log_prior_of_something_else() { return std::log(kSomethingElse); }
 double log_prior_of(const Candidate& candidate) { return std::log(kCatalogue) + candidate.log_prior; }
 
 std::vector<double> magnitude_factors(const Candidate& candidate) {
-  // What is tuned turns with its frequency, and what has no unknown is there or not.
-  if (candidate.low.size() != 1 || candidate.tuned >= 0) return {1.0};
+  if (candidate.low.size() != 1 || !is_a_size(candidate)) return {1.0};
   return {0.15, 0.3, 0.55, 1.0, 1.5};
 }
 

@@ -130,7 +130,7 @@ class Aerodynamics(unittest.TestCase):
         self.assertIn("V/(f B) 0.1 to 3", message)
         write_flutter(self.folder / "flutter.csv")
         self.assertIn("expected less than 90 either way", self.run_step(direction=0.0, status=2))
-        self.assertIn("no model of Table 11", self.run_step(models='["Z"]', status=2))
+        self.assertIn("choose one of A, C, D", self.run_step(models='["Z"]', status=2))
         self.assertIn("no aerodynamic set", self.run_step("--set", 'sets=["standing"]', status=2))
 
     def test_holding_the_end_values_must_be_asked_for(self):

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,11 @@ struct Threshold {
 };
 [[nodiscard]] Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
                                        const diagnosis::Inference& inference, StepContext& context);
+
+/// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
+/// @param unmeasured  gets those that no row names
+[[nodiscard]] std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
+                                                     std::vector<std::string>* unmeasured = nullptr);
 
 /// Runs the whole step.
 [[nodiscard]] Status run_diagnosis(const DiagnosisConfig& config, StepContext& context);

@@ -1,0 +1,141 @@
+#include "steps/diagnosis/rows_in_use.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/error.hpp"
+#include "diagnosis/feature_map.hpp"
+#include "diagnosis/same_modes.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+void keep(diagnosis::FeatureSet& features, const std::vector<Eigen::Index>& kept) {
+  std::vector<diagnosis::Row> rows;
+  for (const Eigen::Index r : kept) rows.push_back(features.rows[static_cast<std::size_t>(r)]);
+  features.rows = rows;
+  if (features.covariance.size() > 0) features.covariance = features.covariance(kept, kept).eval();
+}
+
+}  // namespace
+
+void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
+  if (config.names_alike) diagnosis::name_modes_alike(features);
+  const auto left_out = [&](const std::string& what) {
+    return std::find(config.left_out.begin(), config.left_out.end(), what) != config.left_out.end();
+  };
+  for (const std::string& type : config.left_out) {
+    const auto& known = diagnosis::row_type_names();
+    if (type.starts_with("mode:")) {
+      if (std::none_of(features.rows.begin(), features.rows.end(), [&](const auto& row) { return row.mode == type.substr(5); }))
+        throw InputError({"", 0, "left_out"}, fmt::format("no row has the mode of '{}'", type), "");
+      continue;
+    }
+    if (std::find(known.begin(), known.end(), type) == known.end())
+      throw InputError({"", 0, "left_out"}, fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
+  }
+  std::set<std::pair<int, std::string>> high;
+  for (const diagnosis::Row& row : features.rows)
+    if (row.type == diagnosis::RowType::frequency && config.highest_Hz > 0.0 && row.value > config.highest_Hz)
+      high.insert({row.condition, row.mode});
+  std::vector<Eigen::Index> kept;
+  for (std::size_t r = 0; r < features.rows.size(); ++r) {
+    const diagnosis::Row& row = features.rows[r];
+    if (left_out(name_of(row.type))) continue;
+    if (row.type != diagnosis::RowType::stay_frequency && left_out("mode:" + row.mode)) continue;
+    if (row.type != diagnosis::RowType::stay_frequency && high.contains({row.condition, row.mode})) continue;
+    kept.push_back(static_cast<Eigen::Index>(r));
+  }
+  if (kept.empty()) throw InputError({"", 0, "left_out"}, "no row is left", "leave fewer out");
+  keep(features, kept);
+}
+
+std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model, std::size_t swinging,
+                                          diagnosis::FeatureSet& features) {
+  if (!(config.least_mac > 0.0)) return std::nullopt;
+  const diagnosis::FeatureMap map(model, features, config.scatter);
+  const auto base = map.base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(map.nuisances().size())));
+  const diagnosis::Prediction prediction = map.predict(base, {}, false);
+  std::set<std::pair<int, std::string>> unpaired;
+  Finding found{"unpaired", "", {}, {}, ""};
+  const auto stays = model.sets.find("stays");
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
+    const bool other = prediction.paired[m] < 0 || prediction.mac[m] < config.least_mac;
+    if (mode.real_rows.size() < 2 || !other) continue;
+    unpaired.insert({mode.condition, mode.label});
+    std::string name = fmt::format("{} of {} ({:.3f} Hz", mode.label,
+                                   features.conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz);
+    if (stays != model.sets.end())
+      for (const diagnosis::ReducedPlace& stay : stays->second)
+        for (int harmonic = 1; harmonic <= 2 && stay.attributes.contains("f_cable"); ++harmonic)
+          if (std::abs(harmonic * stay.attributes.at("f_cable") / mode.frequency_Hz - 1.0) < 0.03)
+            name += fmt::format(", {}x{}", harmonic, stay.id);
+    found.names.push_back(name + ")");
+  }
+  std::vector<Eigen::Index> kept;
+  for (std::size_t r = 0; r < features.rows.size(); ++r)
+    if (!unpaired.contains({features.rows[r].condition, features.rows[r].mode}) ||
+        features.rows[r].type == diagnosis::RowType::stay_frequency)
+      kept.push_back(static_cast<Eigen::Index>(r));
+  if (unpaired.empty()) return std::nullopt;
+  if (kept.empty())
+    throw InputError({"", 0, "least_mac"}, fmt::format("no measured mode has a MAC of {} with the model's", config.least_mac),
+                     "");
+  keep(features, kept);
+  found.text = fmt::format(
+      "{} of {} measured modes are like no mode of the model (MAC below {}) and are left out: {}", unpaired.size(),
+      map.measured_modes().size(), config.least_mac, fmt::join(found.names, "; "));
+  if (stays != model.sets.end() && !stays->second.empty())
+    found.text += swinging > 0 ? fmt::format(". Stays whose own frequency this is are named; {} of the model's stays vibrate", swinging)
+                               : ". Stays whose own frequency this is are named; the model's stays do not vibrate";
+  return found;
+}
+
+bool with_form(const DiagnosisConfig& config, const diagnosis::FeatureSet& features) {
+  return config.form == "on" || (config.form == "auto" && diagnosis::states_of(features).size() > 1);
+}
+
+void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
+  if (config.hold_out.empty()) {
+    if (!with_form(config, features)) diagnosis::hold_out_by_rule(features);  // with "on" whole modes are left out one after another
+    return;
+  }
+  for (diagnosis::Row& row : features.rows) row.held_out = false;
+  for (const std::string& rule : config.hold_out) {
+    if (rule == "none") continue;
+    const auto slash = rule.find('/'), second = slash == std::string::npos ? slash : rule.find('/', slash + 1);
+    bool any = false;
+    std::set<std::string> second_modes;  // "condition/every_second": those at even places in ascending frequency
+    if (rule.ends_with("/every_second")) {
+      std::map<double, std::string> ascending;
+      for (const diagnosis::Row& row : features.rows)
+        if (row.type == diagnosis::RowType::frequency &&
+            features.conditions[static_cast<std::size_t>(row.condition)].name == rule.substr(0, slash))
+          ascending[row.value] = row.mode;
+      bool even = false;
+      for (const auto& [frequency, mode] : ascending) {
+        if (even) second_modes.insert(mode);
+        even = !even;
+      }
+    }
+    for (diagnosis::Row& row : features.rows) {
+      const bool hit = features.conditions[static_cast<std::size_t>(row.condition)].name == rule.substr(0, slash) &&
+                       (slash == std::string::npos || row.mode == rule.substr(slash + 1, second - slash - 1) ||
+                        second_modes.contains(row.mode)) &&
+                       (second == std::string::npos || name_of(row.type) == rule.substr(second + 1));
+      row.held_out = row.held_out || hit;
+      any = any || hit;
+    }
+    if (!any)
+      throw InputError({"", 0, "hold_out"}, fmt::format("'{}' matches no row", rule),
+                       "write \"condition\", \"condition/mode\", \"condition/mode/type\" or \"condition/every_second\"");
+  }
+}
+
+}  // namespace twindeck::steps

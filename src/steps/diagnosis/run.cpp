@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <chrono>
+#include <set>
+
+#include "steps/diagnosis/measurement_corrections.hpp"
+#include "steps/diagnosis/outputs.hpp"
+#include "steps/diagnosis/rows_in_use.hpp"
+#include "steps/diagnosis/setup.hpp"
+
+/// The step from its inputs to its files, and what it says at the end.
+namespace twindeck::steps {
+
+namespace {
+
+void say_form(const diagnosis::FormReport& form, StepContext& context) {
+  context.say(fmt::format("  form error of the model: {:.2f} % in frequency ({:.2f} to {:.2f}), {:.2f} % in shape ({:.2f} to {:.2f})",
+                          100.0 * form.frequency.level, 100.0 * form.frequency.low, 100.0 * form.frequency.high, 100.0 * form.shape.level,
+                          100.0 * form.shape.low, 100.0 * form.shape.high));
+  if (!form.gain.blocks.empty())
+    context.say(fmt::format("  left out mode by mode ({} modes): gain {:.1f} nats ({:.1f} to {:.1f})", form.gain.blocks.size(),
+                            form.gain.log_gain, form.gain.low, form.gain.high));
+  for (const std::string& warning : form.warnings) context.say("  warning: " + warning);
+}
+
+/// The last lines of the step.
+void say_sentences(const std::string& verdict, const Sentences& sentences, StepContext& context) {
+  context.say("verdict: " + verdict);
+  context.say("  what is wrong: " + sentences.what);
+  context.say("  why: " + sentences.why);
+  context.say("  how sure: " + sentences.how_sure);
+  context.say("  how much better: " + sentences.how_much_better);
+  context.say("  next: " + sentences.next);
+}
+
+diagnosis::DiagnoseOptions options_of(const DiagnosisConfig& config, const Threshold& threshold) {
+  diagnosis::DiagnoseOptions options;
+  options.alpha = config.alpha;
+  options.threshold = threshold.value;
+  options.least_log_odds = config.least_log_odds;
+  options.either_within = config.either_within;
+  options.residual_alpha = config.residual_alpha;
+  options.search = config.search;
+  options.search.most_refined = static_cast<int>(config.most_refined);
+  options.most_causes = static_cast<int>(config.most_causes);
+  return options;
+}
+
+void say_modes_explained(const diagnosis::Diagnosis& result, StepContext& context) {
+  if (const auto gain = explained_gain(result))
+    context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
+}
+
+}  // namespace
+
+Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
+  Eigen::setNbThreads(1);  // small matrices, and sums must not depend on threads
+  const auto begin = std::chrono::steady_clock::now();
+  const DiagnosisInputs inputs = read_diagnosis_inputs(config, context);
+  diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
+  std::vector<std::string> unmeasured;
+  map.bind_modes(bound_modes(config, inputs, &unmeasured));
+  if (!unmeasured.empty())
+    context.warn(fmt::format("pairs: no row in use has the mode of {}", fmt::join(unmeasured, ", ")));
+  diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
+  if (inputs.bar_stays) inputs.bar_stays->take_out_entries(entries);
+  const diagnosis::Inference inference(map, entries.candidates);
+  context.say(fmt::format("{} rows ({} held out), {} unknowns, {} entries of {} families, basis of {}",
+                          inputs.features.rows.size(), inference.held_out().size(), map.nuisances().size(),
+                          entries.candidates.size(), inputs.catalogue.size(), inputs.reduced->size()));
+  if (context.has_flag("plan")) {
+    write_plan(inference, entries.invisible, context.out / "plan.csv");
+    context.say("plan.csv says what these rows would see");
+    return {};
+  }
+  const bool form = with_form(config, inputs.features);  // its rules have thresholds of their own
+  const Threshold threshold = form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
+  const diagnosis::DiagnoseOptions options = options_of(config, threshold);
+  diagnosis::Diagnosis result = form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
+                                          : diagnosis::diagnose(inference, options, context.seed + 1);
+  if (result.before.all.g.size() == 0) return {false, result.message};
+  if (inputs.bar_stays) inputs.bar_stays->put_first(result);
+  const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels, inputs.places);
+  const IdsInWords ids = ids_in_words(places, inference);
+  put_into_words(result, places, ids);
+  result.scatter = diagnosis::scatter_scales(inference, result.after);
+  write_residuals(inference, result, context.out / "residuals.csv");
+  write_hypotheses(result, entries.invisible, context.out / "hypotheses.csv");
+  write_gain(inference, result, context.out / "gain.csv");
+  write_pairs(inference, result, context.out / "pairs.csv");
+  write_misfit(inference, result, context.out / "misfit.csv");
+  write_unknowns(inference, result, context.out / "parameters.csv");
+  write_extended_model(*inputs.model, inputs.places, result, context.out / "extended_model");
+  std::set<std::string> labels;
+  for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
+  const diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
+                                                                   std::max(1, static_cast<int>(labels.size())));
+  if (check.message.empty())
+    context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
+                            check.full_Hz.size(), check.largest_pct));
+  else
+    context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
+  const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
+  const Told told{places, ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result), corrections};
+  std::vector<Finding> account = inputs.account;
+  for (Finding& finding : account) finding.text = ids.in_text(finding.text);
+  write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
+  for (const Finding& finding : account) context.say(finding.text);
+  say_modes_explained(result, context);
+  if (result.form) say_form(*result.form, context);
+  say_sentences(result.verdict, told.sentences, context);
+  for (const std::string& line : correction_advice(corrections)) context.say(line);
+  return {};
+}
+
+}  // namespace twindeck::steps
