@@ -52,6 +52,33 @@ void say_modes_explained(const diagnosis::Diagnosis& result, StepContext& contex
     context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
 }
 
+/// The tables of a diagnosis, but for diagnosis.json.
+void write_tables(const diagnosis::Inference& inference, const DiagnosisInputs& inputs, const diagnosis::Instantiated& entries,
+                  const diagnosis::Diagnosis& result, const std::filesystem::path& out) {
+  write_residuals(inference, result, out / "residuals.csv");
+  write_hypotheses(result, entries.invisible, out / "hypotheses.csv");
+  write_gain(inference, result, out / "gain.csv");
+  write_pairs(inference, result, out / "pairs.csv");
+  write_misfit(inference, result, out / "misfit.csv");
+  write_unknowns(inference, result, out / "parameters.csv");
+  write_extended_model(*inputs.model, inputs.places, result, out / "extended_model");
+}
+
+/// The winner against the full model, as many of the lowest modes as were measured.
+diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::FeatureMap& map, const diagnosis::Diagnosis& result,
+                             StepContext& context) {
+  std::set<std::string> labels;
+  for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
+  diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
+                                                             std::max(1, static_cast<int>(labels.size())));
+  if (check.message.empty())
+    context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
+                            check.full_Hz.size(), check.largest_pct));
+  else
+    context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
+  return check;
+}
+
 }  // namespace
 
 Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
@@ -78,29 +105,15 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   const Threshold threshold = form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
   const diagnosis::DiagnoseOptions options = options_of(config, threshold);
   diagnosis::Diagnosis result = form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
-                                          : diagnosis::diagnose(inference, options, context.seed + 1);
+                                     : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
   const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels, inputs.places);
   const IdsInWords ids = ids_in_words(places, inference);
   put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
-  write_residuals(inference, result, context.out / "residuals.csv");
-  write_hypotheses(result, entries.invisible, context.out / "hypotheses.csv");
-  write_gain(inference, result, context.out / "gain.csv");
-  write_pairs(inference, result, context.out / "pairs.csv");
-  write_misfit(inference, result, context.out / "misfit.csv");
-  write_unknowns(inference, result, context.out / "parameters.csv");
-  write_extended_model(*inputs.model, inputs.places, result, context.out / "extended_model");
-  std::set<std::string> labels;
-  for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
-  const diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
-                                                                   std::max(1, static_cast<int>(labels.size())));
-  if (check.message.empty())
-    context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
-                            check.full_Hz.size(), check.largest_pct));
-  else
-    context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
+  write_tables(inference, inputs, entries, result, context.out);
+  const diagnosis::FullCheck check = checked(inputs, map, result, context);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
   const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);

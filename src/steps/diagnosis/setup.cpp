@@ -5,15 +5,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <set>
 
 #include "core/error.hpp"
-#include "io/atomic.hpp"
 #include "io/csv.hpp"
-#include "io/manifest.hpp"
-#include "io/toml_value.hpp"
 #include "modal/mode_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
