@@ -53,7 +53,7 @@ struct Block {
 };
 
 Block build_block(ModelBuilder& builder, const EndDefinition& ends, const EndFrame& frame) {
-  const auto [across, along, up] = ends.block_elements;
+  const int across = ends.block_elements[0], along = ends.block_elements[1], up = ends.block_elements[2];
   std::vector<int> nodes;
   const auto node = [&](int i, int j, int k) {
     return nodes[static_cast<std::size_t>((k * (along + 1) + j) * (across + 1) + i)];
