@@ -203,7 +203,9 @@ class Reader {
     for (const std::string& name : found->second)
       if (!a.number.contains(name))
         fail(a.line, "action." + name, fmt::format("is missing; {} takes {}", a.kind, fmt::join(found->second, ", ")), "");
-    for (const auto& [name, value] : a.number) {
+    for (const auto& number : a.number) {
+      const std::string& name = number.first;
+      const Expression& value = number.second;
       if (std::find(found->second.begin(), found->second.end(), name) == found->second.end())
         fail(value.line, "action." + name, fmt::format("is no number of {}{}", a.kind, did_you_mean(name, found->second)), "");
       if (value.name.starts_with('$') &&
