@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "core/parallel.hpp"
@@ -27,21 +26,6 @@ constexpr double kRefineShare = 0.1,
 constexpr double kLeastScale = 0.02, kMostScale = 3.0;  // of a signature, as far as its direction holds
 constexpr double kSeen = 1e-3;                          // deviations: below, these rows show nothing of an entry
 constexpr double kWorthRefining = -4.0;                 // nats against none: below, the best entry is far from any threshold
-
-/// ln of the posterior width of magnitudes over their prior width, never a gain.
-double log_width(const MatrixXd& precision, const Candidate& candidate) {
-  const Index k = candidate.low.size();
-  if (k == 0) return 0.0;
-  MatrixXd h = precision;
-  double log_range = 0.0;
-  for (Index i = 0; i < k; ++i) {
-    const double range = candidate.high[i] - candidate.low[i];
-    log_range += std::log(range);
-    h(i, i) += 2.0 * std::numbers::pi / (range * range);
-  }
-  const double log_det = h.ldlt().vectorD().cwiseMax(1e-300).array().log().sum();
-  return std::min(0.5 * static_cast<double>(k) * std::log(2.0 * std::numbers::pi) - 0.5 * log_det - log_range, 0.0);
-}
 
 /// RMS change of the frequencies in the conditions where a cause acts.
 double effect_of(const Inference& inference, const VectorXd& change, const Contrast* contrast) {
@@ -261,7 +245,7 @@ Linearised linearised(const FormSetting& setting, const FormEntry& entry, const 
     if (fitted.size() == 0) return std::pair(q.log_density(), q.chi_squared);
     const VectorXd shift = shift_of(q);
     const double chi_squared = q.chi_squared - 2.0 * shift.dot(q.along) + shift.dot(q.products * shift);
-    return std::pair(-0.5 * (chi_squared + q.log_determinant) + log_width(q.products, candidate), chi_squared);
+    return std::pair(-0.5 * (chi_squared + q.log_determinant) + ockham(q.products, candidate), chi_squared);
   };
   std::vector<std::vector<EvidenceTerm>> of_point(setting.grid.points.size());
   const int contrast = leftover_contrast(entry, leftover);

@@ -39,12 +39,7 @@ struct Assembly {
   const std::map<std::string, std::vector<OnePlace>>& sets;
   const VectorXd &reduced_at, &theta;  ///< values of the parameters at the places' matrices, and here
 
-  [[nodiscard]] double ratio(const OnePlace& place) const {
-    const auto parameter = place.attributes.find("parameter");
-    if (parameter == place.attributes.end()) return 1.0;
-    const auto p = static_cast<Index>(parameter->second);
-    return reduced_at[p] != 0.0 ? theta[p] / reduced_at[p] : 1.0;
-  }
+  [[nodiscard]] double ratio(const OnePlace& place) const { return parameter_ratio(place.attributes, reduced_at, theta); }
   [[nodiscard]] const OnePlace* find(const std::string& id) const {
     for (const auto& [set, list] : sets)
       for (const OnePlace& place : list)

@@ -30,7 +30,8 @@ MatrixXd total_factor_of(const MatrixXd& sigma, const Eigen::Ref<const MatrixXd>
   return linalg::cholesky_factor(sigma + linalg::product(all, all.transpose()));
 }
 
-/// Nats that k unknowns with a uniform prior cost: ln of posterior width over prior width, never a gain.
+}  // namespace
+
 double ockham(const MatrixXd& precision, const Candidate& candidate) {
   const Index k = candidate.low.size();
   if (k == 0) return 0.0;
@@ -46,8 +47,6 @@ double ockham(const MatrixXd& precision, const Candidate& candidate) {
   for (Index i = 0; i < k; ++i) log_det += std::log(std::max(d[i], 1e-300));
   return std::min(0.5 * static_cast<double>(k) * std::log(2.0 * std::numbers::pi) - 0.5 * log_det - log_range, 0.0);
 }
-
-}  // namespace
 
 double chi_squared_tail(double x, double dof) {
   // Regularised upper incomplete gamma function Q(dof/2, x/2): series or continued fraction (Abramowitz and Stegun 6.5).

@@ -134,6 +134,10 @@ class Inference {
   const ScreenTable* table_ = nullptr;
 };
 
+/// Nats that k unknowns with a uniform prior cost: ln of posterior width over prior width, never a gain.
+/// @param precision  of their coordinates in the likelihood (k × k)
+[[nodiscard]] double ockham(const Eigen::MatrixXd& precision, const Candidate& candidate);
+
 /// P(chi²_dof > x).
 [[nodiscard]] double chi_squared_tail(double x, double dof);
 

@@ -182,9 +182,9 @@ MatrixXd corrections(const Basis& basis, const linalg::Cholesky& factor, const f
 
 }  // namespace
 
-double parameter_ratio(const ReducedPlace& place, const Eigen::VectorXd& reduced_at, const Eigen::VectorXd& value) {
-  const auto parameter = place.attributes.find("parameter");
-  if (parameter == place.attributes.end()) return 1.0;
+double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at, const Eigen::VectorXd& value) {
+  const auto parameter = attributes.find("parameter");
+  if (parameter == attributes.end()) return 1.0;
   const auto p = static_cast<Index>(parameter->second);
   return reduced_at[p] != 0.0 ? value[p] / reduced_at[p] : 1.0;
 }

@@ -21,7 +21,7 @@ struct ReducedPlace {
 
 /// What of a place's matrices there is at other values of the parameters: 1 but for a group that a parameter scales, which is
 /// `value` / `reduced_at` of what it was where the basis was made.
-[[nodiscard]] double parameter_ratio(const ReducedPlace& place, const Eigen::VectorXd& reduced_at, const Eigen::VectorXd& value);
+[[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at, const Eigen::VectorXd& value);
 
 struct ReductionOptions {
   int modes = 30;                 ///< of the structure as it stands

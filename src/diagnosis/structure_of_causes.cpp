@@ -154,9 +154,9 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   const Index n = state.stiffness.rows();
   const std::string& kind = action.kind;
   if (kind == "scale.stiffness") {
-    state.stiffness += (value("factor") - 1.0) * parameter_ratio(place, map_.model().theta, base_.theta) * sliced(place.stiffness, columns_, n);
+    state.stiffness += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) * sliced(place.stiffness, columns_, n);
   } else if (kind == "scale.mass") {
-    state.mass += (value("factor") - 1.0) * parameter_ratio(place, map_.model().theta, base_.theta) * sliced(place.mass, columns_, n);
+    state.mass += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) * sliced(place.mass, columns_, n);
   } else if (kind == "field.stiffness") {
     const double v = variable(action, condition);
     if (std::isfinite(v)) state.stiffness += value("rate") * (v - value("reference")) * sliced(place.stiffness, columns_, n);
