@@ -8,18 +8,18 @@
 namespace twindeck::aero {
 namespace {
 
-constexpr int y = 0, z = 1, alpha = 2;
+constexpr int kLateral = 0, kVertical = 1, kPitch = 2;  // motions along y and z, and alpha
 // Number 1 … 6 -> motion and kind. Lift and moment of both conventions, and Zasso's drag, count from the vertical motion;
 // Scanlan's drag counts from the lateral one.
-constexpr std::array<int, 6> motion_vertical_first = {z, alpha, alpha, z, y, y};
-constexpr std::array<int, 6> motion_lateral_first = {y, alpha, alpha, y, z, z};
+constexpr std::array<int, 6> motion_vertical_first = {kVertical, kPitch, kPitch, kVertical, kLateral, kLateral};
+constexpr std::array<int, 6> motion_lateral_first = {kLateral, kPitch, kPitch, kLateral, kVertical, kVertical};
 constexpr std::array<bool, 6> is_damping = {true, true, false, false, true, false};
 constexpr std::array<int, 3> row_of_group = {1, 0, 2};  // H, P, A -> L, D, M
 
 // Zasso's value times this is Scanlan's.
 double scanlan_per_zasso(const DerivativeEntry& entry, double v) {
   if (entry.damping) return -v;
-  return entry.column == alpha ? v * v : std::numbers::pi / 2;
+  return entry.column == kPitch ? v * v : std::numbers::pi / 2;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/statistics.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnose_parts.hpp"
 #include "diagnosis/form_search.hpp"
@@ -211,7 +212,7 @@ Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking,
 
 /// Widens the intervals of sizes in quadrature, on ln of the size (kg, |ln factor|).
 void widen(std::vector<EffectParameter>& parameters, double form_error) {
-  const double deviation = std::min(kSizeError + kSizePerForm * form_error, kMostSizeError), reach = 1.645 * deviation;
+  const double deviation = std::min(kSizeError + kSizePerForm * form_error, kMostSizeError), reach = kReachOfNinety * deviation;
   static const std::set<std::string> no_size = {"Hz", "deg", "degC", "C", "s", "m"};
   for (EffectParameter& p : parameters) {
     if (no_size.contains(p.unit)) continue;

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.hpp"
+
 namespace twindeck::diagnosis {
 
 namespace {
 
 using Eigen::Index;
 
-constexpr double kNinety = 1.645;  ///< deviations that a Gaussian 90 % interval reaches to either side
 
 /// @param j  position among the nuisances
 ParameterEstimate estimate(const Inference& inference, const Fit& fit, std::size_t j) {
@@ -19,7 +20,7 @@ ParameterEstimate estimate(const Inference& inference, const Fit& fit, std::size
   const Eigen::VectorXd seen = l.solve(fit.map.jacobian.col(column));
   const double left = std::clamp(1.0 - seen.squaredNorm(), 0.0, 1.0);  // of the prior's variance
   const double misfit = std::max(1.0, fit.chi_squared / inference.dof());
-  const double x = fit.map.x[column], reach = kNinety * std::sqrt(misfit * left);
+  const double x = fit.map.x[column], reach = kReachOfNinety * std::sqrt(misfit * left);
   const auto physical = [&](double u) { return v.mean + v.deviation * std::clamp(u, v.lower, v.upper); };
   return {physical(x), physical(x - reach), physical(x + reach)};
 }

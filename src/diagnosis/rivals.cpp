@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.hpp"
 #include "diagnosis/diagnose_parts.hpp"
 
 namespace twindeck::diagnosis {
 
 namespace {
 
-constexpr double kNinety = 1.645;  ///< deviations that a Gaussian 90 % interval reaches to either side
 
 /// Magnitudes of an entry by the curvature of its likelihood; an end beyond its bounds is the bound.
 std::vector<EffectParameter> by_curvature(const Scored& scored, double misfit) {
@@ -16,7 +16,7 @@ std::vector<EffectParameter> by_curvature(const Scored& scored, double misfit) {
   if (scored.a.size() == 0 || scored.a_covariance.rows() != scored.a.size()) return out;
   for (Eigen::Index i = 0; i < scored.a.size(); ++i) {
     const UnknownSpec& spec = candidate.hypothesis->unknowns[static_cast<std::size_t>(i)];
-    const double reach = kNinety * std::sqrt(misfit * std::max(scored.a_covariance(i, i), 0.0));
+    const double reach = kReachOfNinety * std::sqrt(misfit * std::max(scored.a_covariance(i, i), 0.0));
     EffectParameter p{spec.name, spec.unit, candidate.physical(scored.a, i), 0.0, 0.0, false, false};
     p.at_low_bound = scored.a[i] - reach <= candidate.low[i];
     p.at_high_bound = scored.a[i] + reach >= candidate.high[i];

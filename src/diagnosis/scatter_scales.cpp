@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/statistics.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
@@ -119,7 +120,7 @@ std::vector<ScatterScale> scatter_scales(const Inference& inference, const Fit& 
     if ((at - before).cwiseAbs().maxCoeff() < 0.01) break;
   }
   for (Index k = 0; k < free; ++k) {
-    const double half = 1.645 * deviation_along(likelihood, at, k);
+    const double half = kReachOfNinety * deviation_along(likelihood, at, k);
     ScatterScale& scale = out[static_cast<std::size_t>(k)];
     scale.scale = std::exp(at[k]);
     scale.low = std::exp(at[k] - half);

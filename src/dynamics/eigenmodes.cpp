@@ -24,11 +24,11 @@ ModalSolver::ModalSolver(const fe::ParametricSystem& system) : system_(system) {
 EigenModes ModalSolver::solve(const Eigen::VectorXd& theta, int n_modes) {
   const linalg::SparseMatrix stiffness = system_.stiffness(theta);
   mass_ = system_.mass(theta);
-  linalg::EigenPairs pairs = linalg::lowest_eigenpairs(stiffness, mass_, n_modes, 0.0, factor_, last_);
+  linalg::EigenPairs pairs = linalg::lowest_eigenpairs(stiffness, mass_, n_modes, 0.0, factor_);
   if (factor_.failed_column() >= 0) {
     const double shift = free_structure_shift(stiffness, mass_);
     if (shift < 0.0) {
-      linalg::EigenPairs shifted = linalg::lowest_eigenpairs(stiffness, mass_, n_modes, shift, factor_, last_);
+      linalg::EigenPairs shifted = linalg::lowest_eigenpairs(stiffness, mass_, n_modes, shift, factor_);
       // Where the shift does not help either (a mechanism without mass, a negative stiffness), the first message is the
       // clearer.
       if (shifted.values.size() > 0) pairs = std::move(shifted);
@@ -39,7 +39,6 @@ EigenModes ModalSolver::solve(const Eigen::VectorXd& theta, int n_modes) {
   modes.eigenvalue = pairs.values;
   modes.frequency_Hz = pairs.values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
   modes.shapes = std::move(pairs.vectors);
-  last_ = std::move(pairs.space);
   return modes;
 }
 

@@ -17,8 +17,7 @@ struct EigenModes {
   Status status;                 ///< not converged: fewer modes than asked for, or a K that is not positive definite
 };
 
-/// Modes of a parametric system at given parameter values; keeps the symbolic factorisation and warm-starts from the last
-/// modes. The system must outlive the solver. Not for use by two threads at once: give each its own.
+/// Modes of a parametric system at given parameter values; keeps the symbolic factorisation. The system must outlive the solver. Not for use by two threads at once: give each its own.
 class ModalSolver {
  public:
   explicit ModalSolver(const fe::ParametricSystem& system);
@@ -35,7 +34,6 @@ class ModalSolver {
   const fe::ParametricSystem& system_;
   linalg::Cholesky factor_;
   linalg::SparseMatrix mass_;
-  Eigen::MatrixXd last_;
 };
 
 }  // namespace twindeck::dynamics

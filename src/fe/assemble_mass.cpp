@@ -5,8 +5,6 @@ namespace twindeck::fe {
 
 namespace {
 
-const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
-
 ElementMatrix whole(const Model& model, int i) { return element_mass(model, element_at(model, i)); }
 
 /// Part of a beam's mass that does not go with its area: the inertia of the section about its own axes.
@@ -36,7 +34,7 @@ ElementMatrix shell_rotary(const Model& model, int i) {
   return shell_mass_of(model, e, 0.0, material_of(model, e).density_kg_m3 * t * t * t / 12.0);
 }
 
-ElementMatrix matrix_part(const Model& model, int i) {
+ElementMatrix matrix_element_mass(const Model& model, int i) {
   return conservative_part(model.matrix_elements[static_cast<std::size_t>(i)]).mass;
 }
 
@@ -72,7 +70,7 @@ std::vector<TermPlan> plan_mass(const Model& model) {
     TermPlan& term = groups.add("point masses " + mass.group, i, mass_at_node);
     if (term.parts.size() == 1) add_factors(model, Target::point_mass, mass.group, 1.0, term.coefficient);
   }
-  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_part);
+  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_element_mass);
   return groups.take();
 }
 

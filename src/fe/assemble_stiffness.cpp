@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::uint16_t axial_releases = (1U << 0) | (1U << 6);
 
-const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
-
 ElementMatrix beam_with(const Element& e, const BeamGeometry& geometry, const TaperedProperties& ends) {
   return {six_per_node(e), e.section2 >= 0 ? tapered_beam_stiffness(geometry, ends) : beam_stiffness(geometry, ends.end1)};
 }
@@ -68,7 +66,7 @@ ElementMatrix solid(const Model& model, int i) {
   return {three_per_node(e), solid_stiffness(solid_geometry(model, e), {m.youngs_modulus_Pa, m.poisson_ratio})};
 }
 
-ElementMatrix matrix_part(const Model& model, int i) {
+ElementMatrix matrix_element_stiffness(const Model& model, int i) {
   return conservative_part(model.matrix_elements[static_cast<std::size_t>(i)]).stiffness;
 }
 
@@ -105,7 +103,7 @@ std::vector<TermPlan> plan_stiffness(const Model& model) {
     TermPlan& term = groups.add("springs " + s.group, i, spring);
     if (term.parts.size() == 1) add_factors(model, Target::spring_stiffness, s.group, 1.0, term.coefficient);
   }
-  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_part);
+  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_element_stiffness);
   return groups.take();
 }
 

@@ -17,6 +17,8 @@ struct ElementMatrix {
   Eigen::MatrixXd matrix;  ///< (n × n)
 };
 
+[[nodiscard]] inline const Element& element_at(const Model& model, int i) { return model.elements[slot(i)]; }
+
 [[nodiscard]] BeamGeometry beam_geometry(const Model& model, const Element& element);
 /// Section and material of a beam; shear areas are zero for a formulation that is rigid in shear.
 [[nodiscard]] BeamStiffnessProperties beam_properties(const Model& model, const Element& element);

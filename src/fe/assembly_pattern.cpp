@@ -8,14 +8,12 @@ namespace twindeck::fe {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Neighbours (self included) of every root node, by anything that couples two nodes.
 std::vector<std::vector<int>> couple_nodes(const Model& model, const DofMap& map) {
   std::vector<std::vector<int>> neighbours(model.nodes.size());
   const auto couple = [&](const std::vector<int>& nodes) {
     for (const int a : nodes)
-      for (const int b : nodes) neighbours[at(map.root[at(a)])].push_back(map.root[at(b)]);
+      for (const int b : nodes) neighbours[slot(map.root[slot(a)])].push_back(map.root[slot(b)]);
   };
   for (int node = 0; node < static_cast<int>(model.nodes.size()); ++node) couple({node});
   for (const Element& element : model.elements) couple(element.nodes);
@@ -38,13 +36,13 @@ std::vector<std::vector<int>> couple_nodes(const Model& model, const DofMap& map
 linalg::SparseMatrix make_pattern(const Model& model, const DofMap& map) {
   const int n = static_cast<int>(map.dofs.size());
   std::vector<std::vector<int>> dofs_of(model.nodes.size());  // free degrees of freedom of a root node, ascending
-  std::vector<int> node_of(at(n));
+  std::vector<int> node_of(slot(n));
   for (int node = 0; node < static_cast<int>(model.nodes.size()); ++node) {
-    if (map.root[at(node)] != node) continue;
+    if (map.root[slot(node)] != node) continue;
     for (int d = 0; d < 6; ++d)
-      for (const DofMap::Entry& entry : map.rows[at(6 * node + d)]) {
-        dofs_of[at(node)].push_back(entry.dof);
-        node_of[at(entry.dof)] = node;
+      for (const DofMap::Entry& entry : map.rows[slot(6 * node + d)]) {
+        dofs_of[slot(node)].push_back(entry.dof);
+        node_of[slot(entry.dof)] = node;
       }
   }
   const auto neighbours = couple_nodes(model, map);
@@ -52,8 +50,8 @@ linalg::SparseMatrix make_pattern(const Model& model, const DofMap& map) {
   linalg::SparseMatrix pattern(n, n);
   std::vector<int> outer{0}, inner;
   for (int column = 0; column < n; ++column) {
-    for (const int node : neighbours[at(node_of[at(column)])])
-      for (const int row : dofs_of[at(node)])
+    for (const int node : neighbours[slot(node_of[slot(column)])])
+      for (const int row : dofs_of[slot(node)])
         if (row >= column) inner.push_back(row);
     outer.push_back(static_cast<int>(inner.size()));
   }
@@ -80,19 +78,19 @@ int Scatter::position(int row, int column, int after) const {
 
 void Scatter::add(const ElementMatrix& element) {
   for (std::size_t j = 0; j < element.dofs.size(); ++j)
-    for (const DofMap::Entry& column : map_.rows[at(element.dofs[j])]) {
+    for (const DofMap::Entry& column : map_.rows[slot(element.dofs[j])]) {
       int p = -1;  // position of the entry before, in this column
       for (std::size_t i = 0; i < element.dofs.size(); ++i) {
         const double k = element.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
         if (k == 0.0) continue;
-        for (const DofMap::Entry& row : map_.rows[at(element.dofs[i])]) {
+        for (const DofMap::Entry& row : map_.rows[slot(element.dofs[i])]) {
           if (row.dof < column.dof) continue;
           p = position(row.dof, column.dof, p);
-          if (!is_touched_[at(p)]) {
-            is_touched_[at(p)] = 1;
+          if (!is_touched_[slot(p)]) {
+            is_touched_[slot(p)] = 1;
             touched_.push_back(p);
           }
-          sum_[at(p)] += row.factor * column.factor * k;
+          sum_[slot(p)] += row.factor * column.factor * k;
         }
       }
     }
@@ -109,12 +107,12 @@ void Scatter::take(Term& term) {
   term.position.reserve(touched_.size());
   term.value.reserve(touched_.size());
   for (const int p : touched_) {
-    if (sum_[at(p)] != 0.0) {
+    if (sum_[slot(p)] != 0.0) {
       term.position.push_back(p);
-      term.value.push_back(sum_[at(p)]);
+      term.value.push_back(sum_[slot(p)]);
     }
-    sum_[at(p)] = 0.0;
-    is_touched_[at(p)] = 0;
+    sum_[slot(p)] = 0.0;
+    is_touched_[slot(p)] = 0;
   }
   touched_.clear();
 }

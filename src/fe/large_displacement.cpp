@@ -21,10 +21,8 @@ using corotational::Motion;
 constexpr double kTolerance = 1e-8, kRounding = 1e-5, kNoMove = 1e-11;
 constexpr int kMaxIterations = 30, kMaxHalvings = 6;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// A point that rides on a node (the end of its chain of links) at the end of a rigid arm.
-struct Point {
+struct RidingPoint {
   int root;
   Eigen::Vector3d arm_m;  ///< from the root, before any rotation
 };
@@ -32,7 +30,7 @@ struct Point {
 /// What stays the same through all iterations.
 struct Part {
   int element;
-  std::vector<Point> points;
+  std::vector<RidingPoint> points;
   corotational::Element linear;  ///< beams, shells, solids
   double axial_EA_N = 0.0, initial_tension_N = 0.0;
 };
@@ -59,9 +57,9 @@ Eigen::MatrixXd solid_stiffness_six(const Model& model, const Element& e) {
   return six;
 }
 
-class Structure {
+class MovingStructure {
  public:
-  Structure(const Model& model, const Eigen::VectorXd& load, const Eigen::VectorXd& stay_pull_N)
+  MovingStructure(const Model& model, const Eigen::VectorXd& load, const Eigen::VectorXd& stay_pull_N)
       : model_(model), map_(make_dof_map(model)), pattern_(make_pattern(model, map_)), scatter_(pattern_, map_), load_(load) {
     for (int i = 0; i < std::ssize(model.elements); ++i) add_part(i, stay_pull_N);
   }
@@ -90,13 +88,13 @@ class Structure {
 
  private:
   void add_part(int i, const Eigen::VectorXd& stay_pull_N);
-  [[nodiscard]] Point point_on(int node, const Eigen::Vector3d& offset) const {
-    const int root = map_.root[at(node)];
-    return {root, model_.nodes[at(node)].x_m + offset - model_.nodes[at(root)].x_m};
+  [[nodiscard]] RidingPoint point_on(int node, const Eigen::Vector3d& offset) const {
+    const int root = map_.root[slot(node)];
+    return {root, model_.nodes[slot(node)].x_m + offset - model_.nodes[slot(root)].x_m};
   }
   [[nodiscard]] Motion motion_of(const Part& part, const Configuration& c) const;
   /// Adds forces (and the tangent) of points, carried to their roots over the arms as they now lie.
-  void add(const std::vector<Point>& points, const Configuration& c, const Eigen::VectorXd& force, const Eigen::MatrixXd& k,
+  void add(const std::vector<RidingPoint>& points, const Configuration& c, const Eigen::VectorXd& force, const Eigen::MatrixXd& k,
            Eigen::VectorXd& sum, bool with_tangent);
   void add_springs(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent);
   void add_matrix_elements(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent);
@@ -110,14 +108,14 @@ class Structure {
   double load_norm_ = 0.0;
 };
 
-void Structure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
-  const Element& e = model_.elements[at(i)];
+void MovingStructure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
+  const Element& e = model_.elements[slot(i)];
   Part part;
   part.element = i;
   for (std::size_t a = 0; a < e.nodes.size(); ++a) {
     const Eigen::Vector3d offset = e.type == ElementType::beam ? e.offset_m[a] : Eigen::Vector3d(Eigen::Vector3d::Zero());
     part.points.push_back(point_on(e.nodes[a], offset));
-    part.linear.start_m.push_back(model_.nodes[at(e.nodes[a])].x_m + offset);
+    part.linear.start_m.push_back(model_.nodes[slot(e.nodes[a])].x_m + offset);
   }
   if (e.type == ElementType::beam) {
     BeamGeometry g = beam_geometry(model_, e);
@@ -144,17 +142,17 @@ void Structure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
   parts_.push_back(std::move(part));
 }
 
-Motion Structure::motion_of(const Part& part, const Configuration& c) const {
+Motion MovingStructure::motion_of(const Part& part, const Configuration& c) const {
   Motion motion;
-  for (const Point& p : part.points) {
-    const Eigen::Matrix3d& t = c.rotation[at(p.root)];
+  for (const RidingPoint& p : part.points) {
+    const Eigen::Matrix3d& t = c.rotation[slot(p.root)];
     motion.displacement_m.emplace_back(c.displacement.segment<3>(6 * p.root) + (t * p.arm_m - p.arm_m));
     motion.rotation.push_back(t);
   }
   return motion;
 }
 
-void Structure::add(const std::vector<Point>& points, const Configuration& c, const Eigen::VectorXd& force,
+void MovingStructure::add(const std::vector<RidingPoint>& points, const Configuration& c, const Eigen::VectorXd& force,
                     const Eigen::MatrixXd& k, Eigen::VectorXd& sum, bool with_tangent) {
   const auto n = static_cast<Eigen::Index>(6 * points.size());
   Eigen::VectorXd f = force;
@@ -163,7 +161,7 @@ void Structure::add(const std::vector<Point>& points, const Configuration& c, co
     if (points[a].arm_m.isZero(0.0)) continue;
     // δu = δu_root + δω × arm:  f_root = f, m_root = m + arm × f; the arm itself turns: δ(arm × f) = f × (arm × δω).
     const auto i = static_cast<Eigen::Index>(6 * a);
-    const Eigen::Matrix3d s = beam::cross_matrix(c.rotation[at(points[a].root)] * points[a].arm_m);
+    const Eigen::Matrix3d s = beam::cross_matrix(c.rotation[slot(points[a].root)] * points[a].arm_m);
     const Eigen::Vector3d n_a = f.segment<3>(i);
     f.segment<3>(i + 3) += s * n_a;
     if (!with_tangent) continue;
@@ -183,17 +181,17 @@ void Structure::add(const std::vector<Point>& points, const Configuration& c, co
   scatter_.add(matrix);
 }
 
-void Structure::add_springs(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent) {
+void MovingStructure::add_springs(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent) {
   for (const Spring& s : model_.springs) {
     if (!carries_stiffness(s)) continue;
-    std::vector<Point> points = {point_on(s.node, Eigen::Vector3d::Zero())};
+    std::vector<RidingPoint> points = {point_on(s.node, Eigen::Vector3d::Zero())};
     if (s.node2 >= 0) points.push_back(point_on(s.node2, Eigen::Vector3d::Zero()));
     const auto n = static_cast<Eigen::Index>(6 * points.size());
     Eigen::VectorXd b = Eigen::VectorXd::Zero(n), u(n);
     for (std::size_t a = 0; a < points.size(); ++a) {
       const auto i = static_cast<Eigen::Index>(6 * a);
       b.segment<3>(i + (s.rotation ? 3 : 0)) = (a == 0 ? 1.0 : -1.0) * s.direction.normalized();
-      const Eigen::Matrix3d& t = c.rotation[at(points[a].root)];
+      const Eigen::Matrix3d& t = c.rotation[slot(points[a].root)];
       u.segment<3>(i) = c.displacement.segment<3>(6 * points[a].root) + (t * points[a].arm_m - points[a].arm_m);
       u.segment<3>(i + 3) = corotational::rotation_vector(t);
     }
@@ -201,18 +199,18 @@ void Structure::add_springs(const Configuration& c, Eigen::VectorXd& sum, bool w
   }
 }
 
-void Structure::add_matrix_elements(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent) {
+void MovingStructure::add_matrix_elements(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent) {
   for (const MatrixElement& element : model_.matrix_elements) {
     const ElementMatrix small = conservative_part(element).stiffness;
-    std::vector<Point> points;
+    std::vector<RidingPoint> points;
     for (const int dof : small.dofs) points.push_back(point_on(dof / 6, Eigen::Vector3d::Zero()));
     const auto n = std::ssize(small.dofs);
     Eigen::VectorXd u(n), force = Eigen::VectorXd::Zero(6 * n);
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * n, 6 * n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Point& p = points[static_cast<std::size_t>(i)];
+      const RidingPoint& p = points[static_cast<std::size_t>(i)];
       const int direction = small.dofs[static_cast<std::size_t>(i)] % 6;
-      const Eigen::Matrix3d& t = c.rotation[at(p.root)];
+      const Eigen::Matrix3d& t = c.rotation[slot(p.root)];
       u[i] = direction < 3 ? (c.displacement.segment<3>(6 * p.root) + (t * p.arm_m - p.arm_m))[direction]
                            : corotational::rotation_vector(t)[direction - 3];
     }
@@ -226,12 +224,12 @@ void Structure::add_matrix_elements(const Configuration& c, Eigen::VectorXd& sum
   }
 }
 
-Eigen::VectorXd Structure::residual(const Configuration& c, double lambda, linalg::SparseMatrix* tangent) {
+Eigen::VectorXd MovingStructure::residual(const Configuration& c, double lambda, linalg::SparseMatrix* tangent) {
   const bool with_tangent = tangent != nullptr;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(6 * std::ssize(model_.nodes)), outside = sum;
   for (const Part& part : parts_) {
     const Motion motion = motion_of(part, c);
-    const ElementType type = model_.elements[at(part.element)].type;
+    const ElementType type = model_.elements[slot(part.element)].type;
     if (!is_string(type)) {
       const corotational::Response response = corotational::respond(part.linear, motion, with_tangent);
       add(part.points, c, response.force, response.tangent, sum, with_tangent);
@@ -247,7 +245,7 @@ Eigen::VectorXd Structure::residual(const Configuration& c, double lambda, linal
     }
     add(part.points, c, force, k, sum, with_tangent);
     if (type == ElementType::stay)
-      for (int a = 0; a < 2; ++a) outside.segment<3>(6 * part.points[at(a)].root) -= force.segment<3>(6 * a);
+      for (int a = 0; a < 2; ++a) outside.segment<3>(6 * part.points[slot(a)].root) -= force.segment<3>(6 * a);
   }
   add_springs(c, sum, with_tangent);
   add_matrix_elements(c, sum, with_tangent);
@@ -256,7 +254,7 @@ Eigen::VectorXd Structure::residual(const Configuration& c, double lambda, linal
     const Eigen::VectorXd f = -lambda * load_.segment<6>(6 * node);
     if (f.isZero(0.0)) continue;
     add({point_on(node, Eigen::Vector3d::Zero())}, c, f, none, sum, with_tangent);
-    outside.segment<6>(6 * map_.root[at(node)]) -= f;
+    outside.segment<6>(6 * map_.root[slot(node)]) -= f;
   }
   if (with_tangent) {
     Term term;
@@ -268,9 +266,9 @@ Eigen::VectorXd Structure::residual(const Configuration& c, double lambda, linal
   Eigen::VectorXd free(size());
   double norm2 = 0.0;
   for (int node = 0; node < std::ssize(model_.nodes); ++node) {
-    if (map_.root[at(node)] != node) continue;
+    if (map_.root[slot(node)] != node) continue;
     for (int d = 0; d < 6; ++d)
-      for (const DofMap::Entry& entry : map_.rows[at(6 * node + d)]) {
+      for (const DofMap::Entry& entry : map_.rows[slot(6 * node + d)]) {
         free[entry.dof] = sum[6 * node + d];
         norm2 += outside[6 * node + d] * outside[6 * node + d];
       }
@@ -279,32 +277,32 @@ Eigen::VectorXd Structure::residual(const Configuration& c, double lambda, linal
   return free;
 }
 
-Configuration Structure::moved(const Configuration& c, const Eigen::VectorXd& correction) const {
+Configuration MovingStructure::moved(const Configuration& c, const Eigen::VectorXd& correction) const {
   Configuration next = c;
   for (int node = 0; node < std::ssize(model_.nodes); ++node) {
-    if (map_.root[at(node)] != node) continue;
+    if (map_.root[slot(node)] != node) continue;
     Eigen::Matrix<double, 6, 1> step = Eigen::Matrix<double, 6, 1>::Zero();
     for (int d = 0; d < 6; ++d)
-      for (const DofMap::Entry& entry : map_.rows[at(6 * node + d)]) step[d] = correction[entry.dof];
+      for (const DofMap::Entry& entry : map_.rows[slot(6 * node + d)]) step[d] = correction[entry.dof];
     next.displacement.segment<3>(6 * node) += step.head<3>();
-    next.rotation[at(node)] = corotational::rotation_of(step.tail<3>()) * c.rotation[at(node)];
-    next.displacement.segment<3>(6 * node + 3) = corotational::rotation_vector(next.rotation[at(node)]);
+    next.rotation[slot(node)] = corotational::rotation_of(step.tail<3>()) * c.rotation[slot(node)];
+    next.displacement.segment<3>(6 * node + 3) = corotational::rotation_vector(next.rotation[slot(node)]);
   }
   for (int node = 0; node < std::ssize(model_.nodes); ++node) {  // slaves follow
-    const int root = map_.root[at(node)];
+    const int root = map_.root[slot(node)];
     if (root == node) continue;
-    const Eigen::Vector3d arm = model_.nodes[at(node)].x_m - model_.nodes[at(root)].x_m;
-    next.rotation[at(node)] = next.rotation[at(root)];
-    next.displacement.segment<3>(6 * node) = next.displacement.segment<3>(6 * root) + (next.rotation[at(root)] * arm - arm);
+    const Eigen::Vector3d arm = model_.nodes[slot(node)].x_m - model_.nodes[slot(root)].x_m;
+    next.rotation[slot(node)] = next.rotation[slot(root)];
+    next.displacement.segment<3>(6 * node) = next.displacement.segment<3>(6 * root) + (next.rotation[slot(root)] * arm - arm);
     next.displacement.segment<3>(6 * node + 3) = next.displacement.segment<3>(6 * root + 3);
   }
   return next;
 }
 
-Eigen::VectorXd Structure::axial_forces(const Configuration& c) const {
+Eigen::VectorXd MovingStructure::axial_forces(const Configuration& c) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(std::ssize(model_.elements));
   for (const Part& part : parts_) {
-    const Element& e = model_.elements[at(part.element)];
+    const Element& e = model_.elements[slot(part.element)];
     const Motion motion = motion_of(part, c);
     if (e.type == ElementType::bar) {
       force[part.element] = corotational::respond_bar({part.linear.start_m[0], part.linear.start_m[1]}, motion, part.axial_EA_N,
@@ -327,7 +325,7 @@ struct NewtonResult {
   std::string why;
 };
 
-NewtonResult newton(Structure& structure, Configuration c, double lambda, linalg::Cholesky& factor) {
+NewtonResult newton(MovingStructure& structure, Configuration c, double lambda, linalg::Cholesky& factor) {
   linalg::SparseMatrix k;
   Eigen::VectorXd r = structure.residual(c, lambda, &k);
   bool still = false;  // the last correction moved nothing: what is unbalanced is rounding of stiff members
@@ -385,7 +383,7 @@ NewtonResult newton(Structure& structure, Configuration c, double lambda, linalg
 
 Configuration find_equilibrium(const Model& model, const Eigen::VectorXd& load, const Eigen::VectorXd& stay_pull_N,
                                int load_steps, const Configuration* start) {
-  Structure structure(model, load, stay_pull_N);
+  MovingStructure structure(model, load, stay_pull_N);
   Configuration c = start != nullptr ? *start : structure.undeformed();
   static_cast<void>(structure.residual(structure.undeformed(), 1.0, nullptr));  // measures the loads
   linalg::Cholesky factor;
@@ -424,8 +422,8 @@ Model deformed_model(const Model& model, const PrestressState& state) {
   for (Element& e : moved.elements) {
     if (e.type != ElementType::beam) continue;
     const Eigen::Vector3d z = beam_axes(beam_geometry(model, e)).row(2).transpose();
-    e.orientation = 0.5 * (state.rotation[at(e.nodes[0])] * z + state.rotation[at(e.nodes[1])] * z);
-    for (std::size_t a = 0; a < 2; ++a) e.offset_m[a] = (state.rotation[at(e.nodes[a])] * e.offset_m[a]).eval();
+    e.orientation = 0.5 * (state.rotation[slot(e.nodes[0])] * z + state.rotation[slot(e.nodes[1])] * z);
+    for (std::size_t a = 0; a < 2; ++a) e.offset_m[a] = (state.rotation[slot(e.nodes[a])] * e.offset_m[a]).eval();
   }
   return moved;
 }

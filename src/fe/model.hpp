@@ -150,6 +150,9 @@ struct Formulation {
   bool lumped_mass = false;           ///< true: masses at the nodes (diagonal but for arms and releases); false: consistent
 };
 
+/// Place of node, element or degree of freedom `i` in a vector of them.
+[[nodiscard]] inline std::size_t slot(int i) { return static_cast<std::size_t>(i); }
+
 struct Model {
   std::string title;
   double gravity_m_s2 = 9.81;

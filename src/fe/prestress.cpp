@@ -20,8 +20,6 @@ std::vector<int> find_stays(const Model& model) {
   return stays;
 }
 
-const Element& element_at(const Model& model, int i) { return model.elements[static_cast<std::size_t>(i)]; }
-
 /// Bars that are under tension in the geometry of nodes.csv: what draws their ends together, and what holds a chain of them in
 /// shape.
 bool is_tensioned(const Element& e) { return e.type == ElementType::bar && e.pull_N > 0.0; }

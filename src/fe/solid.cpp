@@ -44,14 +44,14 @@ Trilinear trilinear_at(const SolidGeometry& geometry, const Eigen::Vector3d& xi)
   return t;
 }
 
-struct Point {
+struct GaussPoint {
   Eigen::Vector3d xi;
   double weight;
 };
 
 /// Product rule of `abscissa` and `weight`.
-std::vector<Point> gauss(const std::vector<double>& abscissa, const std::vector<double>& weight) {
-  std::vector<Point> points;
+std::vector<GaussPoint> gauss(const std::vector<double>& abscissa, const std::vector<double>& weight) {
+  std::vector<GaussPoint> points;
   for (std::size_t i = 0; i < abscissa.size(); ++i)
     for (std::size_t j = 0; j < abscissa.size(); ++j)
       for (std::size_t k = 0; k < abscissa.size(); ++k)
@@ -59,15 +59,15 @@ std::vector<Point> gauss(const std::vector<double>& abscissa, const std::vector<
   return points;
 }
 
-const std::vector<Point>& gauss_2() {
+const std::vector<GaussPoint>& gauss_2() {
   static const double a = 1.0 / std::sqrt(3.0);
-  static const std::vector<Point> points = gauss({-a, a}, {1.0, 1.0});
+  static const std::vector<GaussPoint> points = gauss({-a, a}, {1.0, 1.0});
   return points;
 }
 
-const std::vector<Point>& gauss_3() {
+const std::vector<GaussPoint>& gauss_3() {
   static const double a = std::sqrt(0.6);
-  static const std::vector<Point> points = gauss({-a, 0.0, a}, {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0});
+  static const std::vector<GaussPoint> points = gauss({-a, 0.0, a}, {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0});
   return points;
 }
 
@@ -128,7 +128,7 @@ Parts integrate(const SolidGeometry& geometry, double nu) {
   const Trilinear centre = trilinear_at(geometry, Eigen::Vector3d::Zero());
   const Eigen::Matrix3d inverse = centre.jacobian.inverse();
   Parts parts;
-  for (const Point& point : gauss_2()) {
+  for (const GaussPoint& point : gauss_2()) {
     const Trilinear t = trilinear_at(geometry, point.xi);
     const Matrix6x24 b = strain_at(t);
     const Matrix6x9 g = internal_strain_at(inverse, centre.determinant, t, point.xi);
@@ -147,7 +147,7 @@ SolidShape solid_shape(const SolidGeometry& geometry) {
   SolidShape shape{0.0, 0.0, 0};
   double least = std::numeric_limits<double>::infinity();
   Eigen::Vector3d where = Eigen::Vector3d::Zero();
-  for (const Point& point : gauss_3()) {
+  for (const GaussPoint& point : gauss_3()) {
     const double determinant = trilinear_at(geometry, point.xi).determinant;
     shape.volume_m3 += point.weight * determinant;
     if (determinant < least) least = determinant, where = point.xi;
@@ -175,7 +175,7 @@ MatrixSolid solid_stiffness(const SolidGeometry& geometry, const SolidProperties
 MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3) {
   require_sound(geometry);
   Eigen::Matrix<double, 8, 8> scalar = Eigen::Matrix<double, 8, 8>::Zero();
-  for (const Point& point : gauss_3()) {
+  for (const GaussPoint& point : gauss_3()) {
     const Trilinear t = trilinear_at(geometry, point.xi);
     scalar += density_kg_m3 * point.weight * t.determinant * t.value * t.value.transpose();
   }

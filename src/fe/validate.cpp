@@ -18,10 +18,6 @@ namespace {
 constexpr double farthest_m = 1e9;           ///< of a node from the origin, whatever the grid: beyond, differences are lost
 constexpr double least_across = 1e-9;        ///< [-] part of an orientation that lies across its beam, as in beam_axes
 
-[[noreturn]] void refuse(const Model& model, const std::string& part, const std::string& problem, const std::string& mend) {
-  throw InputError({model.source, 0, part}, problem, mend);
-}
-
 /// Whether a solid is sound once its two faces have changed places.
 bool solid_turned_is_sound(const Model& model, const Element& e) {
   SolidGeometry turned = solid_geometry(model, e);

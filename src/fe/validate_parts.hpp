@@ -1,9 +1,17 @@
 #pragma once
 
+#include <string>
+
+#include "core/error.hpp"
 #include "fe/model.hpp"
 
 /// The parts of `validate`, in the order in which they are called: each may rely on what those before it have checked.
 namespace twindeck::fe {
+
+/// @param part  what of the model is wrong ("section 'girder'") @throws InputError  always
+[[noreturn]] inline void refuse(const Model& model, const std::string& part, const std::string& problem, const std::string& mend) {
+  throw InputError({model.source, 0, part}, problem, mend);
+}
 
 /// Every reference from elements, springs, links, masses, supports and prestress conditions leads somewhere; node ids are
 /// unique.

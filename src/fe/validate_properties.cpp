@@ -9,10 +9,6 @@ namespace twindeck::fe {
 
 namespace {
 
-[[noreturn]] void refuse(const Model& model, const std::string& part, const std::string& problem, const std::string& mend) {
-  throw InputError({model.source, 0, part}, problem, mend);
-}
-
 void require_positive(const Model& model, const std::string& part, const std::string& what, double value,
                       const std::string& unit) {
   if (value > 0.0 && std::isfinite(value)) return;

@@ -92,6 +92,11 @@ std::string shown(const TomlValue& value) {
   return "a date or time";
 }
 
+std::string text_of(const TomlValue& value, const Place& place) {
+  if (const auto* text = value.as<std::string>()) return *text;
+  throw InputError(place, "is " + shown(value) + ", expected text", "write it in quotes");
+}
+
 std::string toml_number(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";

@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace twindeck::io {
 
 struct TomlEntry;
@@ -36,6 +38,8 @@ struct TomlEntry {
 [[nodiscard]] TomlValue toml_of_command_line(const std::string& text, const std::string& key);
 /// A value as the user would recognise it, for messages: 3.5, "abc", true, a table.
 [[nodiscard]] std::string shown(const TomlValue& value);
+/// @throws InputError  at `place`, if the value is no text
+[[nodiscard]] std::string text_of(const TomlValue& value, const Place& place);
 /// Shortest text that reads back to the same double; a whole number keeps no point (integers are accepted for numbers).
 [[nodiscard]] std::string toml_number(double value);
 /// A basic TOML string with its escapes.

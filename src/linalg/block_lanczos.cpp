@@ -17,9 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Residual below which a pair that was not asked for is worth keeping.
-constexpr double kNearly = 1e-2;
-
 /// The Lanczos basis with its projected operator.
 struct Basis {
   MatrixXd v, mass_v;  ///< (n × capacity), `size` columns in use
@@ -108,13 +105,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     if (converged == wanted || exhausted || out_of_patience) {
       result.converged = static_cast<int>(exhausted ? count : converged);
       result.values = values.head(count);
-      Index further = 0;
-      while (count + further < basis.size &&
-             coupling.col(count + further).norm() <= kNearly * std::abs(values[count + further]))
-        ++further;
-      const MatrixXd all = product(basis.v.leftCols(basis.size), s.leftCols(count + further));
-      result.vectors = all.leftCols(count);
-      result.further = all.rightCols(further);
+      result.vectors = product(basis.v.leftCols(basis.size), s.leftCols(count));
       return result;
     }
     if (!full) continue;

@@ -22,16 +22,13 @@ struct BlockLanczosOptions {
 struct BlockLanczosResult {
   Eigen::VectorXd values;   ///< largest eigenvalues of the operator, descending
   Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal
-  Eigen::MatrixXd further;  ///< (n × any number) the next ones, converged to a hundredth or better
   int converged = 0;
   int operations = 0;
 };
 
 /// Largest eigenvalues of an operator A^-1 M, by block Lanczos with full reorthogonalisation and thick restart.
 /// The width of the block is the number of copies of a repeated eigenvalue that are found for certain.
-/// @param start  start(0) gives the first block (n × width); start(1), start(2), … further ones, asked for when the basis spans
-/// an
-///               invariant subspace before enough pairs are found. Columns that depend on each other are dropped.
+/// @param start  start(0) gives the first block (n × width); start(1), start(2), … further ones, asked for when the basis spans an invariant subspace before enough pairs are found. Columns that depend on each other are dropped.
 [[nodiscard]] BlockLanczosResult block_lanczos(const SelfAdjointOperator& op,
                                                const std::function<Eigen::MatrixXd(int draw)>& start,
                                                const BlockLanczosOptions& options);

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "linalg/lane_basis.hpp"
 #include "linalg/types.hpp"
 
 namespace twindeck::linalg {
@@ -24,10 +23,8 @@ class Cholesky {
   /// `failed_column()` gives the row of the matrix at which it broke down (a mechanism lies there).
   Status factorize(const SparseMatrix& lower);
   [[nodiscard]] Eigen::Index failed_column() const;
-  /// Solves A X = B. @param b (n × m) @return (n × m)
+  /// Solves A X = B; several threads may solve with one factor. @param b (n × m) @return (n × m)
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
-  /// The same, without copies between the vectors' orders. @param b (n × m) @return (n × m)
-  [[nodiscard]] LaneBasis solve(const LaneBasis& b) const;
 
  private:
   struct Impl;

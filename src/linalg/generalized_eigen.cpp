@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "linalg/block_lanczos.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/nearby_eigenpairs.hpp"
 #include "linalg/symmetric_product.hpp"
 
 namespace twindeck::linalg {
@@ -25,7 +23,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Vectors of a block. Wider ones ask for more solves than they save by reading the factor once for all of their columns (8:
-/// 127 solves for 91 at 29,000 degrees of freedom), whole sets of known modes as a block too.
+/// 127 solves for 91 at 29,000 degrees of freedom).
 constexpr int kBlock = 4;
 
 /// Numbers in [-1, 1[ from a fixed sequence (splitmix64), the same on every machine; another sequence for each `draw`.
@@ -46,7 +44,7 @@ MatrixXd fixed_block(Index rows, Index columns, int draw) {
 
 /// Pairs of the operator, 1/(lambda - sigma) descending, not yet purified.
 struct Candidates {
-  MatrixXd vectors, further;
+  MatrixXd vectors;
   int converged = 0;
   int operations = 0;
 };
@@ -75,33 +73,23 @@ Candidates condensed(const SymmetricProduct& mass, const std::vector<Index>& dof
   return out;
 }
 
-Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor,
-                      const Eigen::Ref<const MatrixXd>& start) {
+Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor) {
   SelfAdjointOperator op;
   op.size = mass.size();
   op.times_mass = [&](const MatrixXd& x) { return mass.times(x); };
   op.from_mass = [&](const MatrixXd& y) { return factor.solve(y); };
-  const auto start_block = [&](int draw) {
-    // One application puts the block into the range of the operator, away from the null space of M.
-    MatrixXd block = op.from_mass(mass.times(fixed_block(op.size, kBlock, draw)));
-    if (draw > 0 || start.rows() != op.size || start.cols() == 0) return block;
-    // Warm: the known modes fill the block, each column a sum of several; a little of the fixed block stays in so that a mode
-    // that was not among them is found.
-    const VectorXd norm = block.cwiseProduct(mass.times(block)).colwise().sum().cwiseSqrt();
-    block = (block * (1e-3 * norm.cwiseInverse()).asDiagonal()).eval();
-    for (Index i = 0; i < start.cols(); ++i) block.col(i % kBlock) += start.col(i);
-    return block;
-  };
+  // One application puts the block into the range of the operator, away from the null space of M.
+  const auto start_block = [&](int draw) { return op.from_mass(mass.times(fixed_block(op.size, kBlock, draw))); };
   BlockLanczosOptions options;
   options.n_pairs = n_pairs;
   const BlockLanczosResult found = block_lanczos(op, start_block, options);
-  return {found.vectors, found.further, found.converged, found.operations + kBlock};
+  return {found.vectors, found.converged, found.operations + kBlock};
 }
 
 }  // namespace
 
 EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& mass, int n_pairs, double shift,
-                             Cholesky& factor, const Eigen::Ref<const MatrixXd>& start) {
+                             Cholesky& factor) {
   TWINDECK_ASSERT(n_pairs > 0 && stiffness.rows() == mass.rows());
   EigenPairs out;
   out.values.resize(0);
@@ -122,35 +110,19 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
     return out;
   }
   const bool few = static_cast<Index>(massive.size()) <= std::max<Index>(60, 3 * n_pairs);
-  int spent = 0;
-  if (!few && start.rows() == mass_matrix.size() && start.cols() >= n_pairs) {
-    NearbyEigenpairs near = nearby_eigenpairs(a_lower, mass_matrix, factor, n_pairs, start, fixed_block(start.rows(), 1, 0));
-    spent = near.operations;
-    if (near.converged) {
-      out.values = near.values.array() + shift;
-      out.vectors = near.space.leftCols(n_pairs);
-      choose_basis(out.values, out.vectors);
-      out.space = std::move(near.space);
-      out.operations = spent;
-      return out;
-    }
-  }
-  const Candidates found =
-      few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor, start);
+  const Candidates found = few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor);
 
   // Purification, then Rayleigh and Ritz on the purified block y = A^-1 M x: y'Ay = y'Mx and y'My give lambda - sigma.
   const MatrixXd mass_x = mass_matrix.times(found.vectors);
   const MatrixXd y = factor.solve(mass_x);
   const MatrixXd mass_y = mass_matrix.times(y);
   const MatrixXd a = product(y, mass_x, true), b = product(y, mass_y, true);
-  out.operations = spent + found.operations + static_cast<int>(found.vectors.cols());
+  out.operations = found.operations + static_cast<int>(found.vectors.cols());
   if (found.vectors.cols() > 0) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(0.5 * (a + a.transpose()), 0.5 * (b + b.transpose()));
     out.values = ritz.eigenvalues().array() + shift;
     out.vectors = y * ritz.eigenvectors();
     choose_basis(out.values, out.vectors);
-    out.space.resize(stiffness.rows(), out.vectors.cols() + found.further.cols());
-    out.space << out.vectors, found.further;
   }
   if (found.converged < n_pairs) {
     out.status = {false, fmt::format("{} of {} modes converged{}", found.converged, n_pairs,

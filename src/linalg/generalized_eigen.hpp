@@ -12,7 +12,6 @@ namespace twindeck::linalg {
 struct EigenPairs {
   Eigen::VectorXd values;   ///< (n_pairs) ascending
   Eigen::MatrixXd vectors;  ///< (n × n_pairs) M-orthonormal, signs and bases of equal values by `choose_basis`
-  Eigen::MatrixXd space;    ///< (n × m), m >= n_pairs: the vectors and approximations of some further ones, lowest first
   Status status;            ///< not converged: message says how many of how many pairs
   int operations = 0;       ///< solves with the factorised matrix
 };
@@ -25,13 +24,11 @@ struct EigenPairs {
 /// @param stiffness, mass  lower triangles (n × n), same pattern or not
 /// @param shift   sigma [rad²/s²]; K - sigma M must be positive definite (0, or a negative number for a free structure)
 /// @param factor  keeps the symbolic factorisation between calls with one pattern; afterwards it is that of K - sigma M
-/// @param start   optional (n × m), may be empty: the `space` of a neighbouring parameter set, from which `nearby_eigenpairs`
-/// goes on (decision 0011). Fewer vectors than `n_pairs` fill Lanczos' first block
 ///
 /// References: Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15, 228-272; Nour-Omid, Parlett, Ericsson and Jensen
 /// (1987), Math. Comp. 48, 663-673 (purification); Wu and Simon (2000), SIAM J. Matrix Anal. Appl. 22, 602-616 (thick restart).
 [[nodiscard]] EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& mass, int n_pairs, double shift,
-                                           Cholesky& factor, const Eigen::Ref<const Eigen::MatrixXd>& start);
+                                           Cholesky& factor);
 
 /// Number of eigenvalues of K x = lambda M x below `value`: the negative pivots of K - value M = L D L' (Sylvester's law of
 /// inertia). A proof that no mode was passed over; as dear as a factorisation, so it is for checks.

@@ -29,9 +29,9 @@ std::string lower_case(std::string text) {
 }
 
 /// Reads line by line and knows where it stands.
-class Reader {
+class MarketReader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()) {
+  explicit MarketReader(const std::filesystem::path& file) : file_(file.string()) {
     io::require_regular_file(file);
     stream_.open(file, std::ios::binary);
     if (!stream_) fail("cannot be read", "check that you may read it");
@@ -97,7 +97,7 @@ class Reader {
   long line_ = 0;
 };
 
-std::vector<Entry> read_entries(Reader& reader, int n, long count) {
+std::vector<Entry> read_entries(MarketReader& reader, int n, long count) {
   std::vector<Entry> entries;
   std::vector<std::string> words;
   while (reader.fields(words)) {
@@ -124,7 +124,7 @@ linalg::SparseMatrix from_entries(const std::vector<Eigen::Triplet<double, int>>
 }
 
 /// Lower triangle of a general matrix whose numbers must be symmetric.
-std::vector<Eigen::Triplet<double, int>> symmetric_part(const Reader& reader, const std::vector<Entry>& entries, int n) {
+std::vector<Eigen::Triplet<double, int>> symmetric_part(const MarketReader& reader, const std::vector<Entry>& entries, int n) {
   std::map<std::pair<int, int>, double> value;
   std::vector<double> diagonal(static_cast<std::size_t>(n), 0.0);
   for (const Entry& e : entries) {
@@ -166,7 +166,7 @@ struct SizeLine {
 };
 
 /// Nothing is allocated on the word of a size line: more entries than there are bytes are refused at once.
-SizeLine read_size(Reader& reader) {
+SizeLine read_size(MarketReader& reader) {
   std::vector<std::string> words;
   if (!reader.fields(words) || words.size() != 3) reader.fail("the size line is missing", "expected 'rows columns entries'");
   const int n = reader.number<int>(words[0]);
@@ -181,7 +181,7 @@ SizeLine read_size(Reader& reader) {
 }
 
 /// Size line and entries of a square matrix, none of them twice.
-Contents read_square(Reader& reader) {
+Contents read_square(MarketReader& reader) {
   const SizeLine size = read_size(reader);
   std::vector<Entry> entries = read_entries(reader, size.n, size.count);
 
@@ -198,7 +198,7 @@ Contents read_square(Reader& reader) {
   return {size.n, std::move(entries)};
 }
 
-void refuse_upper_triangle(const Reader& reader, const std::vector<Entry>& entries) {
+void refuse_upper_triangle(const MarketReader& reader, const std::vector<Entry>& entries) {
   for (const Entry& e : entries) {
     if (e.row < e.column) {
       reader.fail(fmt::format("entry ({}, {}) lies above the diagonal of a symmetric matrix", e.row + 1, e.column + 1),
@@ -210,14 +210,14 @@ void refuse_upper_triangle(const Reader& reader, const std::vector<Entry>& entri
 }  // namespace
 
 MatrixMarketSize matrix_market_size(const std::filesystem::path& file) {
-  Reader reader(file);
+  MarketReader reader(file);
   static_cast<void>(reader.banner());
   const Eigen::Index rows = read_size(reader).n;
   return {rows, reader.line()};
 }
 
 linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
-  Reader reader(file);
+  MarketReader reader(file);
   const bool symmetric = reader.banner();
   const auto [n, entries] = read_square(reader);
   if (!symmetric) return from_entries(symmetric_part(reader, entries, n), n);
@@ -228,7 +228,7 @@ linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
 }
 
 Eigen::MatrixXd read_square_matrix(const std::filesystem::path& file) {
-  Reader reader(file);
+  MarketReader reader(file);
   const bool symmetric = reader.banner();
   const auto [n, entries] = read_square(reader);
   if (symmetric) refuse_upper_triangle(reader, entries);

@@ -82,8 +82,8 @@ struct ModelEntry {
   }
 };
 
-InputError at(const std::filesystem::path& file, const std::string& anchor, const std::string& key, const std::string& problem,
-              const std::string& mend) {
+InputError key_error(const std::filesystem::path& file, const std::string& anchor, const std::string& key,
+                     const std::string& problem, const std::string& mend) {
   return InputError({file.string(), line_of(file, anchor), key}, problem, mend);
 }
 
@@ -123,22 +123,22 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
                   entry.initial, entry.lower,
                   entry.upper};
   if (p.of.empty()) {
-    throw at(file, anchor, key, "'of' is missing or empty", fmt::format("name the {} that it applies to", kind_of(p.target)));
+    throw key_error(file, anchor, key, "'of' is missing or empty", fmt::format("name the {} that it applies to", kind_of(p.target)));
   }
   const auto known = known_names(model, p.target);
   for (const auto& name : p.of) {
     if (position_of(name, known) >= 0) continue;
-    throw at(file, anchor, key, fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
+    throw key_error(file, anchor, key, fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
              "'of' lists names of the model's own files");
   }
   if (!(p.lower <= p.initial && p.initial <= p.upper)) {
-    throw at(file, anchor, key,
+    throw key_error(file, anchor, key,
              fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper", io::format_number(p.lower),
                          io::format_number(p.initial), io::format_number(p.upper)),
              "put the bounds around the initial value");
   }
   for (const auto& other : model.parameters) {
-    if (other.name == p.name) throw at(file, anchor, key, "appears twice", "give each parameter a name of its own");
+    if (other.name == p.name) throw key_error(file, anchor, key, "appears twice", "give each parameter a name of its own");
   }
   return p;
 }
@@ -150,7 +150,7 @@ fe::Prestress::Condition to_condition(const std::filesystem::path& file, const N
   const bool number = !node.empty() && node.size() < 18 && node.find_first_not_of("0123456789") == std::string::npos;
   const auto found = number ? index.nodes.find(std::stol(node)) : index.nodes.end();
   if (found == index.nodes.end() || dof < 0 || dof > 2) {
-    throw at(file, "\"" + text + "\"", "prestress.conditions",
+    throw key_error(file, "\"" + text + "\"", "prestress.conditions",
              fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z",
                          text),
              "write for example \"17:z\"");

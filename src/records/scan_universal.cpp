@@ -19,20 +19,20 @@ using Eigen::Index;
 
 namespace {
 
-constexpr Index kValues = 65536;  // a part
+constexpr Index kValuesOfAPart = 65536;  // a part
 
 const char* direction_name(long code) {
   static const char* const names[] = {"-rz", "-ry", "-rx", "-z", "-y", "-x", "", "+x", "+y", "+z", "+rx", "+ry", "+rz"};
   return code >= -6 && code <= 6 ? names[code + 6] : "";
 }
 
-constexpr const char* kCutOff = "the file was cut off; copy it again";
+constexpr const char* kCopyAgain = "the file was cut off; copy it again";
 
 void skip_set(UniversalLines& in, const std::string& set) {
   for (std::string line; in.next(line);) {
     if (is_delimiter(line)) return;
   }
-  in.fail(fmt::format("breaks off in set {}, expected -1 at its end", set), kCutOff);
+  in.fail(fmt::format("breaks off in set {}, expected -1 at its end", set), kCopyAgain);
 }
 
 /// The -1 after the last value. Some writers leave out the very last one; then nothing tells whether sets are missing, and a
@@ -46,7 +46,7 @@ void expect_end(UniversalLines& in, RecordInfo& info, const std::string& set) {
     in.fail(fmt::format("holds '{}' after the values of set {}, expected -1", field(line, 0, 40), set),
             "write the set again with the number of its values");
   }
-  if (!whole) in.fail(fmt::format("breaks off in the last value of set {}", set), kCutOff);
+  if (!whole) in.fail(fmt::format("breaks off in the last value of set {}", set), kCopyAgain);
   info.notes.push_back(fmt::format("the last set ({}) has no end: if the file was cut off, channels are missing", set));
 }
 
@@ -153,10 +153,10 @@ double binary_value(const char* at, bool is_double, bool swapped) {
 /// Hands values on in parts.
 class Parts {
  public:
-  Parts(const Visitor& visit, Index channel) : visit_(visit), channel_(channel), block_(kValues, 1) {}
+  Parts(const Visitor& visit, Index channel) : visit_(visit), channel_(channel), block_(kValuesOfAPart, 1) {}
   void add(double value) {
     block_(used_++, 0) = std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
-    if (used_ == kValues) flush();
+    if (used_ == kValuesOfAPart) flush();
   }
   void flush() {
     if (used_ > 0 && channel_ >= 0) visit_(first_, channel_, block_.topRows(used_));
@@ -231,7 +231,7 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
   double first = 0.0;
   Index done = 0;
   while (done < series.values) {
-    const Index n = std::min(kValues, series.values - done);
+    const Index n = std::min(kValuesOfAPart, series.values - done);
     const std::string data = in.take(static_cast<std::size_t>(n) * sample);
     const auto complete = static_cast<Index>(data.size() / sample);
     for (Index k = 0; k < complete; ++k) {
@@ -389,7 +389,7 @@ void read_units(UniversalLines& in, UniversalData& data) {
       if (numbers[0] > 0.0 && std::isfinite(numbers[0])) data.length_factor = numbers[0];
     }
   }
-  in.fail("breaks off in set 164, expected -1 at its end", kCutOff);
+  in.fail("breaks off in set 164, expected -1 at its end", kCopyAgain);
 }
 
 long set_number(const std::string& line) { return integer_or(field(line, 0, 6), integer_or(field(line, 0, 80), 0)); }
@@ -435,7 +435,7 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
   for (std::string line; in.next(line);) {
     if (is_blank(line)) {
       if (in.is_last_without_end() && line.ends_with(' '))
-        in.fail("breaks off within a line of blanks, expected -1 or a line end", kCutOff);
+        in.fail("breaks off within a line of blanks, expected -1 or a line end", kCopyAgain);
       continue;
     }
     if (!is_delimiter(line)) {
@@ -450,7 +450,7 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
     }
     std::string set_line;
     do {
-      if (!in.next(set_line)) in.fail("breaks off after the -1 that begins a set", kCutOff);
+      if (!in.next(set_line)) in.fail("breaks off after the -1 that begins a set", kCopyAgain);
     } while (is_blank(set_line));
     if (is_delimiter(set_line)) {
       // An end without a beginning: this line begins a set.

@@ -22,15 +22,15 @@ double window(double offset, double half_width) {
   return x >= 1.0 ? 0.0 : 0.5 + 0.5 * std::cos(pi * x);
 }
 
-struct Line {
+struct FittedLine {
   double slope = 0.0, deviation = 0.0;
 };
 
 /// Least squares over samples one step apart; the deviation counts one independent residual each `memory` samples.
-Line fitted_line(const Eigen::VectorXd& y, double step, double memory) {
+FittedLine fitted_line(const Eigen::VectorXd& y, double step, double memory) {
   const auto n = static_cast<double>(y.size());
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(y.size(), -0.5 * (n - 1.0), 0.5 * (n - 1.0)) * step;
-  Line line;
+  FittedLine line;
   line.slope = x.dot(y) / x.squaredNorm();
   const double residual = (y.array() - y.mean() - line.slope * x.array()).square().sum();
   const double independent = std::max(3.0, n / std::max(memory, 1.0));
@@ -98,8 +98,8 @@ std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinat
       }
     }
     if (to - from < std::max<Index>(memory, 8)) continue;
-    const Line turning = fitted_line(phase.segment(from, to - from), 1.0 / rate_Hz, static_cast<double>(memory));
-    const Line decay = fitted_line(envelope.segment(from, to - from).array().log().matrix(), 1.0 / rate_Hz, static_cast<double>(memory));
+    const FittedLine turning = fitted_line(phase.segment(from, to - from), 1.0 / rate_Hz, static_cast<double>(memory));
+    const FittedLine decay = fitted_line(envelope.segment(from, to - from).array().log().matrix(), 1.0 / rate_Hz, static_cast<double>(memory));
     const double omega = std::hypot(turning.slope, decay.slope);
     AmplitudePoint point;
     point.amplitude = envelope.segment(from, to - from).mean();

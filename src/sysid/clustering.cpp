@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/statistics.hpp"
 #include "modal/mac.hpp"
 
 namespace twindeck::sysid {
@@ -38,12 +39,6 @@ Eigen::MatrixXd affinity(const std::vector<DiagramPole>& diagram, const std::vec
     }
   }
   return a;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 double deviation(const std::vector<double>& values) {

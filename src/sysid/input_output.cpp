@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/statistics.hpp"
 #include "linalg/dense.hpp"
 #include "sysid/leading_svd.hpp"
 #include "sysid/ssi_data.hpp"
@@ -58,12 +59,6 @@ const Pole* nearest(const std::vector<Pole>& candidates, const Pole& reference) 
     return std::abs(p.eigenvalue - reference.eigenvalue) < std::abs(q.eigenvalue - reference.eigenvalue);
   });
   return at == candidates.end() ? nullptr : &*at;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 /// A replicate of a mode: medians over its members' orders, mean shape.

@@ -70,12 +70,12 @@ void check(const std::vector<Harmonic>& harmonics) {
   }
 }
 
-struct Line {
+struct FittedString {
   double c = 0.0, deviation = 0.0, residual = 0.0;
 };
 
 /// f_n = c n over n >= 2.
-Line taut_string(const std::vector<Harmonic>& harmonics) {
+FittedString taut_string(const std::vector<Harmonic>& harmonics) {
   double product = 0.0, square = 0.0, sum = 0.0;
   int count = 0;
   for (const Harmonic& h : harmonics) {
@@ -85,7 +85,7 @@ Line taut_string(const std::vector<Harmonic>& harmonics) {
     square += w * h.number * h.number;
     ++count;
   }
-  Line line{product / square, std::sqrt(1.0 / square), 0.0};
+  FittedString line{product / square, std::sqrt(1.0 / square), 0.0};
   for (const Harmonic& h : harmonics) {
     if (h.number >= 2) sum += std::pow((h.frequency_Hz - line.c * h.number) / h.deviation_Hz, 2);
   }
@@ -129,7 +129,7 @@ namespace {
 StayFit fit_straightened(const std::vector<Harmonic>& harmonics, double length_m, double quantile, bool with_bending) {
   StayFit fit;
   fit.harmonics = static_cast<int>(harmonics.size());
-  const Line line = taut_string(harmonics);
+  const FittedString line = taut_string(harmonics);
   fit.residual = line.residual;
   double c = line.c, c_deviation = line.deviation;
   const auto above = std::count_if(harmonics.begin(), harmonics.end(), [](const Harmonic& h) { return h.number >= 2; });

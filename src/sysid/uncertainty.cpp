@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "core/error.hpp"
+#include "core/statistics.hpp"
 #include "linalg/dense.hpp"
 #include "sysid/ssi_cov.hpp"
 
@@ -31,12 +32,6 @@ PoleFactors pole_factors(const Observability& observability, const ShiftModels& 
 }
 
 namespace {
-
-double median(Eigen::VectorXd values) {
-  std::sort(values.begin(), values.end());
-  const Index n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 const Eigen::MatrixXd& factor_of(const ShiftModels& models, const PoleFactors& factors, const Pole& pole) {
   const auto model =
@@ -77,9 +72,9 @@ std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const Pole
     Eigen::MatrixXd& factor = deviation.factor = Eigen::MatrixXd::Zero(members.front().rows(), members.front().cols());
     for (Index b = 0; b < factor.cols(); ++b) {
       for (Index row = 0; row < factor.rows(); ++row) {
-        Eigen::VectorXd values(static_cast<Index>(members.size()));
-        for (Index i = 0; i < values.size(); ++i) values[i] = members[static_cast<std::size_t>(i)](row, b);
-        factor(row, b) = median(values);
+        std::vector<double> values;
+        for (const Eigen::MatrixXd& member : members) values.push_back(member(row, b));
+        factor(row, b) = median(std::move(values));
       }
     }
     const Eigen::VectorXd sigma = factor.rowwise().norm();

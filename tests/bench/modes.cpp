@@ -85,7 +85,7 @@ int matrices(const std::string& folder) {
   linalg::Cholesky factor;
   linalg::EigenPairs pairs;
   std::printf("first_solve_s %.6f\n",
-              seconds([&] { pairs = linalg::lowest_eigenpairs(stiffness, mass, kModes, 0.0, factor, Eigen::MatrixXd()); }));
+              seconds([&] { pairs = linalg::lowest_eigenpairs(stiffness, mass, kModes, 0.0, factor); }));
   if (!pairs.status.converged) return 1;
   std::printf("peak_MB %.1f\n", peak_MB());
   for (int i = 0; i < kModes; ++i)
@@ -114,16 +114,6 @@ int bridge(const std::string& file) {
   // A change of 1 % in every parameter, and back.
   Eigen::VectorXd changed = theta;
   for (Eigen::Index p = 0; p < changed.size(); ++p) changed[p] *= p % 2 == 0 ? 1.01 : 0.99;
-  const linalg::SparseMatrix stiffness = system.stiffness(changed), mass = system.mass(changed);
-  linalg::Cholesky factor;
-  linalg::EigenPairs pairs =
-      linalg::lowest_eigenpairs(system.stiffness(theta), system.mass(theta), kModes, 0.0, factor, Eigen::MatrixXd());
-  // Of given matrices, as a first solve and the peers' are.
-  std::printf("resolve_s %.6f\n", seconds([&] {
-                pairs = linalg::lowest_eigenpairs(stiffness, mass, kModes, 0.0, factor, Eigen::MatrixXd(pairs.space));
-              }));
-  std::printf("resolve_solves %d\n", pairs.operations);
-  std::printf("resolve_residual %.3e\n", residual(stiffness, mass, pairs.values, pairs.vectors));
   dynamics::EigenModes again;
   std::printf("resolve_from_parameters_s %.6f\n", seconds([&] { again = solver.solve(changed, kModes); }));
   if (!again.status.converged) return 1;

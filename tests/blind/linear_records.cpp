@@ -14,8 +14,8 @@ using diagnosis::RowType;
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-constexpr int kModes = 11;  // beyond those that are asked for, so that an identification has to choose
-constexpr double kSeconds = 600.0, kRate = 10.0, kSensorNoise = 0.05;
+constexpr int kModesHeard = 11;  // beyond those that are asked for, so that an identification has to choose
+constexpr double kLength_s = 600.0, kRate = 10.0, kChannelNoise = 0.05;
 
 /// Rows that ask the truth for its modes in each condition: frequency, damping, complex shape at every channel.
 diagnosis::FeatureSet questions(const Bench& bench) {
@@ -25,7 +25,7 @@ diagnosis::FeatureSet questions(const Bench& bench) {
   f.conditions = bench.rows.conditions;
   const diagnosis::ReducedModel& model = *bench.truth.reduced;
   for (std::size_t c = 0; c < f.conditions.size(); ++c) {
-    for (int m = 0; m < kModes; ++m) {
+    for (int m = 0; m < kModesHeard; ++m) {
       const std::string name = std::to_string(m + 1);
       const Eigen::VectorXd shape = model.sensors * model.mode_coordinates.col(m);
       const auto condition = static_cast<int>(c);
@@ -75,12 +75,12 @@ Campaign linear_records(const Bench& bench, const Hidden& hidden) {
   }
   if (!p.valid) return campaign;
   const auto n_channels = static_cast<Index>(asked.channels.size());
-  const auto samples = static_cast<Index>(kSeconds * kRate);
+  const auto samples = static_cast<Index>(kLength_s * kRate);
   const Index rows_per_mode = 2 + 2 * n_channels;
   for (std::size_t c = 0; c < campaign.conditions.size(); ++c) {
     Eigen::MatrixXd record = Eigen::MatrixXd::Zero(samples, n_channels);
-    for (Index m = 0; m < kModes; ++m) {
-      const Index row = (static_cast<Index>(c) * kModes + m) * rows_per_mode;
+    for (Index m = 0; m < kModesHeard; ++m) {
+      const Index row = (static_cast<Index>(c) * kModesHeard + m) * rows_per_mode;
       const double omega = 2.0 * std::numbers::pi * std::exp(p.g[row]), zeta = 0.01 * std::exp(p.g[row + 1]);
       if (zeta >= 0.5) continue;  // hardly vibrates
       const Complex s = omega * Complex(-zeta, std::sqrt(1.0 - zeta * zeta));
@@ -99,7 +99,7 @@ Campaign linear_records(const Bench& bench, const Hidden& hidden) {
       }
     }
     for (Index ch = 0; ch < n_channels; ++ch) {
-      const double noise = kSensorNoise * std::sqrt(record.squaredNorm() / static_cast<double>(record.size()));
+      const double noise = kChannelNoise * std::sqrt(record.squaredNorm() / static_cast<double>(record.size()));
       for (Index t = 0; t < samples; ++t)
         record(t, ch) +=
             noise * normal_number(seed, 5000 + 100 * c + static_cast<std::uint64_t>(ch), static_cast<std::uint64_t>(t));

@@ -58,7 +58,7 @@ Entry entry_of(const std::string& step) {
   return found->second;
 }
 
-std::string content(const fs::path& file) {
+std::string text_in(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -209,8 +209,8 @@ Outcome Worker::run(const Job& job) {
     if (outcome.crash.empty()) outcome.crash = "ended the process with exit code " + std::to_string(exit);
     outcome.exit = -1;
   }
-  outcome.stdout_text = content(scratch_ / "stdout");
-  outcome.stderr_text = content(scratch_ / "stderr");
+  outcome.stdout_text = text_in(scratch_ / "stdout");
+  outcome.stderr_text = text_in(scratch_ / "stderr");
   return outcome;
 }
 
@@ -252,8 +252,8 @@ Outcome run_program(const fs::path& bin, const Job& job, double seconds) {
   }
   const std::string end = end_of(pid, outcome.exit);
   if (outcome.crash.empty()) outcome.crash = end;
-  outcome.stdout_text = content(scratch / "stdout");
-  outcome.stderr_text = content(scratch / "stderr");
+  outcome.stdout_text = text_in(scratch / "stdout");
+  outcome.stderr_text = text_in(scratch / "stderr");
   fs::remove_all(scratch);
   return outcome;
 }

@@ -1,6 +1,6 @@
 """The study and the tests as other processors compute them: `make processors`.
 
-OpenBLAS picks its kernels by the processor, twindeck its own instruction set; both can be asked for. For each the study is run into
+OpenBLAS picks its kernels by the processor; another set can be asked for. Under each the study is run into
 results/processors/NAME/STUDY and the tests are run. Then every numeric column of every table and of every step's CSV is compared with the
 same under the first kernel: results/processors/columns.csv (kernel, file, column, change relative to the column's largest number, the
 row where) and tests.csv (kernel, tests, failed). The report shows both with its provenance.
@@ -19,16 +19,14 @@ import pandas as pd
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OUT = pathlib.Path("results") / "processors"
-# Name -> (environment, flags of /proc/cpuinfo that the kernels need). OpenBLAS takes one of a lesser machine, never of a greater.
+# Name -> flags of /proc/cpuinfo that the kernels need. OpenBLAS takes one of a lesser machine, never of a greater. The product has no
+# instructions of its own to choose but where two widths give the same bytes (wind/wave_sums).
 KERNELS = {
-    "Nehalem": ({"OPENBLAS_CORETYPE": "Nehalem"}, {"sse4_2"}),
-    "Sandybridge": ({"OPENBLAS_CORETYPE": "Sandybridge"}, {"avx"}),
-    "Haswell": ({"OPENBLAS_CORETYPE": "Haswell"}, {"avx2", "fma"}),
-    "Zen": ({"OPENBLAS_CORETYPE": "Zen"}, {"avx2", "fma"}),
-    "SkylakeX": ({"OPENBLAS_CORETYPE": "SkylakeX"}, {"avx512f", "avx512dq", "avx512vl"}),
-    # The product's own: what a processor without AVX-512, or without AVX2, runs.
-    "own_plain": ({"TWINDECK_INSTRUCTIONS": "plain"}, set()),
-    "own_avx2": ({"TWINDECK_INSTRUCTIONS": "avx2"}, {"avx2", "fma"}),
+    "Nehalem": {"sse4_2"},
+    "Sandybridge": {"avx"},
+    "Haswell": {"avx2", "fma"},
+    "Zen": {"avx2", "fma"},
+    "SkylakeX": {"avx512f", "avx512dq", "avx512vl"},
 }
 # Not results: what a run took and where it was.
 NOT_COMPARED = {"seconds", "manifest"}
@@ -37,12 +35,11 @@ TESTS_LINE = re.compile(r"(\d+)% tests passed, (\d+) tests failed out of (\d+)")
 
 def runnable():
     flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M).group(1).split())
-    return [name for name, (_, needed) in KERNELS.items() if needed <= flags]
+    return [name for name, needed in KERNELS.items() if needed <= flags]
 
 
 def environment(name):
-    own = {k: v for k, v in os.environ.items() if k not in ("OPENBLAS_CORETYPE", "TWINDECK_INSTRUCTIONS")}
-    return {**own, **KERNELS[name][0]}
+    return {**os.environ, "OPENBLAS_CORETYPE": name}
 
 
 def run_study(name, study):

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/statistics.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
@@ -17,12 +18,6 @@ namespace {
 /// Below this a pair of shapes is no pair (the paper calls 0.6 and less weak).
 constexpr double kWeakMac = 0.6;
 constexpr double kAlpha = 0.05;
-
-double median_of(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  const std::size_t n = v.size();
-  return n % 2 == 1 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
-}
 
 /// P(|t| > x) of Student's law, by Simpson's rule in the angle atan(t/sqrt(dof)), where the density is a power of the cosine.
 double student_tail(double x, double dof) {
@@ -178,7 +173,7 @@ std::vector<ChannelFactor> channel_factors(const std::vector<Claim>& claims) {
   for (const auto& [record, values] : by_record) {
     std::vector<double> all;
     for (const auto& [channel, value] : values) all.push_back(value);
-    const double level = median_of(all);
+    const double level = median(all);
     for (const auto& [channel, value] : values) rest[channel].push_back(value - level);
   }
   std::vector<ChannelFactor> out;

@@ -6,13 +6,14 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/statistics.hpp"
+
 namespace twindeck::steps {
 
 namespace {
 
 using diagnosis::EffectParameter;
 
-constexpr double kNinety = 1.645;  // standard deviations of a 90 % interval
 const char* const kMeasured = "modes_measured";
 const char* const kBefore = "modes_explained_before";
 const char* const kAfter = "modes_explained_after";
@@ -73,7 +74,7 @@ BarStaysEffect::BarStaysEffect(std::vector<diagnosis::FoundStay> stays, double l
   effect_.parameters = {count(kMeasured, after.measured), count(kBefore, before.explained), count(kAfter, after.explained)};
   for (const diagnosis::FoundStay& stay : stays_)
     effect_.parameters.push_back(
-        {"force_" + as_key(stay.name) + "_N", "N", stay.force_N, stay.force_N * std::exp(-kNinety * stay.relative_std), stay.force_N * std::exp(kNinety * stay.relative_std), false, false});
+        {"force_" + as_key(stay.name) + "_N", "N", stay.force_N, stay.force_N * std::exp(-kReachOfNinety * stay.relative_std), stay.force_N * std::exp(kReachOfNinety * stay.relative_std), false, false});
 }
 
 void BarStaysEffect::put_first(diagnosis::Diagnosis& result) const {

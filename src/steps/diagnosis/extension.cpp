@@ -20,13 +20,12 @@ namespace {
 using diagnosis::ActionSpec;
 using diagnosis::Candidate;
 using diagnosis::Cause;
-using diagnosis::Place;
 using Eigen::Index;
 
-const Place* place_of(const diagnosis::Places& places, const std::string& set, const std::string& id) {
+const diagnosis::Place* place_of(const diagnosis::Places& places, const std::string& set, const std::string& id) {
   const auto found = places.sets.find(set);
   if (found == places.sets.end()) return nullptr;
-  for (const Place& place : found->second)
+  for (const diagnosis::Place& place : found->second)
     if (place.id == id) return &place;
   return nullptr;
 }
@@ -94,7 +93,7 @@ bool of_support(const fe::Model& model, const fe::Spring& spring, std::string na
 }
 
 /// The support at the node of its line that is nearest to a position.
-void move_support(fe::Model& model, const Place& place, const std::string& name, double position) {
+void move_support(fe::Model& model, const diagnosis::Place& place, const std::string& name, double position) {
   const auto stations = static_cast<int>(place.attributes.at("stations"));
   int best = 0;
   for (int i = 1; i < stations; ++i) {
@@ -155,7 +154,7 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
       return true;
     }
     if (c.hypothesis->set == "elements" || c.hypothesis->set == "stays") {
-      const Place* place = place_of(places, c.hypothesis->set, c.location);
+      const diagnosis::Place* place = place_of(places, c.hypothesis->set, c.location);
       TWINDECK_ASSERT(place != nullptr);
       scale_materials(model, place->elements, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
       return true;
@@ -168,7 +167,7 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
     return false;
   }
   if (action.kind == "support.move") {
-    const Place* place = place_of(places, c.hypothesis->set, c.location);
+    const diagnosis::Place* place = place_of(places, c.hypothesis->set, c.location);
     TWINDECK_ASSERT(place != nullptr);
     move_support(model, *place, name, value("position"));
     return true;
@@ -203,7 +202,7 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
   if (action.kind.starts_with("damper.")) {
     const auto acts_on = [&](const fe::Spring& s) { return ("," + name + ",").find("," + s.name + ",") != std::string::npos; };
     if (action.kind == "damper.move") {
-      const Place* place = place_of(places, c.hypothesis->set, c.location);
+      const diagnosis::Place* place = place_of(places, c.hypothesis->set, c.location);
       TWINDECK_ASSERT(place != nullptr);
       for (std::size_t i = 0; i + 1 < c.places.size(); ++i)
         for (fe::Spring& spring : model.springs)

@@ -21,12 +21,6 @@ const std::vector<std::string>& action_names() {
   return names;
 }
 
-std::string text_of(const io::TomlEntry& entry, const Place& place) {
-  const auto* text = entry.value.as<std::string>();
-  if (text == nullptr) throw InputError(place, "is " + io::shown(entry.value) + ", expected text", "write it in quotes");
-  return *text;
-}
-
 double factor_of(const io::TomlEntry& entry, const Place& place) {
   const auto* number = entry.value.as<double>();
   const auto* whole = entry.value.as<long>();
@@ -58,12 +52,12 @@ Said read_said(const io::TomlValue::Table& table, const std::string& file) {
   for (const io::TomlEntry& entry : table) {
     const Place place{file, entry.line, entry.key};
     if (entry.key == "channel")
-      said.channel = text_of(entry, place);
+      said.channel = io::text_of(entry.value, place);
     else if (entry.key == "action") {
-      said.action = text_of(entry, place);
+      said.action = io::text_of(entry.value, place);
       said.action_place = place;
     } else if (entry.key == "with")
-      said.with = text_of(entry, place);
+      said.with = io::text_of(entry.value, place);
     else if (entry.key == "factor")
       said.factor = factor_of(entry, place);
     else

@@ -45,28 +45,23 @@ double number_from(const io::TomlEntry& entry, const Place& place, double least)
   return value;
 }
 
-std::string text_of(const io::TomlEntry& entry, const Place& place) {
-  if (const auto* text = entry.value.as<std::string>()) return *text;
-  throw InputError(place, "is " + io::shown(entry.value) + ", expected text", "write it in quotes");
-}
-
 /// Enters one key of a condition's table.
 void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition& condition) {
   static const std::vector<std::string> known = {"dampers",  "amplitude_m",   "amplitude_channel", "temperature_C",
                                                  "wind_m_s", "direction_deg", "people",            "load",
                                                  "state"};
   if (entry.key == "dampers") {
-    const std::string text = text_of(entry, place);
+    const std::string text = io::text_of(entry.value, place);
     if (text != "on" && text != "off")
       throw InputError(place, fmt::format("is '{}', expected \"on\" or \"off\"", text), "say whether the dampers are fitted");
     condition.dampers_on = text == "on";
   } else if (entry.key == "amplitude_channel") {
-    condition.amplitude_channel = text_of(entry, place);
+    condition.amplitude_channel = io::text_of(entry.value, place);
   } else if (entry.key == "load") {
-    condition.load = text_of(entry, place);
+    condition.load = io::text_of(entry.value, place);
     condition.load_line = place.line;
   } else if (entry.key == "state") {
-    condition.state = text_of(entry, place);
+    condition.state = io::text_of(entry.value, place);
     if (condition.state.empty())
       throw InputError(place, "is empty, expected the name of a state of the structure", "leave the key out for \"reference\"");
   } else if (entry.key == "amplitude_m") {

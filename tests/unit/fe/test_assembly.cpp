@@ -10,18 +10,16 @@
 namespace twindeck::fe {
 namespace {
 
-Eigen::MatrixXd full(const linalg::SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
-
 Eigen::MatrixXd stiffness_of(const Model& model) {
   const ParametricSystem system = assemble(model, {});
-  return full(system.stiffness(system.initial()));
+  return test::full(system.stiffness(system.initial()));
 }
 
 TEST(Assembly, CantileverOfTwoBeamsEqualsTheMatrixWrittenOut) {
   const Model model = test::cantilever();
   const ParametricSystem system = assemble(model, {});
   ASSERT_EQ(system.size(), 12);
-  const Eigen::MatrixXd k = full(system.stiffness(system.initial()));
+  const Eigen::MatrixXd k = test::full(system.stiffness(system.initial()));
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(12, 12);
   const auto both = [&](int i, int j, double value) { expected(i, j) = expected(j, i) = value; };
   // Middle node: x y z rx ry rz = 0..5, tip: 6..11. EA/L = 1e9; 12EI/L³: z 12e6, y 3e6; 6EI/L²: 12e6, 3e6; 4EI/L: 16e6, 4e6.
@@ -36,7 +34,7 @@ TEST(Assembly, CantileverOfTwoBeamsEqualsTheMatrixWrittenOut) {
 
 TEST(Assembly, MassOfTheCantileverEqualsTheConsistentMassWrittenOut) {
   const ParametricSystem system = assemble(test::cantilever(), {});
-  const Eigen::MatrixXd m = full(system.mass(system.initial()));
+  const Eigen::MatrixXd m = test::full(system.mass(system.initial()));
   const double mass = 8000.0 * 0.01 * 2.0;  // 160 kg a beam
   EXPECT_NEAR(m(0, 0), 2.0 * mass / 3.0, 1e-9);
   EXPECT_NEAR(m(0, 6), mass / 6.0, 1e-9);
@@ -99,8 +97,8 @@ TEST(Assembly, StayCarriesDischingerModulusStringStiffnessAndHalfItsMassAtEachEn
   const double axial = 200e9 / 1.384 * 0.01 / 100.0, across = 1e6 / 100.0;
   const Eigen::Vector3d c(0.6, 0.0, 0.8);
   const Eigen::Matrix3d expected = axial * c * c.transpose() + across * (Eigen::Matrix3d::Identity() - c * c.transpose());
-  EXPECT_LT((full(system.stiffness(system.initial())) - expected).norm(), 1e-9 * axial);
-  EXPECT_LT((full(system.mass(system.initial())) - 4000.0 * Eigen::Matrix3d::Identity()).norm(), 1e-9);
+  EXPECT_LT((test::full(system.stiffness(system.initial())) - expected).norm(), 1e-9 * axial);
+  EXPECT_LT((test::full(system.mass(system.initial())) - 4000.0 * Eigen::Matrix3d::Identity()).norm(), 1e-9);
 }
 
 TEST(Assembly, AxialForceStiffensBeamsByTheCubicForm) {
@@ -110,7 +108,7 @@ TEST(Assembly, AxialForceStiffensBeamsByTheCubicForm) {
   state.axial_force_N = Eigen::VectorXd::Zero(2);
   state.axial_force_N << 0.0, 30e3;
   const ParametricSystem system = assemble(model, state);
-  const Eigen::MatrixXd added = full(system.stiffness(system.initial())) - stiffness_of(model);
+  const Eigen::MatrixXd added = test::full(system.stiffness(system.initial())) - stiffness_of(model);
   EXPECT_NEAR(added(7, 7), 6.0 * 30e3 / (5.0 * 2.0), 1e-3);   // 6N/5L
   EXPECT_NEAR(added(11, 11), 2.0 * 2.0 * 30e3 / 15.0, 1e-3);  // 2NL/15
   EXPECT_NEAR(added(7, 11), -30e3 / 10.0, 1e-3);              // N/10
@@ -123,7 +121,7 @@ TEST(Assembly, MassOnASupportVanishesAndMassOfAnUnreachedRotationBreaksNothing) 
   model.masses.push_back({"tip", 2, 10.0, Eigen::Vector3d(1.0, 2.0, 3.0)});
   const ParametricSystem system = assemble(model, {});
   const ParametricSystem bare = assemble(test::cantilever(), {});
-  const Eigen::MatrixXd added = full(system.mass(system.initial())) - full(bare.mass(bare.initial()));
+  const Eigen::MatrixXd added = test::full(system.mass(system.initial())) - test::full(bare.mass(bare.initial()));
   Eigen::VectorXd expected(12);
   expected << 0, 0, 0, 0, 0, 0, 10, 10, 10, 1, 2, 3;
   EXPECT_LT((added - Eigen::MatrixXd(expected.asDiagonal())).cwiseAbs().maxCoeff(), 1e-9);

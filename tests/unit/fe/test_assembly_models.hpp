@@ -1,9 +1,13 @@
 #pragma once
 
 #include "fe/model.hpp"
+#include "linalg/types.hpp"
 
 /// Small models that the tests of assembly share, with round numbers so that the expected values can be written out.
 namespace twindeck::fe::test {
+
+/// The whole of a symmetric matrix. @param lower  its lower triangle (n × n)
+inline Eigen::MatrixXd full(const linalg::SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 
 inline int add_node(Model& model, double x, double y, double z) {
   model.nodes.push_back({static_cast<long>(model.nodes.size()) + 1, {x, y, z}});

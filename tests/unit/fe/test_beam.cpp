@@ -43,7 +43,7 @@ Vector12 rigid_motion(const BeamGeometry& g, int d) {
   return u;
 }
 
-int rank_of(const Matrix12& k) {
+int beam_rank(const Matrix12& k) {
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
   return static_cast<int>((values.array() > 1e-10 * values.maxCoeff()).count());
 }
@@ -141,7 +141,7 @@ TEST(Beam, RigidMotionsHaveNoEnergy) {
     const Matrix12 k = beam_stiffness(g, angle());
     EXPECT_NEAR((k - k.transpose()).norm(), 0.0, 1e-9);
     for (int d = 0; d < 6; ++d) EXPECT_NEAR((k * rigid_motion(g, d)).norm() / k.norm(), 0.0, 1e-13) << "motion " << d;
-    EXPECT_EQ(rank_of(k), 6);
+    EXPECT_EQ(beam_rank(k), 6);
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues().minCoeff(), -1e-10 * k.norm());
   }
 }
@@ -164,7 +164,7 @@ TEST(Beam, ReleasesArePins) {
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) translations(i, j) = k(i + 3 * (i / 3), j + 3 * (j / 3));
   EXPECT_NEAR((translations - expected).norm() / expected.norm(), 0.0, 1e-13);
-  EXPECT_EQ(rank_of(k), 1);
+  EXPECT_EQ(beam_rank(k), 1);
 }
 
 // Oracle: a pinned beam keeps its whole mass when it moves as a rigid body, and its released rotations carry none.

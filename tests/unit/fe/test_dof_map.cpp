@@ -11,9 +11,7 @@
 namespace twindeck::fe {
 namespace {
 
-Eigen::MatrixXd full(const linalg::SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
-
-std::string message_of(const Model& model) {
+std::string refusal_of_links(const Model& model) {
   try {
     static_cast<void>(make_dof_map(model));
   } catch (const InputError& error) {
@@ -55,8 +53,8 @@ TEST(DofMap, EliminatedLinkEqualsTheTransformationByHand) {
   const ParametricSystem system = assemble(model, {});
   Eigen::VectorXd b = Eigen::VectorXd::Zero(12);
   b[8] = 1.0, b[9] = 2.0;
-  const Eigen::MatrixXd expected = full(bare.stiffness(bare.initial())) + 5e4 * b * b.transpose();
-  EXPECT_LT((full(system.stiffness(system.initial())) - expected).cwiseAbs().maxCoeff(), 1e-4);
+  const Eigen::MatrixXd expected = test::full(bare.stiffness(bare.initial())) + 5e4 * b * b.transpose();
+  EXPECT_LT((test::full(system.stiffness(system.initial())) - expected).cwiseAbs().maxCoeff(), 1e-4);
 }
 
 TEST(DofMap, RotationsWhereOnlyBarsMeetAreLeftOut) {
@@ -76,13 +74,13 @@ TEST(DofMap, RotationsWhereOnlyBarsMeetAreLeftOut) {
 TEST(DofMap, RefusesCirclesTwoMastersAndHeldSlaves) {
   Model circle = test::cantilever();
   circle.links = {{"a", 1, 2}, {"b", 2, 1}};
-  EXPECT_NE(message_of(circle).find("circle"), std::string::npos) << message_of(circle);
+  EXPECT_NE(refusal_of_links(circle).find("circle"), std::string::npos) << refusal_of_links(circle);
   Model twice = test::cantilever();
   twice.links = {{"a", 0, 2}, {"b", 1, 2}};
-  EXPECT_NE(message_of(twice).find("node 3 is the slave of two rigid links"), std::string::npos) << message_of(twice);
+  EXPECT_NE(refusal_of_links(twice).find("node 3 is the slave of two rigid links"), std::string::npos) << refusal_of_links(twice);
   Model held = test::cantilever();
   held.links = {{"a", 1, 0}};
-  EXPECT_NE(message_of(held).find("node 1 is held by a support and is the slave"), std::string::npos) << message_of(held);
+  EXPECT_NE(refusal_of_links(held).find("node 1 is held by a support and is the slave"), std::string::npos) << refusal_of_links(held);
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace twindeck::fe {
 namespace {
 
-Eigen::MatrixXd full(const linalg::SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
-
 Eigen::VectorXd somewhere(const ParametricSystem& system) {
   Eigen::VectorXd theta = system.initial();
   for (Eigen::Index i = 0; i < theta.size(); ++i) theta[i] *= 1.0 + 0.07 * static_cast<double>(i % 4) - 0.1;
@@ -32,11 +30,11 @@ TEST_F(OneOfEverything, DerivativesAgreeWithCentralDifferences) {
     const double h = 1e-5 * theta[p];
     Eigen::VectorXd up = theta, down = theta;
     up[p] += h, down[p] -= h;
-    const Eigen::MatrixXd dk = (full(system.stiffness(up)) - full(system.stiffness(down))) / (2.0 * h);
-    const Eigen::MatrixXd dm = (full(system.mass(up)) - full(system.mass(down))) / (2.0 * h);
+    const Eigen::MatrixXd dk = (test::full(system.stiffness(up)) - test::full(system.stiffness(down))) / (2.0 * h);
+    const Eigen::MatrixXd dm = (test::full(system.mass(up)) - test::full(system.mass(down))) / (2.0 * h);
     // Rounding of the difference: 1e-16 |K| / h.
-    const double k_rounding = 1e-15 * full(system.stiffness(theta)).norm() / h;
-    const double m_rounding = 1e-15 * full(system.mass(theta)).norm() / h;
+    const double k_rounding = 1e-15 * test::full(system.stiffness(theta)).norm() / h;
+    const double m_rounding = 1e-15 * test::full(system.mass(theta)).norm() / h;
     const std::string& name = system.parameters[static_cast<std::size_t>(p)].name;
     EXPECT_LT((system.stiffness_derivative_times(theta, p, identity) - dk).norm(), 1e-8 * dk.norm() + k_rounding) << name;
     EXPECT_LT((system.mass_derivative_times(theta, p, identity) - dm).norm(), 1e-8 * dm.norm() + m_rounding) << name;
@@ -52,9 +50,9 @@ TEST_F(OneOfEverything, ScaledTermsEqualTheModelAssembledAnew) {
     theta[p] *= 1.3;
     const ParametricSystem anew = assemble(with_parameters(model, theta), state);
     EXPECT_LT((anew.initial() - theta).norm(), 1e-12 * theta.norm());
-    const Eigen::MatrixXd k = full(anew.stiffness(anew.initial())), m = full(anew.mass(anew.initial()));
-    EXPECT_LT((full(system.stiffness(theta)) - k).norm(), 1e-12 * k.norm()) << name;
-    EXPECT_LT((full(system.mass(theta)) - m).norm(), 1e-12 * m.norm()) << name;
+    const Eigen::MatrixXd k = test::full(anew.stiffness(anew.initial())), m = test::full(anew.mass(anew.initial()));
+    EXPECT_LT((test::full(system.stiffness(theta)) - k).norm(), 1e-12 * k.norm()) << name;
+    EXPECT_LT((test::full(system.mass(theta)) - m).norm(), 1e-12 * m.norm()) << name;
   }
 }
 

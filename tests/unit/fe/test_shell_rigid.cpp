@@ -33,7 +33,7 @@ Vector24 rigid_motion(const ShellGeometry& g, int d) {
   return u;
 }
 
-int rank_of(const Matrix24& k) {
+int shell_rank(const Matrix24& k) {
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
   EXPECT_GT(values.minCoeff(), -1e-10 * values.maxCoeff());
   return static_cast<int>((values.array() > 1e-9 * values.maxCoeff()).count());
@@ -51,10 +51,10 @@ TEST(ShellRigid, SixMotionsWithoutEnergy) {
       EXPECT_NEAR((bending * rigid_motion(g, d)).norm() / bending.norm(), 0.0, 1e-13) << "motion " << d << ", warp " << warp;
     }
     EXPECT_NEAR((membrane - membrane.transpose()).norm(), 0.0, 1e-6);
-    EXPECT_EQ(rank_of(membrane), 9);
-    EXPECT_EQ(rank_of(bending), 9);
+    EXPECT_EQ(shell_rank(membrane), 9);
+    EXPECT_EQ(shell_rank(bending), 9);
     const double scale = membrane.norm() / bending.norm();
-    EXPECT_EQ(rank_of(membrane + scale * bending), 18);
+    EXPECT_EQ(shell_rank(membrane + scale * bending), 18);
   }
 }
 

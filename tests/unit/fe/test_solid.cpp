@@ -157,7 +157,7 @@ TEST(Solid, ParametersAndWeight) {
   EXPECT_NEAR(dead_load(model).sum(), -1000.0 * 9.81, 1e-8);
 }
 
-std::string message_of(const Model& model) {
+std::string refusal_of_shape(const Model& model) {
   try {
     validate(model);
   } catch (const InputError& error) {
@@ -168,25 +168,25 @@ std::string message_of(const Model& model) {
 
 // Oracle: each model has one fault made on purpose; the message names the element, its nodes and the way out.
 TEST(Solid, FaultyShapesAreNamed) {
-  EXPECT_EQ(message_of(macneal_cube()), "");
+  EXPECT_EQ(refusal_of_shape(macneal_cube()), "");
   Model model = macneal_cube();
   std::rotate(model.elements[0].nodes.begin(), model.elements[0].nodes.begin() + 4, model.elements[0].nodes.end());
-  EXPECT_NE(message_of(model).find("cube: element 1: the solid 5-6-7-8-1-2-3-4 is inverted"), std::string::npos)
-      << message_of(model);
+  EXPECT_NE(refusal_of_shape(model).find("cube: element 1: the solid 5-6-7-8-1-2-3-4 is inverted"), std::string::npos)
+      << refusal_of_shape(model);
   model = macneal_cube();
   std::swap(model.elements[0].nodes[0], model.elements[0].nodes[1]);
-  EXPECT_NE(message_of(model).find("element 1: the solid 2-1-3-4-5-6-7-8 is folded or flat near node"), std::string::npos)
-      << message_of(model);
+  EXPECT_NE(refusal_of_shape(model).find("element 1: the solid 2-1-3-4-5-6-7-8 is folded or flat near node"), std::string::npos)
+      << refusal_of_shape(model);
   model = macneal_cube();
   for (std::size_t i = 4; i < 8; ++i) model.nodes[i].x_m = model.nodes[i - 4].x_m;
-  EXPECT_NE(message_of(model).find("element 1: the solid 1-2-3-4-5-6-7-8 has no volume"), std::string::npos)
-      << message_of(model);
+  EXPECT_NE(refusal_of_shape(model).find("element 1: the solid 1-2-3-4-5-6-7-8 has no volume"), std::string::npos)
+      << refusal_of_shape(model);
   model = macneal_cube();
   model.elements[0].nodes.pop_back();
-  EXPECT_NE(message_of(model).find("element 1: has 7 nodes, expected 8"), std::string::npos) << message_of(model);
+  EXPECT_NE(refusal_of_shape(model).find("element 1: has 7 nodes, expected 8"), std::string::npos) << refusal_of_shape(model);
   model = macneal_cube();
   model.materials[0].poisson_ratio = 0.5;
-  EXPECT_NE(message_of(model).find("Poisson's ratio is 0.5"), std::string::npos) << message_of(model);
+  EXPECT_NE(refusal_of_shape(model).find("Poisson's ratio is 0.5"), std::string::npos) << refusal_of_shape(model);
   EXPECT_THROW((void)solid_stiffness(box(1.0, 1.0, -1.0), {1.0, 0.0}), InputError);
 }
 

@@ -40,17 +40,12 @@ struct OneStay {
   }
 };
 
-Eigen::MatrixXd full(const linalg::SparseMatrix& lower) {
-  const Eigen::MatrixXd dense(lower);
-  return Eigen::MatrixXd(dense.selfadjointView<Eigen::Lower>());
-}
-
 /// Frequencies in the vertical plane (y fixed by choice of modes) and out of it, ascending.
 void frequencies(const StayChains& chains, std::vector<double>& in_plane, std::vector<double>& out_of_plane) {
   const ParametricSystem system = assemble(chains.model, chains.state);
   const Eigen::VectorXd theta(0);
-  const Eigen::MatrixXd k = full(system.stiffness(theta));
-  const Eigen::MatrixXd m = full(system.mass(theta));
+  const Eigen::MatrixXd k = test::full(system.stiffness(theta));
+  const Eigen::MatrixXd m = test::full(system.mass(theta));
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eig(k, m);
   for (Eigen::Index j = 0; j < eig.eigenvalues().size(); ++j) {
     double across = 0.0;
@@ -109,7 +104,7 @@ TEST(StayChains, GivesStaticallyAsDischingerSays) {
   const StayChains chains = with_stay_chains(stay.model, stay.state, 24, {"NE8"});
   const ParametricSystem system = assemble(chains.model, chains.state);
   const Eigen::VectorXd theta(0);
-  const Eigen::MatrixXd k = full(system.stiffness(theta));
+  const Eigen::MatrixXd k = test::full(system.stiffness(theta));
   Eigen::VectorXd load = Eigen::VectorXd::Zero(system.expansion.rows());
   load.segment<3>(6) = along;
   // What is asked is the stiffness along the chord with the end held from moving across it: the inverse of the flexibility's block.

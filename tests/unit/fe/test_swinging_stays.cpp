@@ -21,12 +21,12 @@ constexpr int pieces = 6;
 constexpr double pi = std::numbers::pi;
 
 /// A level stay of 80 m and 20 kg/m under 300 kN between fixed ends.
-struct OneStay {
+struct LevelStay {
   Model model;
   PrestressState state;
   double length = 80.0, mass = 20.0, stiffness_N = 165e9 * 20.0 / 8000.0, force = 3e5;
 
-  explicit OneStay(double gravity) {
+  explicit LevelStay(double gravity) {
     model.source = "one_stay";
     model.gravity_m_s2 = gravity;
     model.materials.push_back({"rope", 165e9, 60e9, 0.3, 8000.0});
@@ -51,30 +51,25 @@ struct OneStay {
   }
 };
 
-Eigen::MatrixXd full(const linalg::SparseMatrix& lower) {
-  const Eigen::MatrixXd dense(lower);
-  return Eigen::MatrixXd(dense.selfadjointView<Eigen::Lower>());
-}
-
 /// Frequencies of the motion in one global direction, which a level stay without sag does not couple to others, ascending [Hz].
 std::vector<double> frequencies(const ParametricSystem& system, int direction) {
   std::vector<int> dofs;
   for (std::size_t i = 0; i < system.dofs.size(); ++i)
     if (system.dofs[i].direction == direction) dofs.push_back(static_cast<int>(i));
-  const Eigen::MatrixXd k = full(system.stiffness(Eigen::VectorXd(0)))(dofs, dofs),
-                        m = full(system.mass(Eigen::VectorXd(0)))(dofs, dofs);
+  const Eigen::MatrixXd k = test::full(system.stiffness(Eigen::VectorXd(0)))(dofs, dofs),
+                        m = test::full(system.mass(Eigen::VectorXd(0)))(dofs, dofs);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eig(k, m);
   std::vector<double> out;
   for (const double value : eig.eigenvalues()) out.push_back(std::sqrt(value) / (2.0 * pi));
   return out;
 }
 
-constexpr std::array<double, 3> off = {3e-4, 3e-3, 1.5e-2};  // of the string's first three frequencies, see below
+constexpr std::array<double, 3> kOff = {3e-4, 3e-3, 1.5e-2};  // of the string's first three frequencies, see below
 
 // What six pieces with masses half lumped and half consistent leave of a string, phi = n pi / 6 a piece:
 // w² = 2 T (1 - cos phi) / (l² m (1 - (1 - cos phi)/6)). It is 0.02, 0.3 and 1.4 % off the string itself.
 TEST(SwingingStays, TautStringBetweenFixedEnds) {
-  OneStay stay(0.0);
+  LevelStay stay(0.0);
   test::fix(stay.model, 1);
   const ParametricSystem system = stay.with_cable();
   const double first = std::sqrt(stay.force / stay.mass) / (2.0 * stay.length);
@@ -83,7 +78,7 @@ TEST(SwingingStays, TautStringBetweenFixedEnds) {
     ASSERT_EQ(found.size(), pieces - 1U);
     for (int n = 1; n <= 3; ++n) {
       const double f = found[static_cast<std::size_t>(n - 1)];
-      EXPECT_NEAR(f, n * first, off[static_cast<std::size_t>(n - 1)] * n * first) << n;
+      EXPECT_NEAR(f, n * first, kOff[static_cast<std::size_t>(n - 1)] * n * first) << n;
       const double share = 1.0 - std::cos(n * pi / pieces);
       EXPECT_NEAR(f, pieces / (pi)*std::sqrt(2.0 * share / (1.0 - share / 6.0)) * first, 1e-9 * f) << n;
     }
@@ -91,9 +86,9 @@ TEST(SwingingStays, TautStringBetweenFixedEnds) {
 }
 
 /// A stay whose second end moves in z with a mass on a spring of 0.9 Hz; the string itself has 0.77 Hz.
-struct MovingEnd : OneStay {
+struct MovingEnd : LevelStay {
   double end_mass = 2000.0, end_stiffness = end_mass * std::pow(2.0 * pi * 0.9, 2);
-  MovingEnd() : OneStay(0.0) {
+  MovingEnd() : LevelStay(0.0) {
     test::fix(model, 1, {true, true, false, true, true, true});
     model.masses.push_back({"deck", 1, end_mass, Eigen::Vector3d::Zero()});
     Spring spring;
@@ -126,7 +121,7 @@ TEST(SwingingStays, StringWithAnEndThatMoves) {
 }
 
 TEST(SwingingStays, StaticsAndTotalMassStay) {
-  OneStay stay(9.81);
+  LevelStay stay(9.81);
   test::fix(stay.model, 1, {false, false, false, true, true, true});
   for (const Eigen::Vector3d& d :
        {Eigen::Vector3d::UnitX().eval(), Eigen::Vector3d::UnitY().eval(), Eigen::Vector3d::UnitZ().eval()}) {
@@ -138,13 +133,13 @@ TEST(SwingingStays, StaticsAndTotalMassStay) {
     stay.model.springs.push_back(hold);
   }
   const Eigen::VectorXd theta(0);
-  const Eigen::Matrix3d bar = full(stay.as_it_is().stiffness(theta));
+  const Eigen::Matrix3d bar = test::full(stay.as_it_is().stiffness(theta));
   const ParametricSystem system = stay.with_cable();
-  const Eigen::MatrixXd k = full(system.stiffness(theta));
+  const Eigen::MatrixXd k = test::full(system.stiffness(theta));
   const Eigen::Matrix3d held = k.ldlt().solve(Eigen::MatrixXd::Identity(k.rows(), 3)).topRows(3).inverse();
   EXPECT_LT((held - bar).norm(), 1e-9 * bar.norm());
   double mass = 0.0;
-  const Eigen::MatrixXd m = full(system.mass(theta));
+  const Eigen::MatrixXd m = test::full(system.mass(theta));
   Eigen::VectorXd up = Eigen::VectorXd::Zero(m.rows());
   for (std::size_t i = 0; i < system.dofs.size(); ++i) up[static_cast<Eigen::Index>(i)] = system.dofs[i].direction == 2;
   mass = up.dot(m * up);
@@ -156,7 +151,7 @@ TEST(SwingingStays, StaticsAndTotalMassStay) {
 }
 
 TEST(SwingingStays, SagLiftsTheFirstModeAsIrvineSays) {
-  const OneStay stay(9.81);
+  const LevelStay stay(9.81);
   const Cable cable = cable_beyond_bar(stay.model, stay.model.elements[0], stay.force, pieces);
   const Eigen::VectorXd found = in_plane_frequencies(stay.model, stay.model.elements[0], cable);
   const double slope = stay.mass * 9.81 * stay.length / stay.force;
@@ -183,7 +178,7 @@ TEST(SwingingStays, SagLiftsTheFirstModeAsIrvineSays) {
 }
 
 TEST(SwingingStays, AStayWithoutForceIsRefused) {
-  const OneStay stay(9.81);
+  const LevelStay stay(9.81);
   EXPECT_THROW((void)with_swinging_stays(stay.model, {{0, 0.0}}, pieces), InputError);
 }
 

@@ -11,13 +11,13 @@
 namespace twindeck::ponte {
 namespace {
 
-const std::filesystem::path kBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
+const std::filesystem::path kPrototypeFile = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
 
 // Message of generating `variant` from bridge.toml with `from` (its first occurrence) replaced by `to`; the error must name the
 // line of that place, or one so many lines below.
 std::string message(const std::string& from, const std::string& to, const std::string& variant = "refined",
                     long lines_below = 0) {
-  std::ifstream in(kBridge);
+  std::ifstream in(kPrototypeFile);
   std::string text((std::istreambuf_iterator<char>(in)), {});
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -89,13 +89,13 @@ TEST(DefinitionFile, BrokenTomlNamesTheLine) { expect_contains(message("[mast]\n
 
 TEST(DefinitionFile, UnknownVariantAndChangeAreNamed) {
   try {
-    (void)generate(kBridge, "refinde");
+    (void)generate(kPrototypeFile, "refinde");
     FAIL() << "accepted";
   } catch (const InputError& error) {
     expect_contains(error.what(), {"refinde", "did you mean 'refined'", "prototype.toml"});
   }
   try {
-    (void)generate_with_changes(kBridge, {"light_concret"});
+    (void)generate_with_changes(kPrototypeFile, {"light_concret"});
     FAIL() << "accepted";
   } catch (const InputError& error) {
     expect_contains(error.what(), {"light_concret", "did you mean 'light_concrete'"});

@@ -17,18 +17,18 @@
 namespace twindeck::ponte {
 namespace {
 
-const std::filesystem::path kBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/bridge.toml";
+const std::filesystem::path kFullBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/bridge.toml";
 
 const fe::Model& full() {
-  static const fe::Model model = generate(kBridge, "refined");
+  static const fe::Model model = generate(kFullBridge, "refined");
   return model;
 }
 
-Eigen::Vector3d x(const fe::Model& m, int node) { return m.nodes[static_cast<std::size_t>(node)].x_m; }
+Eigen::Vector3d position(const fe::Model& m, int node) { return m.nodes[static_cast<std::size_t>(node)].x_m; }
 
 TEST(FullBridge, HasAtLeastTheDegreesOfFreedomOfThePaper) {
   for (const std::string variant : {"preliminary", "refined"}) {
-    const fe::Structure structure(generate(kBridge, variant));
+    const fe::Structure structure(generate(kFullBridge, variant));
     EXPECT_GE(structure.system({}).size(), 27000) << variant;
   }
 }
@@ -68,7 +68,7 @@ TEST(FullBridge, PutsThirtyAerodynamicNodesOnEachDeckBetweenTheEndStays) {
       const std::string name = "aero_" + deck.name + (i < 10 ? "_0" : "_") + std::to_string(i);
       ASSERT_TRUE(full().monitoring_points.contains(name)) << name;
       const int node = full().monitoring_points.at(name);
-      const Eigen::Vector3d at = x(full(), node);
+      const Eigen::Vector3d at = position(full(), node);
       const Eigen::Vector2d from_centre(at.x(), at.y() - deck.end_y_m + deck.radius_m * std::cos(deck.half_angle));
       EXPECT_NEAR(from_centre.norm(), deck.radius_m, 1e-6) << name;  // on the deck's axis
       const double yaw = std::atan2(from_centre.x(), from_centre.y()) * 180.0 / M_PI;
@@ -94,7 +94,7 @@ double weight_of(const fe::Model& model) {
 }
 
 TEST(FullBridge, CoarseMeshIsTheSameBridge) {
-  const fe::Model coarse = generate(kBridge, "refined", "coarse");
+  const fe::Model coarse = generate(kFullBridge, "refined", "coarse");
   EXPECT_LT(coarse.nodes.size(), full().nodes.size() / 3);
   EXPECT_EQ(coarse.monitoring_points.size(), full().monitoring_points.size());
   // Chords instead of the arc make the decks a little shorter.
@@ -103,7 +103,7 @@ TEST(FullBridge, CoarseMeshIsTheSameBridge) {
 
 TEST(FullBridge, RefusesAMeshThatIsNotThere) {
   try {
-    static_cast<void>(generate(kBridge, "refined", "coarze"));
+    static_cast<void>(generate(kFullBridge, "refined", "coarze"));
     FAIL() << "an unknown mesh was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("coarse"), std::string::npos) << error.what();
@@ -111,13 +111,13 @@ TEST(FullBridge, RefusesAMeshThatIsNotThere) {
 }
 
 TEST(FullBridge, ReplacesValuesByPath) {
-  const fe::Model changed = generate_with_values(kBridge, "refined", "coarse", {{"mast.steel_scale", 1.2}});
+  const fe::Model changed = generate_with_values(kFullBridge, "refined", "coarse", {{"mast.steel_scale", 1.2}});
   const auto area = [](const fe::Model& m) {
     return std::find_if(m.sections.begin(), m.sections.end(), [](const auto& s) { return s.name == "mast_steel"; })->area_m2;
   };
   // Oracle: a tube of 1.5 m and 30 mm times 1.2.
   EXPECT_NEAR(area(changed), 1.2 * M_PI * 0.030 * (1.5 - 0.030), 1e-9);
-  EXPECT_THROW(static_cast<void>(generate_with_values(kBridge, "refined", "coarse", {{"mast.no", 1.0}})), InputError);
+  EXPECT_THROW(static_cast<void>(generate_with_values(kFullBridge, "refined", "coarse", {{"mast.no", 1.0}})), InputError);
 }
 
 }  // namespace

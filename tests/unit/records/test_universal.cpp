@@ -11,7 +11,7 @@
 namespace twindeck::records {
 namespace {
 
-Eigen::MatrixXd samples() {
+Eigen::MatrixXd waves() {
   Eigen::MatrixXd data(500, 3);
   for (int t = 0; t < 500; ++t) {
     for (int c = 0; c < 3; ++c) data(t, c) = std::sin(0.1 * t + c) * (c == 1 ? 1e-7 : 3.0);
@@ -42,7 +42,7 @@ std::string content(const std::filesystem::path& file) {
 }
 
 void expect_same(const Record& record, double tolerance) {
-  const Eigen::MatrixXd data = samples();
+  const Eigen::MatrixXd data = waves();
   ASSERT_EQ(record.samples.rows(), data.rows());
   ASSERT_EQ(record.samples.cols(), data.cols());
   for (int c = 0; c < 3; ++c) EXPECT_LT((record.samples.col(c) - data.col(c)).cwiseAbs().maxCoeff(), tolerance * data.col(c).cwiseAbs().maxCoeff());
@@ -52,7 +52,7 @@ void expect_same(const Record& record, double tolerance) {
 TEST(Universal58, TextAndBinaryComeBack) {
   const Scratch scratch;
   for (const bool binary : {false, true}) {
-    write_universal_series(info(), samples(), binary, scratch.file("a.uff"));
+    write_universal_series(info(), waves(), binary, scratch.file("a.uff"));
     const Record record = read(scratch.file("a.uff"));
     expect_same(record, binary ? 0.0 + 1e-16 : 1e-10);
     EXPECT_EQ(record.info.channels[1].name, "A1");
@@ -64,7 +64,7 @@ TEST(Universal58, TextAndBinaryComeBack) {
 
 TEST(Universal58, QuirksOfOtherWriters) {
   const Scratch scratch;
-  write_universal_series(info(), samples(), true, scratch.file("a.uff"));
+  write_universal_series(info(), waves(), true, scratch.file("a.uff"));
   const std::string sound = content(scratch.file("a.uff"));
   // Binary data begin after twelve lines (delimiter, set, eleven of header) of each set.
   const auto data_at = [&](const std::string& text, std::size_t set) {
@@ -85,7 +85,7 @@ TEST(Universal58, QuirksOfOtherWriters) {
   expect_same(counted, 1e-16);
   EXPECT_TRUE(std::any_of(counted.info.notes.begin(), counted.info.notes.end(), [](const auto& n) { return n.find("2000 bytes") != std::string::npos; }));
 
-  write_universal_series(info(), samples(), false, scratch.file("t.uff"));
+  write_universal_series(info(), waves(), false, scratch.file("t.uff"));
   std::string fortran = content(scratch.file("t.uff"));
   for (std::size_t at = 0; (at = fortran.find("E-", at)) != std::string::npos; ++at) fortran[at] = 'D';
   expect_same(read(scratch.write("fortran.uff", fortran)), 1e-10);
@@ -97,7 +97,7 @@ TEST(Universal58, QuirksOfOtherWriters) {
 TEST(Universal58, ATruncatedFileIsNamedWithItsLine) {
   const Scratch scratch;
   for (const bool binary : {false, true}) {
-    write_universal_series(info(), samples(), binary, scratch.file("a.uff"));
+    write_universal_series(info(), waves(), binary, scratch.file("a.uff"));
     const std::string sound = content(scratch.file("a.uff"));
     try {
       static_cast<void>(read(scratch.write("cut.uff", sound.substr(0, sound.size() / 2))));

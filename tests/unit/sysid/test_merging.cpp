@@ -13,7 +13,7 @@ namespace {
 const test::Chain kChain(5, 22.0, 0.01, 20.0);
 const std::vector<std::vector<Eigen::Index>> kSetups = {{0, 3, 1}, {0, 3, 2}, {0, 3, 4}};  // 0 and 3 stay
 
-IdentifyOptions options() {
+IdentifyOptions options_of_three_modes() {
   IdentifyOptions o;
   o.block_rows = 25;
   o.maximum_order = 30;
@@ -27,7 +27,7 @@ signal::BlockCorrelations blocks_of(std::size_t setup, double gain) {
 }
 
 SetupModes identified(std::size_t setup, double gain) {
-  const Identification found = identify(blocks_of(setup, gain), 20.0, options());
+  const Identification found = identify(blocks_of(setup, gain), 20.0, options_of_three_modes());
   return {"S" + std::to_string(setup), kSetups[setup], found.modes, found.deviations};
 }
 

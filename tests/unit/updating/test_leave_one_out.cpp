@@ -8,7 +8,7 @@
 namespace twindeck::updating {
 namespace {
 
-const Eigen::Vector3d truth(1.23, 0.87, 1.31);
+const Eigen::Vector3d kTruth(1.23, 0.87, 1.31);
 
 // Five masses between walls; two groups of springs and a factor on a part of the masses.
 SmallSystem chain() {
@@ -37,7 +37,7 @@ UpdatingResult with_left_out(const std::vector<FrequencyTarget>& measured, Eigen
 }
 
 TEST(LeaveOneOut, WhatOneSetOfParametersMeetsIsPredicted) {
-  const Eigen::VectorXd exact = dense_frequencies(chain().system(), truth);
+  const Eigen::VectorXd exact = dense_frequencies(chain().system(), kTruth);
   for (const Eigen::Index surrogate : {1000, 1}) {
     const UpdatingResult result = with_left_out(targets(exact), surrogate);
     ASSERT_TRUE(result.status.converged) << result.status.message;
@@ -46,7 +46,7 @@ TEST(LeaveOneOut, WhatOneSetOfParametersMeetsIsPredicted) {
       const LeftOut& left = result.left_out[i];
       EXPECT_TRUE(left.converged);
       EXPECT_NEAR(left.frequency_Hz / exact(static_cast<Eigen::Index>(i)), 1.0, 1e-6) << i;
-      EXPECT_NEAR((left.theta - truth).cwiseAbs().maxCoeff(), 0.0, 1e-5) << i;
+      EXPECT_NEAR((left.theta - kTruth).cwiseAbs().maxCoeff(), 0.0, 1e-5) << i;
       EXPECT_NEAR(left.cost, 0.0, 1e-12);
       EXPECT_EQ(left.on_bounds, 0);
     }
@@ -54,7 +54,7 @@ TEST(LeaveOneOut, WhatOneSetOfParametersMeetsIsPredicted) {
 }
 
 TEST(LeaveOneOut, NothingOfTheLeftOutTargetEntersItsPrediction) {
-  const Eigen::VectorXd exact = dense_frequencies(chain().system(), truth);
+  const Eigen::VectorXd exact = dense_frequencies(chain().system(), kTruth);
   std::vector<FrequencyTarget> wrong = targets(exact);
   wrong[2].measured_Hz *= 1.1;
   const UpdatingResult result = with_left_out(wrong);
@@ -65,7 +65,7 @@ TEST(LeaveOneOut, NothingOfTheLeftOutTargetEntersItsPrediction) {
 }
 
 TEST(LeaveOneOut, IsTheFitToTheOthers) {
-  std::vector<FrequencyTarget> scattered = targets(dense_frequencies(chain().system(), truth));
+  std::vector<FrequencyTarget> scattered = targets(dense_frequencies(chain().system(), kTruth));
   const Eigen::VectorXd scatter = (Eigen::VectorXd(5) << 1.02, 0.97, 1.01, 0.99, 1.03).finished();
   for (std::size_t i = 0; i < 5; ++i) scattered[i].measured_Hz *= scatter(static_cast<Eigen::Index>(i));
   const UpdatingResult result = with_left_out(scattered);
@@ -83,7 +83,7 @@ TEST(LeaveOneOut, IsTheFitToTheOthers) {
 }
 
 TEST(LeaveOneOut, IsLeftAloneUnlessAskedForAndWithOneTarget) {
-  const Eigen::VectorXd exact = dense_frequencies(chain().system(), truth);
+  const Eigen::VectorXd exact = dense_frequencies(chain().system(), kTruth);
   UpdatingOptions options;
   options.starts = 1;
   EXPECT_TRUE(update(chain().system(), {}, {0, 1, 2}, targets(exact), options, {}).left_out.empty());
@@ -91,10 +91,10 @@ TEST(LeaveOneOut, IsLeftAloneUnlessAskedForAndWithOneTarget) {
 }
 
 TEST(Costs, AreThoseOfTheFrequenciesThere) {
-  const Eigen::VectorXd measured = dense_frequencies(chain().system(), truth);
+  const Eigen::VectorXd measured = dense_frequencies(chain().system(), kTruth);
   UpdatingOptions options;
   options.starts = 1;
-  options.elsewhere = {truth, Eigen::Vector3d(1.1, 0.9, 1.4)};
+  options.elsewhere = {kTruth, Eigen::Vector3d(1.1, 0.9, 1.4)};
   const UpdatingResult result = update(chain().system(), {}, {0, 1, 2}, targets(measured), options, {});
   const auto cost = [&](const Eigen::Vector3d& theta) {
     return 0.5 * (dense_frequencies(chain().system(), theta).array() / measured.array() - 1.0).square().sum();
