@@ -16,6 +16,7 @@
 #include "model_io/model_folder.hpp"
 #include "steps/shared/cli.hpp"
 #include "steps/shared/configured_inputs.hpp"
+#include "steps/shared/run_step_memory.hpp"
 #include "steps/shared/run_step_signals.hpp"
 #include "steps/shared/run_step_threads.hpp"
 #include "steps/shared/study.hpp"
@@ -125,6 +126,7 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
   context.flags_ = line.flags;
   configured.apply(step, context);
   context.threads = set_threads(line.threads);
+  keep_freed_memory();
 
   // 2. The step computes and writes beside its place.
   const CleanInterrupt interrupt(io::FolderReplacement::partial_place(out));  // first, so that no moment is uncovered
