@@ -1,6 +1,6 @@
 #include "sensors/search.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -18,8 +18,11 @@ bool chosen(const std::vector<Index>& rows, Index candidate) { return std::find(
 
 double worth_of(const MatrixXd& phi, const std::vector<Index>& rows, const Worth& worth) { return worth(MatrixXd(phi(rows, Eigen::all))); }
 
-/// An exchange must gain more than rounding, or two layouts of the same worth could change places for ever.
+/// A choice must gain more than rounding: mirror images on a symmetric structure are worth the same, and two layouts of the same worth
+/// could change places for ever. Of equals the first stays.
 constexpr double kGain = 1e-12;
+/// The same for leverages, which are between 0 and 1.
+constexpr double kSameLeverage = 1e-9;
 
 /// The best exchange of one sensor; false if none helps.
 bool exchange_one(const MatrixXd& phi, const Worth& worth, Layout& layout) {
@@ -59,16 +62,19 @@ Layout effective_independence(const Eigen::Ref<const MatrixXd>& phi, Index count
   for (Index i = 0; i < phi.rows(); ++i) layout.rows.push_back(i);
   while (true) {
     const MatrixXd kept = phi(layout.rows, Eigen::all);
-    const Eigen::LLT<MatrixXd> factor(kept.transpose() * kept);
-    if (factor.info() != Eigen::Success) {
+    // Leverages are the squared rows of Q; the normal equations would square the condition.
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(kept);
+    if (qr.rank() < kept.cols()) {
       throw InputError({"", 0, "candidates"}, "can't tell the modes apart: their shapes at the candidates depend on each other",
                        "add points or directions");
     }
-    const MatrixXd half = factor.matrixL().solve(kept.transpose());
-    layout.worth = 2.0 * MatrixXd(factor.matrixL()).diagonal().array().log().sum();
+    layout.worth = 2.0 * qr.matrixR().diagonal().head(kept.cols()).cwiseAbs().array().log().sum();
     if (std::ssize(layout.rows) == count) return layout;
+    const MatrixXd q = qr.householderQ() * MatrixXd::Identity(kept.rows(), kept.cols());
+    const VectorXd leverage = q.rowwise().squaredNorm();
+    const double smallest = leverage.minCoeff();
     Index least = 0;
-    half.colwise().squaredNorm().minCoeff(&least);
+    while (leverage[least] > smallest + kSameLeverage) ++least;
     layout.rows.erase(layout.rows.begin() + least);
   }
 }
@@ -87,7 +93,7 @@ Layout greedy_exchange(const Eigen::Ref<const MatrixXd>& phi, Index count, const
       if (chosen(layout.rows, candidate)) continue;
       rows.back() = candidate;
       const double found = worth_of(all, rows, worth);
-      if (next < 0 || found > best) {
+      if (next < 0 || found > best + kGain) {
         best = found;
         next = candidate;
       }

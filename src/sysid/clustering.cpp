@@ -70,9 +70,11 @@ Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size
     return std::hypot((frequency[k] - cluster.frequency_Hz) / std::max(cluster.frequency_scatter_Hz, 1e-12 * cluster.frequency_Hz),
                       (damping[k] - cluster.damping_ratio) / std::max(cluster.damping_ratio_scatter, 1e-12));
   };
+  // Two members lie at the same distance from their median: of equals the first represents, whatever rounding says.
+  constexpr double kNearer = 1.0 - 1e-9;
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < members.size(); ++k) {
-    if (distance(k) < distance(nearest)) nearest = k;
+    if (distance(k) < kNearer * distance(nearest)) nearest = k;
   }
   cluster.representative = members[nearest];
   const Eigen::VectorXcd& reference = diagram[cluster.representative].pole.shape;
