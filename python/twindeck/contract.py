@@ -40,7 +40,8 @@ REFERS = {**{f"node{i}": ("nodes", "node") for i in ("", *range(1, 9))}, "master
           "material": ("materials", "material"), "section": ("sections", "section"), "section2": ("sections", "section")}
 
 ROWS = Columns("type mode channel condition value std", "held_out", texts="type mode channel condition", may_be_empty="mode channel std")
-CHANNELS = Columns("channel", "point x_m y_m z_m dx dy dz quantity unit gain reference role", texts="channel point quantity unit role", key="channel")
+CHANNELS = Columns("channel", "point x_m y_m z_m dx dy dz quantity unit gain reference role element xi support",
+                   texts="channel point quantity unit role support", key="channel")
 ROW_TYPES = ("frequency_Hz", "damping_ratio_pct", "shape", "shape_imag", "stay_frequency_Hz", "rms_m_s2", "psd_floor_m2_s3", "static_m",
              "static_rotation_rad", "static_strain", "static_force_N")
 CONDITION_KEYS = ("dampers", "amplitude_m", "amplitude_channel", "temperature_C", "wind_m_s", "direction_deg", "people", "load", "state")
