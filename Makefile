@@ -24,7 +24,7 @@ include workflows/steps.mk
 include workflows/virtual.mk
 endif
 
-.PHONY: baseline moves checksums check-power paper blind-trials score help all look deps build test unit steps tables figures report verify \
+.PHONY: compare baseline moves checksums check-power paper blind-trials score help all look deps build test unit steps tables figures report verify \
   smoke bench fuzz sanitize processors calibrate why new reference clean FORCE
 
 help: ## this page
@@ -141,6 +141,9 @@ sanitize: ## unit tests, broken inputs and the smoke chain under address, undefi
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
+
+compare: ## make compare A=results/x B=results/y: two runs beside each other: options, parameters, frequencies, verdicts, what moved by how much
+	@workflows/python.sh -m twindeck_compare "$(A)" "$(B)"
 
 why: ## make why s6: why that step would run again
 	@workflows/why.sh "$(STEP)" $(STUDY)
