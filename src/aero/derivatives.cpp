@@ -52,20 +52,4 @@ Derivatives18 from_block(Convention convention, const DerivativeBlock& block, do
   return values;
 }
 
-Derivatives18 zasso_from_scanlan_as_printed(const Derivatives18& scanlan, double v) {
-  Derivatives18 zasso{};
-  for (std::size_t i = 0; i < 18; ++i) {
-    const std::size_t number = i % 6;
-    const bool a2 = i == 13;
-    if (number == 3 || number == 5) {
-      zasso[i] = scanlan[i] / (std::numbers::pi / 2);
-    } else if (number == 2) {
-      zasso[i] = scanlan[i] / (v * v);
-    } else {
-      zasso[i] = -scanlan[i] / (a2 ? v * v : v);
-    }
-  }
-  return zasso;
-}
-
 }  // namespace twindeck::aero

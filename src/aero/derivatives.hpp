@@ -44,8 +44,4 @@ struct DerivativeEntry {
 /// The inverse of to_block.
 [[nodiscard]] Derivatives18 from_block(Convention convention, const DerivativeBlock& block, double v_over_omegaB);
 
-/// Paper Eq. (9) to the letter, with its slips (a2* divided by V*², drag rows paired by number: p1 with P1). For the list of
-/// differences only; no result rests on it.
-[[nodiscard]] Derivatives18 zasso_from_scanlan_as_printed(const Derivatives18& scanlan, double v_over_omegaB);
-
 }  // namespace twindeck::aero

@@ -121,14 +121,6 @@ void number_clusters(std::vector<DiagramPole>& diagram, std::vector<Cluster>& cl
   }
 }
 
-Eigen::VectorXd recursion_index(const std::vector<DiagramPole>& diagram, const CleaningRule& rule) {
-  Eigen::VectorXd index = Eigen::VectorXd::Zero(static_cast<Index>(diagram.size()));
-  const std::vector<std::size_t> stable = stable_poles(diagram);
-  const Eigen::MatrixXd a = affinity(diagram, stable, rule);
-  for (std::size_t i = 0; i < stable.size(); ++i) index[static_cast<Index>(stable[i])] = a.row(static_cast<Index>(i)).sum();
-  return index;
-}
-
 std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const CleaningRule& rule) {
   const std::vector<std::size_t> stable = stable_poles(diagram);
   Eigen::MatrixXd a = affinity(diagram, stable, rule);

@@ -25,11 +25,9 @@ struct Cluster {
   Eigen::VectorXcd shape;            ///< median of the members' shapes, phases aligned, normalised
 };
 
-/// Index of recursion of each shape, paper Eqs. (3) and (4):  A_ij = 1 if MAC(v_i, v_j) >= 0.95, else 0;  C_i = sum_j A_ij.
-/// Here A_ij also asks that the frequencies agree, because a few channels can't tell all shapes apart.
-/// @param diagram  stable poles only are counted @return C (n_poles), 0 for poles that are not stable
-[[nodiscard]] Eigen::VectorXd recursion_index(const std::vector<DiagramPole>& diagram, const CleaningRule& rule);
-
+/// Index of recursion, paper Eqs. (3) and (4):  A_ij = 1 if MAC(v_i, v_j) >= 0.95, else 0;  C_i = sum_j A_ij. Here A_ij also asks that
+/// the frequencies agree, because a few channels can't tell all shapes apart.
+///
 /// Cleans the diagram of spurious poles and gathers the rest: the pole with the highest index of recursion takes all poles with
 /// which it has affinity, and so on among those left. Marks `mode` in the diagram.
 /// @param orders  the orders of the diagram, ascending

@@ -96,11 +96,4 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
   return map;
 }
 
-MatrixXd posterior_covariance(const JointMap& map, const MatrixXd& sigma_factor) {
-  const MatrixXd a = whitened(map.jacobian, map.scales, sigma_factor);
-  MatrixXd precision = linalg::product(a, a, true);
-  precision.diagonal().array() += 1.0;
-  return precision.llt().solve(MatrixXd::Identity(precision.rows(), precision.cols()));
-}
-
 }  // namespace twindeck::updating

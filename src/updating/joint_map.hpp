@@ -36,8 +36,4 @@ struct JointMapOptions {
 [[nodiscard]] JointMap joint_map(const PredictionFunction& predict, const Eigen::VectorXd& y, const Eigen::MatrixXd& sigma_factor,
                                  const Eigen::VectorXd& start, const Box& box, const JointMapOptions& options = {});
 
-/// Gaussian posterior of x at a MAP: covariance (I + J' Sigma^-1 J)^-1 with the scales marginalised.
-/// @return (n × n); 1 - its diagonal is how much the data narrowed each unknown (shrinkage)
-[[nodiscard]] Eigen::MatrixXd posterior_covariance(const JointMap& map, const Eigen::MatrixXd& sigma_factor);
-
 }  // namespace twindeck::updating

@@ -37,10 +37,8 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
   }
 
   const Index n_anchors = options_.anchors == 0 ? n_waves_ : std::min<Index>(options_.anchors, n_waves_);
-  const bool every = options_.indexing == Indexing::single_index && n_anchors == n_waves_;
-  // Double indexing reaches from df/n to (n_waves + 1) df.
-  const double lowest = options_.indexing == Indexing::single_index ? df_ : df_ / static_cast<double>(field_.size());
-  const double highest = df_ * static_cast<double>(n_waves_ + (options_.indexing == Indexing::single_index ? 0 : 1));
+  const bool every = n_anchors == n_waves_;
+  const double lowest = df_, highest = df_ * static_cast<double>(n_waves_);
   for (Index a = 0; a < n_anchors; ++a) {
     const double part = static_cast<double>(a) / static_cast<double>(n_anchors - 1);
     anchor_Hz_.push_back(every ? df_ * static_cast<double>(a + 1) : lowest * std::pow(highest / lowest, part));
@@ -48,7 +46,6 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
   anchor_Hz_.back() = highest;
   for (const double f : anchor_Hz_) factor_.push_back(coherence_factor(field_, f));
 
-  if (options_.indexing == Indexing::double_index) return;
   if (!every) {
     for (std::size_t a = 1; a < factor_.size(); ++a) pair_.emplace_back(factor_[a - 1], factor_[a]);
   }
@@ -147,7 +144,6 @@ void Simulator::put_waves(std::uint64_t seed, MatrixXd& velocity) const {
 }
 
 MatrixXd Simulator::sample(std::uint64_t seed) const {
-  if (options_.indexing == Indexing::double_index) return sample_double_index(seed);
   MatrixXd velocity(n_samples_, field_.size());
   put_waves(seed, velocity);
   parallel_for_with(

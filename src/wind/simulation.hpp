@@ -9,12 +9,6 @@
 
 namespace twindeck::wind {
 
-/// How the frequencies of Eq. (15) are placed.
-enum class Indexing {
-  single_index,  ///< omega_l for every m: one transform a point, period T = 1/df, not ergodic in the mean sense
-  double_index  ///< Deodatis' omega_ml = (l - 1 + m/n) d_omega: n(n+1)/2 transforms, period n T, each sample ergodic; for small
-                ///< n
-};
 /// Amplitudes of the waves.
 enum class Amplitudes {
   fixed,    ///< as Eq. (15): only phases are random. The first point has the same variance in every sample, the last scatters
@@ -29,7 +23,6 @@ struct SimulationOptions {
   /// interpolated and its rows brought back to length one, so that every point keeps its spectrum exactly. 0: at every
   /// frequency.
   int anchors = 40;
-  Indexing indexing = Indexing::single_index;
   Amplitudes amplitudes = Amplitudes::fixed;
 };
 
@@ -46,8 +39,7 @@ class Simulator {
   /// @throws InputError  as `check` and `coherence_factor`; for a duration, rate or cutoff that leave no wave
   Simulator(FieldDefinition field, const SimulationOptions& options);
 
-  /// One sample. @return [m/s] at t = 0, 1/rate, … over the whole period: (n_samples × n_points), with double indexing n times
-  /// as many rows
+  /// One sample. @return [m/s] at t = 0, 1/rate, … over the whole period: (n_samples × n_points)
   [[nodiscard]] Eigen::MatrixXd sample(std::uint64_t seed) const;
 
   [[nodiscard]] const FieldDefinition& field() const { return field_; }
@@ -69,7 +61,6 @@ class Simulator {
   /// Waves [real, imaginary] of stream m, l = first, first + 1, … first + kLanes - 1.
   void waves(std::uint64_t seed, Eigen::Index m, Eigen::Index first, double* real, double* imaginary) const;
   void put_waves(std::uint64_t seed, Eigen::MatrixXd& velocity) const;
-  [[nodiscard]] Eigen::MatrixXd sample_double_index(std::uint64_t seed) const;
 
   FieldDefinition field_;
   SimulationOptions options_;
@@ -77,7 +68,7 @@ class Simulator {
   double df_ = 0.0;
   std::vector<double> anchor_Hz_;        ///< ascending
   std::vector<Eigen::MatrixXd> factor_;  ///< L at the anchors
-  // What a sample needs of its waves, none of it random (single indexing).
+  // What a sample needs of its waves, none of it random.
   struct Stretch {
     std::size_t pair;           ///< of anchors
     Eigen::Index first, count;  ///< waves, at most kLanes

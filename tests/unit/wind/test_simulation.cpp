@@ -101,27 +101,6 @@ TEST(Simulation, InterpolatedFactorKeepsTheCoherence) {
   }
 }
 
-TEST(Simulation, DoubleIndexHasTheVarianceOfTheBandInEachSample) {
-  // The sum of Eq. (15) over one whole period: each sample function then has the band's variance exactly (Deodatis'
-  // ergodicity), at every point, which single indexing has at the first alone.
-  FieldDefinition field = test::two_arcs(Component::vertical, 2);
-  const Simulator simulator(field, {.duration_s = 32.0, .rate_Hz = 8.0, .indexing = Indexing::double_index});
-  const Eigen::MatrixXd v = simulator.sample(3);
-  ASSERT_EQ(v.rows(), 4 * 32 * 8);
-  const double df = simulator.spacing_Hz();
-  for (Index j = 0; j < 4; ++j) {
-    double band = 0.0;
-    for (Index m = 0; m <= j; ++m) {
-      for (Index l = 0; l < simulator.n_waves(); ++l) {
-        const double f = (static_cast<double>(l) + static_cast<double>(m + 1) / 4.0) * df;
-        const double h = std::abs(spectral_factor(field, f)(j, m));
-        band += h * h * df;
-      }
-    }
-    EXPECT_NEAR(v.col(j).squaredNorm() / static_cast<double>(v.rows()) / band, 1.0, 2e-3) << j;  // interpolated factor: 2e-3
-  }
-}
-
 TEST(Simulation, IsTheSameWhateverTheThreads) {
   const Simulator simulator(test::two_arcs(Component::across, 8), {.duration_s = 60.0});
   const int before = thread_count();
