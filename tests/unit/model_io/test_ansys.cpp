@@ -2,6 +2,7 @@
 /// rigid arm), which a wrong axis, constant or format would miss by far more than the tolerance.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -141,6 +142,29 @@ TEST(AnsysArchive, PlateOfShells) {
   const Eigen::VectorXd f = ansys_frequencies_Hz(model, 2);
   for (int i = 0; i < 2; ++i)
     expect_near_part(f[i], pi / 2.0 * ((i + 1) * (i + 1) / 2.25 + 1.0) * std::sqrt(stiffness / mass), within_shells);
+}
+
+TEST(AnsysArchive, OtherBlocksAndSelections) {
+  // Two masses on two springs, in blocks without the word SOLID: element, type, real, material, axes, nodes.
+  const std::string deck =
+      "/PREP7\nET,1,COMBIN14,,3\nET,2,MASS21,,,2\nR,1,100\nR,2,4\n"
+      "N,R5.3,LOC,1,0,0,0\nN,R5.3,LOC,2,0,0,1\nN,3,0,0,2\nN,9,5,5,5\n"
+      "eblock,10,,,2\n(15i5)\n   11    1    1    1    0    1    2\n   12    1    1    1    0    2    3\n   -1\n"
+      "eblock,10\n(15i5)\n   13    2    2    1    0    2    0    0\n   14    2    2    1    0    3\n-1\n"
+      "ESEL,S,TYPE,,1\nCM,springs,ELEM\nNSLE,S\nNSEL,U,NODE,,2,3\nCM,ground,NODE\nD,ALL,ALL\n"
+      "NSEL,INVE\nNSEL,R,LOC,Z,0.5,9\nD,ALL,UX\nALLSEL\n";
+  const fe::Model model = ansys_model(deck).model;
+  ASSERT_EQ(model.springs.size(), 2u);
+  EXPECT_EQ(model.springs[1].group, "springs");
+  EXPECT_EQ(model.masses.at(1).group, "mass21_real_2");
+  EXPECT_EQ(model.monitoring_points.at("ground"), 0);
+  ASSERT_EQ(model.supports.size(), 3u);
+  EXPECT_EQ(model.supports[0].fixed, (std::array<bool, 6>{true, true, true, true, true, true}));
+  EXPECT_EQ(model.supports[2].fixed, (std::array<bool, 6>{true, false, false, false, false, false}));
+  const Eigen::VectorXd f = ansys_frequencies_Hz(model, 2);
+  ASSERT_EQ(f.size(), 2);
+  for (int i = 0; i < 2; ++i)
+    expect_near_part(f[i], std::sqrt(25.0 * (3.0 + (2 * i - 1) * std::sqrt(5.0)) / 2.0) / (2.0 * pi), 1e-9);
 }
 
 TEST(AnsysArchive, TrianglesAreShellsOfThreeNodes) {
