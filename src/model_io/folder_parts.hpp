@@ -36,6 +36,7 @@ void read_masses(const std::filesystem::path& folder, fe::Model& model, const Na
 void read_points(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
 
 /// model.toml: title, gravity, formulation, prestress, parameters. Called last, since parameters name parts of the others.
+/// @param model  its title and formulation stand where the file does not give them
 void read_model_toml(const std::filesystem::path& file, fe::Model& model);
 void write_model_toml(const fe::Model& model, const std::filesystem::path& folder);
 

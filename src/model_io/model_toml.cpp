@@ -173,6 +173,7 @@ void read_model_toml(const std::filesystem::path& file, fe::Model& model) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.nodes.emplace(model.nodes[i].id, static_cast<int>(i));
   ModelEntry entry;
   entry.title = model.title;
+  entry.formulation = model.formulation;
   entry.fields().load(file);
   model.title = entry.title;
   model.gravity_m_s2 = entry.gravity_m_s2;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "model_io/ansys.hpp"
 #include "model_io/inp.hpp"
 #include "model_io/load_cases.hpp"
 #include "model_io/model_folder.hpp"
@@ -41,7 +42,7 @@ LoadedModel import_inp(StepContext& context, const std::filesystem::path& file) 
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
-  model_io::InpModel imported = model_io::read_inp(file);
+  model_io::InpModel imported = model_io::is_ansys_deck(file) ? model_io::read_ansys(file) : model_io::read_inp(file);
   for (const std::string& note : imported.notes) context.say(note);
   return with_sound_matrices(from_model(std::move(imported.model)));
 }

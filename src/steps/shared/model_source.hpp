@@ -32,7 +32,8 @@ struct LoadedModel {
 /// Reads a model folder, of finite elements or of matrices.
 [[nodiscard]] LoadedModel read_model_folder(const std::filesystem::path& folder);
 
-/// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp) and says what of it does not enter a model.
+/// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp), or a deck of ANSYS (model_io/ansys.hpp), and says what of it
+/// does not enter a model.
 [[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
 
 /// The model that a step works on: `--model DIR` (or an .inp file) where it is given, otherwise the folder that an earlier step

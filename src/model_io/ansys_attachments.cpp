@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "model_io/ansys_build.hpp"
+
+/// Springs, masses, rigid links and supports.
+namespace twindeck::model_io::ansys {
+namespace {
+
+const Node& node_of(const Builder& builder, long id) { return builder.parts.nodes.at(id); }
+
+void refuse_rotated(const Builder& builder, const Member& member, long id) {
+  if (node_of(builder, id).rotated)
+    builder.fail(member, fmt::format("acts along the axes of node {}, which are turned", id),
+                 "turned nodal axes are not supported: give the node global axes");
+}
+
+/// True where a displacement of the node is neither held nor without stiffness and mass of an element.
+std::array<bool, 3> moving_directions(const Builder& builder, long id) {
+  const fe::Model& model = builder.parts.model;
+  const int node = builder.node(id);
+  std::array<bool, 3> moves{};
+  const auto is_there = [&](const auto& nodes) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+  const bool whole =
+      std::any_of(model.elements.begin(), model.elements.end(), [&](const fe::Element& e) { return is_there(e.nodes); }) ||
+      std::any_of(model.links.begin(), model.links.end(),
+                  [&](const fe::RigidLink& l) { return l.master == node || l.slave == node; });
+  moves.fill(whole);
+  for (const fe::Spring& s : model.springs) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      if ((s.node == node || s.node2 == node) && !s.rotation && s.direction[static_cast<int>(d)] != 0.0) moves[d] = true;
+    }
+  }
+  for (const fe::Support& support : model.supports) {
+    for (std::size_t d = 0; d < 3; ++d) moves[d] = moves[d] && !(support.node == node && support.fixed[d]);
+  }
+  return moves;
+}
+
+bool is_partial(const std::array<bool, 6>& fixed, std::size_t first) {
+  return fixed[first] != fixed[first + 1] || fixed[first] != fixed[first + 2];
+}
+
+/// CP of all displacements of nodes at one place is a rigid link without length.
+void add_couples(Builder& builder) {
+  const Parts& parts = builder.parts;
+  std::map<std::vector<long>, std::map<int, long>> dofs_of_nodes;  // nodes, tied degrees of freedom, their line
+  for (const auto& [set, couples] : parts.couples) {
+    std::map<int, std::pair<std::set<long>, long>> by_dof;  // lines that go on with a set add to it
+    for (const Couple& couple : couples) {
+      by_dof[couple.dof].first.insert(couple.nodes.begin(), couple.nodes.end());
+      by_dof[couple.dof].second = couple.line;
+    }
+    for (const auto& [dof, nodes] : by_dof) dofs_of_nodes[{nodes.first.begin(), nodes.first.end()}].emplace(dof, nodes.second);
+  }
+  for (const auto& [nodes, dofs] : dofs_of_nodes) {
+    const long line = dofs.begin()->second;
+    const auto refuse = [&](const std::string& problem) {
+      parts.fail(line, "CP", problem + ", which is no rigid link",
+                 "tie all six directions of nodes at one place, use CERIG, or merge the nodes");
+    };
+    if (nodes.size() < 2) refuse("ties less than two nodes");
+    const bool places = dofs.contains(0) && dofs.contains(1) && dofs.contains(2);
+    const bool turns = dofs.contains(3) && dofs.contains(4) && dofs.contains(5);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!builder.has_node(nodes[i])) refuse(fmt::format("ties node {}, which no element holds", nodes[i]));
+      if (node_of(builder, nodes[i]).rotated) refuse(fmt::format("ties along the axes of node {}, which are turned", nodes[i]));
+      if (i == 0) continue;
+      const Eigen::Vector3d& first = node_of(builder, nodes[0]).x_m;
+      const Eigen::Vector3d& other = node_of(builder, nodes[i]).x_m;
+      constexpr double one_place = 1e-6;  // of the distance from the origin
+      if ((first - other).norm() > one_place * (1.0 + first.norm()))
+        refuse(fmt::format("ties nodes {} and {}, which lie apart", nodes[0], nodes[i]));
+      if (!places || (!turns && builder.turning.contains(nodes[i])))
+        refuse(fmt::format("ties some of the directions of nodes {} and {}", nodes[0], nodes[i]));
+      builder.add_link(nodes[0], nodes[i]);
+    }
+  }
+}
+
+}  // namespace
+
+void add_spring(Builder& builder, const Member& member) {
+  const TypeDefinition& type = member.definition;
+  const RealSet& r = builder.reals(member);
+  const std::string property = fmt::format("real_{}", member.element.real);
+  fe::Spring s;
+  s.group = builder.group(member, property);
+  s.name = fmt::format("{}_{}", s.group, member.id);
+  s.node = builder.node(member.element.nodes[0]);
+  s.node2 = builder.node(member.element.nodes[1]);
+  s.stiffness = r.at(1);
+  s.damping = r.at(2);
+  if (s.stiffness < 0.0 || s.damping < 0.0 || r.at(3) != 0.0)
+    builder.parts.fail(r.line, "R", fmt::format("set {} is no linear spring", member.element.real),
+                       "give stiffness and damping of 0 or more, and no third constant");
+  if (const long dof = type.option(2); dof > 0) {
+    for (const long id : member.element.nodes) refuse_rotated(builder, member, id);
+    s.rotation = dof > 3;
+    s.direction = Eigen::Vector3d::Unit((dof - 1) % 3);
+  } else {
+    const long shape = type.option(3);  // 0 along the line, 1 about it, 2 along it in the X-Y plane
+    s.rotation = shape == 1;
+    s.direction = node_of(builder, member.element.nodes[1]).x_m - node_of(builder, member.element.nodes[0]).x_m;
+    if (shape == 2) s.direction.z() = 0.0;
+    if (!(s.direction.norm() > 0.0))
+      builder.fail(member, "is a spring without length, so without direction", "give its direction by KEYOPT(2)");
+    s.direction.normalize();
+  }
+  builder.parts.model.springs.push_back(s);
+}
+
+void add_mass(Builder& builder, const Member& member) {
+  const RealSet& r = builder.reals(member);
+  const long id = member.element.nodes[0], shape = member.definition.option(3);
+  std::array<double, 3> masses = {r.at(1), r.at(1), r.at(1)};
+  fe::PointMass mass;
+  mass.group = builder.group(member, fmt::format("real_{}", member.element.real));
+  mass.node = builder.node(id);
+  if (shape == 0) {
+    masses = {r.at(1), r.at(2), r.at(3)};
+    mass.inertia_kg_m2 = {r.at(4), r.at(5), r.at(6)};
+  } else if (shape == 3 || shape == 4) {
+    masses[2] = 0.0;
+    if (shape == 3) mass.inertia_kg_m2.z() = r.at(2);
+  }
+  // One number serves where the directions of another mass do not move.
+  const bool one = masses[0] == masses[1] && masses[0] == masses[2];
+  const std::array<bool, 3> moves = one ? std::array{true, true, true} : moving_directions(builder, id);
+  bool given = false;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!moves[d]) continue;
+    if (given && masses[d] != mass.mass_kg)
+      builder.fail(member,
+                   fmt::format("has masses {:g}, {:g}, {:g} along x, y, z, and node {} moves in directions that differ",
+                               masses[0], masses[1], masses[2], id),
+                   "give one mass in all three directions, or hold the node in the others");
+    mass.mass_kg = masses[d];
+    given = true;
+  }
+  if (!given) mass.mass_kg = *std::max_element(masses.begin(), masses.end());
+  const Eigen::Vector3d& inertia = mass.inertia_kg_m2;
+  if (node_of(builder, id).rotated && (inertia.x() != inertia.y() || inertia.x() != inertia.z()))
+    refuse_rotated(builder, member, id);
+  if (mass.mass_kg < 0.0 || inertia.minCoeff() < 0.0)
+    builder.parts.fail(r.line, "R", fmt::format("set {} has a negative mass", member.element.real), "check the sign");
+  builder.parts.model.masses.push_back(mass);
+}
+
+void add_rigid(Builder& builder, const Member& member) { builder.add_link(member.element.nodes[0], member.element.nodes[1]); }
+
+void add_links(Builder& builder) {
+  for (const Link& link : builder.parts.links) {
+    if (!link.turns && builder.turning.contains(link.slave))
+      builder.parts.fail(link.line, "CERIG",
+                         fmt::format("ties the displacements of node {} alone, which has rotations too", link.slave),
+                         "tie ALL, or use UXYZ for nodes of solids only");
+    builder.add_link(link.master, link.slave);
+  }
+  add_couples(builder);
+  add_equations(builder);
+}
+
+void add_supports(Builder& builder) {
+  const Parts& parts = builder.parts;
+  std::map<long, Hold> holds = parts.holds;
+  for (const long id : builder.in_plane) {
+    if (builder.in_space.contains(id))
+      parts.fail(0, fmt::format("node {}", id), "joins a BEAM3 to elements in space", "use BEAM188 in the place of BEAM3");
+    for (const std::size_t dof : {std::size_t{2}, std::size_t{3}, std::size_t{4}}) holds[id].fixed[dof] = true;
+  }
+  if (!builder.in_plane.empty()) builder.note_once("BEAM3 is a beam in space whose nodes are held out of the X-Y plane");
+  for (const auto& [id, hold] : holds) {
+    if (!builder.has_node(id) || hold.fixed == std::array<bool, 6>{}) continue;
+    if (node_of(builder, id).rotated && (is_partial(hold.fixed, 0) || is_partial(hold.fixed, 3)))
+      parts.fail(hold.line, "D", fmt::format("holds node {} along axes that are turned, which is not supported", id),
+                 "give the node global axes, or hold it in all directions");
+    builder.parts.model.supports.push_back(
+        {hold.name.empty() ? fmt::format("node_{}", id) : hold.name, builder.node(id), hold.fixed});
+  }
+}
+
+}  // namespace twindeck::model_io::ansys

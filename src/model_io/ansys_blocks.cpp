@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "model_io/ansys_parts.hpp"
+#include "model_io/inp_cards.hpp"
+
+/// Blocks: a command, the format of its lines, the lines.
+namespace twindeck::model_io::ansys {
+namespace {
+
+constexpr long largest_list = 10'000'000;  ///< numbers that a component may list: more is a slip of the pen
+
+std::string needed_line(Parts& parts, const Command& block) {
+  std::string text;
+  if (!parts.deck.next_line(text)) parts.fail(block, "the file ends within this block", "complete it");
+  return text;
+}
+
+Columns format_below(Parts& parts, const Command& block, std::size_t least_integers) {
+  Columns columns;
+  const std::string text = needed_line(parts, block);
+  if (!parse_columns(text, columns) || columns.integers < least_integers) {
+    parts.fail(parts.deck.line(), block.name, fmt::format("'{}' is no format of this block", trim(text)),
+               "expected so many whole numbers and reals with their widths, for example (3i9,6e21.13e3)");
+  }
+  return columns;
+}
+
+double real_cell(Parts& parts, const Command& block, const std::vector<std::string>& cells, std::size_t i) {
+  if (i >= cells.size() || cells[i].empty()) return 0.0;
+  const auto value = evaluate(cells[i], {});
+  if (!value) {
+    parts.fail(parts.deck.line(), block.name, fmt::format("'{}' (column {}) is no number", cells[i], i + 1),
+               "compare the line with the format below " + block.name);
+  }
+  return *value;
+}
+
+/// The line that ends a block of nodes: -1, or N,R5.3,LOC,-1.
+bool ends_nodes(const std::string& text) {
+  const std::string start = upper_case(trim(text).substr(0, 5));
+  return start.starts_with("-1") || start == "N,R5.";
+}
+
+}  // namespace
+
+void read_node_block(Parts& parts, const Command& block) {
+  const Columns columns = format_below(parts, block, 1);
+  if (columns.reals < 3)
+    parts.fail(parts.deck.line(), block.name, "its format has fewer than three coordinates", "give x, y, z of each node");
+  while (true) {
+    const std::string text = needed_line(parts, block);
+    if (ends_nodes(text)) break;
+    const auto cells = columns.cells(text);
+    const long id = parts.cell(block, cells, 0);
+    if (id < 1)
+      parts.fail(parts.deck.line(), block.name, fmt::format("'{}' is neither a node nor the end of the block", trim(text)),
+                 "end the block by -1");
+    Node node;
+    for (std::size_t i = 0; i < 3; ++i) node.x_m[static_cast<int>(i)] = real_cell(parts, block, cells, columns.integers + i);
+    for (std::size_t i = 3; i < columns.reals; ++i)
+      node.rotated = node.rotated || real_cell(parts, block, cells, columns.integers + i) != 0.0;
+    add_node(parts, id, node);
+  }
+}
+
+void read_element_block(Parts& parts, const Command& block) {
+  const bool solid = block.word(1) == "SOLID";
+  const std::size_t header = solid ? 11 : 5;
+  const Columns columns = format_below(parts, block, header + 1);
+  while (true) {
+    std::vector<std::string> cells = columns.cells(needed_line(parts, block));
+    if (parts.cell(block, cells, 0) < 0) break;
+    const auto at = [&](std::size_t i) { return parts.cell(block, cells, i); };
+    Element element;
+    element.line = parts.deck.line();
+    long id = 0;
+    std::size_t count = 0;
+    if (solid) {
+      // material, type, real, section, axes, death, geometry, shape, number of nodes, nothing, element
+      element.material = at(0), element.type = at(1), element.real = at(2), element.section = at(3);
+      count = static_cast<std::size_t>(std::clamp(at(8), 0L, 20L));
+      id = at(10);
+    } else {
+      // element, type or section, real, material, axes
+      id = at(0), element.type = element.section = at(1), element.real = at(2), element.material = at(3);
+      const auto definition = parts.types.find(element.type);
+      const bool known = definition != parts.types.end() && definition->second.type != nullptr;
+      count = known ? definition->second.type->nodes : columns.integers - header;
+    }
+    if (id < 1)
+      parts.fail(element.line, block.name, fmt::format("{} is no element number", id),
+                 "end the block by -1, or compare the line with the format below " + block.name);
+    for (std::size_t i = header; element.nodes.size() < count || !solid; ++i) {
+      if (i >= columns.integers) {
+        if (element.nodes.size() >= count) break;
+        cells = columns.cells(needed_line(parts, block));
+        i = 0;
+      }
+      if (i >= cells.size() && !solid) break;
+      element.nodes.push_back(parts.cell(block, cells, i));
+    }
+    while (!element.nodes.empty() && element.nodes.back() == 0) element.nodes.pop_back();
+    add_element(parts, id, element);
+  }
+}
+
+void read_component_block(Parts& parts, const Command& block) {
+  if (block.blank(0)) parts.fail(block, "has no name", "write CMBLOCK,name,NODE,count");
+  const long count = parts.integer(block, 2);
+  if (count < 0 || count > largest_list)
+    parts.fail(block, fmt::format("{} is no number of members", count), "give how many numbers follow");
+  const Columns columns = format_below(parts, block, 1);
+  Component component{block.fields[0], block.word(1) == "NODE", {}};
+  const auto add = [&](const auto& defined, long from, long to) {
+    for (auto it = defined.lower_bound(from); it != defined.end() && it->first <= to; ++it) component.members.insert(it->first);
+  };
+  long last = 0;
+  for (long read = 0; read < count;) {
+    const auto cells = columns.cells(needed_line(parts, block));
+    if (cells.empty()) parts.fail(parts.deck.line(), block.name, "this line is empty", "the block lists more members");
+    for (std::size_t i = 0; i < cells.size() && read < count; ++i, ++read) {
+      const long member = parts.cell(block, cells, i);
+      if (member < 0 && (last < 1 || -member < last))
+        parts.fail(parts.deck.line(), block.name, fmt::format("'{} {}' is no range of members", last, member),
+                   "a negative number ends a range that the number before begins");
+      const long from = member < 0 ? last + 1 : member;
+      if (component.of_nodes) {
+        add(parts.nodes, from, std::abs(member));
+      } else {
+        add(parts.elements, from, std::abs(member));
+      }
+      last = member;
+    }
+  }
+  if (block.word(1) == "NODE" || block.word(1).starts_with("ELEM")) parts.components.push_back(std::move(component));
+}
+
+void read_real_block(Parts& parts, const Command& block) {
+  constexpr long most_constants = 1000;  // of one set: a shell of 250 layers
+  const long sets = parts.integer(block, 0);
+  const Columns first = format_below(parts, block, 2), next = format_below(parts, block, 0);
+  if (first.reals == 0 || next.reals == 0) parts.fail(block, "its formats hold no reals", "expected (2i8,6g16.9) and (7g16.9)");
+  for (long i = 0; i < sets; ++i) {
+    auto cells = first.cells(needed_line(parts, block));
+    const long id = parts.cell(block, cells, 0), count = parts.cell(block, cells, 1);
+    if (id < 1 || count < 0 || count > most_constants)
+      parts.fail(parts.deck.line(), block.name, fmt::format("set {} of {} constants is none", id, count),
+                 "expected the number of the set, the number of its constants, the constants");
+    RealSet set;
+    set.line = parts.deck.line();
+    std::size_t at = first.integers;
+    while (static_cast<long>(set.values.size()) < count) {
+      if (at >= (set.values.size() < first.reals ? first.integers + first.reals : next.reals)) {
+        cells = next.cells(needed_line(parts, block));
+        at = 0;
+      }
+      set.values.push_back(real_cell(parts, block, cells, at++));
+    }
+    parts.reals[id] = std::move(set);
+  }
+}
+
+void read_section_block(Parts& parts, const Command& block) {
+  const long rows = parts.integer_or(block, 0, 1);
+  for (long i = 0; i < rows; ++i) {
+    Command row = block;
+    row.fields = split_fields(needed_line(parts, block), ',');
+    row.line = parts.deck.line();
+    read_section_data(parts, row);
+  }
+}
+
+}  // namespace twindeck::model_io::ansys

@@ -1,0 +1,211 @@
+#include "model_io/ansys_build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "model_io/inp_cards.hpp"
+
+namespace twindeck::model_io::ansys {
+namespace {
+
+constexpr double same_number = 1e-6;  ///< [-] moduli that are one number, printed by two programs
+constexpr double follows = 1e-3;      ///< [-] of G against E and nu that are printed with three digits
+
+bool alike(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)); }
+
+void check_options(const Parts& parts, const TypeDefinition& definition) {
+  for (const auto& [number, option] : definition.options) {
+    const auto allowed = definition.type->options.find(number);
+    const bool listed = allowed != definition.type->options.end();
+    const bool read = listed && (allowed->second.empty() || std::find(allowed->second.begin(), allowed->second.end(),
+                                                                      option.value) != allowed->second.end());
+    if (read || (!listed && option.value == 0)) continue;
+    parts.fail(option.line, "KEYOPT",
+               fmt::format("KEYOPT({}) = {} of {} is not supported", number, option.value, definition.type->name),
+               definition.type->kind == Kind::rigid ? "of MPC184, the rigid beam is read (KEYOPT(1) = 1)"
+                                                    : "docs/import_ansys.md lists what is read");
+  }
+}
+
+bool same_numbers(const fe::Section& a, const fe::Section& b) {
+  const auto numbers = [](const fe::Section& s) {
+    return std::array{s.area_m2,         s.inertia_y_m4,    s.inertia_z_m4, s.inertia_yz_m4,        s.torsion_m4,
+                      s.shear_area_y_m2, s.shear_area_z_m2, s.thickness_m,  s.bending_inertia_ratio};
+  };
+  return numbers(a) == numbers(b);
+}
+
+}  // namespace
+
+Member checked_member(const Parts& parts, long id, const Element& element) {
+  const std::string label = fmt::format("element {}", id);
+  const auto found = parts.types.find(element.type);
+  if (found == parts.types.end())
+    parts.fail(element.line, label, fmt::format("its type {} is not defined", element.type),
+               "give the ET command of that type");
+  const TypeDefinition& definition = found->second;
+  if (definition.type == nullptr)
+    parts.fail(element.line, label,
+               fmt::format("is of type {} (line {}), which is not supported", definition.name, definition.line),
+               "supported are " + element_type_list());
+  const ElementType& type = *definition.type;
+  const bool has_middle = type.name == "BEAM189" && element.nodes.size() > 2 && element.nodes[2] != 0;
+  if (type.kind == Kind::quadratic || has_middle)
+    parts.fail(element.line, label, fmt::format("is a {} with nodes between its corners, which is not supported", type.name),
+               "mesh with linear elements, several over the length: BEAM188, SHELL181, SOLID185");
+  if (type.kind == Kind::load) return {id, element, definition};
+  check_options(parts, definition);
+  // Beams may have a node that only gives their direction.
+  const std::size_t extra = type.name == "BEAM189" ? 2 : type.kind == Kind::beam ? 1 : 0;
+  if (element.nodes.size() < type.nodes && !(type.kind == Kind::shell && element.nodes.size() == 3))
+    parts.fail(element.line, label, fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
+               "complete the element");
+  if (element.nodes.size() > type.nodes + extra)
+    parts.fail(element.line, label, fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
+               "nodes between the corners are not supported: mesh with linear elements");
+  return {id, element, definition};
+}
+
+void Builder::fail(const Member& member, const std::string& problem, const std::string& mend) const {
+  parts.fail(member.element.line, fmt::format("element {}", member.id), problem, mend);
+}
+
+void Builder::add_link(long master, long slave) {
+  parts.model.links.push_back({fmt::format("link_{}", parts.model.links.size() + 1), node(master), node(slave)});
+}
+
+void Builder::note_once(const std::string& note) {
+  if (std::find(parts.notes.begin(), parts.notes.end(), note) == parts.notes.end()) parts.notes.push_back(note);
+}
+
+void Builder::add_nodes() {
+  std::map<long, long> used;  // node, the line that speaks of it
+  for_each_member(parts, [&](const Member& m) {
+    const Kind kind = m.type().kind;
+    for (std::size_t i = 0; i < std::min(m.type().nodes, m.element.nodes.size()); ++i) {
+      const long id = m.element.nodes[i];
+      used.emplace(id, m.element.line);
+      if (kind == Kind::beam || kind == Kind::plane_beam || kind == Kind::shell) turning.insert(id);
+      if (kind == Kind::plane_beam) in_plane.insert(id);
+      if (kind == Kind::beam || kind == Kind::bar || kind == Kind::shell || kind == Kind::solid) in_space.insert(id);
+    }
+  });
+  for (const Link& link : parts.links) used.emplace(link.master, link.line), used.emplace(link.slave, link.line);
+  for (const Equation& equation : parts.equations) {
+    for (const Equation::Term& term : equation.terms) used.emplace(term.node, equation.line);
+  }
+  for (const auto& [id, line] : used) {
+    const auto found = parts.nodes.find(id);
+    if (found == parts.nodes.end())
+      parts.fail(line, fmt::format("node {}", id), "is used here and defined nowhere", "define it, or correct the number");
+    positions_[id] = static_cast<int>(parts.model.nodes.size());
+    parts.model.nodes.push_back({id, found->second.x_m});
+  }
+  if (const std::size_t left = parts.nodes.size() - used.size(); left > 0)
+    parts.notes.push_back(fmt::format("{} nodes that no element holds are left out", left));
+}
+
+int Builder::material(const Member& member, long id, bool isotropic) {
+  const auto known = parts.materials.find(id);
+  const auto property = [&](const std::string& label, double fallback) {
+    const auto found = known->second.find(label);
+    return found == known->second.end() ? fallback : found->second.value;
+  };
+  if (known == parts.materials.end() || property("EX", 0.0) <= 0.0)
+    fail(member, fmt::format("its material {} has no modulus above 0", id), "give MP,EX,number,value");
+  fe::Material m;
+  m.name = fmt::format("mat_{}", id);
+  m.youngs_modulus_Pa = property("EX", 0.0);
+  m.poisson_ratio = property("PRXY", property("NUXY", 0.3));
+  const long line = known->second.at("EX").line;
+  if (m.poisson_ratio <= -1.0 || m.poisson_ratio >= 0.5)
+    parts.fail(line, m.name, fmt::format("Poisson's ratio is {}, expected a value in ]-1, 0.5[", m.poisson_ratio),
+               "steel has 0.3");
+  const double follows_from_E = m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio));
+  m.shear_modulus_Pa = property("GXY", follows_from_E);
+  m.density_kg_m3 = property("DENS", 0.0);
+  const std::vector<std::pair<std::string, double>> twins = {
+      {"EY", m.youngs_modulus_Pa}, {"EZ", m.youngs_modulus_Pa}, {"PRYZ", m.poisson_ratio},   {"PRXZ", m.poisson_ratio},
+      {"NUYZ", m.poisson_ratio},   {"NUXZ", m.poisson_ratio},   {"GYZ", m.shear_modulus_Pa}, {"GXZ", m.shear_modulus_Pa}};
+  for (const auto& [label, twin] : twins) {
+    if (!alike(property(label, twin), twin, same_number))
+      parts.fail(known->second.at(label).line, m.name, fmt::format("{} makes it orthotropic, which is not supported", label),
+                 "give EX, PRXY and DENS of an isotropic material");
+  }
+  if (isotropic && !alike(m.shear_modulus_Pa, follows_from_E, follows))
+    parts.fail(known->second.at("GXY").line, m.name,
+               fmt::format("GXY = {:g} does not follow from EX and PRXY ({:g}), which only beams and bars may have",
+                           m.shear_modulus_Pa, follows_from_E),
+               "leave GXY out for an isotropic material");
+  if (const auto made = materials_.find(id); made != materials_.end()) return made->second;
+  if (!known->second.contains("PRXY") && !known->second.contains("NUXY"))
+    parts.notes.push_back(fmt::format("material {} gives no Poisson's ratio: 0.3, as ANSYS takes it", id));
+  materials_[id] = static_cast<int>(parts.model.materials.size());
+  parts.model.materials.push_back(m);
+  return materials_[id];
+}
+
+int Builder::section(const fe::Section& wanted) {
+  auto& sections = parts.model.sections;
+  fe::Section section = wanted;
+  for (int count = 2;; ++count) {
+    const auto other =
+        std::find_if(sections.begin(), sections.end(), [&](const fe::Section& s) { return s.name == section.name; });
+    if (other == sections.end()) break;
+    if (same_numbers(*other, section)) return static_cast<int>(other - sections.begin());
+    section.name = fmt::format("{}_{}", wanted.name, count);
+  }
+  sections.push_back(section);
+  return static_cast<int>(sections.size()) - 1;
+}
+
+std::string Builder::group(const Member& member, const std::string& property) const {
+  for (const Component& component : parts.components) {
+    if (!component.of_nodes && component.members.contains(member.id)) return component.name;
+  }
+  std::string name = member.type().name;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name + "_" + property;
+}
+
+const RealSet& Builder::reals(const Member& member) const {
+  const auto found = parts.reals.find(member.element.real);
+  if (found == parts.reals.end())
+    fail(member, fmt::format("its set of real constants {} is not defined", member.element.real),
+         "give R,number,constants (or the section of a newer element)");
+  return found->second;
+}
+
+void build_model(Parts& parts) {
+  Builder builder(parts);
+  builder.add_nodes();
+  for_each_member(parts, [&](const Member& m) {
+    switch (m.type().kind) {
+      case Kind::spring:
+        return add_spring(builder, m);
+      case Kind::mass:
+        return;  // after the supports, which say which directions it moves in
+      case Kind::rigid:
+        return add_rigid(builder, m);
+      default:
+        return add_member(builder, m);
+    }
+  });
+  add_links(builder);
+  add_supports(builder);
+  for_each_member(parts, [&](const Member& m) {
+    if (m.type().kind == Kind::mass) add_mass(builder, m);
+  });
+  for (const Component& component : parts.components) {
+    if (component.of_nodes && component.members.size() == 1 && builder.has_node(*component.members.begin()))
+      parts.model.monitoring_points.emplace(component.name, builder.node(*component.members.begin()));
+  }
+}
+
+}  // namespace twindeck::model_io::ansys

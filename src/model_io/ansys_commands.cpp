@@ -1,0 +1,165 @@
+#include "model_io/ansys_commands.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "model_io/inp_cards.hpp"
+
+namespace twindeck::model_io::ansys {
+namespace {
+
+/// Position of the first `sign` outside of quotes (and brackets, if asked for); the end if there is none.
+std::size_t find_outside(const std::string& text, char sign, bool brackets_hold, std::size_t from = 0) {
+  bool quoted = false;
+  int depth = 0;
+  for (std::size_t i = from; i < text.size(); ++i) {
+    if (text[i] == '\'') quoted = !quoted;
+    if (quoted) continue;
+    if (text[i] == sign && (depth == 0 || !brackets_hold)) return i;
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')' && depth > 0) --depth;
+  }
+  return text.size();
+}
+
+bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// `NAME = value`, `NAME(1,2) = value`.
+bool to_assignment(const std::string& text, Command& command) {
+  const std::size_t equals = find_outside(text, '=', true);
+  if (equals == text.size() || equals == 0) return false;
+  const std::string name = trim(text.substr(0, equals));
+  const std::size_t plain = static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_name) - name.begin());
+  if (plain == 0 || (plain < name.size() && name[plain] != '(')) return false;
+  command.key = "=";
+  command.name = name;
+  command.fields = {name, trim(text.substr(equals + 1))};
+  return true;
+}
+
+Command to_command(const std::string& text, long line) {
+  constexpr std::size_t letters = 4;  // that tell commands apart
+  Command command;
+  command.line = line;
+  if (to_assignment(text, command)) return command;
+  const std::size_t end = std::min(text.find_first_of(", \t"), text.size());
+  command.name = text.substr(0, end);
+  const bool marked = command.name.starts_with('/') || command.name.starts_with('*');
+  command.key = upper_case(command.name).substr(0, letters + (marked ? 1 : 0));
+  std::size_t start = std::min(text.find_first_not_of(" \t", end), text.size());
+  if (start < text.size() && text[start] == ',') ++start;
+  command.text = trim(text.substr(start));
+  command.fields = split_fields(command.text, ',');
+  return command;
+}
+
+/// A count in front of a letter, or a width behind it.
+std::size_t leading_number(const std::string& text, std::size_t& at) {
+  constexpr std::size_t largest = 1000;  // of counts and widths: a line has some 200 columns
+  std::size_t value = 0;
+  while (at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0)
+    value = std::min(largest, 10 * value + static_cast<std::size_t>(text[at++] - '0'));
+  return value;
+}
+
+}  // namespace
+
+std::string trim(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string> split_fields(const std::string& text, char separator) {
+  std::vector<std::string> fields;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t end = find_outside(text, separator, true, start);
+    fields.push_back(trim(text.substr(start, end - start)));
+    if (end == text.size()) break;
+    start = end + 1;
+  }
+  return fields;
+}
+
+std::string Command::word(std::size_t i) const { return i < fields.size() ? upper_case(fields[i]) : ""; }
+
+std::vector<Command> split_commands(const std::string& text, long line) {
+  const std::string whole = trim(text);
+  const std::string head = upper_case(whole.substr(0, 4));
+  if (whole.empty() || head == "C***" || head == "/COM" || whole.starts_with('!')) return {};
+  if (head == "/TIT") return {to_command(trim(whole.substr(0, whole.find('!'))), line)};
+  std::vector<Command> commands;
+  const std::string spoken = whole.substr(0, find_outside(whole, '!', false));
+  for (std::size_t start = 0; start <= spoken.size();) {
+    const std::size_t end = find_outside(spoken, '$', false, start);
+    if (const std::string part = trim(spoken.substr(start, end - start)); !part.empty())
+      commands.push_back(to_command(part, line));
+    start = end + 1;
+  }
+  return commands;
+}
+
+Deck::Deck(const std::filesystem::path& file) : file_(file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened", "give the path of an archive or deck of ANSYS");
+  for (std::string text; std::getline(stream, text);) lines_.push_back(text);
+}
+
+bool Deck::next(Command& command) {
+  while (pending_.empty()) {
+    if (at_ >= lines_.size()) return false;
+    ++at_;
+    for (Command& one : split_commands(lines_[at_ - 1], line())) pending_.push_back(std::move(one));
+  }
+  command = std::move(pending_.front());
+  pending_.pop_front();
+  return true;
+}
+
+bool Deck::next_line(std::string& text) {
+  if (at_ >= lines_.size()) return false;
+  text = lines_[at_++];
+  if (text.ends_with('\r')) text.pop_back();
+  return true;
+}
+
+std::vector<std::string> Columns::cells(const std::string& text) const {
+  std::vector<std::string> result;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < integers + reals && at < text.size(); ++i) {
+    const std::size_t width = i < integers ? integer_width : real_width;
+    result.push_back(trim(text.substr(at, width)));
+    at += width;
+  }
+  return result;
+}
+
+bool parse_columns(const std::string& text, Columns& columns) {
+  columns = {};
+  const std::string format = trim(text);
+  if (format.size() < 3 || format.front() != '(' || format.back() != ')') return false;
+  for (const std::string& group : split_fields(format.substr(1, format.size() - 2), ',')) {
+    std::size_t at = 0;
+    const std::size_t count =
+        group.empty() || std::isdigit(static_cast<unsigned char>(group[0])) == 0 ? 1 : leading_number(group, at);
+    const char letter = at < group.size() ? static_cast<char>(std::tolower(static_cast<unsigned char>(group[at]))) : ' ';
+    ++at;
+    const std::size_t width = leading_number(group, at);
+    if (width == 0 || count == 0) return false;
+    if (letter == 'i' && columns.integers == 0 && columns.reals == 0) {
+      columns.integers = count;
+      columns.integer_width = width;
+    } else if ((letter == 'e' || letter == 'g' || letter == 'f') && columns.reals == 0) {
+      columns.reals = count;
+      columns.real_width = width;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace twindeck::model_io::ansys

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace twindeck::model_io::ansys {
+
+/// One command of a deck, `NAME,field,field`.
+struct Command {
+  std::string key;   ///< what decides which it is, in upper case: four letters, five with / or *; "=" assigns a parameter
+  std::string name;  ///< as written
+  std::vector<std::string> fields;  ///< after the name, trimmed; of "=" the parameter and its value
+  std::string text;                 ///< all after the name, as it stands: of a title
+  long line = 0;                    ///< 1-based
+
+  /// Field `i` (from 0) in upper case, "" where it is missing.
+  [[nodiscard]] std::string word(std::size_t i) const;
+  [[nodiscard]] bool blank(std::size_t i) const { return i >= fields.size() || fields[i].empty(); }
+};
+
+/// A deck, command by command. The rules that it knows: case does not matter, `!` begins a comment, `$` separates commands on
+/// one line, `C***` and /COM lines are comments, quotes and brackets keep commas and `$` together.
+class Deck {
+ public:
+  /// @throws InputError  if it cannot be opened
+  explicit Deck(const std::filesystem::path& file);
+
+  /// The next command; false at the end of the file.
+  bool next(Command& command);
+  /// The next line as it stands, for the data of a block; false at the end of the file. `line()` is its number.
+  bool next_line(std::string& text);
+  [[nodiscard]] long line() const { return static_cast<long>(at_); }
+  [[nodiscard]] const std::filesystem::path& path() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::string> lines_;
+  std::size_t at_ = 0;
+  std::deque<Command> pending_;
+};
+
+/// The commands of one line.
+[[nodiscard]] std::vector<Command> split_commands(const std::string& text, long line);
+/// `text` cut at each `separator` outside of quotes and brackets, the parts trimmed.
+[[nodiscard]] std::vector<std::string> split_fields(const std::string& text, char separator);
+[[nodiscard]] std::string trim(const std::string& text);
+
+/// Fortran format of a block, "(3i9,6e21.13e3)": so many whole numbers, then so many reals, in columns.
+struct Columns {
+  std::size_t integers = 0, integer_width = 0, reals = 0, real_width = 0;
+  /// Cells of a line, trimmed; those behind its end are left out.
+  [[nodiscard]] std::vector<std::string> cells(const std::string& text) const;
+};
+/// @return false for what is no such format
+[[nodiscard]] bool parse_columns(const std::string& text, Columns& columns);
+
+}  // namespace twindeck::model_io::ansys

@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "core/error.hpp"
+#include "model_io/ansys_build.hpp"
+
+/// Beams, bars, shells and solids.
+namespace twindeck::model_io::ansys {
+namespace {
+
+constexpr double upright = 1e-4;       ///< [-] slope against global Z below which ANSYS takes y from global Y
+constexpr double least_across = 1e-6;  ///< [-] part of a direction that has to lie across its beam
+
+fe::Element element_of(Builder& builder, const Member& member, fe::ElementType type, const std::vector<long>& nodes) {
+  fe::Element e;
+  e.id = member.id;
+  e.type = type;
+  for (const long id : nodes) e.nodes.push_back(builder.node(id));
+  if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != nodes.size())
+    builder.fail(member, "names a node twice", "give different nodes");
+  return e;
+}
+
+/// The first nodes of the element, without one that only gives a direction.
+std::vector<long> ends_of(const Member& member) {
+  return {member.element.nodes.begin(), member.element.nodes.begin() + static_cast<std::ptrdiff_t>(member.type().nodes)};
+}
+
+const Eigen::Vector3d& place(const Builder& builder, int node) {
+  return builder.parts.model.nodes[static_cast<std::size_t>(node)].x_m;
+}
+
+/// Our local z, which is ANSYS's: towards the third node; without one, y is parallel to the global X-Y plane, and along global
+/// Y for a beam along global Z.
+Eigen::Vector3d direction_of_z(const Builder& builder, const Member& member, const Eigen::Vector3d& axis) {
+  const auto& nodes = member.element.nodes;
+  if (const long third = nodes.size() > 2 ? nodes.back() : 0; third != 0) {
+    const auto found = builder.parts.nodes.find(third);
+    if (found == builder.parts.nodes.end())
+      builder.fail(member, fmt::format("its direction node {} is not defined", third), "define it, or leave it out");
+    const Eigen::Vector3d to = found->second.x_m - builder.parts.nodes.at(nodes[0]).x_m;
+    if (axis.cross(to).norm() <= least_across * to.norm())
+      builder.fail(member, fmt::format("its direction node {} lies on its axis", third), "move it beside the beam");
+    return to;
+  }
+  if (axis.head<2>().norm() <= upright) return axis.cross(Eigen::Vector3d::UnitY());
+  return Eigen::Vector3d::UnitZ();
+}
+
+void add_beam(Builder& builder, const Member& member) {
+  fe::Element e = element_of(builder, member, fe::ElementType::beam, ends_of(member));
+  const Eigen::Vector3d chord = place(builder, e.nodes[1]) - place(builder, e.nodes[0]);
+  if (!(chord.norm() > 0.0)) builder.fail(member, "has no length", "merge its nodes, or take it out");
+  const Eigen::Vector3d axis = chord.normalized();
+  e.material = builder.material(member, member.element.material, false);
+  const fe::Material& material = builder.parts.model.materials[static_cast<std::size_t>(e.material)];
+  const CrossSection cross = beam_section(builder, member, material.poisson_ratio);
+  if (member.type().kind == Kind::plane_beam) {
+    if (chord.z() != 0.0) builder.fail(member, "is a BEAM3 that leaves the X-Y plane", "use BEAM188 for a frame in space");
+    e.orientation = Eigen::Vector3d::UnitZ();
+  } else {
+    Eigen::Vector3d z = direction_of_z(builder, member, axis);
+    z = (z - z.dot(axis) * axis).normalized();
+    const bool turned = cross.turn_rad != 0.0 && member.element.nodes.size() == 2;
+    if (turned) z = Eigen::AngleAxisd(cross.turn_rad, axis) * z;
+    e.orientation = z;
+    const Eigen::Vector3d y = z.cross(axis);
+    e.offset_m = {-(cross.node[0] * y + cross.node[1] * z), -(cross.node[0] * y + cross.node[1] * z)};
+  }
+  e.section = builder.section(cross.section);
+  e.group = builder.group(member, cross.section.name);
+  builder.parts.model.elements.push_back(e);
+}
+
+void add_bar(Builder& builder, const Member& member) {
+  fe::Element e = element_of(builder, member, fe::ElementType::bar, ends_of(member));
+  const CrossSection cross = bar_section(builder, member);
+  e.material = builder.material(member, member.element.material, false);
+  e.section = builder.section(cross.section);
+  e.group = builder.group(member, cross.section.name);
+  builder.parts.model.elements.push_back(e);
+}
+
+/// A triangle is a quadrilateral that repeats a node.
+void add_shell(Builder& builder, const Member& member) {
+  std::vector<long> corners;
+  for (const long id : member.element.nodes) {
+    if (std::find(corners.begin(), corners.end(), id) == corners.end()) corners.push_back(id);
+  }
+  if (corners.size() < 3) builder.fail(member, "has fewer than three different nodes", "give three or four");
+  fe::Element e = element_of(builder, member, fe::ElementType::shell, corners);
+  const CrossSection cross = shell_section(builder, member);
+  e.material = builder.material(member, cross.material > 0 ? cross.material : member.element.material, true);
+  e.section = builder.section(cross.section);
+  e.group = builder.group(member, cross.section.name);
+  builder.parts.model.elements.push_back(e);
+}
+
+void add_solid(Builder& builder, const Member& member) {
+  const auto& nodes = member.element.nodes;
+  const std::size_t different = std::set<long>(nodes.begin(), nodes.end()).size();
+  if (different < 8)
+    builder.fail(member,
+                 fmt::format("is a {} of {} different nodes: prism, pyramid and tetrahedron are not supported",
+                             member.type().name, different),
+                 "mesh with hexahedra");
+  fe::Element e = element_of(builder, member, fe::ElementType::solid, ends_of(member));
+  e.material = builder.material(member, member.element.material, true);
+  e.group = builder.group(member, builder.parts.model.materials[static_cast<std::size_t>(e.material)].name);
+  builder.parts.model.elements.push_back(e);
+}
+
+}  // namespace
+
+void add_member(Builder& builder, const Member& member) {
+  switch (member.type().kind) {
+    case Kind::bar:
+      return add_bar(builder, member);
+    case Kind::shell:
+      return add_shell(builder, member);
+    case Kind::solid:
+      return add_solid(builder, member);
+    default:
+      return add_beam(builder, member);
+  }
+}
+
+}  // namespace twindeck::model_io::ansys

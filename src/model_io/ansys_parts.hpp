@@ -1,0 +1,191 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+#include "model_io/ansys_commands.hpp"
+#include "model_io/ansys_expression.hpp"
+#include "model_io/ansys_types.hpp"
+
+/// Inside of the library: what a deck of ANSYS says, collected command by command in its own numbers, and made into an
+/// fe::Model at the end (ansys_members.cpp and its neighbours), since an element may stand before its type, section and
+/// material.
+namespace twindeck::model_io::ansys {
+
+struct Node {
+  Eigen::Vector3d x_m = Eigen::Vector3d::Zero();
+  bool rotated = false;  ///< its own axes are turned against the global ones
+};
+
+struct Element {
+  long type = 1, material = 1, real = 1, section = 1;
+  std::vector<long> nodes;
+  long line = 0;
+};
+
+struct Option {
+  long value = 0, line = 0;
+};
+struct TypeDefinition {
+  std::string name;                   ///< as written
+  const ElementType* type = nullptr;  ///< null: not read, which matters once an element is of it
+  std::map<int, Option> options;      ///< KEYOPT
+  long line = 0;
+  [[nodiscard]] long option(int number) const {
+    const auto found = options.find(number);
+    return found == options.end() ? 0 : found->second.value;
+  }
+};
+
+struct SectionDefinition {
+  std::string type, subtype, name;        ///< "BEAM", "RECT", the user's name
+  std::vector<std::vector<double>> data;  ///< one row a SECDATA, or a line of SECBLOCK
+  std::string offset;                     ///< "CENT", "MID", "USER" …; "": the type's own
+  std::array<double, 2> offset_m{};       ///< of USER
+  long line = 0;
+};
+
+struct RealSet {
+  std::vector<double> values;
+  long line = 0;
+  /// Value `i` (from 1, as the manual counts), 0 where it is missing.
+  [[nodiscard]] double at(std::size_t i) const { return i <= values.size() ? values[i - 1] : 0.0; }
+};
+
+struct Property {
+  double value = 0.0;
+  long line = 0;
+};
+
+struct Component {
+  std::string name;
+  bool of_nodes = true;
+  std::set<long> members;
+};
+
+/// Selected nodes or elements. What is defined later is selected too.
+struct Selection {
+  bool all = true;
+  std::set<long> ids;  ///< where it is not all
+};
+
+struct Hold {
+  std::array<bool, 6> fixed{};
+  std::string name;  ///< of the component that it was given by, else ""
+  long line = 0;
+};
+
+struct Link {
+  long master, slave, line;
+  bool turns;  ///< the slave's rotations are tied too
+};
+
+/// sum factor · displacement = 0.
+struct Equation {
+  struct Term {
+    long node;
+    int dof;  ///< 0-5
+    double factor;
+  };
+  long id, line;
+  std::vector<Term> terms;
+};
+
+/// Nodes whose displacements a CP ties, by their set number.
+struct Couple {
+  std::vector<long> nodes;
+  int dof;
+  long line;
+};
+
+struct Parts {
+  explicit Parts(const std::filesystem::path& file) : deck(file) {}
+
+  Deck deck;
+  Parameters parameters;
+  fe::Model model;
+  std::vector<std::string> notes;
+  std::map<std::string, long> told;  ///< first line of each ignored command that is worth a note, by its name
+  std::map<long, Node> nodes;
+  std::map<long, Element> elements;
+  std::map<long, TypeDefinition> types;
+  std::map<long, SectionDefinition> sections;
+  std::map<long, RealSet> reals;
+  std::map<long, std::map<std::string, Property>> materials;
+  std::vector<Component> components;
+  Element active;               ///< TYPE, MAT, REAL, SECNUM as they stand
+  long section = 0, real = 0;   ///< those that SECDATA and RMORE go on with
+  std::size_t real_filled = 0;  ///< constants of that set so far, six a line
+  Selection selected_nodes, selected_elements;
+  std::string selected_component;  ///< the component of nodes that is selected and nothing else, or ""
+  bool own_axes = false;           ///< CSYS is not 0
+  std::map<long, Hold> holds;
+  std::vector<Link> links;
+  std::map<long, std::vector<Couple>> couples;
+  std::vector<Equation> equations;
+
+  /// @throws InputError that names file, line and command
+  [[noreturn]] void fail(const Command& command, const std::string& problem, const std::string& mend = "") const;
+  [[noreturn]] void fail(long line, const std::string& part, const std::string& problem, const std::string& mend = "") const;
+  /// Field `i` (from 0) as a number; `fallback` where it is blank.
+  [[nodiscard]] double number_or(const Command& command, std::size_t i, double fallback) const;
+  [[nodiscard]] double number(const Command& command, std::size_t i) const;
+  [[nodiscard]] long integer_or(const Command& command, std::size_t i, long fallback) const;
+  [[nodiscard]] long integer(const Command& command, std::size_t i) const;
+  /// A cell of a block as a whole number; 0 where it is blank.
+  [[nodiscard]] long cell(const Command& block, const std::vector<std::string>& cells, std::size_t i) const;
+  /// Nodes that a first field names: a number, ALL (the selected ones), a component; with an end and a step, a range.
+  [[nodiscard]] std::set<long> nodes_of(const Command& command, std::size_t field, std::size_t end_field) const;
+  [[nodiscard]] const Component* component(const std::string& name) const;
+};
+
+// ansys_blocks.cpp
+void read_node_block(Parts& parts, const Command& command);
+void read_element_block(Parts& parts, const Command& command);
+void read_component_block(Parts& parts, const Command& command);
+void read_real_block(Parts& parts, const Command& command);
+void read_section_block(Parts& parts, const Command& command);
+// ansys_mesh.cpp
+void add_node(Parts& parts, long id, const Node& node);
+void add_element(Parts& parts, long id, Element element);
+void read_node(Parts& parts, const Command& command);
+void read_element(Parts& parts, const Command& command);
+void read_numbered_element(Parts& parts, const Command& command);
+void read_attribute(Parts& parts, const Command& command);
+void read_axes(Parts& parts, const Command& command);
+// ansys_properties.cpp
+void read_type(Parts& parts, const Command& command);
+void read_option(Parts& parts, const Command& command);
+void read_reals(Parts& parts, const Command& command);
+void read_more_reals(Parts& parts, const Command& command);
+void read_changed_reals(Parts& parts, const Command& command);
+void read_property(Parts& parts, const Command& command);
+void read_property_data(Parts& parts, const Command& command);
+void read_section_type(Parts& parts, const Command& command);
+void read_section_data(Parts& parts, const Command& command);
+void read_section_offset(Parts& parts, const Command& command);
+void read_section_control(Parts& parts, const Command& command);
+// ansys_selection.cpp
+void read_component(Parts& parts, const Command& command);
+void select_component(Parts& parts, const Command& command);
+void select_nodes(Parts& parts, const Command& command);
+void select_elements(Parts& parts, const Command& command);
+void select_nodes_of_elements(Parts& parts, const Command& command);
+void select_all(Parts& parts, const Command& command);
+// ansys_supports.cpp
+void read_support(Parts& parts, const Command& command);
+void read_released_support(Parts& parts, const Command& command);
+void read_couple(Parts& parts, const Command& command);
+void read_rigid_region(Parts& parts, const Command& command);
+// ansys_equations.cpp
+void read_equation(Parts& parts, const Command& command);
+
+/// The model out of what was collected.
+void build_model(Parts& parts);
+
+}  // namespace twindeck::model_io::ansys

@@ -1,0 +1,230 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "model_io/ansys_build.hpp"
+#include "model_io/inp_profiles.hpp"
+
+/// Sections and real constants as cross-sections. ANSYS's element axes are ours: y and z across the beam, IYY = ∫ z² dA is
+/// inertia_y, the first dimension of a rectangle lies along y.
+namespace twindeck::model_io::ansys {
+namespace {
+
+/// The section of an element if it is of `type` ("BEAM", "SHELL", "LINK"); null if there is none.
+const SectionDefinition* section_of(const Builder& builder, const Member& member, const std::string& type) {
+  const auto found = builder.parts.sections.find(member.element.section);
+  const bool fits = found != builder.parts.sections.end() && found->second.type.starts_with(type.substr(0, 4));
+  return fits ? &found->second : nullptr;
+}
+
+std::string section_name(const Member& member, const SectionDefinition& section) {
+  return section.name.empty() ? fmt::format("section_{}", member.element.section) : section.name;
+}
+
+[[noreturn]] void refuse_section(const Builder& builder, const Member& member, const SectionDefinition& section,
+                                 const std::string& problem, const std::string& mend) {
+  builder.parts.fail(section.line, "SECTYPE", fmt::format("section {} {}", member.element.section, problem), mend);
+}
+
+/// Constant `i` has to be 0 or blank.
+void require_zero(const Builder& builder, const Member& member, const RealSet& set, std::size_t i, const char* what,
+                  const char* mend) {
+  if (set.at(i) == 0.0) return;
+  builder.parts.fail(set.line, "R",
+                     fmt::format("constant {} of set {} is {:g}: {} is not supported", i, member.element.real, set.at(i), what),
+                     mend);
+}
+
+double positive(const Builder& builder, const Member& member, const RealSet& set, std::size_t i, const char* what) {
+  if (set.at(i) > 0.0) return set.at(i);
+  builder.parts.fail(set.line, "R",
+                     fmt::format("constant {} of set {} ({} of {}) is {:g}, expected a value above 0", i, member.element.real,
+                                 what, member.type().name, set.at(i)),
+                     "complete the set");
+}
+
+constexpr const char* give_density = "give the mass by the density or by MASS21";
+constexpr const char* give_pull = "leave it out; the tension of bars goes into pull_N of the model folder";
+
+/// BEAM3: A, IZZ, height, SHEARZ, strain, added mass. What lies out of the plane is held and any number will do.
+fe::Section plane_beam(const Builder& builder, const Member& member) {
+  const RealSet& r = builder.reals(member);
+  fe::Section s;
+  s.area_m2 = positive(builder, member, r, 1, "area");
+  s.inertia_z_m4 = s.inertia_y_m4 = s.torsion_m4 = positive(builder, member, r, 2, "IZZ");
+  if (r.at(4) > 0.0) s.shear_area_y_m2 = s.area_m2 / r.at(4);
+  require_zero(builder, member, r, 5, "an initial strain", give_pull);
+  require_zero(builder, member, r, 6, "added mass", give_density);
+  return s;
+}
+
+/// BEAM4: A, IZZ, IYY, thicknesses, angle, strain, IXX, SHEARZ (of bending by IZZ), SHEARY, spin, added mass.
+CrossSection space_beam(const Builder& builder, const Member& member) {
+  const RealSet& r = builder.reals(member);
+  CrossSection cross;
+  fe::Section& s = cross.section;
+  s.area_m2 = positive(builder, member, r, 1, "area");
+  s.inertia_z_m4 = positive(builder, member, r, 2, "IZZ");
+  s.inertia_y_m4 = positive(builder, member, r, 3, "IYY");
+  cross.turn_rad = r.at(6) * std::numbers::pi / 180.0;
+  require_zero(builder, member, r, 7, "an initial strain", give_pull);
+  s.torsion_m4 = r.at(8) > 0.0 ? r.at(8) : s.inertia_y_m4 + s.inertia_z_m4;
+  if (r.at(9) > 0.0) s.shear_area_y_m2 = s.area_m2 / r.at(9);
+  if (r.at(10) > 0.0) s.shear_area_z_m2 = s.area_m2 / r.at(10);
+  require_zero(builder, member, r, 11, "spin", "leave it 0: gyroscopic effects are not modelled");
+  require_zero(builder, member, r, 12, "added mass", give_density);
+  return cross;
+}
+
+/// ASEC: A, Iyy, Iyz, Izz, Iw, J, centroid y z, shear centre y z, thicknesses, shear corrections xz xy (1 if blank).
+fe::Section general_section(const Builder& builder, const Member& member, const SectionDefinition& section,
+                            const std::vector<double>& values) {
+  const auto at = [&](std::size_t i) { return i < values.size() ? values[i] : 0.0; };
+  if (at(0) <= 0.0 || at(1) <= 0.0 || at(3) <= 0.0 || at(5) <= 0.0)
+    refuse_section(builder, member, section, "has an area or a moment of area that is not above 0",
+                   "give SECDATA,A,Iyy,Iyz,Izz,Iw,J");
+  constexpr double beside = 1e-6;  // of the shear centre, in parts of the section's size
+  if (std::hypot(at(8) - at(6), at(9) - at(7)) > beside * std::sqrt(at(0)))
+    refuse_section(builder, member, section, "has a shear centre beside its centroid, which is not supported",
+                   "put both at one place, or model the section by shells");
+  fe::Section s;
+  s.area_m2 = at(0);
+  s.inertia_y_m4 = at(1);
+  s.inertia_yz_m4 = at(2);
+  s.inertia_z_m4 = at(3);
+  s.torsion_m4 = at(5);
+  s.shear_area_z_m2 = s.area_m2 * (at(12) > 0.0 ? at(12) : 1.0);
+  s.shear_area_y_m2 = s.area_m2 * (at(13) > 0.0 ? at(13) : 1.0);
+  return s;
+}
+
+/// Dimensions of a profile in the words of inp_profiles.hpp: name and values, empty for a shape that has none.
+Profile profile_of(const std::string& shape, const std::vector<double>& values) {
+  const auto at = [&](std::size_t i) { return i < values.size() ? values[i] : 0.0; };
+  if (shape == "RECT") return {"RECT", {at(0), at(1)}};
+  if (shape == "CSOLID") return {"CIRC", {at(0)}};
+  if (shape == "CTUBE") return {"PIPE", {at(1), at(1) - at(0)}};
+  // lower and upper flange, depth, their thicknesses, web
+  if (shape == "I") return {"I", {at(2) / 2.0, at(2), at(0), at(1), at(3), at(4), at(5)}};
+  // width, depth, four walls: only where all are one does their order not matter
+  if (shape == "HREC" && at(2) == at(3) && at(3) == at(4) && at(4) == at(5))
+    return {"BOX", {at(0), at(1), at(2), at(2), at(2), at(2)}};
+  return {};
+}
+
+/// Where the node lies in the section, from the centroid.
+Eigen::Vector2d node_place(const Builder& builder, const Member& member, const SectionDefinition& section) {
+  const std::string& where = section.offset;
+  if (where.empty() || where == "CENT" || where == "SHRC") return {0.0, 0.0};
+  const bool centred = section.subtype == "RECT" || section.subtype == "CSOLID" || section.subtype == "CTUBE";
+  if (!centred || (where != "USER" && where != "ORIG"))
+    refuse_section(builder, member, section, fmt::format("is offset by '{}', which is not supported for this shape", where),
+                   "use CENT, and rigid links for the eccentricity");
+  return where == "USER" ? Eigen::Vector2d(section.offset_m[0], section.offset_m[1]) : Eigen::Vector2d(0.0, 0.0);
+}
+
+}  // namespace
+
+CrossSection beam_section(Builder& builder, const Member& member, double poisson_ratio) {
+  CrossSection cross;
+  const std::string of_reals = fmt::format("real_{}", member.element.real);
+  if (member.type().kind == Kind::plane_beam) {
+    cross.section = plane_beam(builder, member);
+    cross.section.name = of_reals;
+    return cross;
+  }
+  if (member.is("BEAM4")) {
+    cross = space_beam(builder, member);
+    cross.section.name = of_reals;
+    return cross;
+  }
+  const SectionDefinition* section = section_of(builder, member, "BEAM");
+  if (section == nullptr)
+    builder.fail(member, fmt::format("its section {} is no section of a beam", member.element.section),
+                 "give SECTYPE,number,BEAM,shape and SECDATA");
+  std::vector<double> values;
+  for (const auto& row : section->data) values.insert(values.end(), row.begin(), row.end());
+  if (section->subtype == "ASEC") {
+    cross.section = general_section(builder, member, *section, values);
+  } else {
+    const Profile profile = profile_of(section->subtype, values);
+    if (profile.name.empty())
+      refuse_section(builder, member, *section, fmt::format("is a '{}' that is not supported", section->subtype),
+                     "supported are RECT, CSOLID, CTUBE, I of two equal flanges, HREC of four equal walls, and ASEC, which any "
+                     "section can be given as");
+    std::string problem;
+    cross.section = profile_section(profile.name, profile.values, poisson_ratio, problem);
+    if (!problem.empty()) refuse_section(builder, member, *section, "is wrong: " + problem, "check its SECDATA");
+  }
+  cross.node = node_place(builder, member, *section);
+  cross.section.name = section_name(member, *section);
+  return cross;
+}
+
+CrossSection bar_section(Builder& builder, const Member& member) {
+  CrossSection cross;
+  const SectionDefinition* section = member.is("LINK180") ? section_of(builder, member, "LINK") : nullptr;
+  if (section != nullptr) {
+    if (section->data.empty() || section->data[0].empty() || section->data[0][0] <= 0.0)
+      refuse_section(builder, member, *section, "has no area above 0", "give SECDATA,area");
+    cross.section.area_m2 = section->data[0][0];
+    cross.section.name = section_name(member, *section);
+    return cross;
+  }
+  const RealSet& r = builder.reals(member);
+  cross.section.area_m2 = positive(builder, member, r, 1, "area");
+  cross.section.name = fmt::format("real_{}", member.element.real);
+  if (member.is("LINK180")) {
+    require_zero(builder, member, r, 2, "added mass", give_density);
+    if (r.at(3) != 0.0) builder.note_once("LINK180 of tension or compression only is read as a bar that takes both");
+  } else {
+    require_zero(builder, member, r, 2, "an initial strain", give_pull);
+    if (member.is("LINK10")) builder.note_once("LINK10 is read as a bar that takes tension and compression");
+  }
+  return cross;
+}
+
+CrossSection shell_section(Builder& builder, const Member& member) {
+  CrossSection cross;
+  const SectionDefinition* section = member.is("SHELL181") ? section_of(builder, member, "SHELL") : nullptr;
+  if (section != nullptr) {
+    if (section->data.size() != 1 || section->data[0].empty() || section->data[0][0] <= 0.0)
+      refuse_section(builder, member, *section,
+                     fmt::format("has {} layers, expected one of a thickness above 0", section->data.size()),
+                     "give one SECDATA,thickness,material");
+    const bool shifted =
+        section->offset == "TOP" || section->offset == "BOT" || (section->offset == "USER" && section->offset_m[0] != 0.0);
+    if (shifted)
+      refuse_section(builder, member, *section, "is offset from its nodes, which is not supported",
+                     "put the nodes into the middle surface (SECOFFSET,MID), or use rigid links");
+    constexpr double largest_number = 1e9;  // of a material
+    const double material = section->data[0].size() > 1 ? section->data[0][1] : 0.0;
+    if (!(material >= 0.0 && material <= largest_number))
+      refuse_section(builder, member, *section, fmt::format("names material {:g}", material),
+                     "give the number of an MP command");
+    cross.section.thickness_m = section->data[0][0];
+    cross.material = static_cast<long>(material);
+    cross.section.name = section_name(member, *section);
+    return cross;
+  }
+  const RealSet& r = builder.reals(member);
+  cross.section.thickness_m = positive(builder, member, r, 1, "thickness");
+  for (std::size_t i = 2; i <= 4; ++i) {
+    if (r.at(i) != 0.0 && r.at(i) != r.at(1))
+      require_zero(builder, member, r, i, "a thickness that varies over an element", "give each element one thickness");
+  }
+  if (member.is("SHELL63")) {
+    require_zero(builder, member, r, 5, "an elastic foundation", "use COMBIN14 below the nodes");
+    if (r.at(7) > 0.0) cross.section.bending_inertia_ratio = r.at(7);
+    require_zero(builder, member, r, 18, "added mass", give_density);
+  } else {
+    require_zero(builder, member, r, 6, "added mass", give_density);
+  }
+  cross.section.name = fmt::format("real_{}", member.element.real);
+  return cross;
+}
+
+}  // namespace twindeck::model_io::ansys

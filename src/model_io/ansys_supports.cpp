@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "model_io/ansys_parts.hpp"
+
+/// Supports and ties of nodes.
+namespace twindeck::model_io::ansys {
+namespace {
+
+/// Degrees of freedom of a label: one, or all six; none for another word.
+std::vector<int> dofs_of(const std::string& label) {
+  static const std::vector<std::string> names = {"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
+  if (label == "ALL") return {0, 1, 2, 3, 4, 5};
+  const auto found = std::find(names.begin(), names.end(), label);
+  if (found == names.end()) return {};
+  return {static_cast<int>(found - names.begin())};
+}
+
+std::vector<int> known_dofs(Parts& parts, const Command& command, std::size_t field) {
+  const std::vector<int> dofs = dofs_of(command.word(field));
+  if (dofs.empty())
+    parts.fail(command,
+               fmt::format("'{}' is no degree of freedom of a structure", command.blank(field) ? "" : command.fields[field]),
+               "expected UX, UY, UZ, ROTX, ROTY, ROTZ or ALL");
+  return dofs;
+}
+
+void hold(Parts& parts, const Command& command, long node, const std::vector<int>& dofs, const std::string& name) {
+  Hold& held = parts.holds[node];
+  if (held.line == 0) held = {{}, name, command.line};
+  for (const int dof : dofs) held.fixed[static_cast<std::size_t>(dof)] = true;
+}
+
+}  // namespace
+
+void read_support(Parts& parts, const Command& command) {
+  // D,node,label,value,value2,end,step,label2 … label6
+  constexpr std::size_t first_more = 6, last_more = 10;
+  for (const std::size_t i : {std::size_t{2}, std::size_t{3}}) {
+    if (parts.number_or(command, i, 0.0) != 0.0)
+      parts.fail(command, "prescribes a displacement that is not zero, which is not supported", "supports hold at zero");
+  }
+  std::vector<int> dofs = known_dofs(parts, command, 1);
+  for (std::size_t i = first_more; i <= last_more; ++i) {
+    if (command.blank(i)) continue;
+    const std::vector<int> more = known_dofs(parts, command, i);
+    dofs.insert(dofs.end(), more.begin(), more.end());
+  }
+  std::string name;
+  if (command.word(0) == "ALL") {
+    name = parts.selected_component;
+  } else if (const Component* named = command.blank(0) ? nullptr : parts.component(command.fields[0]); named != nullptr) {
+    name = named->name;
+  }
+  for (const long node : parts.nodes_of(command, 0, 4)) hold(parts, command, node, dofs, name);
+}
+
+void read_released_support(Parts& parts, const Command& command) {
+  // DDELE,node,label,end,step
+  const std::vector<int> dofs = command.blank(1) ? dofs_of("ALL") : known_dofs(parts, command, 1);
+  for (const long node : parts.nodes_of(command, 0, 2)) {
+    const auto held = parts.holds.find(node);
+    if (held == parts.holds.end()) continue;
+    for (const int dof : dofs) held->second.fixed[static_cast<std::size_t>(dof)] = false;
+  }
+}
+
+void read_couple(Parts& parts, const Command& command) {
+  // CP,set,label,nodes
+  const long set = parts.integer(command, 0);
+  std::set<long> nodes;
+  if (command.word(2) == "ALL") {
+    nodes = parts.nodes_of(command, 2, 2);
+  } else {
+    for (std::size_t i = 2; i < command.fields.size(); ++i) {
+      if (!command.blank(i)) nodes.insert(parts.integer(command, i));
+    }
+  }
+  for (const int dof : known_dofs(parts, command, 1))
+    parts.couples[set].push_back({{nodes.begin(), nodes.end()}, dof, command.line});
+}
+
+void read_rigid_region(Parts& parts, const Command& command) {
+  // CERIG,master,slave,label: ALL six, or UXYZ, the displacements alone
+  const std::string label = command.blank(2) ? "ALL" : command.word(2);
+  if (label != "ALL" && label != "UXYZ")
+    parts.fail(command, fmt::format("ties '{}' alone, which is no rigid link", label), "tie ALL, or UXYZ of nodes of solids");
+  for (std::size_t i = 3; i < command.fields.size(); ++i) {
+    if (!command.blank(i)) parts.fail(command, "ties some of the directions, which is no rigid link", "tie ALL or UXYZ");
+  }
+  const long master = parts.integer(command, 0);
+  for (const long slave : parts.nodes_of(command, 1, 6)) {
+    if (slave != master) parts.links.push_back({master, slave, command.line, label == "ALL"});
+  }
+}
+
+}  // namespace twindeck::model_io::ansys
