@@ -29,8 +29,8 @@ struct FieldTable::Field {
   std::vector<std::vector<std::string>> elements;            ///< of an array of tables: each element's lines as printed
 };
 
-/// Refuses a key: names what was meant by it, or else the keys that are known here.
-/// @param above  what stands before the key in an array of tables ("damper[2].")
+/// Refuses an unknown key. The message names the nearest known key, or else all known keys.
+/// @param above  the text before the key in an array of tables ("damper[2].")
 [[noreturn]] void refuse_unknown_key(const std::string& file, long line, const std::string& above, const std::string& key,
                                      const std::vector<std::string>& known);
 /// "> 0", "in [0, 1]", "in ]0, 1]" or "".
