@@ -2,7 +2,7 @@
 
 namespace twindeck::wind {
 
-/// von Karman's constant as the paper has it, Eq. (11).
+/// von Karman's constant as printed in paper Eq. (11).
 inline constexpr double von_karman_constant = 0.4;
 
 /// Logarithmic profile of the mean speed, paper Eq. (11):  V(z) = (u* / 0.4) ln(z / z0).
