@@ -5,8 +5,8 @@
 
 namespace twindeck::aero {
 
-/// Flutter derivatives of a deck section at one reduced velocity and angle of attack. All conversions between conventions are in
-/// this file.
+/// Flutter derivatives of a deck section at one reduced velocity and angle of attack. All conversions between conventions are
+/// in this file.
 ///
 /// Sign frame of the whole library: y downwind, z up, alpha nose-up; drag D downwind, lift L up, moment M nose-up; the nose is
 /// the upwind edge. Rows of every 3 × 3 block are (D, L, M), columns (y, z, alpha).

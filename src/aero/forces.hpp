@@ -42,8 +42,8 @@ enum class Equations { consistent, as_printed };
 [[nodiscard]] Eigen::Vector3d static_slope(const SectionAero& section, const Strip& strip, const YawRule& rule,
                                            double density_kg_m3, double speed_m_s);
 
-/// Lists where the paper's equations (7) to (10) cannot hold as printed, what is used instead, and whether `as_printed` restores
-/// the print.
+/// Lists where the paper's equations (7) to (10) cannot hold as printed, what is used instead, and whether `as_printed`
+/// restores the print.
 struct EquationDifference {
   std::string equation, printed, taken, reason;
   bool selectable;

@@ -6,8 +6,8 @@
 #include "aero/flutter_derivatives.hpp"
 #include "aero/polar.hpp"
 
-/// Laws that aerodynamic data of a deck section normally obey; a wrong sign in a file breaks one of them. They compare the polar
-/// with the flutter derivatives, and both with the signs that hold for decks. They do not check magnitudes.
+/// Laws that aerodynamic data of a deck section normally obey; a wrong sign in a file breaks one of them. They compare the
+/// polar with the flutter derivatives, and both with the signs that hold for decks. They do not check magnitudes.
 namespace twindeck::aero {
 
 /// A law that a set of data breaks.

@@ -7,8 +7,8 @@
 
 namespace twindeck::diagnosis {
 
-/// Misfit of a block of rows (one condition, mode, channel or type) against its prediction from all other rows, or of its slopes
-/// against temperature, amplitude, wind or people.
+/// Misfit of a block of rows (one condition, mode, channel or type) against its prediction from all other rows, or of its
+/// slopes against temperature, amplitude, wind or people.
 struct BlockMisfit {
   std::string name;  ///< "frequency_Hz in frost", "shape of mode 3", "channel M4z", "frequency_Hz against temperature"
   int rows = 0;

@@ -51,7 +51,8 @@ class Newmark {
   /// dt²/4 K)⁻¹ R.
   /// @param load  R (r × n_inputs), rows at its end missing as above @return (r × n_inputs)
   [[nodiscard]] Eigen::MatrixXd within_a_step(const Eigen::Ref<const Eigen::MatrixXd>& load) const;
-  /// `run` from rest with the accelerations within_a_step(R) w(t). The first one is that at rest, so forces should start at zero.
+  /// `run` from rest with the accelerations within_a_step(R) w(t). The first one is that at rest, so forces should start at
+  /// zero.
   [[nodiscard]] History run_prepared(Eigen::MatrixXd alone) const;
 
  private:

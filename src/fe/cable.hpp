@@ -8,10 +8,10 @@
 namespace twindeck::fe {
 
 /// Matrices that turn the bar of a stay into a cable that can vibrate between its ends. The cable is a chain of straight pieces
-/// in the parabola of its own weight under the force T. Each piece has the axial stiffness E A and the string stiffness T/l across
-/// it. Masses are half lumped and half consistent (their errors in frequency have opposite signs and cancel to fourth order).
-/// The static stiffness of the chain between its ends, and the mass of the bar, are subtracted from the block of the ends,
-/// because the bar has them. Statics therefore do not change, and bar plus cable equal the chain.
+/// in the parabola of its own weight under the force T. Each piece has the axial stiffness E A and the string stiffness T/l
+/// across it. Masses are half lumped and half consistent (their errors in frequency have opposite signs and cancel to fourth
+/// order). The static stiffness of the chain between its ends, and the mass of the bar, are subtracted from the block of the
+/// ends, because the bar has them. Statics therefore do not change, and bar plus cable equal the chain.
 struct Cable {
   std::vector<Eigen::Vector3d> inner_x_m;  ///< (pieces - 1) nodes between the ends
   Eigen::MatrixXd stiffness;  ///< [N/m] (3 pieces + 3)²: x y z of the first end, of the second, of each inner node

@@ -4,7 +4,8 @@
 #include <array>
 #include <vector>
 
-/// Co-rotational elements for large displacements and rotations with small strains. The linear element moves with its own frame.
+/// Co-rotational elements for large displacements and rotations with small strains. The linear element moves with its own
+/// frame.
 ///
 /// R is the rotation of the element's frame from the start to now, C and c are the means of its points at the start and now,
 /// and T_a is the rotation of point a. The deformation of the element, in its initial orientation, is

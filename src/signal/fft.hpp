@@ -6,8 +6,8 @@
 
 namespace twindeck::signal {
 
-/// Discrete Fourier transform of real sequences of one length (FFTW, the plan is made once and not tuned to the machine, so that the
-/// same input gives the same bytes):  X_m = sum_t x_t exp(-2 pi i m t / n),  m = 0 … n/2.
+/// Discrete Fourier transform of real sequences of one length (FFTW, the plan is made once and not tuned to the machine, so
+/// that the same input gives the same bytes):  X_m = sum_t x_t exp(-2 pi i m t / n),  m = 0 … n/2.
 class RealFft {
  public:
   /// @param size  n >= 1

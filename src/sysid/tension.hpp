@@ -38,8 +38,8 @@ struct StayFit {
 /// Its inverse; 0 for ratios of at most 1. @param ratio f_1/c < 3
 [[nodiscard]] double lambda_squared_of(double ratio);
 
-/// Ratio f_n/(n c) of the n-th in-plane mode for odd n, the root of the same equation for n half-waves; 1 for even n, because sag
-/// does not affect these. At lambda² = 2.6 the third is raised by 0.13 %. @param number >= 1
+/// Ratio f_n/(n c) of the n-th in-plane mode for odd n, the root of the same equation for n half-waves; 1 for even n, because
+/// sag does not affect these. At lambda² = 2.6 the third is raised by 0.13 %. @param number >= 1
 [[nodiscard]] double frequency_ratio(int number, double lambda_squared);
 
 /// Effects that are included.
@@ -48,11 +48,11 @@ struct StayModel {
   bool sag_of_higher = true;  ///< the sag's small effect on the third and further odd harmonics; false: f_n = c n for n >= 2
 };
 
-/// Cable parameters from the harmonics of a stay (Irvine): c from n >= 2 by weighted least squares of f_n = c n r_n(lambda²), lambda² from
-/// f_1/c, alternately until both converge. Intervals follow by first-order propagation to c and f_1/c. Their bounds are then
-/// mapped to lambda², because lambda² is nonlinear and >= 0. The deviation of c includes what the parabola neglects, the excess
-/// length (g L/(T/m))²/24 of the arc over the chord. With at least five harmonics above the first, the bending term is tried and
-/// kept if the data support it.
+/// Cable parameters from the harmonics of a stay (Irvine): c from n >= 2 by weighted least squares of f_n = c n r_n(lambda²),
+/// lambda² from f_1/c, alternately until both converge. Intervals follow by first-order propagation to c and f_1/c. Their
+/// bounds are then mapped to lambda², because lambda² is nonlinear and >= 0. The deviation of c includes what the parabola
+/// neglects, the excess length (g L/(T/m))²/24 of the arc over the chord. With at least five harmonics above the first, the
+/// bending term is tried and kept if the data support it.
 /// @param harmonics  at least two, one of them with n >= 2 @param length_m  L
 /// @param quantile   of the normal law: 1.96 for 95 %
 /// @throws InputError  without two harmonics, with a harmonic twice, or a frequency or deviation that isn't positive
@@ -60,7 +60,8 @@ struct StayModel {
                                StayModel model = {});
 
 /// Numbers identified frequencies as harmonics of one stay: the spacing c for which the most frequencies lie within `tolerance`
-/// c of a multiple of it (the first from its own value to 0.5 c above it, because sag only raises it). If several c are equal in this, the largest.
+/// c of a multiple of it (the first from its own value to 0.5 c above it, because sag only raises it). If several c are equal
+/// in this, the largest.
 /// @param frequencies_Hz ascending @param lowest_Hz, highest_Hz  range of c
 /// @return (position in frequencies, harmonic), at most one a harmonic
 [[nodiscard]] std::vector<std::pair<std::size_t, int>> number_harmonics(const std::vector<double>& frequencies_Hz,

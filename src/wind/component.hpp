@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-/// Turbulent wind. Wind axes: `along` in the direction to which the mean wind blows, `vertical` up, `across` = vertical × along.
-/// One-sided spectra per Hz: the integral over f > 0 is the variance.
+/// Turbulent wind. Wind axes: `along` in the direction to which the mean wind blows, `vertical` up, `across` = vertical ×
+/// along. One-sided spectra per Hz: the integral over f > 0 is the variance.
 namespace twindeck::wind {
 
 /// Components of the turbulence. The paper's frame has Y downwind: its v' is along, u' (along the deck) is across, w' vertical.

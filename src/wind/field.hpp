@@ -12,8 +12,8 @@ namespace twindeck::wind {
 ///     S_jk(f) = sqrt(S_j(f) S_k(f)) gamma_jk(f),   gamma_jk = exp(-f sqrt(sum_a (C_a d_a)²) / V_jk),   Eq. (13) and (17),
 ///
 /// with the separations d_a of two points along, across and vertical and V_jk the mean of their two speeds. On curved
-/// decks some points lie behind others in the wind. With `frozen` the gusts move with the mean wind (Taylor's hypothesis) and gamma
-/// has the factor exp(-2 pi i f (x_j - x_k) / V), x along the wind, V the mean of all speeds.
+/// decks some points lie behind others in the wind. With `frozen` the gusts move with the mean wind (Taylor's hypothesis) and
+/// gamma has the factor exp(-2 pi i f (x_j - x_k) / V), x along the wind, V the mean of all speeds.
 struct FieldDefinition {
   Component component = Component::along;
   Eigen::MatrixX3d position_m;  ///< (n × 3) along, across, vertical

@@ -12,12 +12,13 @@ namespace twindeck::wind {
 /// Frequencies of Eq. (15).
 enum class Indexing {
   single_index,  ///< omega_l for every m: one transform a point, period T = 1/df, not ergodic in the mean sense
-  double_index  ///< Deodatis' omega_ml = (l - 1 + m/n) d_omega: n(n+1)/2 transforms, period n T, each sample ergodic. Use it
-                ///< for small n
+  double_index   ///< Deodatis' omega_ml = (l - 1 + m/n) d_omega: n(n+1)/2 transforms, period n T, each sample ergodic. Use it
+                 ///< for small n
 };
 /// Amplitudes of the waves.
 enum class Amplitudes {
-  fixed,    ///< as Eq. (15): only phases are random. The first point has the same variance in every sample, that of the last varies
+  fixed,    ///< as Eq. (15): only phases are random. The first point has the same variance in every sample, that of the last
+            ///< varies
   gaussian  ///< complex normal: exactly Gaussian, all points have the same law
 };
 

@@ -13,8 +13,8 @@ namespace twindeck::wind {
 ///
 ///     I(z) = 1 / ln(z / z0),   L(z) = 300 m (z / 200 m)^kappa,   kappa = 0.67 + 0.05 ln z0,   z = max(z, z_min).
 ///
-/// The other components follow by ratios (Solari and Piccardo, 2001, Prob. Eng. Mech. 16, 73-86). All length scales run along the
-/// wind.
+/// The other components follow by ratios (Solari and Piccardo, 2001, Prob. Eng. Mech. 16, 73-86). All length scales run along
+/// the wind.
 struct TurbulenceSet {
   std::string name;               ///< "CNR-DT 207 I"
   double roughness_m = 0.0;       ///< z0

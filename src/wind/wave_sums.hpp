@@ -36,8 +36,8 @@ class FactorPair {
   std::vector<double> apart_;
 };
 
-/// Random waves exp(i phi), or complex normal numbers of unit mean square, of kLanes positions of a stream from `first` on: pure
-/// functions of seed, stream and position. @param real, imaginary  kLanes numbers each
+/// Random waves exp(i phi), or complex normal numbers of unit mean square, of kLanes positions of a stream from `first` on:
+/// pure functions of seed, stream and position. @param real, imaginary  kLanes numbers each
 void random_waves(std::uint64_t seed, std::uint64_t stream, Eigen::Index first, bool normal, double* real, double* imaginary);
 
 /// Interpolation data of the waves of one call.

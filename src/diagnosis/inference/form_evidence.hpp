@@ -42,9 +42,9 @@ struct AtScales {
   std::vector<std::vector<Quadratic>> change;  ///< (n_contrasts × n_kappa)
 };
 
-/// Whitens all columns and computes all products once. A point of the scales then costs one Cholesky factor over the unknowns for
-/// all signatures. Each kappa costs one over the unknowns of its contrast (Schur complement). Kinks are eliminated beforehand,
-/// once for each tau_s, in the blocks of Sigma_0 (one mode each, or modes with correlated errors of shapes).
+/// Whitens all columns and computes all products once. A point of the scales then costs one Cholesky factor over the unknowns
+/// for all signatures. Each kappa costs one over the unknowns of its contrast (Schur complement). Kinks are eliminated
+/// beforehand, once for each tau_s, in the blocks of Sigma_0 (one mode each, or modes with correlated errors of shapes).
 class FormEvidence {
  public:
   FormEvidence(const FormSystem& system, const ScaleGrid& grid);
@@ -53,9 +53,10 @@ class FormEvidence {
 
  private:
   struct Eliminated {
-    Eigen::MatrixXd gram;     ///< (m × m) of all columns after the kinks, m columns of every kind
-    Eigen::MatrixXd right;    ///< (m × 1 + n_signatures) columns' products with residual and signatures
-    Eigen::MatrixXd removed;  ///< (n_kinks × 1 + n_signatures): part of the products of residual and signatures that the kinks remove
+    Eigen::MatrixXd gram;   ///< (m × m) of all columns after the kinks, m columns of every kind
+    Eigen::MatrixXd right;  ///< (m × 1 + n_signatures) columns' products with residual and signatures
+    Eigen::MatrixXd
+        removed;  ///< (n_kinks × 1 + n_signatures): part of the products of residual and signatures that the kinks remove
     double log_determinant = 0.0;
   };
   [[nodiscard]] Quadratic quadratic(double log_determinant, const Eigen::MatrixXd& removed_here,

@@ -26,7 +26,8 @@ struct ScaleGrid {
 [[nodiscard]] ScaleGrid scale_grid();
 
 /// Probabilities of a half-t law of three degrees of freedom on the cells around the points. The cells meet at geometric means;
-/// the first begins at zero and the last is unbounded, so that the probabilities sum to one. @param points ascending, above zero
+/// the first begins at zero and the last is unbounded, so that the probabilities sum to one. @param points ascending, above
+/// zero
 [[nodiscard]] Eigen::VectorXd half_t_weights(const Eigen::VectorXd& points, double scale);
 
 /// Points of kappa for the leftover of a cause (0.05 to 8 %) and of "something else changed" (0.2 to 20 %): first and count.

@@ -41,8 +41,8 @@ struct RuleOptions {
 /// changed, none.
 [[nodiscard]] Ruling rule(const Weighed& weighed, const RuleOptions& options = {});
 
-/// A named cause must predict modes that it was not fitted to. If the 5 % quantile of the gain is at or below zero, a cause in all
-/// conditions is withdrawn (none), and a change is kept without a name (unknown).
+/// A named cause must predict modes that it was not fitted to. If the 5 % quantile of the gain is at or below zero, a cause in
+/// all conditions is withdrawn (none), and a change is kept without a name (unknown).
 [[nodiscard]] Ruling guarded(Ruling ruling, double low_gain, bool in_all_conditions);
 
 }  // namespace twindeck::diagnosis

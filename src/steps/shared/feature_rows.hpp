@@ -37,8 +37,8 @@ struct FeatureRows {
 /// @param conditions  of conditions.toml
 /// @param channels    of channels.csv
 /// @throws InputError  with file, line and column: an unknown type, condition or channel; a row without a standard deviation; a
-///         value that its type cannot have; a mode number that is not a whole number from 1; `held_out` other than 0 and 1; two rows
-///         of one quantity; a static row without a load; a mode whose shape is zero everywhere; an invalid covariance
+///         value that its type cannot have; a mode number that is not a whole number from 1; `held_out` other than 0 and 1; two
+///         rows of one quantity; a static row without a load; a mode whose shape is zero everywhere; an invalid covariance
 ///         (covariance.hpp)
 [[nodiscard]] FeatureRows read_feature_rows(const std::filesystem::path& folder,
                                             const std::vector<MeasuredCondition>& conditions,

@@ -19,14 +19,14 @@ namespace twindeck::steps {
 [[nodiscard]] modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system,
                                              const dynamics::EigenModes& modes);
 
-/// stays.csv: `stay,group,length_m,pull_N,site_pull_N,stress_Pa,equivalent_modulus_Pa`. Length between the nodes; cable force of the
-/// prestress state; site value if the model gives one (Element::pull_N > 0); stress T/A; Ernst's tangent modulus at that
+/// stays.csv: `stay,group,length_m,pull_N,site_pull_N,stress_Pa,equivalent_modulus_Pa`. Length between the nodes; cable force
+/// of the prestress state; site value if the model gives one (Element::pull_N > 0); stress T/A; Ernst's tangent modulus at that
 /// stress.
 /// @param model  null for a matrix model: header only
 void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder);
 
-/// member_forces.csv: `element,group,x_m,y_m,z_m,length_m,axial_force_N` of every beam and bar under dead load and cable forces:
-/// middle and length between the ends (nodes and offsets), axial force, tension positive.
+/// member_forces.csv: `element,group,x_m,y_m,z_m,length_m,axial_force_N` of every beam and bar under dead load and cable
+/// forces: middle and length between the ends (nodes and offsets), axial force, tension positive.
 /// @param model  null for a matrix model: header only
 void write_member_forces(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder);
 

@@ -10,9 +10,9 @@
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
 
-/// Detects likely unit errors: a modulus in MPa, coordinates in millimetres, a frequency in millihertz among hertz. Such numbers
-/// are possible, but the structure is not plausible. Each function returns one line per likely error, with the model's own
-/// figures; the steps print them as warnings.
+/// Detects likely unit errors: a modulus in MPa, coordinates in millimetres, a frequency in millihertz among hertz. Such
+/// numbers are possible, but the structure is not plausible. Each function returns one line per likely error, with the model's
+/// own figures; the steps print them as warnings.
 namespace twindeck::steps {
 
 /// By the speed of waves sqrt(E / rho) of each material that elements use, the span, the slenderness of members and the size of
