@@ -5,8 +5,8 @@
 
 namespace twindeck::aero {
 
-/// Flutter derivatives of a deck section at one reduced velocity and angle of attack, and the one place where conventions are
-/// converted.
+/// Flutter derivatives of a deck section at one reduced velocity and angle of attack. All conversions between conventions are
+/// in this file.
 ///
 /// Sign frame of the whole library: y downwind, z up, alpha nose-up; drag D downwind, lift L up, moment M nose-up; the nose is
 /// the upwind edge. Rows of every 3 × 3 block are (D, L, M), columns (y, z, alpha).
@@ -15,8 +15,8 @@ namespace twindeck::aero {
 ///   D = ½ρV²B  (K P1 ẏ/V + K P5 ż/V + K P2 Bα̇/V + K² P4 y/B + K² P6 z/B + K² P3 α)
 ///   L = ½ρV²B  (K H5 ẏ/V + K H1 ż/V + K H2 Bα̇/V + K² H6 y/B + K² H4 z/B + K² H3 α)
 ///   M = ½ρV²B² (K A5 ẏ/V + K A1 ż/V + K A2 Bα̇/V + K² A6 y/B + K² A4 z/B + K² A3 α)
-/// Traps: the older form with ½ρV²(2B) has half of these values; the classic h and L, positive down, change the sign of H2, H3,
-/// H5, H6, A1, A4, P5, P6. Neither is read here.
+/// Other conventions, which are not read here: the older form with ½ρV²(2B) has half of these values; the classic h and L,
+/// positive down, change the sign of H2, H3, H5, H6, A1, A4, P5, P6.
 struct DerivativeBlock {
   Eigen::Matrix3d damping = Eigen::Matrix3d::Zero();    ///< [[P1,P5,P2],[H5,H1,H2],[A5,A1,A2]]
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< [[P4,P6,P3],[H6,H4,H3],[A6,A4,A3]]

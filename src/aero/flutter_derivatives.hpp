@@ -10,7 +10,7 @@
 
 namespace twindeck::aero {
 
-/// Flutter derivatives of a section as a function of angle of attack and reduced velocity, wherever they come from.
+/// Flutter derivatives of a section as a function of angle of attack and reduced velocity, from any source.
 class FlutterDerivatives {
  public:
   virtual ~FlutterDerivatives() = default;
@@ -39,10 +39,10 @@ class DerivativeTable : public FlutterDerivatives {
   /// @throws InputError  for axes that do not ascend or sizes that do not fit
   DerivativeTable(Convention convention, std::vector<double> alpha_rad, std::array<DerivativeCurve, 18> curves,
                   std::string source, OutOfRange below = OutOfRange::refuse, OutOfRange above = OutOfRange::refuse);
-  /// @throws InputError  outside the table, naming derivative, range and what was asked for
+  /// @throws InputError  outside the table, with derivative, range and requested value
   [[nodiscard]] DerivativeBlock at(double alpha_rad, double v_over_omegaB) const override;
-  /// The same table with all eighteen derivatives multiplied: self-excited forces at another level, as another ratio of air to
-  /// deck mass would give them; signs and shapes over the reduced velocity are kept.
+  /// The same table with all eighteen derivatives multiplied: self-excited forces of another magnitude, as for another ratio of
+  /// air to deck mass. Signs and shapes over the reduced velocity are kept.
   [[nodiscard]] DerivativeTable scaled(double factor) const;
   [[nodiscard]] const std::vector<double>& alpha_rad() const { return alpha_rad_; }
   /// Lowest and highest reduced velocity that all eighteen curves cover.

@@ -30,7 +30,7 @@ struct NodeBlock {
 };
 [[nodiscard]] NodeBlock to_global(const StripBlock& block, const Kinematics& kinematics);
 
-/// Which of the paper's equations to take where its print cannot be right.
+/// Whether to use the paper's equations as printed where the print cannot be right.
 enum class Equations { consistent, as_printed };
 
 /// Static drag, lift and moment of a strip, paper Eq. (7), q = ½ρV²:  D = qBL C_D, L = qBL C_L, M = qB²L C_M (as printed: qBL),
@@ -42,8 +42,8 @@ enum class Equations { consistent, as_printed };
 [[nodiscard]] Eigen::Vector3d static_slope(const SectionAero& section, const Strip& strip, const YawRule& rule,
                                            double density_kg_m3, double speed_m_s);
 
-/// Where the paper's equations (7) to (10) cannot hold as printed, what is taken instead, and whether `as_printed` brings the
-/// print back.
+/// Lists where the paper's equations (7) to (10) cannot hold as printed, what is used instead, and whether `as_printed`
+/// restores the print.
 struct EquationDifference {
   std::string equation, printed, taken, reason;
   bool selectable;

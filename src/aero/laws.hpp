@@ -6,14 +6,14 @@
 #include "aero/flutter_derivatives.hpp"
 #include "aero/polar.hpp"
 
-/// Laws that the aerodynamic data of a deck section obey unless there is a reason: what a wrong sign in a file breaks. They
-/// hold the polar and the flutter derivatives against each other and against the signs of any deck; they do not judge sizes.
+/// Laws that aerodynamic data of a deck section normally obey; a wrong sign in a file breaks one of them. They compare the
+/// polar with the flutter derivatives, and both with the signs that hold for decks. They do not check magnitudes.
 namespace twindeck::aero {
 
 /// A law that a set of data breaks.
 struct BrokenLaw {
   std::string law;   ///< its name, one of law_names()
-  std::string told;  ///< where and by what, for a message
+  std::string told;  ///< location and values, for a message
 };
 
 /// drag: C_D > 0 at every angle.
@@ -27,7 +27,7 @@ struct BrokenLaw {
 ///   sign, below that the sign of those of rotation alone.
 [[nodiscard]] const std::vector<std::string>& law_names();
 
-/// @param arms  of the quasi-steady rotational rate; 0 where it is not known
+/// @param arms  of the quasi-steady rotational rate; 0 if unknown
 /// @return the laws that are broken, each once, in the order of law_names()
 [[nodiscard]] std::vector<BrokenLaw> broken_laws(const Polar& polar, const DerivativeTable& table,
                                                  const QuasiSteady::Arms& arms);

@@ -17,12 +17,12 @@ class Polar {
   /// @param alpha_rad  ascending, nose-up
   /// @param source     where the numbers came from, for messages
   Polar(std::vector<double> alpha_rad, std::vector<StaticCoefficients> rows, std::string source);
-  /// A section whose coefficients do not depend on more than their slope: C(alpha) = C + C' alpha, at any angle.
+  /// A section with linear coefficients: C(alpha) = C + C' alpha, at any angle.
   static Polar linear(const StaticCoefficients& at_zero);
 
   /// @throws InputError  outside the table, naming its range
   [[nodiscard]] StaticCoefficients at(double alpha_rad) const;
-  /// The polar with lift turned about its value at alpha = 0: C_L -> C_L(0) + factor (C_L - C_L(0)), C_L' -> factor C_L'.
+  /// The polar with lift scaled about its value at alpha = 0: C_L -> C_L(0) + factor (C_L - C_L(0)), C_L' -> factor C_L'.
   [[nodiscard]] Polar with_lift_slope_factor(double factor) const;
   [[nodiscard]] const std::vector<double>& alpha_rad() const { return alpha_rad_; }
   [[nodiscard]] const std::string& source() const { return source_; }

@@ -26,7 +26,7 @@ struct ComplexMode {
 /// All eigenvalues of the state-space matrix with self-excited forces frozen at one frequency. @return (2m + n_maxwell)
 [[nodiscard]] Eigen::VectorXcd state_space_eigenvalues(const AeroelasticSystem& system, double speed_m_s, double omega_rad_s);
 
-/// One mode followed over the wind speed.
+/// One mode, tracked over the wind speed.
 struct Branch {
   int mode = 0;  ///< position among still_air_modes, from 1
   double still_air_frequency_Hz = 0.0;
@@ -35,12 +35,12 @@ struct Branch {
   Status status;  ///< not converged: where the mode was lost (it stopped oscillating, for instance)
 };
 
-/// Follows a mode through ascending speeds (p-K iteration: forces are those of harmonic motion at Im λ, so that the critical
+/// Mode tracking through ascending speeds (p-K iteration: forces are those of harmonic motion at Im λ, so that the critical
 /// speed, where λ is imaginary, is exact). At each speed Newton's iteration on (λ² + λC + Λ - λCa - Ka) v = 0 from the mode at
 /// the speed before, forces renewed with Im λ; a step that loses the shape (MAC below one half) is halved.
 [[nodiscard]] Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air, int mode,
                                  const std::vector<double>& speed_m_s);
-/// The mode at one speed, from a mode at a lower one. @return empty where it cannot be followed
+/// The mode at one speed, from a mode at a lower one. @return empty if it cannot be tracked
 [[nodiscard]] std::optional<ComplexMode> mode_at(const AeroelasticSystem& system, const ComplexMode& from,
                                                  double from_speed_m_s, double speed_m_s);
 
@@ -57,7 +57,7 @@ struct CriticalPoint {
 [[nodiscard]] std::optional<CriticalPoint> lowest_critical_point(const AeroelasticSystem& system,
                                                                  const std::vector<Branch>& branches);
 
-/// What explains a critical speed (by yaw rule): where the mode moves vertically, and how steeply its lift damping grows.
+/// Data that explain a critical speed (by yaw rule): location of the vertical motion of the mode, growth of its lift damping.
 struct GallopingCharacter {
   std::string deck;            ///< with the larger sum of z² L
   double theta_rms_rad = 0.0;  ///< yaw on that deck, weighted with z² L

@@ -6,14 +6,14 @@
 
 namespace twindeck::aero {
 
-/// How static coefficients meet a wind that blows at yaw theta to a deck's normal.
+/// Treatment of static coefficients for a wind at yaw theta to the deck's normal.
 enum class StaticRule {
   normal,        ///< C(alpha, 0), B, L: as if the wind blew along the normal
   cosine,        ///< C(alpha, 0) cos² theta, B, L: only the normal component acts
   oblique_strip  ///< C(alpha, 0), B' = B/cos theta, L' = L cos theta: the strip that the wind crosses
 };
 
-/// Along which axes forces act and motions count.
+/// Axes of forces and motions.
 enum class ForceAxes {
   deck,  ///< y = the deck's horizontal normal, alpha about the deck's axis
   wind   ///< y = the wind's direction, alpha about the horizontal normal to it
@@ -37,12 +37,12 @@ struct YawRule {
 [[nodiscard]] std::vector<std::string> published_yaw_rule_names();
 /// Another reading of H, which is not the printed one: its block on the oblique strip as its static part is. B'²L' gives 1/cos
 /// for forces due to y and z, 1/cos² across to alpha, 1/cos³ for the moment due to alpha. The printed speeds of C, H and G form
-/// a geometric ladder, as factors 1, 1/cos and 1/cos² give.
+/// a geometric series, as factors 1, 1/cos and 1/cos² give.
 [[nodiscard]] YawRule oblique_rule_H();
 /// @throws InputError  for an unknown name, naming the known ones
 [[nodiscard]] const YawRule& published_yaw_rule(const std::string& name);
 
-/// Rules by place: one everywhere, or (Table 14) another beyond a yaw angle.
+/// Rules by location: one everywhere, or (Table 14) another beyond a yaw angle.
 struct Deployment {
   struct Zone {
     std::string deck;

@@ -13,9 +13,9 @@ namespace twindeck::buffeting {
 ///     M_b = ½ρV²B²L (2 C_M v'/V +  C_M'        w'/V)
 ///
 /// at the strip's mean angle of attack, with the static factors of its rule (Table 11) and along its axes. The paper prints
-/// C_L' - C_D in the lift: no frame has both signs as printed (with lift up it is a plus), so that `consistent` has the plus
-/// and `as_printed` the print. Under the cosine rule the velocity across the deck is (V + v') cos theta: v' then comes with
-/// cos² theta and w' with cos theta; `as_printed` puts cos² theta, the factor of the coefficients, on both.
+/// C_L' - C_D in the lift. No frame has both signs as printed: with lift upwards it is a plus. `consistent` uses the plus,
+/// `as_printed` the printed sign. Under the cosine rule the velocity across the deck is (V + v') cos theta, so v' has the
+/// factor cos² theta and w' the factor cos theta. `as_printed` gives both cos² theta, the factor of the coefficients.
 /// @return [N s/m, N s] (3 × 2) rows D, L, M; columns v', w'
 using LoadFactor = Eigen::Matrix<double, 3, 2>;
 [[nodiscard]] LoadFactor buffeting_factor(const aero::SectionAero& section, const aero::Strip& strip, const aero::YawRule& rule,

@@ -10,15 +10,15 @@
 
 namespace twindeck::buffeting {
 
-/// A reduced structure in wind as equations in time:  q̈ + (C - Ca) q̇ + (Λ - Ka) q = f. Flutter derivatives hold for a harmonic
-/// motion, so that in time they are frozen at one frequency (the paper does not say which it took); Maxwell units get
-/// coordinates of their own at the end.
+/// A reduced structure in wind as equations in time:  q̈ + (C - Ca) q̇ + (Λ - Ka) q = f. Flutter derivatives hold for harmonic
+/// motion. In time they are frozen at one frequency (the paper does not state which). Maxwell units get further coordinates at
+/// the end.
 [[nodiscard]] dynamics::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s,
                                                          double frozen_omega_rad_s);
 
 /// Accelerations at sensors under one sample of turbulence.
 struct ResponseOptions {
-  double lead_in_s = 60.0;  ///< run before the record from the sample's own end, which it continues (its period is the record)
+  double lead_in_s = 60.0;  ///< run-up before the record; it uses the end of the sample, which is periodic
 };
 struct Response {
   Eigen::MatrixXd acceleration_m_s2;  ///< (n_steps × n_sensors) over the sample's period, first columns first
@@ -28,7 +28,7 @@ struct Response {
 /// @param load           (m × n_inputs) of load_matrix
 /// @param wind_m_s       (n_steps × n_inputs) v' of every strip, then w'
 /// @param step_s         of the wind
-/// @param sensors        (n_sensors × m) what each sensor sees of each coordinate
+/// @param sensors        (n_sensors × m) motion of each sensor per unit of each coordinate
 [[nodiscard]] Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const Eigen::MatrixXd>& load,
                                const Eigen::Ref<const Eigen::MatrixXd>& wind_m_s, double step_s,
                                const Eigen::Ref<const Eigen::MatrixXd>& sensors, const ResponseOptions& options = {});

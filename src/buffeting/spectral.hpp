@@ -8,8 +8,8 @@
 
 namespace twindeck::buffeting {
 
-/// Stationary response in the frequency domain: no step, no seed, derivatives at every frequency's own. What time histories
-/// scatter around, and how far freezing the derivatives takes them from it.
+/// Stationary response in the frequency domain, without time step and seed, with the derivatives of each frequency. It is the
+/// reference for the scatter of time histories and for the error of frozen derivatives.
 ///
 ///     S_a(f) = sum over v', w' of |T(f) S_c(f) T(f)*|,   T = (i omega)^p O (-omega² + i omega C(omega) + K(omega))⁻¹ R,
 ///
@@ -17,7 +17,7 @@ namespace twindeck::buffeting {
 struct SpectralOptions {
   int derivative = 2;         ///< p
   double frozen_omega = 0.0;  ///< [rad/s] at which derivatives are taken; 0: at each frequency
-  double lowest_omega = 0.0;  ///< [rad/s] below it derivatives are held, as tables end somewhere towards quasi-steady motion
+  double lowest_omega = 0.0;  ///< [rad/s] derivatives are constant below it, because tables end before quasi-steady motion
   /// Aerodynamic admittance on the force spectra, |chi(f)|²; empty: 1 (quasi-steady).
   std::function<double(double f_Hz)> admittance;
 };

@@ -8,22 +8,22 @@
 
 namespace twindeck {
 
-/// Where a bad input stands: file, line (1-based, 0 = unknown) and key or column (empty = unknown).
+/// Position of a bad input: file, line (1-based, 0 = unknown) and key or column (empty = unknown).
 struct Place {
   std::string file;
   long line = 0;
   std::string key;
 };
 
-/// Bad input: the user can mend it. Caught once, in `run_step`, printed on one line, exit code 2.
+/// Bad input, which the user can correct. `run_step` catches it, prints it on one line and returns exit code 2.
 ///
-/// `what()` reads "file:line: key: problem; mend", leaving out what is unknown. It is one line of valid UTF-8 whatever the
-/// input holds: control characters are escaped and long texts are cut (core/printable.hpp).
+/// `what()` reads "file:line: key: problem; mend" without the unknown parts. It is always one line of valid UTF-8:
+/// control characters are escaped and long texts are cut (core/printable.hpp).
 class InputError : public std::runtime_error {
  public:
-  /// @param place    where it stands
+  /// @param place    position of the bad input
   /// @param problem  what was found and what was expected ("is -3 GPa, expected a value in ]0, 1e13]")
-  /// @param mend     how to put it right ("give the modulus with its unit, for example \"210 GPa\"")
+  /// @param mend     how to correct it ("give the modulus with its unit, for example \"210 GPa\"")
   InputError(Place place, const std::string& problem, const std::string& mend = "");
 
   [[nodiscard]] const Place& place() const { return place_; }
@@ -38,16 +38,16 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Whether a computation converged, with one line that says why not. Numerics return it, they do not throw.
+/// Whether a computation converged, with one line that says why not. Numerical functions return it; they do not throw.
 struct Status {
   bool converged = true;
   std::string message;
 };
 
-/// The known name nearest to `name` by edit distance, or "" when none is near (over a third of its letters).
+/// The known name nearest to `name` by edit distance. "" if the distance of each is over a third of its letters.
 [[nodiscard]] std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
-/// " (did you mean 'x'?)" or "": for the end of a message about an unknown name.
+/// " (did you mean 'x'?)" or "", to be appended to a message about an unknown name.
 [[nodiscard]] std::string did_you_mean(std::string_view name, std::span<const std::string> known);
 
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line);

@@ -8,7 +8,7 @@ namespace twindeck {
 
 /// Sets how many threads parallel_for uses (at least 1) when the calling thread starts it.
 void set_thread_count(int threads);
-/// How many threads parallel_for uses. Without set_thread_count it is as many as the machine has, or as OMP_NUM_THREADS says.
+/// Number of threads that parallel_for uses. Without set_thread_count: OMP_NUM_THREADS, or the number of processors.
 [[nodiscard]] int thread_count();
 /// How many processors this process may use.
 [[nodiscard]] int processor_count();
@@ -21,15 +21,15 @@ void run(std::ptrdiff_t count, std::ptrdiff_t chunk, void (*work)(void* context,
 
 }  // namespace parallel_detail
 
-/// Calls work(i) for i = 0 … count - 1, side by side on thread_count() threads.
+/// Calls work(i) for i = 0 … count - 1 in parallel on thread_count() threads.
 ///
-/// Threads take `chunk` indices at a time, in increasing order, whenever they are free. Each index must write to places of its
-/// own; sums over indices are taken by the caller afterwards, in the order of the indices, so that the number of threads
-/// changes no digit. Where it is called within another parallel_for it runs on the calling thread alone.
+/// A free thread takes the next `chunk` indices, in increasing order. Each index must write to its own memory. The caller
+/// sums over indices afterwards, in the order of the indices, so that results do not depend on the number of threads.
+/// A call within another parallel_for runs on the calling thread alone.
 ///
-/// @throws what work throws, when all threads have stopped. Where several indices throw, it is the exception of the lowest one:
-///         indices above one that has thrown are left out, indices below it still run. So the exception, too, is the same
-///         whatever the number of threads.
+/// @throws what work throws, after all threads have stopped. If several indices throw, the exception of the lowest index is
+///         thrown: indices above an index that threw are skipped, indices below it still run. The exception is therefore
+///         the same for any number of threads.
 template <typename Index, typename Work>
 void parallel_for(Index count, Work&& work, std::ptrdiff_t chunk = 1) {
   using Callable = std::remove_reference_t<Work>;
@@ -37,7 +37,7 @@ void parallel_for(Index count, Work&& work, std::ptrdiff_t chunk = 1) {
   parallel_detail::run(static_cast<std::ptrdiff_t>(count), chunk, call, const_cast<std::remove_const_t<Callable>*>(&work));
 }
 
-/// The same for work that needs room of its own in each thread: calls work(state, i), where `state` is what make() returned
+/// The same for work that needs its own workspace in each thread. Calls work(state, i), where `state` is what make() returned
 /// when the thread took its first index.
 template <typename Index, typename Make, typename Work>
 void parallel_for_with(Index count, const Make& make, const Work& work, std::ptrdiff_t chunk = 1) {

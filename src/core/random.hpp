@@ -4,10 +4,10 @@
 
 namespace twindeck {
 
-/// Numbers that look random and are a pure function of (seed, stream, index): no state, so that a result depends neither on the
-/// order in which they are asked for nor on the number of threads, and is the same on every machine.
+/// Pseudo-random number as a pure function of (seed, stream, index). There is no state. Results do not depend on the order of
+/// the calls or on the number of threads, and are the same on every machine.
 ///
-/// Each argument is folded in by the finaliser of SplitMix64. Reference: Steele, Lea and Flood (2014), OOPSLA, 453-472.
+/// Each argument is mixed in with the finaliser of SplitMix64. Reference: Steele, Lea and Flood (2014), OOPSLA, 453-472.
 /// @return  uniform in [0, 1[ with 53 bits
 [[nodiscard]] inline double uniform_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
   const auto mixed = [](std::uint64_t x) {
@@ -19,15 +19,15 @@ namespace twindeck {
   return static_cast<double>(mixed(mixed(mixed(seed) ^ stream) ^ index) >> 11) * 0x1.0p-53;
 }
 
-/// White number: uniform, mean 0, variance 1. For loads of which hundreds act on a mode at once and thousands one after the other:
-/// the motion is then normal, whatever one load's own law, and a number costs a fifth of a normal one.
+/// White number: uniform, mean 0, variance 1. Use it for loads of which hundreds act on a mode at once and thousands one after
+/// the other. The motion is then normal by the central limit theorem, at a fifth of the cost of normal numbers.
 [[nodiscard]] inline double white_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
   constexpr double half_width = 1.7320508075688772;  // sqrt(3): the variance of a uniform number is its half width squared by three
   return half_width * (2.0 * uniform_number(seed, stream, index) - 1.0);
 }
 
-/// Standard normal number of two uniform ones (Box and Muller, 1958, Ann. Math. Stat. 29, 610-611): sqrt(-2 ln u1) cos(2 pi
-/// u2), u1 in ]0, 1]. Takes the places 2 index and 2 index + 1 of the stream.
+/// Standard normal number from two uniform ones (Box and Muller, 1958, Ann. Math. Stat. 29, 610-611): sqrt(-2 ln u1) cos(2 pi
+/// u2), u1 in ]0, 1]. Uses the positions 2 index and 2 index + 1 of the stream.
 [[nodiscard]] double normal_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
 
 }  // namespace twindeck

@@ -5,10 +5,10 @@
 
 namespace twindeck {
 
-/// Standard deviations that a Gaussian 90 % interval reaches to either side.
+/// Half width of a Gaussian 90 % interval in standard deviations.
 inline constexpr double kReachOfNinety = 1.645;
 
-/// Middle value, the mean of the two middle ones of an even number. @param values  at least one
+/// Median; for an even number of values the mean of the two middle ones. @param values  at least one
 [[nodiscard]] inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();

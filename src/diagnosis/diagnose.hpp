@@ -15,8 +15,8 @@ namespace twindeck::diagnosis {
 
 struct DiagnoseOptions {
   double alpha = 0.01;           ///< false alarms allowed by the threshold
-  double least_log_odds = 3.0;   ///< a name is given only above this, whatever the threshold of the nulls
-  double threshold = 3.0;        ///< of the largest log odds (from nulls, or the analytic tail)
+  double least_log_odds = 3.0;   ///< least log odds of a named cause, whatever the threshold of the null calibration
+  double threshold = 3.0;        ///< of the largest log odds (from null calibration, or the analytic tail)
   double either_within = 3.0;    ///< nats: causes this near the best are not told apart
   double same_direction = 0.95;  ///< |cos| of signatures above which causes within `same_within` are not told apart either
   double same_within = 8.0;      ///< nats
@@ -35,10 +35,10 @@ struct EffectParameter {
 
 /// Another member of a cause's cluster.
 struct Rival {
-  std::string id;                           ///< "mass@node:7"; "other@global" is something else that changed
-  const Candidate* candidate = nullptr;     ///< null where it is no entry of the catalogue
+  std::string id;                           ///< "mass@node:7"; "other@global": something else changed
+  const Candidate* candidate = nullptr;     ///< null if it is not an entry of the catalogue
   double probability = 0.0;
-  std::vector<EffectParameter> parameters;  ///< 90 % intervals; empty where its magnitudes are not known
+  std::vector<EffectParameter> parameters;  ///< 90 % intervals; empty if its magnitudes are unknown
 };
 
 struct Effect {
@@ -63,11 +63,11 @@ struct LocationScore {
   double score;
 };
 
-/// Scales of the model's form error under the winning hypothesis, and what a name is worth on modes that it was not fitted to.
+/// Scales of the model's form error under the winning hypothesis, and the predictive gain of a name on left-out modes.
 struct FormReport {
   ScaleEstimate frequency, shape;   ///< relative deviations
   PredictiveGain gain;              ///< of the first cause, whether it was named or not
-  std::vector<std::string> warnings;  ///< that stand beside the verdict
+  std::vector<std::string> warnings;  ///< to be shown with the verdict
 };
 
 struct Diagnosis {
@@ -75,23 +75,23 @@ struct Diagnosis {
   std::string message;  ///< one line for people
   double log_odds = 0.0, threshold = 0.0, alpha = 0.0;
   ResidualTest residual;  ///< with the causes in the model
-  std::vector<ScatterScale> scatter;  ///< likewise; left to who asks for it (scatter_scales)
+  std::vector<ScatterScale> scatter;  ///< likewise; filled by scatter_scales on request
   bool after_extension = false;
   std::vector<Effect> effects;
   std::vector<LocationScore> localisation;
   Gain gain;
   std::vector<std::string> on_bounds;  ///< of the model without causes
   Fit before, after;
-  std::vector<Scored> ranking;  ///< of the first search, odds widened as those of the effects are
-  std::optional<FormReport> form;  ///< where the model's form was a competitor
+  std::vector<Scored> ranking;  ///< of the first search; odds widened as those of the effects
+  std::optional<FormReport> form;  ///< set if the model's form was a hypothesis
 };
 
-/// What is wrong, why, and what naming it gains (docs/diagnosis.md): forward steps with a backward check, clusters, the
-/// verdict, the gain on held-out rows. Deterministic: `seed` drives the resampling of held-out blocks.
+/// Finds what is wrong, why, and the gain from naming it (docs/diagnosis.md): forward steps with a backward check, clusters,
+/// the verdict, the gain on held-out rows. Deterministic: `seed` sets the resampling of held-out blocks.
 [[nodiscard]] Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
-/// The same where the model's form may be wrong: a form error that all conditions share competes with every cause, its scales are summed
-/// over under each hypothesis, and the rules of decision 0013 give the verdict (form_diagnosis.cpp).
+/// The same for a model whose form may be wrong. A form error that all conditions share competes with every cause. Its scales are
+/// summed over under each hypothesis, and the rules of decision 0013 give the verdict (form_diagnosis.cpp).
 [[nodiscard]] Diagnosis diagnose_with_form(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
 /// Gain of `after` over `before` on the held-out rows, 90 % interval over resampled blocks (a mode or record of one condition
@@ -99,19 +99,19 @@ struct Diagnosis {
 [[nodiscard]] Gain held_out_gain(const Inference& inference, const Fit& before, const Fit& after, int bootstrap,
                                  std::uint64_t seed);
 
-/// Standardised residuals of every row at a fit, e = (y - g)/sigma_id; the level of a record that was held out wholly is taken
-/// out.
+/// Standardised residuals of every row at a fit, e = (y - g)/sigma_id; the level of a record that is held out completely is
+/// removed.
 [[nodiscard]] Eigen::VectorXd standardised_residuals(const Inference& inference, const Fit& fit);
 
-/// 90 % intervals of the unknowns of one of the fit's causes, by the likelihood along each unknown with the others following,
-/// widened by the misfit that the fit leaves (Birge 1932).
+/// 90 % intervals of the unknowns of one of the fit's causes, by the profile likelihood of each unknown, widened by
+/// the remaining misfit (Birge 1932).
 [[nodiscard]] std::vector<EffectParameter> effect_parameters(const Inference& inference, const Fit& fit, std::size_t which);
 
 /// Threshold of the largest log odds at false-alarm rate alpha by the union bound over candidates, chi² tails with the
-/// catalogue's priors: what serves until nulls have been run.
+/// catalogue's priors. It is used until the null calibration has been run.
 [[nodiscard]] double analytic_threshold(const Inference& inference, double alpha);
 
-/// ln odds of the best entry with its likelihood widened by what misfit it leaves, as thresholds are held against.
+/// ln odds of the best entry, with the likelihood widened by the remaining misfit, for comparison with thresholds.
 [[nodiscard]] double tempered_log_odds(const Scored& best, int dof);
 
 /// Largest log odds and residual statistic of `count` null data sets drawn from the prior (x ~ N(0, I) inside its bounds,

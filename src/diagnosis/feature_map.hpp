@@ -15,13 +15,13 @@
 
 namespace twindeck::diagnosis {
 
-/// Standard deviations of what every model has wrong a little ("workmanship"), and floors of identification errors.
+/// Standard deviations of the element scatter (small errors of every model), and floors of identification errors.
 struct ScatterOptions {
   double element_stiffness = 0.03, element_mass = 0.02, node_mass = 0.02, stay_stiffness = 0.03, stay_pull = 0.10, gain = 0.01;
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
-  double load_model = 0.10;  ///< of RMS values, on ln: what a simple load model leaves open
-  double model_form = 0.0;   ///< of a frequency, on ln, the same in all conditions of a mode: what a model that is known to be off leaves open
-  bool damping_by_dampers = false;  ///< structural damping is another unknown where dampers are on: stuck ones rub in ways no model has
+  double load_model = 0.10;  ///< of RMS values, on ln: uncertainty of a simple load model
+  double model_form = 0.0;   ///< of a frequency, on ln, the same in all conditions of a mode: for a model that is known to be inaccurate
+  bool damping_by_dampers = false;  ///< a separate structural damping where dampers are on, because stuck dampers dissipate by friction
   double fine = 1.0;         ///< common factor of the first line (estimated by marginal likelihood)
   double noise = 1.0;        ///< common factor of identification errors (likewise)
 };
@@ -46,12 +46,12 @@ struct MeasuredMode {
   double frequency_Hz = 0.0;
 };
 
-/// What the structure is predicted to show.
+/// Prediction for the rows.
 struct Prediction {
   bool valid = false;
   Eigen::VectorXd g;                 ///< (n_rows) transformed as `FeatureMap::values`
   Eigen::MatrixXd jacobian;          ///< (n_rows × n_nuisances), if asked for
-  Eigen::MatrixXd scales;            ///< (n_rows × n_scales) directions of shape scales, free of cost
+  Eigen::MatrixXd scales;            ///< (n_rows × n_scales) directions of the free shape scales
   std::vector<double> frequency_Hz;  ///< (n_measured_modes) of the paired model modes
   std::vector<int> paired;           ///< (n_measured_modes) position of the paired model mode in its state, -1
   std::vector<double> mac;           ///< (n_measured_modes) with the paired mode, NaN without shape
@@ -60,7 +60,7 @@ struct Prediction {
 /// Undamped modes of the model as the channels see them, and which of them each measured mode is paired with.
 struct FormModes {
   ModelModes modes;
-  std::vector<PairedMode> paired;  ///< (n_measured_modes), empty where the model predicts none of these rows
+  std::vector<PairedMode> paired;  ///< (n_measured_modes), empty if the model predicts none of these rows
 };
 
 /// g(x, a): rows of the measurement as functions of the nuisance unknowns x and of causes. Frequencies, damping, RMS, floors and stay
@@ -69,11 +69,11 @@ class FeatureMap {
  public:
   FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter);
 
-  /// Modes that measured labels are bound to where no shape tells: label -> position in the model as it stands (0-based).
+  /// Modes that measured labels are bound to where there is no shape: label -> position in the model as it stands (0-based).
   void bind_modes(const std::map<std::string, int>& positions) { bound_modes_ = positions; }
 
-  /// Structure at x, projected: what all predictions at one x share, the states solved so far among it (so one base is for one
-  /// thread).
+  /// Projected structure at x: the data that all predictions at one x share, with the states solved so far. Each thread needs its
+  /// own base.
   struct Base {
     Eigen::VectorXd x, theta;
     using Part = std::pair<double, const Eigen::MatrixXd*>;  ///< amount, matrix (r × r) of the reduced model
@@ -84,7 +84,7 @@ class FeatureMap {
   };
   [[nodiscard]] Base base(const Eigen::VectorXd& x) const;
   /// Stiffness and mass at a base in some of the reduced model's coordinates, the common ones first (n × n each). Most of the
-  /// others stand for causes elsewhere and are never asked for.
+  /// others belong to causes at other locations and are not used.
   [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> matrices(const Base& base, const std::vector<int>& columns) const;
   [[nodiscard]] Prediction predict(const Base& base, const std::vector<Cause>& causes, bool with_jacobian) const;
 
@@ -92,7 +92,7 @@ class FeatureMap {
   /// scaled to 1.
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> node_motion(const Base& base, const std::vector<Cause>& causes) const;
 
-  /// What errors of the model's form are made of (model_modes.cpp).
+  /// Data for the errors of the model's form (model_modes.cpp).
   [[nodiscard]] FormModes form_modes(const Base& base, const std::vector<Cause>& causes) const;
 
   [[nodiscard]] const ReducedModel& model() const { return model_; }
@@ -106,12 +106,12 @@ class FeatureMap {
   [[nodiscard]] int scales() const { return n_scales_; }
   /// Replaces the measured values by others (bootstrap, tests), in transformed units.
   void set_values(const Eigen::VectorXd& values);
-  /// Errors that come on top of the identification's, in transformed units (n_rows × n_rows).
+  /// Errors that are added to those of the identification, in transformed units (n_rows × n_rows).
   void add_covariance(const Eigen::MatrixXd& further);
 
  private:
   friend class Predictor;
-  /// What a mode's structural damping goes by: its label, the structure's state, and the dampers' where that counts.
+  /// Key of a mode's structural damping: its label, the state of the structure, and that of the dampers if it counts.
   [[nodiscard]] std::string damping_name(const std::string& label, int condition) const;
   void collect_modes();
   void list_nuisances(const ScatterOptions& scatter);

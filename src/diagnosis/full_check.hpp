@@ -12,14 +12,14 @@ namespace twindeck::diagnosis {
 struct FullCheck {
   Eigen::VectorXd reduced_Hz, full_Hz;  ///< (n_modes) ascending
   double largest_pct = 0.0;             ///< |reduced / full - 1|
-  std::string message;                  ///< why the full problem has no solution, "" where it has one
+  std::string message;                  ///< why the full problem has no solution; "" if it has one
 };
 
-/// The winner once more with every degree of freedom: parameters and workmanship of `fit`, its causes that act on stiffness and
-/// mass in every condition; dampers, temperature and people left out on both sides. The reduced side uses the vectors that a
-/// prediction of this fit uses. Rayleigh-Ritz values lie above the full ones, so what is seen is the basis' error alone.
-/// @param modes  so many of the lowest
-/// An extended model that cannot be solved is said in `message`: it costs the check, not the results.
+/// Computes the leading fit with all degrees of freedom: parameters and element scatter of `fit`, and its causes that act on
+/// stiffness and mass in every condition. Dampers, temperature and people are left out on both sides. The reduced side uses the
+/// vectors of a prediction of this fit. Rayleigh-Ritz values lie above the full ones; the difference is the error of the basis.
+/// @param modes  number of lowest modes
+/// If the extended model cannot be solved, `message` says so. The check is then missing; the results are valid.
 [[nodiscard]] FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map, const Fit& fit,
                                            int modes);
 

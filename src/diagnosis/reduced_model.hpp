@@ -9,12 +9,12 @@
 
 namespace twindeck::diagnosis {
 
-/// A place in reduced coordinates (r = number of basis vectors).
+/// A candidate location in reduced coordinates (r = number of basis vectors).
 struct ReducedPlace {
   std::string id;
   Eigen::Vector3d x_m;
-  std::vector<int> columns;         ///< basis vectors that stand for causes at this place, beside the common ones
-  Eigen::MatrixXd stiffness, mass;  ///< (r × r), size 0 where the place has none
+  std::vector<int> columns;         ///< basis vectors for causes at this location, beside the common ones
+  Eigen::MatrixXd stiffness, mass;  ///< (r × r), size 0 if the location has none
   Eigen::MatrixXd directions;       ///< (r × k) unit forces
   std::map<std::string, double> attributes;
 };
@@ -24,10 +24,10 @@ struct ReducedPlace {
 [[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at, const Eigen::VectorXd& value);
 
 struct ReductionOptions {
-  int modes = 30;                 ///< of the structure as it stands
-  int parameter_vectors = 10;     ///< corrections for changed parameters and workmanship, the strongest directions of them all
+  int modes = 30;                 ///< of the unchanged structure
+  int parameter_vectors = 10;     ///< corrections for changed parameters and element scatter: the strongest directions of all
   double least_correction = 0.0;  ///< part of any mode's omega² below which a correction is left out
-  double element_change = 0.0;    ///< relative change of a group of elements by workmanship; 0: no corrections for it
+  double element_change = 0.0;    ///< relative change of a group of elements by element scatter; 0: no corrections
   int corrected_modes = 8;        ///< lowest modes whose static response to a change at a place is kept …
   int vectors_per_place = 3;      ///< … in its strongest directions
   int vectors_per_move = 8;       ///< the same for a support that may stand elsewhere on its line
@@ -36,7 +36,7 @@ struct ReductionOptions {
 
 /// The structure projected once to a small basis, so that thousands of changed structures can be solved:
 ///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by place].
-/// A change at a place uses the common vectors and the place's own: K^-1 (dK Phi) for a factor, K^-1 b for a force direction b
+/// A change at a location uses the common vectors and those of the location: K^-1 (dK Phi) for a factor, K^-1 b for a force direction b
 /// (statically exact; Craig and Bampton 1968, MacNeal 1971). V is orthonormal in K up to a common factor.
 class ReducedModel {
  public:
@@ -55,11 +55,11 @@ class ReducedModel {
   Eigen::MatrixXd sensors;             ///< (4 n_channels × r), see SensorValues
   int common = 0;                      ///< basis vectors that every solve uses: 0 … common-1
   double total_mass_kg = 0.0;
-  Eigen::VectorXd frequency_Hz;        ///< of the full model's modes as it stands (those that were solved for)
+  Eigen::VectorXd frequency_Hz;        ///< of the computed modes of the unchanged full model
   Eigen::MatrixXd mode_coordinates;    ///< (r × n_modes) the same modes in the basis
 
   [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
-  /// The place called `id` in whatever set, null if there is none.
+  /// The location called `id` in any set; null if there is none.
   [[nodiscard]] const ReducedPlace* place(const std::string& set, const std::string& id) const;
 };
 

@@ -11,8 +11,9 @@ namespace twindeck::dynamics {
 
 /// d lambda_i / d theta_p = phi_i' (dK - lambda_i dM) phi_i, exact for distinct eigenvalues (Fox and Kapoor 1968), and
 /// df = d lambda / (8 pi² f); 0 for rigid-body modes. A cluster of eigenvalues closer than `cluster_gap` (relative) is
-/// differentiated as a subspace: the derivatives are the eigenvalues of the projected matrix, each given to the mode that its
-/// rotated shape resembles most (Ojalvo 1988; Dailey 1989). Without factorisation: one pass over the entries of the terms.
+/// differentiated as a subspace: the derivatives are the eigenvalues of the projected matrix. Each is assigned to the mode that
+/// its rotated shape resembles most (Ojalvo 1988; Dailey 1989). No factorisation is needed, only one pass over the entries of
+/// the terms.
 /// @param theta [parameters' units]
 /// @return [Hz per unit of parameter] (n_modes × n_parameters)
 [[nodiscard]] Eigen::MatrixXd frequency_jacobian(const fe::ParametricSystem& system, const Eigen::VectorXd& theta,
@@ -20,11 +21,12 @@ namespace twindeck::dynamics {
 
 /// Derivatives of mass-normalised shapes, the solution of Nelson's equations
 ///   (K - lambda_i M) dphi_i = -(dK - lambda_i dM - dlambda_i M) phi_i,   phi_i' M dphi_i = -1/2 phi_i' dM phi_i,
-/// with one factorisation for all modes and all parameters instead of one a mode: the part in the span of the given modes in
-/// closed form, so that close modes do no harm; the rest by conjugate gradients on K - lambda_i M, which is positive definite
-/// outside that span. The preconditioner is K⁻¹, and the inverse itself in the span of some twenty approximate modes above the
-/// given ones (found once, roughly: they hasten and do not enter the result). The rest is exact to 1e-7 in the energy norm.
-/// Inside a cluster of equal eigenvalues the shapes turn freely, and of that part only what the normalisation fixes is
+/// with one factorisation for all modes and all parameters instead of one for each mode. The part in the span of the given
+/// modes has a closed form, which is safe for close modes. The rest comes from conjugate gradients on K - lambda_i M, which is
+/// positive definite outside that span; its error is 1e-7 in the energy norm. The preconditioner is K⁻¹, and the exact inverse
+/// in the span of some twenty approximate modes above the given ones. These modes are computed once; they speed up the
+/// iteration and do not change the result.
+/// Inside a cluster of equal eigenvalues the shapes are free to rotate. Of that part only what the normalisation fixes is
 /// returned: the derivative of the subspace. References: Nelson (1976), AIAA Journal 14, 1201-1205; Fox and Kapoor (1968), AIAA
 /// Journal 6, 2426-2429; Saad, Yeung, Erhel and Guyomarc'h (2000), SIAM J. Sci. Comput. 21, 1909-1926 (deflated conjugate
 /// gradients).
@@ -36,7 +38,7 @@ class ShapeSensitivity {
   /// @return (n × n_modes) per unit of parameter
   [[nodiscard]] Eigen::MatrixXd derivative(int parameter) const;
 
-  /// The same for every parameter, side by side on the threads that are there; the result does not depend on their number.
+  /// The same for every parameter, in parallel; the result does not depend on the number of threads.
   /// @return (n_parameters) matrices (n × n_modes); with 15 modes of 29,000 degrees of freedom some 3.5 MB each
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives() const;
 
@@ -55,12 +57,12 @@ class ShapeSensitivity {
   Eigen::VectorXd further_value_;                // diagonal of G' A G
 };
 
-/// Derivatives of what `channels` measure of the mass-normalised shapes, d(c' phi_i)/d theta_p, the same as c' times
-/// ShapeSensitivity's, at a tenth of its price where sensors are few: with the adjoint vectors y of (K - lambda_i M) y = c
-/// outside the modes, c' dphi = y' f for every parameter's force f = -(dK - lambda_i dM) phi_i, so that the number of
-/// parameters hardly matters. And since c is the same for all modes, one block Krylov space of K⁻¹ M serves them all: (K -
-/// lambda M)⁻¹ c = (1 - lambda K⁻¹ M)⁻¹ K⁻¹ c lies in the same space whatever lambda is. Exact to 1e-7 of the adjoint vectors
-/// in the M norm.
+/// Derivatives of the mass-normalised shapes at `channels`, d(c' phi_i)/d theta_p. They equal c' times the derivatives of
+/// ShapeSensitivity, at a tenth of the cost if there are few sensors. The adjoint vectors y solve (K - lambda_i M) y = c
+/// outside the modes. Then c' dphi = y' f for the force f = -(dK - lambda_i dM) phi_i of any parameter, so the cost hardly
+/// depends on the number of parameters. Since c is the same for all modes, one block Krylov space of K⁻¹ M serves all of them:
+/// (K - lambda M)⁻¹ c = (1 - lambda K⁻¹ M)⁻¹ K⁻¹ c lies in this space for every lambda. The error of the adjoint vectors is
+/// 1e-7 in the M norm.
 /// @param modes     the lowest modes of `system` at `theta`, none left out
 /// @param channels  (n × n_channels), a unit vector where a channel measures one degree of freedom
 /// @return (n_parameters) matrices (n_channels × n_modes) per unit of parameter

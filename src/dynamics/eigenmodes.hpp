@@ -17,14 +17,15 @@ struct EigenModes {
   Status status;                 ///< not converged: fewer modes than asked for, or a K that is not positive definite
 };
 
-/// Modes of a parametric system at given parameter values; keeps the symbolic factorisation. The system must outlive the solver. Not for use by two threads at once: give each its own.
+/// Modes of a parametric system at given parameter values; keeps the symbolic factorisation. The system must outlive the
+/// solver. Each thread needs its own solver.
 class ModalSolver {
  public:
   explicit ModalSolver(const fe::ParametricSystem& system);
   /// A structure that is free as a rigid body (K singular) is solved with a small negative shift.
   /// @param theta (n_parameters) in the parameters' units
   [[nodiscard]] EigenModes solve(const Eigen::VectorXd& theta, int n_modes);
-  /// The same; where the structure has fewer modes (few degrees of freedom carry mass), all that it has.
+  /// The same. If the structure has fewer modes (few degrees of freedom carry mass), returns all of them.
   [[nodiscard]] EigenModes solve_available(const Eigen::VectorXd& theta, int n_modes);
   [[nodiscard]] const fe::ParametricSystem& system() const { return system_; }
   /// Mass matrix (lower triangle) of the last `solve`.

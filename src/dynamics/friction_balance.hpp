@@ -5,7 +5,7 @@
 namespace twindeck::dynamics {
 
 /// Finds the forces of friction units that are coupled by a flexibility: x = x_free - G F and F = clip(k (x - x_p), ±F_c).
-/// Newton's method on the set of stuck units; the law is piecewise linear, so that it ends in finitely many steps.
+/// Newton's method on the set of stuck units. The law is piecewise linear, so the method ends in finitely many steps.
 /// @param force  in: a guess; out: the forces @return false if no balance was found
 [[nodiscard]] bool balance_friction(const Eigen::Ref<const Eigen::VectorXd>& free_m,
                                     const Eigen::Ref<const Eigen::MatrixXd>& flexibility,

@@ -7,7 +7,7 @@
 
 namespace twindeck::dynamics {
 
-/// What a parameter does to the modes: right-hand sides of Nelson's equations, and what they give along the modes themselves.
+/// Effect of a parameter on the modes: right-hand sides of Nelson's equations, and their solution in the span of the modes.
 struct ModalForces {
   Eigen::MatrixXd force;  ///< (n × n_modes)  -(dK - lambda_i dM) phi_i; the term of dlambda_i lies along M phi_i
   Eigen::MatrixXd along;  ///< (n_modes × n_modes) part of dphi_i along phi_j: phi_j' force_i / (lambda_j - lambda_i); inside a

@@ -14,16 +14,16 @@ struct LinearSystem {
   [[nodiscard]] Eigen::Index size() const { return mass.rows(); }
 };
 
-/// Spring and dashpot in series between a point that moves by x = d'q and ground. The point between them is a coordinate of its
-/// own, without mass, appended to the system: k (x - s) = c ṡ.
+/// Spring and dashpot in series between ground and a point with displacement x = d'q. The point between them is a further
+/// coordinate without mass, appended to the system: k (x - s) = c ṡ.
 void add_maxwell(LinearSystem& system, const Eigen::Ref<const Eigen::VectorXd>& direction, double stiffness_N_m,
                  double damping_N_s_m);
 
 /// Coulomb friction with a threshold, on x = d'q: a spring that sticks and slips (Jenkins element),
 ///     F = k (x - x_p),  |F| <= F_c,   x_p moves only while |F| = F_c.
-/// Below the threshold it is a stiff spring, which is how a bridge's dampers stay stuck at small amplitudes (paper 3.2).
+/// Below the threshold it is a stiff spring. This models the dampers of a bridge that stick at small amplitudes (paper 3.2).
 struct FrictionUnit {
-  Eigen::VectorXd direction;  ///< (r), or the first of them: further coordinates do not move it
+  Eigen::VectorXd direction;  ///< (r) or shorter; missing entries are zero
   double stiffness_N_m = 0.0;
   double threshold_N = 0.0;
 };
@@ -37,8 +37,8 @@ struct History {
   Status status;                               ///< not converged: the step at which friction found no balance
 };
 
-/// Newmark's method with constant average acceleration (gamma = 1/2, beta = 1/4), unconditionally stable and without damping of
-/// its own; period error (omega dt)²/12. Friction is solved within each step, exactly for its piecewise linear law. Reference:
+/// Newmark's method with constant average acceleration (gamma = 1/2, beta = 1/4), unconditionally stable, without numerical
+/// damping; period error (omega dt)²/12. Friction is solved within each step, exactly for its piecewise linear law. Reference:
 /// Newmark (1959), J. Eng. Mech. Div. 85, 67-94.
 class Newmark {
  public:
@@ -47,11 +47,12 @@ class Newmark {
   /// @param force  (r × n_steps) at t = 0, dt, …; rows that are missing at its end (Maxwell's points) are zero
   [[nodiscard]] History run(const Eigen::Ref<const Eigen::MatrixXd>& force, const State& initial = {}) const;
 
-  /// For forces that are R w(t) with few inputs w: what they alone would make of the acceleration within a step, (M + dt/2 C +
+  /// For forces R w(t) with few inputs w: their contribution to the acceleration within a step, (M + dt/2 C +
   /// dt²/4 K)⁻¹ R.
   /// @param load  R (r × n_inputs), rows at its end missing as above @return (r × n_inputs)
   [[nodiscard]] Eigen::MatrixXd within_a_step(const Eigen::Ref<const Eigen::MatrixXd>& load) const;
-  /// `run` from rest with those accelerations, within_a_step(R) w(t). The first is that at rest: forces should start from zero.
+  /// `run` from rest with the accelerations within_a_step(R) w(t). The first one is that at rest, so forces should start at
+  /// zero.
   [[nodiscard]] History run_prepared(Eigen::MatrixXd alone) const;
 
  private:

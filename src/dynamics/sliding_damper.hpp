@@ -10,7 +10,7 @@ namespace twindeck::dynamics {
 ///
 ///     F = k (u - x) + c_m (u' - x'),     x' = g(F) = sign(F) max(0, |F| - F_c) / c .
 ///
-/// Below the threshold the dashpot stands still and the mount stiffens the structure; above, it gives way and dissipates.
+/// Below the threshold the dashpot sticks and the mount stiffens the structure. Above it the dashpot slides and dissipates.
 struct SlidingDamper {
   double stiffness_N_m = 0.0;        ///< k: anchorage of a viscous damper; the spring of an elastic-viscous one
   double mount_damping_N_s_m = 0.0;  ///< c_m
@@ -19,7 +19,7 @@ struct SlidingDamper {
   [[nodiscard]] double slip_rate(double force_N) const;  ///< g(F) [m/s]
 };
 
-/// Best linear stand-in for g under the forces of a record, in the mean square: g(F) ≈ s F with
+/// Equivalent linearisation of g under the forces of a record, in the mean square: g(F) ≈ s F with
 ///
 ///     s = E[F g(F)] / E[F²]   [m/(N s)],
 ///

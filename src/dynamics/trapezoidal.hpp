@@ -10,15 +10,16 @@ namespace twindeck::dynamics {
 /// Oscillators in modal coordinates, q'' + 2 zeta omega q' + omega² q = p(t) - B' F, stepped by the trapezoidal rule (Newmark with
 /// gamma = 1/2, beta = 1/4), with sliding dampers that act at u = B q.
 ///
-/// The rule has no damping of its own and lengthens periods by (omega dt)²/12: at 2.4 Hz and 200 steps a second by 0.05 %. The forces
-/// of the dampers at the end of each step are found with the step, by Newton's method on a piecewise linear, monotone equation.
+/// The rule has no numerical damping and lengthens periods by (omega dt)²/12: 0.05 % at 2.4 Hz and 200 steps a second. The
+/// damper forces at the end of each step are solved together with the step, by Newton's method on a piecewise linear, monotone
+/// equation.
 class TrapezoidalStepper {
  public:
   /// @param omega_rad_s, damping_ratio  (r) @param step_s  dt
   TrapezoidalStepper(const Eigen::VectorXd& omega_rad_s, const Eigen::VectorXd& damping_ratio, double step_s);
   /// @param at_dampers  B (n_dampers × r)
   void set_dampers(const Eigen::MatrixXd& at_dampers, const std::vector<SlidingDamper>& dampers);
-  /// At rest in velocity, displaced by q; the dampers' dashpots have crept until they carry no force, the load `p` holds q.
+  /// Starts with zero velocity and displacement q, which the load `p` holds. The dampers carry no force (the dashpots have crept).
   void start(const Eigen::VectorXd& displacement, const Eigen::VectorXd& load);
   /// One step to a time at which the modal loads are p. @param load p (r)
   void step(const Eigen::VectorXd& load);

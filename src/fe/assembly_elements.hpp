@@ -8,7 +8,7 @@
 #include "fe/model.hpp"
 #include "fe/solid.hpp"
 
-/// From the model's data to the arguments of the element functions, and a matrix with the places where it is added.
+/// Converts the model's data to the arguments of the element functions. Gives each matrix its positions in the whole.
 namespace twindeck::fe {
 
 /// A small symmetric matrix over full degrees of freedom (6·node + direction).
@@ -20,7 +20,7 @@ struct ElementMatrix {
 [[nodiscard]] inline const Element& element_at(const Model& model, int i) { return model.elements[slot(i)]; }
 
 [[nodiscard]] BeamGeometry beam_geometry(const Model& model, const Element& element);
-/// Section and material of a beam; shear areas are zero for a formulation that is rigid in shear.
+/// Section and material of a beam. Shear areas are zero if the formulation is rigid in shear.
 [[nodiscard]] BeamStiffnessProperties beam_properties(const Model& model, const Element& element);
 /// The same at both ends; they differ for a tapered beam (section2 given).
 [[nodiscard]] TaperedProperties beam_end_properties(const Model& model, const Element& element);
@@ -30,14 +30,14 @@ struct ElementMatrix {
 [[nodiscard]] std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element);
 
 [[nodiscard]] const Material& material_of(const Model& model, const Element& element);
-/// @pre the element is no solid, which has no section
+/// @pre the element is not a solid, which has no section
 [[nodiscard]] const Section& section_of(const Model& model, const Element& element);
 
 /// All six degrees of freedom of the element's nodes; the first three of each.
 [[nodiscard]] std::vector<int> six_per_node(const Element& element);
 [[nodiscard]] std::vector<int> three_per_node(const Element& element);
 
-/// Mass of an element of whatever type: consistent or lumped as the formulation says, stays half at each end always.
+/// Mass of an element of any type, consistent or lumped as the formulation says. Stays always have half of it at each end.
 [[nodiscard]] ElementMatrix element_mass(const Model& model, const Element& element);
 /// Stiffness k d d' of a spring; rotations where it acts on them.
 [[nodiscard]] ElementMatrix spring_stiffness(const Spring& spring);
@@ -48,7 +48,7 @@ struct ElementMatrix {
                                           double rotary_per_area);
 /// Diagonal of a point mass and its rotary inertia.
 [[nodiscard]] ElementMatrix point_mass(const PointMass& mass);
-/// Whether a spring takes part in K: active and not in series with a dashpot, which lets go of a steady force.
+/// Whether a spring is part of K: it is active and not in series with a dashpot, which cannot carry a steady force.
 [[nodiscard]] bool carries_stiffness(const Spring& spring);
 
 }  // namespace twindeck::fe

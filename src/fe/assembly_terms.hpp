@@ -18,7 +18,7 @@ struct TermPlan {
   ElementMatrix (*matrix)(const Model&, int part) = nullptr;  ///< matrix of one part at the model's own values
 };
 
-/// Powers of a term's coefficient in the properties that it is made of.
+/// Powers of the properties in the coefficient of a term.
 struct Powers {
   double modulus = 0.0, density = 0.0, area = 0.0, thickness = 0.0, ratio = 0.0;
 };
@@ -41,22 +41,22 @@ class TermGroups {
 /// Elastic stiffness without stays: beams by group and material (the axial part apart where an area is a parameter), bars,
 /// shells by section and material (membrane with drilling ~ E t, bending ~ E t³ RMI), springs by group.
 [[nodiscard]] std::vector<TermPlan> plan_stiffness(const Model& model);
-/// Axial stiffness of stays, a term each: Dischinger's modulus at the pull; the full modulus of a stay without pull.
+/// Axial stiffness of stays, one term each: Dischinger's modulus at the cable force, or the full modulus without a force.
 [[nodiscard]] std::vector<TermPlan> plan_stays(const Model& model, const Eigen::VectorXd& stay_pull_N);
 /// Mass of beams by group, shells by section (translations ~ rho t, rotations ~ rho t³), bars and stays, point masses.
 [[nodiscard]] std::vector<TermPlan> plan_mass(const Model& model);
 
-/// Sums the plans over the pattern, side by side in several threads; each term is summed by one thread in the order of its parts,
-/// so that it does not depend on their number. Terms without an entry (all of it on supports) are left out.
+/// Sums the plans over the pattern in parallel. One thread sums each term in the order of its parts, so that the result does
+/// not depend on the number of threads. Terms without an entry (all parts on supports) are left out.
 [[nodiscard]] std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans,
                                                const linalg::SparseMatrix& pattern, const DofMap& map);
 
-/// Factors of a coefficient for one material or section or group: (theta / value as it stands)^power for each parameter that
-/// has this target and names this thing.
+/// Factors of a coefficient for one material, section or group: (theta / current value)^power for each parameter that has this
+/// target and this name.
 void add_factors(const Model& model, Target target, const std::string& name, double power, Coefficient& coefficient);
 [[nodiscard]] bool is_parameter(const Model& model, Target target, const std::string& name);
 
-/// Dischinger's reduction for a stay under a pull, with the horizontal projection of its chord.
+/// Dischinger's reduction for a stay under its cable force, with the horizontal projection of its chord.
 [[nodiscard]] Dischinger sag_of(const Model& model, const Element& stay, double pull_N);
 
 }  // namespace twindeck::fe

@@ -7,11 +7,11 @@
 
 namespace twindeck::fe {
 
-/// What a stay has beyond the bar that `assemble` makes of it once it may swing between its ends: a chain of straight pieces
-/// that hangs in the parabola of its own weight under its force T, with the axial stiffness E A along each piece, the string
-/// stiffness T/l across it, and masses half lumped and half consistent (their errors in frequency have opposite signs and
-/// cancel to fourth order). The static stiffness of the chain between its ends, and the mass of the bar, are taken out of the
-/// block of the ends: the bar has them. So statics do not change, and bar and cable together are the chain.
+/// Matrices that turn the bar of a stay into a cable that can vibrate between its ends. The cable is a chain of straight pieces
+/// in the parabola of its own weight under the force T. Each piece has the axial stiffness E A and the string stiffness T/l
+/// across it. Masses are half lumped and half consistent (their errors in frequency have opposite signs and cancel to fourth
+/// order). The static stiffness of the chain between its ends, and the mass of the bar, are subtracted from the block of the
+/// ends, because the bar has them. Statics therefore do not change, and bar plus cable equal the chain.
 struct Cable {
   std::vector<Eigen::Vector3d> inner_x_m;  ///< (pieces - 1) nodes between the ends
   Eigen::MatrixXd stiffness;  ///< [N/m] (3 pieces + 3)²: x y z of the first end, of the second, of each inner node
@@ -19,12 +19,12 @@ struct Cable {
 };
 
 /// @param force_N > 0  @param pieces >= 2
-/// @throws InputError  for a stay without force
+/// @throws InputError  for a stay without a cable force
 /// Reference: Irvine (1981), Cable Structures, chapters 2 and 3.
 [[nodiscard]] Cable cable_beyond_bar(const Model& model, const Element& stay, double force_N, int pieces);
 
-/// Frequencies of a cable between fixed ends in its vertical plane, ascending, [Hz] (pieces / 2): what an accelerometer on the
-/// stay shows. With `pieces` pieces the last of them is 1.4 % too low.
+/// Frequencies of a cable between fixed ends in its vertical plane, ascending, [Hz] (pieces / 2), as an accelerometer on the
+/// stay measures them. The last one is 1.4 % too low.
 [[nodiscard]] Eigen::VectorXd in_plane_frequencies(const Model& model, const Element& stay, const Cable& cable);
 
 /// A measured frequency of a stay.
@@ -33,9 +33,8 @@ struct StayHarmonic {
   double frequency_Hz = 0.0, relative_std = 0.01;
 };
 
-/// The force with which the cable's in-plane frequencies lie nearest to measured ones, weighted by their deviations; sag
-/// included. [N]
-/// @param harmonics  those beyond pieces / 2 are not used @return 0 where none is left
+/// Cable force [N] that fits the in-plane frequencies to the measured ones by weighted least squares, sag included.
+/// @param harmonics  those beyond pieces / 2 are not used @return 0 if no harmonic is left
 [[nodiscard]] double force_of_harmonics(const Model& model, const Element& stay, const std::vector<StayHarmonic>& harmonics,
                                         int pieces);
 

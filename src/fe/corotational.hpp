@@ -4,10 +4,11 @@
 #include <array>
 #include <vector>
 
-/// Elements that turn and move by any amount while their strains stay small: the linear element rides in a frame of its own.
+/// Co-rotational elements for large displacements and rotations with small strains. The linear element moves with its own
+/// frame.
 ///
-/// With R the rotation of the element's frame from where it was built to where it is, c and C the means of its points now and
-/// then, and T_a the rotation of point a, what deforms the element is (in its first orientation)
+/// R is the rotation of the element's frame from the start to now, C and c are the means of its points at the start and now,
+/// and T_a is the rotation of point a. The deformation of the element, in its initial orientation, is
 ///   d_a = Rᵀ (x_a - c) - (X_a - C),   θ_a = log(Rᵀ T_a),
 /// and its forces are those of its own linear stiffness, K d, turned by R. Variations go through the projector P = 1 - S G that
 /// takes the rigid motion out (S: displacements of a rigid turn, G: turn of the frame from displacements of the points), and
@@ -32,14 +33,14 @@ struct Element {
   Eigen::MatrixXd stiffness;             ///< (6p × 6p) in global axes at the start; no stiffness at rotations of a box
 };
 
-/// Where the points are now.
+/// Current positions of the points.
 struct Motion {
   std::vector<Eigen::Vector3d> displacement_m;  ///< (p)
   std::vector<Eigen::Matrix3d> rotation;        ///< (p) from the start; identity where the element has no rotations
 };
 
 struct Response {
-  Eigen::VectorXd force;        ///< (6p) that the motion asks of the points: forces and moments in global axes
+  Eigen::VectorXd force;        ///< (6p) forces and moments at the points, global axes
   Eigen::MatrixXd tangent;      ///< (6p × 6p) with spins as rotations
   Eigen::VectorXd deformation;  ///< (6p) d and θ, in global axes at the start
   Eigen::Matrix3d rotation;     ///< R of the frame

@@ -6,13 +6,13 @@
 #include "fe/parametric_system.hpp"
 #include "linalg/types.hpp"
 
-/// Which matrices a structure can have: K and M are finite (below 1e40), M is positive semidefinite, K is positive definite or, for a free
-/// structure, semidefinite. What a modal solver makes of other matrices are wrong modes, or none.
+/// Checks of K and M. A structure has finite K and M (below 1e40), a positive semidefinite M, and a positive definite K (for a
+/// free structure semidefinite). With other matrices a modal solver gives wrong modes or none.
 namespace twindeck::fe {
 
 /// @param lower  lower triangle of K or M (n × n)
 /// @param what   "stiffness" or "mass"
-/// @throws InputError  naming the degree of freedom, for an entry that is not finite or above 1e40, or where the largest is below
+/// @throws InputError  with the degree of freedom, for an entry that is not finite or above 1e40, or if the largest is below
 ///         1e-40: quotients and products of such numbers leave the range of doubles
 void check_sizes(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& dofs, const std::string& source,
                  const char* what);
@@ -21,14 +21,14 @@ void check_sizes(const linalg::SparseMatrix& lower, const std::vector<DofLabel>&
 /// @param source  model that the message names
 /// @throws InputError  naming the degree of freedom: a size as above, a negative mass, a coupling that is larger than
 ///         the masses it couples, a matrix that is indefinite in another way; or no mass at all. Degrees of freedom without
-///         mass are allowed, and so is a negative part of at most 1e-6 of the diagonal, which is what numbers of six digits
-///         leave of a singular matrix: it shows in modes a thousand times above the structure's own alone
-/// @param sum_of_squares  M is known to be semidefinite, see below: then only numbers and the total are looked at. Else the
-///         check costs a factorisation
+///         mass are allowed. So is a negative part of at most 1e-6 of the diagonal, which arises if a singular matrix is
+///         written with six digits; it affects only modes a thousand times above those of the structure
+/// @param sum_of_squares  true: M is known to be semidefinite (see below), and only its entries and the total are checked.
+///         false: the check costs a factorisation
 void check_mass(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& dofs, const std::string& source,
                 bool sum_of_squares);
 
-/// True where no element can take mass away: then M needs no check, since elements, point masses and links add squares.
+/// True if no element can reduce the mass. M then needs no check, because elements, point masses and links add squares.
 [[nodiscard]] bool mass_is_a_sum_of_squares(const Model& model);
 
 /// @param lower    lower triangle of K (n × n)

@@ -12,14 +12,14 @@ namespace twindeck::fe {
 ///
 /// Displacements of all nodes follow from the free ones by u = E q. A slave moves with the end of its chain of links as a rigid
 /// body, u_s = u_m + theta_m × (x_s - x_m), theta_s = theta_m; a supported degree of freedom has an empty row. Degrees of
-/// freedom that no element and no spring reaches (rotations of a node where only bars meet) are left out, for they would be
-/// singular.
+/// freedom without an element or spring (rotations of a node where only bars meet) are left out, because K would be singular
+/// there.
 struct DofMap {
   linalg::SparseMatrix expansion;  ///< E (6 n_nodes × n)
   std::vector<DofLabel> dofs;      ///< (n) in the order of nodes, then x y z rx ry rz
   std::vector<int> root;           ///< (n_nodes) the node that carries a node's motion: itself or the end of its chain of links
 
-  /// Row of E: which free degrees of freedom move full degree of freedom 6·node + direction, and how much.
+  /// Row of E: the free degrees of freedom that move the full degree of freedom 6·node + direction, with their factors.
   struct Entry {
     int dof;
     double factor;

@@ -30,10 +30,10 @@ struct BeamStiffnessProperties {
 [[nodiscard]] Eigen::Matrix3d beam_axes(const BeamGeometry& geometry);
 [[nodiscard]] double beam_length(const BeamGeometry& geometry);
 /// Timoshenko beam, exact for end loads (Przemieniecki 1968, section 5.6); releases condensed out, end offsets rigid. With
-/// inertia_yz = ∫ y z dA the two bending planes couple, whatever the principal axes. Shear areas belong to local y and z.
+/// inertia_yz = ∫ y z dA the two bending planes couple; no principal axes are needed. Shear areas belong to local y and z.
 [[nodiscard]] Matrix12 beam_stiffness(const BeamGeometry& geometry, const BeamStiffnessProperties& properties);
 /// Consistent mass on the shapes of the stiffness (Przemieniecki 1968, section 11.4; cubics for an Euler beam), SI.
-/// `rotary_inertia` adds ρ ∫ ψᵀ I ψ dx of the section's tilt; the polar inertia ρ (Iy + Iz) of twist is there always.
+/// `rotary_inertia` adds ρ ∫ ψᵀ I ψ dx of the section's tilt; the polar inertia ρ (Iy + Iz) of twist is always included.
 [[nodiscard]] Matrix12 beam_mass(const BeamGeometry& geometry, const BeamStiffnessProperties& properties, double density_kg_m3,
                                  bool rotary_inertia);
 /// Half of the mass at each end, and half of the section's rotary inertia (about its axis always, across it if asked for).
@@ -60,14 +60,14 @@ struct ShellProperties { double youngs_modulus_Pa, poisson_ratio, thickness_m, b
 enum class DrillingRule { penalty, diagonal };
 /// Membrane part, drilling included: linear in E t. penalty: Hughes and Brezzi (1989) with factor gamma/G (default 1 when
 /// factor is 0), incompatible modes included in the rotation; diagonal: factor·E·t·A on each corner's rotation about the normal
-/// (default 0.03), which is grounded and so resists a rigid turn in the plane too (kept to compare with models that use it).
+/// (default 0.03), which acts against ground and so resists a rigid rotation in the plane too (kept for comparison with models that use it).
 /// @throws InputError (all shell functions but shell_area) for a quadrilateral without area or not convex
 [[nodiscard]] Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProperties& properties,
                                                 DrillingRule drilling, double drilling_factor);
 /// Bending part, linear in E t³ · bending_inertia_ratio; rx = dw/dy, ry = -dw/dx at the corners.
 [[nodiscard]] Matrix24 shell_bending_stiffness(const ShellGeometry& geometry, const ShellProperties& properties);
 /// Consistent mass of `mass_per_area` [kg/m²]: bilinear translations; `rotary_per_area` [kg] (rho t³/12) on the bending
-/// rotations; drilling carries none.
+/// rotations; drilling rotations have none.
 [[nodiscard]] Matrix24 shell_mass(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area);
 /// Row sums of the same on the diagonal of each corner.
 [[nodiscard]] Matrix24 shell_mass_lumped(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area);

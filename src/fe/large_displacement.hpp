@@ -4,7 +4,7 @@
 
 namespace twindeck::fe {
 
-/// Nodes that have moved and turned by any amount.
+/// State with large displacements and rotations of nodes.
 struct Configuration {
   Eigen::VectorXd displacement;           ///< (6 n_nodes) translations [m] and rotation vectors
   std::vector<Eigen::Matrix3d> rotation;  ///< (n_nodes)
@@ -13,22 +13,22 @@ struct Configuration {
   int iterations = 0;                     ///< factorisations in all
 };
 
-/// Equilibrium in the deformed geometry under `load` and stay pulls, f_int(x) = λ (f_ext + pulls along the stays as they now
-/// run), by Newton's method with the co-rotational tangent (corotational.hpp), λ in `load_steps` equal steps, and a line search
-/// on the work of the unbalanced forces along each correction. A step that fails is halved, six times at most. Beams, shells
-/// and solids are co-rotational, bars exact; rigid links and offsets turn with their nodes; springs and matrix elements act
-/// linearly on the displacements. Loads keep their direction. Pulls of stays and initial tensions of bars grow with λ.
-/// Converged when the unbalanced forces are below 1e-8 of the loads (1e-5 once a correction no longer moves anything to eleven
-/// digits: the rest is rounding in stiff members) and the tangent is positive definite: the state is stable.
+/// Equilibrium in the deformed geometry under `load` and cable forces, f_int(x) = λ (f_ext + cable forces along the displaced
+/// stays). Newton's method with the co-rotational tangent (corotational.hpp), λ in `load_steps` equal steps, and a line search
+/// on the work of the unbalanced forces along each correction. A step that fails is halved, at most six times. Beams, shells
+/// and solids are co-rotational, bars exact. Rigid links and offsets rotate with their nodes. Springs and matrix elements act
+/// linearly on the displacements. Loads keep their direction. Cable forces and initial tensions of bars grow with λ.
+/// The state has converged if the tangent is positive definite (a stable state) and the unbalanced forces are below 1e-8 of the
+/// loads. If a correction changes no displacement to eleven digits, 1e-5 is enough: the rest is rounding in stiff members.
 /// @param load         (6 n_nodes) [N, N m]
-/// @param stay_pull_N  (n_elements), 0 for what is no stay
+/// @param stay_pull_N  (n_elements) cable forces, 0 if the element is not a stay
 /// @param start        a configuration to start from (λ = 1 at once); nullptr: from the undeformed state in steps
 [[nodiscard]] Configuration find_equilibrium(const Model& model, const Eigen::VectorXd& load,
                                              const Eigen::VectorXd& stay_pull_N, int load_steps,
                                              const Configuration* start = nullptr);
 
-/// The model as it stands after `state`: nodes, offsets and orientations of beams moved and turned. Its linear stiffness with
-/// the geometric stiffness of the forces in it is the tangent about that state.
+/// The model in the deformed geometry of `state`: nodes, offsets and beam orientations are moved and rotated. Its linear
+/// stiffness with the geometric stiffness of its forces is the tangent at that state.
 [[nodiscard]] Model deformed_model(const Model& model, const PrestressState& state);
 
 }  // namespace twindeck::fe

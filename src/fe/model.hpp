@@ -9,7 +9,7 @@
 
 namespace twindeck::fe {
 
-/// A finite element model as data: what a model folder holds (docs/my_model.md), nothing computed. SI units throughout.
+/// A finite element model as data: the content of a model folder (docs/my_model.md), without computed values. SI units.
 /// References between parts are positions in the vectors below (0-based), -1 = none.
 
 struct Node {
@@ -76,8 +76,8 @@ struct Spring {
 };
 
 /// Element given by its matrices: force f = M a + C v + K u on its degrees of freedom and on unknowns of its own. The matrices
-/// may be unsymmetric (self-excited forces, the state space of a damper). The modes of the structure see the conservative part:
-/// own unknowns condensed as in statics, then the symmetric part of K and M. All of it enters the dynamic system.
+/// may be unsymmetric (self-excited forces, the state space of a damper). The modes of the structure use the conservative part:
+/// own unknowns are condensed statically, then the symmetric part of K and M is taken. The dynamic system uses the whole element.
 struct MatrixElement {
   struct Dof { int node = -1; int direction = 0; };  ///< direction 0-5 = x y z rx ry rz
   std::string name, group;
@@ -115,7 +115,7 @@ struct Parameter {
   double upper = 0.0;
 };
 
-/// Displacements under dead load and pulls.
+/// Displacements under dead load and cable forces.
 enum class Displacements {
   linear,   ///< small: equilibrium in the geometry of nodes.csv
   large     ///< co-rotational, equilibrium in the deformed geometry; the modes are those about it
@@ -123,34 +123,34 @@ enum class Displacements {
 
 enum class PullRule {
   none,           ///< no prestress
-  given,          ///< Element::pull_N as they stand
-  shape_finding   ///< least pulls for zero displacement at the conditions, blended with site pulls (Element::pull_N)
+  given,          ///< Element::pull_N unchanged
+  shape_finding   ///< least cable forces for zero displacement at the conditions, blended with site values (Element::pull_N)
 };
 
 struct Prestress {
   PullRule rule = PullRule::none;
   bool geometric_stiffness = true;
-  double minimum_pull_N = 30e3;              ///< no stay goes slack below it
-  double ridge = 1e-3;                       ///< weight of least pulls against zero displacement (dimensionless)
-  double site_weight = 0.0;                  ///< weight of the site pulls against zero displacement (dimensionless), 0 = ignored
+  double minimum_pull_N = 30e3;              ///< least cable force of shape finding, so that no stay is slack
+  double ridge = 1e-3;                       ///< weight of small cable forces against zero displacement (dimensionless)
+  double site_weight = 0.0;                  ///< weight of the site values against zero displacement (dimensionless), 0 = ignored
   struct Condition { int node; int dof; };   ///< displacement that should be zero (dof 0-2)
   std::vector<Condition> conditions;
   Displacements displacements = Displacements::linear;
-  int load_steps = 1;                        ///< large displacements: dead load and pulls grow in so many equal steps
+  int load_steps = 1;                        ///< large displacements: number of equal steps of dead load and cable forces
 };
 
-/// Options of element formulation; the default is the product's.
+/// Options of the element formulation.
 struct Formulation {
-  bool shear_flexible = true;         ///< false: Euler-Bernoulli whatever the shear areas
+  bool shear_flexible = true;         ///< false: Euler-Bernoulli, shear areas are ignored
   bool beam_rotary_inertia = true;    ///< false: translational and torsional mass of beams only
   bool shell_rotary_inertia = true;   ///< false: translational mass only
-  /// penalty: Hughes-Brezzi; diagonal: factor E t A on each corner, spread so that a rigid turn meets no resistance
+  /// penalty: Hughes-Brezzi; diagonal: factor E t A on each corner, spread so that a rigid rotation meets no resistance
   enum class Drilling { penalty, diagonal } drilling = Drilling::penalty;
   double drilling_factor = 0.0;       ///< 0 = the formulation's own default
   bool lumped_mass = false;           ///< true: masses at the nodes (diagonal but for arms and releases); false: consistent
 };
 
-/// Place of node, element or degree of freedom `i` in a vector of them.
+/// Index of node, element or degree of freedom `i` for a vector.
 [[nodiscard]] inline std::size_t slot(int i) { return static_cast<std::size_t>(i); }
 
 struct Model {

@@ -7,7 +7,7 @@
 #include "fe/parametric_system.hpp"
 #include "linalg/cholesky.hpp"
 
-/// Words for a motion of the structure in messages: the node that moves most, its place and directions.
+/// Description of a motion of the structure for messages: the node that moves most, its coordinates and directions.
 namespace twindeck::fe {
 
 struct MotionWords {
@@ -19,7 +19,7 @@ struct MotionWords {
 /// @param motion  (n) over the free degrees of freedom
 [[nodiscard]] MotionWords words_of(const Eigen::VectorXd& motion, const std::vector<DofLabel>& dofs);
 
-/// The motion that a factorised matrix resists least, in the measure of `diagonal`, by inverse iteration from a fixed start.
+/// The motion with the least stiffness relative to `diagonal`, by inverse iteration from a fixed start.
 [[nodiscard]] Eigen::VectorXd softest_motion(const linalg::Cholesky& factor, const Eigen::VectorXd& diagonal, int iterations);
 
 }  // namespace twindeck::fe

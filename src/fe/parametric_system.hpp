@@ -17,7 +17,7 @@ struct DofLabel {
   Eigen::Vector3d x_m = Eigen::Vector3d::Zero();
 };
 
-/// Ernst/Dischinger tangent modulus at a frozen pull:  E_eq = E / (1 + (gamma l)² E / (12 sigma³)),
+/// Ernst/Dischinger tangent modulus at a frozen cable force:  E_eq = E / (1 + (gamma l)² E / (12 sigma³)),
 /// gamma = weight per volume [N/m³], l = horizontal projection [m], sigma = T/A [Pa].
 /// d E_eq/dE = (E_eq/E)². Reference: Ernst (1965), Der Bauingenieur 40, 52-55.
 struct Dischinger {
@@ -51,7 +51,8 @@ struct Term {
 };
 
 /// A structure whose matrices depend on parameters,  K = sum a_g(theta) K_g,  M = sum b_g(theta) M_g, on one sparsity pattern
-/// over the free degrees of freedom. FE models and matrix models both become one of these; nothing above cares which.
+/// over the free degrees of freedom. FE models and matrix models are both converted to this struct; the layers above treat them
+/// alike.
 class ParametricSystem {
  public:
   std::vector<Parameter> parameters;

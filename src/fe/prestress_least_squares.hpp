@@ -12,8 +12,9 @@ struct BoundedLeastSquares {
   Status status;
 };
 
-/// Active-set method for a few tens of unknowns: start on the bounds, free the unknown with the steepest descent, solve for the
-/// free ones, step back to the first bound that is crossed. Ends when no bound holds back a descent (Karush-Kuhn-Tucker).
+/// Active-set method for a few tens of unknowns. It starts on the bounds, frees the unknown with the steepest descent, solves
+/// for the free unknowns and steps back to the first bound that is crossed. It ends when the Karush-Kuhn-Tucker conditions
+/// hold.
 /// @param a  (m × n), full column rank
 /// Reference: Lawson and Hanson (1974), chapter 23.
 [[nodiscard]] BoundedLeastSquares solve_bounded_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double lower);

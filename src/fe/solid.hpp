@@ -26,8 +26,8 @@ struct SolidProperties {
 };
 
 /// Shape of an element: `least_ratio` is the smallest det J at the 27 points of the mass over the mean; 1 for a parallelepiped,
-/// 0 where the element is flat, negative where it is folded or inside out. Corners themselves are no measure: one corner of
-/// MacNeal and Harder's patch of solids has a negative Jacobian, though the element is sound wherever it is integrated.
+/// 0 where the element is flat, negative where it is folded or inside out. The corners are not used: one corner of MacNeal
+/// and Harder's patch of solids has a negative Jacobian, but the element is regular at all integration points.
 struct SolidShape {
   double volume_m3;  ///< signed: negative if the nodes run the wrong way round
   double least_ratio;

@@ -9,14 +9,14 @@
 
 namespace twindeck::fe {
 
-/// A model numbered and assembled once: everything that does not depend on its prestress. The prestress of other parameter
-/// values, and the system that it stiffens, then cost a factorisation and the geometric terms, not a new assembly.
-/// `find_prestress` and `assemble` are its two functions for a single use. Copies share the
-/// assembly; the const functions may run in several threads.
+/// A model that is numbered and assembled once, as far as this does not depend on the prestress. The prestress of other
+/// parameter values, and the system with it, then need a factorisation and the geometric terms, but no new assembly.
+/// The functions `find_prestress` and `assemble` do the same for a single use. Copies share the assembly. The const functions
+/// may run in several threads.
 class Structure {
  public:
   struct Parts;  ///< see structure_parts.hpp
-  /// @throws InputError for a model that is not sound (see `validate`)
+  /// @throws InputError for an invalid model (see `validate`)
   explicit Structure(Model model);
   [[nodiscard]] const Model& model() const;
   /// See `find_prestress`.

@@ -7,7 +7,7 @@
 
 namespace twindeck::fe {
 
-/// What a Structure holds.
+/// Data of a Structure.
 struct Structure::Parts {
   Model model;
   DofMap map;
@@ -16,12 +16,12 @@ struct Structure::Parts {
   std::vector<Term> mass;
 };
 
-/// No pulls; tensioned bars alone carry force.
+/// State without cable forces; only tensioned bars carry force.
 [[nodiscard]] PrestressState unstressed(const Model& model);
-/// What holds bars that are under tension in the geometry of nodes.csv in shape; empty if there are none (prestress.cpp).
+/// Geometric stiffness of bars that are under tension in the geometry of nodes.csv; empty if there are none (prestress.cpp).
 [[nodiscard]] Term initial_tension_stiffness(const Model& model, const linalg::SparseMatrix& pattern, const DofMap& map);
 
-/// The prestress of a structure whose elastic stiffness without stays is at hand (prestress.cpp).
+/// The prestress of a structure with given elastic stiffness without stays (prestress.cpp).
 /// @param lower  lower triangle of that stiffness at `theta` (n × n)
 [[nodiscard]] PrestressState prestress_of(const Model& base, const DofMap& map, const linalg::SparseMatrix& lower,
                                           const Eigen::VectorXd& theta);

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "fe/model.hpp"
 
-/// The parts of `validate`, in the order in which they are called: each may rely on what those before it have checked.
+/// The parts of `validate`, in the order of their calls. Each part may rely on the checks before it.
 namespace twindeck::fe {
 
 /// @param part  what of the model is wrong ("section 'girder'") @throws InputError  always
@@ -13,14 +13,13 @@ namespace twindeck::fe {
   throw InputError({model.source, 0, part}, problem, mend);
 }
 
-/// Every reference from elements, springs, links, masses, supports and prestress conditions leads somewhere; node ids are
-/// unique.
+/// Every reference from elements, springs, links, masses, supports and prestress conditions exists; node ids are unique.
 void validate_references(const Model& model);
-/// Moduli, densities and sections of what is used.
+/// Moduli, densities and sections of all used elements.
 void validate_properties(const Model& model);
-/// Beams and bars have length, shells have area, nodes are reached.
+/// Beams and bars have length, shells have area, all nodes are connected.
 void validate_geometry(const Model& model);
-/// Parameters name what exists, start where the model stands, inside their bounds.
+/// Parameters refer to existing names; their initial values equal the model's and lie inside the bounds.
 void validate_parameters(const Model& model);
 
 }  // namespace twindeck::fe

@@ -5,19 +5,19 @@
 
 namespace twindeck::io {
 
-/// Writes a whole file under a temporary name beside it and renames it, so that a reader sees the old content or the new, never
-/// half of it. Makes the folder if it is not there. Where `file` is a link, its target is replaced and the link stays.
+/// Writes a whole file under a temporary name in the same folder and renames it. A reader sees either the old or the new
+/// content, never a part. Creates the folder if it is missing. If `file` is a link, its target is replaced and the link stays.
 /// @throws InputError  if it cannot be written (no permission, disk full)
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
-/// A folder that is built beside its final place and put there at once when it is finished:
+/// A folder that is built beside its final path and moved there in one step when it is finished:
 ///
 ///     FolderReplacement replacement("results/x/s1_model");   // makes results/x/s1_model.partial-<pid>
 ///     ... write into replacement.partial() ...
 ///     replacement.publish();                                 // swaps; only now are the earlier results removed
 ///
-/// Without `publish` the partial folder is removed and the earlier results stay whole. What a killed process of this machine has left
-/// beside the place is removed first. Where the place is a link, its target is replaced and the link stays.
+/// Without `publish` the partial folder is removed and the earlier results stay unchanged. Partial folders that a killed
+/// process of this machine left behind are removed first. If the path is a link, its target is replaced and the link stays.
 class FolderReplacement {
  public:
   /// @throws InputError  if the folder cannot be made
@@ -26,10 +26,10 @@ class FolderReplacement {
   FolderReplacement(const FolderReplacement&) = delete;
   FolderReplacement& operator=(const FolderReplacement&) = delete;
 
-  /// Where the partial folder of this process will be, known before it is made.
+  /// Path of the partial folder of this process, known before the folder is made.
   [[nodiscard]] static std::filesystem::path partial_place(const std::filesystem::path& final_place);
   [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
-  /// Puts the partial folder at its final place, or at `elsewhere` if given.
+  /// Moves the partial folder to its final path, or to `elsewhere` if given.
   void publish();
   void publish(const std::filesystem::path& elsewhere);
 
@@ -40,7 +40,7 @@ class FolderReplacement {
   std::filesystem::path partial_;
 };
 
-/// "dir/" -> "dir": a path that can be given a suffix.
+/// "dir/" -> "dir": a path to which a suffix can be appended.
 [[nodiscard]] std::filesystem::path without_trailing_slash(const std::filesystem::path& path);
 
 }  // namespace twindeck::io

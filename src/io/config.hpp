@@ -23,8 +23,8 @@ struct Range {
 [[nodiscard]] inline Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
 [[nodiscard]] inline Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false}; }
 
-/// The one description of a configuration struct: each key bound to a member, with unit, range, default (the member's value
-/// when it is bound) and a sentence. Reading TOML, `--set`, `--print-config`, `--describe` and the reference page all walk it.
+/// The only description of a configuration struct. Each key is bound to a member, with unit, range, default (the member's value
+/// when it is bound) and a sentence. TOML files, `--set`, `--print-config`, `--describe` and the reference page all use it.
 ///
 ///     UpdatingConfig c;
 ///     FieldTable t;
@@ -60,11 +60,11 @@ class FieldTable {
   FieldTable& tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning,
                      const std::string& named_by = "");
 
-  /// What a rule between keys finds: the key that is to blame, what is wrong with it, how to mend it.
+  /// Result of a broken rule between keys: the key at fault, what is wrong with it, how to correct it.
   struct Broken {
     std::string key, problem, mend;
   };
-  /// A rule between several keys, which `require` checks once all of them are read. @param broken  nothing where the rule holds
+  /// A rule between several keys. `require` checks it after all keys are read. @param broken  returns nothing if the rule holds
   FieldTable& rule(std::function<std::optional<Broken>()> broken);
 
   /// Reads a TOML file into the bound members.
@@ -73,12 +73,13 @@ class FieldTable {
   void load(const std::filesystem::path& file);
   /// Applies one `key=value` of the command line; the value is TOML (a bare word is taken as text).
   void set(const std::string& key_equals_value);
-  /// After the last `load` and `set`: @throws InputError  if a required key was given by neither, or a rule between keys is
+  /// Call it after the last `load` and `set`. @throws InputError  if a required key is missing, or a rule between keys is
   /// broken.
   void require() const;
-  /// Where a key was given last: file and line, or "--set"; an empty file where it was not given. An element ("pairs[2]"), a key of an
-  /// array of tables ("record.point") and the last part of a dotted key ("maximum_order" of "decay.maximum_order") count as the key.
-  /// @return  nothing where no such key is known
+  /// Where a key was given last: file and line, or "--set"; an empty file if it was not given. `key` may also be an element
+  /// ("pairs[2]"), a key of an array of tables ("record.point"), or the last part of a dotted key ("maximum_order" of
+  /// "decay.maximum_order").
+  /// @return  nothing if the key is unknown
   [[nodiscard]] std::optional<Place> place_of(const std::string& key) const;
   /// The resolved configuration as TOML, in SI units. `load` reads it back to the same values.
   [[nodiscard]] std::string print() const;

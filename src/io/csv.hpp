@@ -10,13 +10,13 @@
 
 namespace twindeck::io {
 
-/// A CSV file as typed columns (UTF-8, comma, header row, one record a row). Parsing keeps the line of each row so that an
-/// error can name it. `row` counts from 0, messages count lines of the file from 1.
+/// A CSV file as typed columns (UTF-8, comma, header row, one record a row). The reader keeps the line number of each row for
+/// error messages. `row` counts from 0; messages count lines of the file from 1.
 class CsvTable {
  public:
-  /// @param required  columns that must be there
-  /// @param optional  further columns that are known; any other column is refused, naming the nearest known one,
-  ///                  unless `allow_other` is true
+  /// @param required  columns that must be present
+  /// @param optional  further known columns. Any other column is refused with the nearest known name, unless `allow_other` is
+  ///                  true
   /// @throws InputError  for a missing file, a missing or doubled column, a row of the wrong length
   static CsvTable read(const std::filesystem::path& file, const std::vector<std::string>& required,
                        const std::vector<std::string>& optional = {}, bool allow_other = false);
@@ -25,14 +25,14 @@ class CsvTable {
   [[nodiscard]] bool has(const std::string& column) const { return index_.contains(column); }
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  /// Line of the file that a row begins in, from 1.
+  /// Line of the file in which a row begins, from 1.
   [[nodiscard]] long line(std::size_t row) const { return line_.at(row); }
 
-  /// Text of a cell; "" for a column that is not there.
+  /// Text of a cell; "" if the column is missing.
   [[nodiscard]] std::string text(std::size_t row, const std::string& column) const;
   /// A finite number. @throws InputError if the cell is empty, no number, NaN or infinite.
   [[nodiscard]] double number(std::size_t row, const std::string& column) const;
-  /// A finite number, or `fallback` where the cell is empty or the column is not there.
+  /// A finite number, or `fallback` if the cell is empty or the column is missing.
   [[nodiscard]] double number_or(std::size_t row, const std::string& column, double fallback) const;
   [[nodiscard]] std::optional<double> number_if(std::size_t row, const std::string& column) const;
   /// A whole number. @throws InputError as `number`, and for a fraction.
@@ -62,7 +62,7 @@ struct Cell {
   Cell(std::optional<double> number);
 };
 
-/// Collects rows and writes them at once. Numbers have 12 significant digits and never depend on the locale.
+/// Collects rows and writes them all at once. Numbers have 12 significant digits and do not depend on the locale.
 class CsvWriter {
  public:
   explicit CsvWriter(std::vector<std::string> columns);

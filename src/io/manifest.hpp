@@ -8,13 +8,13 @@
 
 namespace twindeck::io {
 
-/// What a step read, wrote and was told: written last, as `manifest.json`; it is the step's Make target.
+/// Inputs, outputs and configuration of a step. It is written last, as `manifest.json`, and is the step's Make target.
 struct Manifest {
   std::string step;                  ///< "s6_updating"
   std::string status = "converged";  ///< "converged" | "unconverged"
   std::string message;               ///< one line
-  std::vector<std::string> warnings;  ///< what the step found odd in its inputs and took as it is
-  std::vector<std::string> corrections;  ///< what of the measurement was put right first, in words; empty where nothing was
+  std::vector<std::string> warnings;  ///< doubtful inputs that the step used unchanged
+  std::vector<std::string> corrections;  ///< corrections applied to the measurement, in words; may be empty
   std::string config_toml;           ///< resolved configuration
   std::vector<std::string> command_line;
   std::uint64_t seed = 0;
@@ -27,7 +27,7 @@ struct Manifest {
 /// Writes `folder/manifest.json` with library versions and commit from core/build_info.
 void write_manifest(const Manifest& manifest, const std::filesystem::path& folder);
 [[nodiscard]] Manifest read_manifest(const std::filesystem::path& folder);
-/// Refuses results that are not those of their manifest.
+/// Refuses results that do not match their manifest.
 /// @param path         a file, or a folder with all that is in it
 /// @throws InputError  if a file inside a step's folder has another hash than the manifest above it says, is not listed there,
 /// or

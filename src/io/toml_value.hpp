@@ -11,11 +11,11 @@ namespace twindeck::io {
 
 struct TomlEntry;
 
-/// A value of a TOML file in our own words, with its line (0 = unknown), so that toml++ stays in one source file.
+/// A value of a TOML file with its line (0 = unknown). Only one source file includes toml++.
 struct TomlValue {
   using Array = std::vector<TomlValue>;
   using Table = std::vector<TomlEntry>;  ///< in the order of their names
-  struct Date {};                        ///< known only to be refused
+  struct Date {};                        ///< a date, which every reader refuses
   std::variant<Date, bool, long, double, std::string, Array, Table> value;
   long line = 0;
 
@@ -31,16 +31,16 @@ struct TomlEntry {
   TomlValue value;
 };
 
-/// @throws InputError  naming file and line, if it cannot be opened or is no TOML
+/// @throws InputError  with file and line, if the file cannot be opened or is not valid TOML
 [[nodiscard]] TomlValue::Table read_toml(const std::filesystem::path& file);
 /// The value of a `--set key=value`: TOML, or the text itself where it is a bare word ("refined", "210 GPa").
 /// @param key  for the message
 [[nodiscard]] TomlValue toml_of_command_line(const std::string& text, const std::string& key);
-/// A value as the user would recognise it, for messages: 3.5, "abc", true, a table.
+/// A value as the user wrote it, for messages: 3.5, "abc", true, a table.
 [[nodiscard]] std::string shown(const TomlValue& value);
-/// @throws InputError  at `place`, if the value is no text
+/// @throws InputError  at `place`, if the value is not a text
 [[nodiscard]] std::string text_of(const TomlValue& value, const Place& place);
-/// Shortest text that reads back to the same double; a whole number keeps no point (integers are accepted for numbers).
+/// Shortest text that reads back to the same double. Whole numbers have no decimal point (readers accept integers).
 [[nodiscard]] std::string toml_number(double value);
 /// A basic TOML string with its escapes.
 [[nodiscard]] std::string toml_text(const std::string& text);

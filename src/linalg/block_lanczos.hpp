@@ -5,7 +5,7 @@
 
 namespace twindeck::linalg {
 
-/// An operator that is self-adjoint in the (semi-)inner product of M, by what it does to blocks of vectors.
+/// An operator A^-1 M that is self-adjoint in the (semi-)inner product of M, given by its products with blocks of vectors.
 struct SelfAdjointOperator {
   Eigen::Index size = 0;
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> times_mass;  ///< M X
@@ -27,8 +27,9 @@ struct BlockLanczosResult {
 };
 
 /// Largest eigenvalues of an operator A^-1 M, by block Lanczos with full reorthogonalisation and thick restart.
-/// The width of the block is the number of copies of a repeated eigenvalue that are found for certain.
-/// @param start  start(0) gives the first block (n × width); start(1), start(2), … further ones, asked for when the basis spans an invariant subspace before enough pairs are found. Columns that depend on each other are dropped.
+/// A block of width w is certain to find up to w copies of a repeated eigenvalue.
+/// @param start  start(0) gives the first block (n × width). start(1), start(2), … give further blocks, which are used when the
+///               basis spans an invariant subspace before enough pairs are found. Linearly dependent columns are dropped.
 [[nodiscard]] BlockLanczosResult block_lanczos(const SelfAdjointOperator& op,
                                                const std::function<Eigen::MatrixXd(int draw)>& start,
                                                const BlockLanczosOptions& options);

@@ -8,8 +8,9 @@
 
 namespace twindeck::linalg {
 
-/// Sparse LDL'/Cholesky of a symmetric matrix (CHOLMOD, supernodal where it pays; one thread so that results do not depend on
-/// the number of threads). One symbolic factorisation per pattern: `factorize` may be called again with new values.
+/// Sparse LDL' or Cholesky factorisation of a symmetric matrix by CHOLMOD, supernodal where that is faster. It uses one thread,
+/// so that results do not depend on the number of threads. The symbolic factorisation is made once per pattern: `factorize`
+/// may be called again with new values.
 class Cholesky {
  public:
   Cholesky();
@@ -19,8 +20,8 @@ class Cholesky {
 
   /// Fill-reducing ordering and symbolic factorisation. @param lower  lower triangle (n × n), only its pattern is used
   void analyze(const SparseMatrix& lower);
-  /// Numeric factorisation (calls `analyze` if that was not done). Not positive definite: status says so and
-  /// `failed_column()` gives the row of the matrix at which it broke down (a mechanism lies there).
+  /// Numeric factorisation; calls `analyze` first if needed. If the matrix is not positive definite, the status says so and
+  /// `failed_column()` gives the row of the matrix at which the factorisation failed (the location of a mechanism).
   Status factorize(const SparseMatrix& lower);
   [[nodiscard]] Eigen::Index failed_column() const;
   /// Solves A X = B; several threads may solve with one factor. @param b (n × m) @return (n × m)

@@ -4,8 +4,9 @@
 
 namespace twindeck::linalg {
 
-/// Dense kernels of the system's BLAS and LAPACK (OpenBLAS), on one thread: several times faster than Eigen's own at sizes of
-/// some hundreds, because they choose the machine's instructions at run time. Results don't depend on the number of threads.
+/// Dense operations of the system's BLAS and LAPACK (OpenBLAS) on one thread. They are several times faster than Eigen's for
+/// some hundreds of rows, because they choose the processor's instructions at run time. Results do not depend on the number of
+/// threads.
 
 /// @return a b, or aᵀ b if `transposed`
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
@@ -41,14 +42,13 @@ struct ThinSvd {
 [[nodiscard]] Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b,
                                           bool transposed = false);
 
-/// A⁻¹ B of complex matrices by Gaussian elimination with row exchanges. Where A is singular to the last digit the result is
-/// not finite.
+/// A⁻¹ B of complex matrices by Gaussian elimination with row exchanges. The result is not finite if A is exactly singular.
 /// @param a (n × n) @param b (n × columns)
 [[nodiscard]] Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b);
-/// The same of real ones.
+/// The same for real matrices.
 [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b);
 
-/// Eigenvalues of a real matrix without symmetry (size), in no order; not finite where they do not converge.
+/// Eigenvalues of a real unsymmetric matrix (size), in no particular order; not finite if they do not converge.
 /// Reference: LAPACK's DGEEV (multishift QR).
 [[nodiscard]] Eigen::VectorXcd eigenvalues(Eigen::MatrixXd a);
 

@@ -17,13 +17,13 @@ struct EigenPairs {
 };
 
 /// Shift-invert block Lanczos with thick restart on the operator (K - sigma M)^-1 M in the inner product of M. A block finds
-/// the copies of a repeated eigenvalue, which Lanczos with a single vector (Spectra's) sees by rounding alone; tests compare
-/// the two. M may be singular (dofs without mass): the basis stays in the range of the operator, and the vectors are purified
-/// by one further application of it. With few dofs that carry mass the problem is condensed to them exactly and solved densely.
+/// the copies of a repeated eigenvalue. Lanczos with a single vector (Spectra) finds them only through rounding; tests compare
+/// the two. M may be singular (dofs without mass): the basis stays in the range of the operator, and one further application of
+/// the operator purifies the vectors. If few dofs carry mass, the problem is condensed to them exactly and solved densely.
 /// The start block is fixed, so that the same matrices give the same bytes.
 /// @param stiffness, mass  lower triangles (n × n), same pattern or not
 /// @param shift   sigma [rad²/s²]; K - sigma M must be positive definite (0, or a negative number for a free structure)
-/// @param factor  keeps the symbolic factorisation between calls with one pattern; afterwards it is that of K - sigma M
+/// @param factor  keeps the symbolic factorisation between calls with one pattern; on return it holds that of K - sigma M
 ///
 /// References: Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15, 228-272; Nour-Omid, Parlett, Ericsson and Jensen
 /// (1987), Math. Comp. 48, 663-673 (purification); Wu and Simon (2000), SIAM J. Matrix Anal. Appl. 22, 602-616 (thick restart).
@@ -31,7 +31,7 @@ struct EigenPairs {
                                            Cholesky& factor);
 
 /// Number of eigenvalues of K x = lambda M x below `value`: the negative pivots of K - value M = L D L' (Sylvester's law of
-/// inertia). A proof that no mode was passed over; as dear as a factorisation, so it is for checks.
+/// inertia). It proves that no mode was missed. It costs a factorisation; use it for checks.
 /// @throws InputError  if `value` is an eigenvalue to working precision
 [[nodiscard]] int count_eigenvalues_below(const SparseMatrix& stiffness, const SparseMatrix& mass, double value);
 

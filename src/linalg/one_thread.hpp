@@ -2,13 +2,13 @@
 
 namespace twindeck::linalg {
 
-/// Holds the dense kernels under CHOLMOD and Eigen to one thread: a sum split between threads is a different sum, and results
-/// must not depend on how many there are. Does nothing where the BLAS is not OpenBLAS. Cheap, may be called again.
+/// Limits OpenBLAS to one thread. A sum that is split between threads is rounded differently, and results must not depend on
+/// the number of threads. Does nothing if the BLAS is not OpenBLAS. Cheap; may be called repeatedly.
 void use_one_thread();
 
-/// While it lives, OpenMP regions that the calling thread meets run on that thread alone. CHOLMOD opens regions of four threads
-/// of its own for each supernode, whatever the caller asked for; where cores are fewer or busy, waking them costs more than the
-/// factorisation.
+/// During its lifetime, OpenMP regions that the calling thread enters run on that thread alone. CHOLMOD opens a region of four
+/// threads for each supernode, whatever the caller asked for. If cores are few or busy, starting these threads costs more than
+/// the factorisation.
 class SerialScope {
  public:
   SerialScope();

@@ -9,11 +9,9 @@ struct OrthonormalBlock {
   Eigen::MatrixXd q, mass_q, r;
 };
 
-/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice for rounding.
-/// @param mass_w  M w; undergoes the same combinations as w, so that one product with M serves all
-/// @param scale   the norm of the columns before they were made orthogonal to a basis, below 1e-11 of which nothing but
-/// rounding
-///                is left
+/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice because of rounding.
+/// @param mass_w  M w; receives the same combinations as w, so that one product with M is enough
+/// @param scale   norm of the columns before they were made orthogonal to a basis; below 1e-11 of it only rounding is left
 [[nodiscard]] OrthonormalBlock orthonormalise(Eigen::MatrixXd w, Eigen::MatrixXd mass_w, double scale);
 
 /// Largest M-norm of the columns.

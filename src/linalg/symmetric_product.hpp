@@ -7,8 +7,8 @@
 
 namespace twindeck::linalg {
 
-/// A symmetric sparse matrix made ready for products with blocks of vectors: stored zeros are left out. On the common pattern
-/// of stiffness and mass most of the mass is zeros.
+/// A symmetric sparse matrix for products with blocks of vectors, without stored zeros. On the common pattern of stiffness and
+/// mass most entries of the mass are zero.
 class SymmetricProduct {
  public:
   /// @param lower  lower triangle (n × n)
@@ -16,7 +16,7 @@ class SymmetricProduct {
   /// A X.  @param x (n × m) @return (n × m)
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
   [[nodiscard]] Eigen::Index size() const { return lower_.rows(); }
-  /// Rows with an entry other than zero.
+  /// Rows with a nonzero entry.
   [[nodiscard]] std::vector<Eigen::Index> rows_in_use() const;
 
  private:

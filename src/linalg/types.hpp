@@ -4,7 +4,8 @@
 
 namespace twindeck::linalg {
 
-/// Column-major sparse matrix with int indices (what CHOLMOD takes). Symmetric ones hold the lower triangle only where said so.
+/// Column-major sparse matrix with int indices (what CHOLMOD takes). A symmetric matrix holds both triangles unless its comment
+/// says "lower triangle".
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 }  // namespace twindeck::linalg

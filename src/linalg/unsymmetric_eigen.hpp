@@ -4,7 +4,7 @@
 
 namespace twindeck::linalg {
 
-/// Eigenvalues and right eigenvectors of a real matrix without symmetry, in no order; not finite where they do not converge.
+/// Eigenvalues and right eigenvectors of a real unsymmetric matrix, in no particular order; not finite if they do not converge.
 struct UnsymmetricEigen {
   Eigen::VectorXcd values;   ///< (n)
   Eigen::MatrixXcd vectors;  ///< (n × n), columns of unit norm

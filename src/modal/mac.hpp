@@ -16,12 +16,12 @@ namespace twindeck::modal {
 [[nodiscard]] Eigen::MatrixXd mac(const Eigen::Ref<const Eigen::MatrixXd>& phi_n,
                                   const Eigen::Ref<const Eigen::MatrixXd>& phi_x);
 
-/// The same where each experimental mode was measured at channels of its own: NaN in a column of phi_x is a channel that the mode lacks,
-/// and both shapes are compared over the others. A numerical mode that stands still there has MAC 0.
-/// @throws InputError  if a mode was measured nowhere
+/// The same for experimental modes that were measured at different channels. NaN in a column of phi_x means that the mode was
+/// not measured at that channel; the shapes are compared over the other channels. A numerical mode that is zero there has MAC 0.
+/// @throws InputError  if a mode was measured at no channel
 [[nodiscard]] Eigen::MatrixXd mac_where_measured(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n,
                                                  const Eigen::Ref<const Eigen::MatrixXcd>& phi_x);
-/// Rows of a column that hold numbers.
+/// Rows of a column that are not NaN.
 [[nodiscard]] std::vector<Eigen::Index> measured_rows(const Eigen::Ref<const Eigen::VectorXcd>& shape);
 
 /// Mass-weighted MAC of two sets of full shapes: squared cosines in the M inner product (1 = the same mode).

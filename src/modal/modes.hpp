@@ -7,7 +7,7 @@
 
 namespace twindeck::modal {
 
-/// A degree of freedom that a shape is known at: a point (node or sensor position) and a direction x|y|z|rx|ry|rz or a channel
+/// A degree of freedom at which a shape is known: a point (node or sensor position) and a direction x|y|z|rx|ry|rz or a channel
 /// name.
 struct ShapeDof {
   std::string point;
@@ -15,7 +15,7 @@ struct ShapeDof {
   bool operator==(const ShapeDof&) const = default;
 };
 
-/// Modes, of a model or of a measurement: experiments and models meet as equals in this one struct.
+/// Modes of a model or of a measurement. Both use this struct, so that they can be compared directly.
 struct ModeSet {
   std::vector<std::string> names;     ///< "1", "2", … or "1X"
   Eigen::VectorXd frequency_Hz;       ///< (n_modes)

@@ -18,15 +18,15 @@ struct ModePair {
 
 struct PairingOptions {
   double minimum_mac = 0.0;               ///< pairs below it are left out
-  double maximum_frequency_error = 0.35;  ///< relative; a pair further off is not admitted
+  double maximum_frequency_error = 0.35;  ///< relative; pairs with a larger error are not admitted
   double cluster_gap = 0.02;              ///< relative frequency gap below which modes count as close
-  double cluster_mac = 0.8;               ///< subspace MAC from which a shape counts as lying in the span of close modes
+  double cluster_mac = 0.8;               ///< least subspace MAC of a shape that lies in the span of close modes
 };
 
-/// One-to-one pairing that maximises the sum of MAC (Hungarian assignment, not greedy), admissible pairs only; a mode may stay unpaired. Close numerical
-/// modes that rotate into each other are recognised by their subspace: a pair of low MAC whose experimental shape lies within
-/// the span of a cluster is marked `clustered` with the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span.
-/// Without sensors (no rows) the pairing is by frequency alone, and MAC is NaN.
+/// One-to-one pairing that maximises the sum of MAC over admissible pairs (Hungarian assignment, not greedy). A mode may stay
+/// unpaired. Close numerical modes can rotate into each other. A pair of low MAC whose experimental shape lies within the span of
+/// such a cluster is marked `clustered`. It gets the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span.
+/// Without sensors (no rows) the pairing uses frequencies alone, and MAC is NaN.
 /// @return pairs in the order of the experimental modes
 /// @param frequency_x, frequency_n [Hz]
 /// @param phi_x (n_sensors × n_X), NaN where a mode was not measured; phi_n (n_sensors × n_N)
@@ -35,8 +35,8 @@ struct PairingOptions {
                                                 const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
                                                 const PairingOptions& options = {});
 
-/// Follows reference modes through a changed model: for each reference column the position in `mac` (n_ref × n_new) that
-/// maximises the sum over a one-to-one assignment. @return (n_ref), -1 where nothing is left
+/// Mode tracking: for each reference mode its position in a changed model. The one-to-one assignment maximises the sum of
+/// `mac` (n_ref × n_new). @return (n_ref), -1 for a reference mode without a partner
 [[nodiscard]] std::vector<int> follow_modes(const Eigen::Ref<const Eigen::MatrixXd>& mac);
 
 }  // namespace twindeck::modal

@@ -10,7 +10,7 @@
 #include "records/array_choice.hpp"
 
 /// MATLAB's files of versions 4 and 5, read without a library: sizes are checked before they are used, and data are walked
-/// through in parts (src/decisions/0012-mat-files-read-without-a-library.md). Version 7.3 is HDF5. Reference: The MathWorks,
+/// through in parts (docs/decisions/0012-mat-files-read-without-a-library.md). Version 7.3 is HDF5. Reference: The MathWorks,
 /// "MAT-File Format", R2022b: Level 5 and Level 4 MAT-file format.
 namespace twindeck::records {
 

@@ -5,7 +5,7 @@
 
 namespace twindeck::sensors {
 
-/// What an accelerometer and its logger add to a motion.
+/// Errors that an accelerometer and its logger add to a motion.
 struct LoggerErrors {
   double noise_rms = 0.0;   ///< white, in the whole band up to half the sampling rate [unit of the signal]
   double step = 0.0;        ///< of the converter (one bit); 0: no rounding
@@ -14,7 +14,7 @@ struct LoggerErrors {
 };
 
 /// The readings of one channel: motion + zero drift + noise, clipped, rounded to whole steps.
-/// @param motion (n_samples) @param seed, stream  fix noise and drift: give each channel of each record a stream of its own
+/// @param motion (n_samples) @param seed, stream  fix noise and drift: use a separate stream for each channel of each record
 [[nodiscard]] Eigen::VectorXd logged(const Eigen::Ref<const Eigen::VectorXd>& motion, const LoggerErrors& errors, std::uint64_t seed,
                                      std::uint64_t stream);
 

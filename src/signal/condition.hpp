@@ -4,10 +4,10 @@
 
 namespace twindeck::signal {
 
-/// Takes the least-squares straight line out of each channel. @param data (n_samples × n_channels) @return same shape
+/// Removes the least-squares straight line from each channel. @param data (n_samples × n_channels) @return same shape
 [[nodiscard]] Eigen::MatrixXd detrended(const Eigen::Ref<const Eigen::MatrixXd>& data);
 
-/// Keeps every `factor`-th sample after a linear-phase low-pass (Kaiser-windowed sinc, centred: no phase shift at all). Passband to
+/// Keeps every `factor`-th sample after a linear-phase low-pass (Kaiser-windowed sinc, centred: no phase shift). Passband to
 /// 0.8 of the new Nyquist frequency within 1e-4, at least 80 dB down from the new Nyquist frequency on. The record is continued at its
 /// ends by its point reflection, so that a straight line passes unchanged.
 /// @param data (n_samples × n_channels) @param factor >= 1; 1 returns the data as they are

@@ -10,7 +10,7 @@ namespace twindeck::signal {
 ///     R_k(i, j) = 1/n_k sum_t y_i(t + k) y_j(t),   t in the block, j a reference,   n_k pairs (unbiased).
 ///
 /// A block's t + k may reach into the next block, so the weighted mean over blocks is the unbiased correlation of the whole record,
-/// and the scatter between blocks tells its covariance.
+/// and the scatter between blocks gives its covariance.
 struct BlockCorrelations {
   Eigen::Index n_outputs = 0, n_references = 0, n_lags = 0;  ///< lags 0 … n_lags - 1
   Eigen::MatrixXd sums;    ///< (n_outputs n_references n_lags × n_blocks) sums over t; lag slowest, then reference, then output
@@ -23,7 +23,7 @@ struct BlockCorrelations {
   void append(const BlockCorrelations& other);
 };
 
-/// By the FFT of short overlapping pieces: exact (no wrap-around), one inverse transform a pair of channels and block.
+/// By the FFT of short overlapping pieces: exact (no wrap-around), one inverse transform per pair of channels and block.
 /// @param data        (n_samples × n_outputs), detrended
 /// @param references  positions of the reference channels
 /// @param n_lags      number of lags, from 0

@@ -6,8 +6,8 @@
 
 namespace twindeck::signal {
 
-/// Discrete Fourier transform of real sequences of one length (FFTW, plan made once and not tuned to the machine, so that the
-/// same input gives the same bytes):  X_m = sum_t x_t exp(-2 pi i m t / n),  m = 0 … n/2.
+/// Discrete Fourier transform of real sequences of one length (FFTW, the plan is made once and not tuned to the machine, so
+/// that the same input gives the same bytes):  X_m = sum_t x_t exp(-2 pi i m t / n),  m = 0 … n/2.
 class RealFft {
  public:
   /// @param size  n >= 1
@@ -23,7 +23,7 @@ class RealFft {
   [[nodiscard]] Eigen::VectorXd inverse(const Eigen::Ref<const Eigen::VectorXcd>& spectrum);
   /// Values x_t = sum over l of 2 Re(waves_l exp(2 pi i (first + l) t / n)): the inverse without its factor, of a band of the
   /// spectrum, zero elsewhere.
-  /// @param first  >= 1, first + count <= (n + 1) / 2  @param values  (n); may be the memory that the waves lie in
+  /// @param first  >= 1, first + count <= (n + 1) / 2  @param values  (n); may share memory with the waves
   void sum_of_waves(const std::complex<double>* waves, Eigen::Index first, Eigen::Index count, double* values);
 
  private:

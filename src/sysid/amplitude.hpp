@@ -14,10 +14,10 @@ struct AmplitudePoint {
   double seconds = 0.0;                 ///< of record in the band
 };
 
-/// One mode's coordinate from many channels: least squares on its shape (largest component 1), then a zero-phase band-pass with cosine
-/// flanks around its frequency, made analytic: q(t) = A(t) e^(i theta(t)).
+/// Coordinate of one mode from many channels: least squares on its shape (largest component 1), then a zero-phase band-pass with
+/// cosine flanks around its frequency, as the analytic signal q(t) = A(t) e^(i theta(t)).
 /// @param data (n_samples × n_channels) @param shape (n_channels) real part is used
-/// @param half_width_Hz  the pass band is f ± half of this, the flanks as wide again
+/// @param half_width_Hz  the pass band is f ± half of this; each flank is as wide as this
 /// @return (n_samples) complex
 [[nodiscard]] Eigen::VectorXcd modal_coordinate(const Eigen::MatrixXd& data, double rate_Hz, const Eigen::VectorXcd& shape, double frequency_Hz,
                                                 double half_width_Hz);
@@ -27,9 +27,9 @@ struct AmplitudePoint {
 ///
 ///     d theta/dt = 2 pi f_d,   d ln A/dt = -zeta 2 pi f,   f = f_d / sqrt(1 - zeta²),
 ///
-/// with standard deviations from the residuals' scatter, correlated as long as the filter's memory.
+/// Standard deviations follow from the scatter of the residuals, which are correlated over the memory of the filter.
 /// @param coordinate  from modal_coordinate, from the release on @param memory_s  1/half_width of the filter
-/// @param n_bands     bands of amplitude @param noise  envelope's RMS without motion, 0 if not known
+/// @param n_bands     bands of amplitude @param noise  RMS of the envelope without motion, 0 if unknown
 /// Reference: Feldman (1994), Mechanical Systems and Signal Processing 8(2), 119-127 (FREEVIB).
 [[nodiscard]] std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinate, double rate_Hz, double memory_s, int n_bands,
                                                              double noise);

@@ -7,15 +7,15 @@
 namespace twindeck::sysid {
 
 struct AutomaticRule {
-  double collinearity = 0.5;  ///< modal phase collinearity of at least this
-  double share = 0.4;         ///< a mode is found at no less than this share of the orders from its first one on,
-  double share_of_all = 0.3;  ///< this share of all orders, and four of them
-  /// Of each channel, how often displacement is differentiated (2 for acceleration), so that a velocity beside accelerations
-  /// does not count as a quarter turn of phase; empty: all alike.
+  double collinearity = 0.5;  ///< least modal phase collinearity of a pole
+  double share = 0.4;         ///< least share of the orders from its first one on at which a mode is found,
+  double share_of_all = 0.3;  ///< least share of all orders, and at least four orders
+  /// For each channel how often displacement is differentiated (2 for acceleration). A velocity channel beside accelerations then
+  /// does not count as a phase shift of 90 degrees. Empty: all channels are equal.
   std::vector<int> derivatives;
-  /// Bounds of the cut that the data give, as a distance between poles: that of shapes that paper section 3.1 calls stable (MAC
-  /// 0.95), and with the frequency's own tolerance on top (2 %). Orders far above the number of modes repeat a strong mode to
-  /// 1e-4, so that its distances alone would part a weaker mode from itself.
+  /// Bounds of the cut, which the data give, as a distance between poles. Lower bound: the tolerance of a stable shape in paper
+  /// section 3.1 (MAC 0.95). Upper bound: plus its tolerance of the frequency (2 %). Orders far above the number of modes repeat a
+  /// strong mode to 1e-4; a cut from its distances alone would split a weaker mode.
   double smallest_cut = 0.05, largest_cut = 0.07;
 };
 
@@ -24,16 +24,16 @@ struct AutomaticRule {
 /// Schenk (1993), Journal of Guidance, Control, and Dynamics 16(5), 832-838.
 [[nodiscard]] double phase_collinearity(const Eigen::VectorXcd& shape);
 
-/// Selection without tuned criteria. Hard validation: within the diagram's limits, collinear. Distance of two poles:
+/// Selection without tuned criteria. Poles must be within the limits of the diagram, and collinear. Distance of two poles:
 ///
 ///     d = |f_i - f_j| / max(f_i, f_j) + 1 - MAC.
 ///
 /// Each pole's distance to its nearest pole of the next smaller order falls into two populations, physical and spurious, split
 /// by 2-means of ln d; the cut of the agglomerative clustering (average linkage, never two poles of one order) is the 95 %
-/// quantile of the physical ones' distances. Orders that a cluster lacks then give it their nearest pole within twice the cut
-/// of its centre; clusters found at too few orders are dropped, and of two clusters nearer than half a bandwidth with a MAC
-/// above 0.8 the smaller. A cluster whose pole is found again at the next order, within the cut and nearest of all, as the first
-/// of another cluster is the same mode at orders that do not yet part it from a neighbour: it is dropped for the other.
+/// quantile of the physical ones' distances. Each order without a pole in a cluster then adds its nearest pole, if it is within twice
+/// the cut of the cluster's centre. Clusters at too few orders are dropped. Of two clusters nearer than half a bandwidth with a
+/// MAC above 0.8 the smaller is dropped. A cluster is also dropped if the nearest pole of the next order, within the cut, is the
+/// first pole of another cluster: it is the same mode at orders that do not yet separate it from a neighbour.
 /// @param orders  ascending @return ascending in frequency; marks `mode` in the diagram
 /// Reference: Reynders, Houbrechts and De Roeck (2012), Mechanical Systems and Signal Processing 29, 228-250.
 [[nodiscard]] std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,

@@ -17,18 +17,18 @@ namespace twindeck::sysid {
 struct FreeDecay {
   Observability observability;
   ShiftModels models;
-  Changes changes;     ///< of the Hankel matrix under what disturbs the samples, for pole_factors
-  double noise = 0.0;  ///< standard deviation of what the largest model leaves of the decays, in their unit
+  Changes changes;     ///< of the Hankel matrix by the disturbance of the samples, for pole_factors
+  double noise = 0.0;  ///< standard deviation of the residual of the largest model, in the unit of the decays
 };
 
 /// Eigensystem realisation of free decays: O = U S^(1/2) of the block Hankel matrix, poles by the shift equation. Its changes are
-/// `n_draws` draws of what disturbs the decays, carried through the same first-order formulas as the correlations' are: deviations
-/// within 1/sqrt(2 n_draws) of their limit. On a structure that wind and traffic move all the time the disturbance is not the
-/// sensors' white noise but ambient vibration, strongest at the very modes that decay, and the model takes part of it for decay:
-/// what it leaves does not tell how strong it is. Records of the same sensors at rest do.
+/// `n_draws` random draws of the disturbance, propagated by the same first-order formulas as for correlations. The relative error
+/// of the standard deviations is 1/sqrt(2 n_draws). If wind and traffic move the structure all the time, the disturbance is
+/// ambient vibration and not white noise of the sensors. It is strongest at the decaying modes, and the model takes part of it
+/// for decay, so the residual of the model does not show its strength. Records of the same sensors without a decay do.
 /// @param orders ascending @param seed  of the draws
-/// @param quiet  records (n_samples × n_outputs) without decay, each at least as long as the decays: a draw is one of them in turn
-///               with its phases drawn anew. Without any, white noise of the strength of what the largest model leaves
+/// @param quiet  records (n_samples × n_outputs) without decay, each at least as long as the decays: each draw is one of
+///               them with random phases. If empty: white noise with the strength of the largest model's residual
 /// @throws InputError  if the decays are too short for the largest order
 /// Reference: Juang and Pappa (1985), Journal of Guidance, Control, and Dynamics 8(5), 620-627.
 [[nodiscard]] FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Eigen::Index block_rows, const std::vector<int>& orders, double rate_Hz,

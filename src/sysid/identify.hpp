@@ -23,13 +23,13 @@ struct IdentifyOptions {
   Selection selection = Selection::automatic;
   CleaningRule cleaning;
   AutomaticRule automatic;
-  /// The paper's selection: a cluster whose frequency has a relative standard deviation above this is dropped: such a pole is
-  /// settled by the model orders but not by the data. 0 keeps all (the rule as printed).
+  /// The paper's selection: a cluster whose frequency has a relative standard deviation above this is dropped: its pole
+  /// recurs over the model orders, but the data do not determine it. 0 keeps all (the rule as printed).
   double largest_deviation = 0.01;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many
   /// times
   ///     f sqrt(zeta / (2 pi N_c)),   N_c the cycles in the record,
-  /// the least that a record of this length allows (Au 2014): its pole recurs, but the motion hardly has a part in it. 0 keeps
+  /// the lower limit for a record of this length (Au 2014): its pole recurs, but it hardly contributes to the motion. 0 keeps
   /// all.
   double largest_law_ratio = 10.0;
   /// Automatic selection of free decays: dropped if it exceeds this share of the half bandwidth zeta f. 0 keeps all.
@@ -41,15 +41,15 @@ struct IdentifyOptions {
 struct Identification {
   std::vector<DiagramPole> diagram;
   std::vector<Cluster> modes;  ///< ascending in frequency
-  /// One a mode: of frequency and damping the root of the data's variance (`factor`) plus that over the model orders. Empty
-  /// where the covariance is not known (a single block).
+  /// One per mode. For frequency and damping: root of the sum of the data's variance (`factor`) and the variance over the model
+  /// orders. Empty if the covariance is unknown (a single block).
   std::vector<ModeDeviation> deviations;
 };
 
 /// Covariance-driven identification of output-only records: correlations to subspace to poles of all orders, stabilisation
 /// diagram, selection, clusters, standard deviations.
 /// @param blocks  correlations of lags 0 … 2 block_rows - 1 of the conditioned records @param rate_Hz  their sampling rate
-/// @throws InputError  if the block rows can't carry the largest order
+/// @throws InputError  if there are too few block rows for the largest order
 [[nodiscard]] Identification identify(const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options);
 
 /// The same, data-driven. @param records conditioned, one rate @param blocks  of the same records, for the standard deviations
@@ -59,14 +59,14 @@ struct Identification {
                                                 const IdentifyOptions& options);
 
 /// The same, of free decays by ERA. @param decays (n_samples × n_outputs) of one length, from the release on
-/// @param quiet  records of what disturbs them, see era
+/// @param quiet  records of the disturbance, see era
 [[nodiscard]] Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz,
                                              const IdentifyOptions& options, std::uint64_t seed,
                                              const std::vector<Eigen::MatrixXd>& quiet = {});
 
-/// Drops the modes that the data don't settle, by the rules of the options. With the automatic selection also the less settled
-/// of two that the data can't tell apart: frequencies within three standard deviations of their difference, MAC above 0.8. Each
-/// mode has its deviation.
+/// Drops the modes that the data do not determine, by the rules of the options. The automatic selection also treats pairs that
+/// the data cannot tell apart (frequencies within three standard deviations of their difference, MAC above 0.8): it drops the
+/// mode with the larger standard deviation. Each mode must have its deviation.
 /// @param seconds  length of the ambient records; 0: free decays
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds);
 

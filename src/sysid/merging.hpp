@@ -17,29 +17,29 @@ struct SetupModes {
 };
 
 struct MergingRule {
-  double frequency = 0.02;  ///< relative distance of frequencies below which two setups' modes may be the same
-  double mac = 0.7;         ///< MAC over the channels that both setups have, from which they may be (needs two such channels)
-  /// Below that MAC they may be if their frequencies agree within three standard deviations and 1 - MAC is at most this many
-  /// times what the deviations of the shapes lead one to expect of one and the same shape (two complex degrees of freedom: 98
-  /// %).
+  double frequency = 0.02;  ///< largest relative distance of frequencies of one mode in two setups
+  double mac = 0.7;         ///< least MAC of one mode over the channels that both setups have (needs two such channels)
+  /// With a lower MAC two modes may still be the same, if their frequencies agree within three standard deviations and 1 - MAC
+  /// is at most this many times its expected value for one shape with these standard deviations (two complex degrees of
+  /// freedom: 98 %).
   double noise = 4.0;
 };
 
-/// A mode of all setups together.
+/// A mode that is merged from all setups.
 struct MergedMode {
   double frequency_Hz = 0.0, damping_ratio = 0.0;
   double frequency_scatter_Hz = 0.0, damping_ratio_scatter = 0.0;  ///< standard deviation between setups; 0 for one
   ModeDeviation deviation;                                         ///< shapes' entries as `shape`; `factor` is empty
-  Eigen::VectorXcd shape;  ///< (all channels) unit norm over those that saw it, NaN where none did
+  Eigen::VectorXcd shape;  ///< (all channels) unit norm over the measured channels, NaN elsewhere
   std::vector<std::pair<std::size_t, std::size_t>> members;  ///< (setup, mode in it), ascending in setup
 };
 
 /// Merging after identification (PoSER). Modes of different setups are paired by frequency and by the MAC over common channels,
-/// the nearest first, never two of one setup. Each setup's shape, of unit norm, is scaled by the complex factor that fits its
-/// reference channels to the common reference shape (leading singular vector of all, least squares weighted by the
-/// covariances), so that a setup's gain cannot matter; entries seen by several setups are averaged with weights 1/variance.
-/// Frequency and damping are averaged with weights 1/(sigma_s² + tau²), tau² the variance between setups beyond their own
-/// (DerSimonian and Laird 1986). A mode of one setup only is kept.
+/// the nearest first, at most one of each setup. Each setup's shape, of unit norm, is scaled by the complex factor that fits
+/// its reference channels to the common reference shape (leading singular vector of all, least squares weighted by the
+/// covariances), so that the gain of a setup has no effect. Entries that several setups measured are averaged with weights
+/// 1/variance. Frequency and damping are averaged with weights 1/(sigma_s² + tau²), tau² the variance between setups beyond
+/// their own (DerSimonian and Laird 1986). A mode of one setup only is kept.
 /// @param n_channels  of the list of all @param references  positions in it, present in every setup
 /// @throws InputError  if a setup lacks a reference, or no reference is given for several setups
 /// Reference: Reynders, Magalhaes, Roeck and Cunha (2009), IMAC 27 (merging strategies).
@@ -54,11 +54,11 @@ struct SetupCorrelations {
   std::vector<Eigen::MatrixXd> lags;     ///< R_0 … (n_outputs × n_references)
 };
 
-/// Merging before the poles are found (PreGER). The setups' reference parts side by side give one observability matrix O_ref of
-/// the references and, for each setup, the states Z_s that excite it;  O_s = T_s Z_s⁺  then has the common basis whatever the
-/// setup's excitation was, and the rows of all setups make one system. Each setup is first divided by the norm of its reference
-/// part.
-/// @return poles of all orders, shapes over all channels (`n_channels`; zero where no setup measured)
+/// Merging before the poles are computed (PreGER). The reference parts of all setups, side by side, give one observability
+/// matrix O_ref of the references and, for each setup, the states Z_s that excite it. O_s = T_s Z_s⁺  then has the common basis
+/// for any excitation of the setup, and the rows of all setups make one system. Each setup is first divided by the norm of its
+/// reference part.
+/// @return poles of all orders, shapes over all channels (`n_channels`; zero at channels without a measurement)
 /// Reference: Mevel, Basseville, Benveniste and Goursat (2002), Journal of Sound and Vibration 254(1), 97-117; Doehler,
 /// Andersen and Mevel (2010), IOMAC (PreGER).
 [[nodiscard]] std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>& setups, Eigen::Index n_channels,

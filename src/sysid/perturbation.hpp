@@ -7,8 +7,8 @@
 
 namespace twindeck::sysid {
 
-/// A small change dH of the Hankel or Toeplitz matrix as far as poles of any order feel it: small matrices made from  W = dH V  (one
-/// product with the n_max right singular vectors). Nothing of the size of vec(H) is ever formed.
+/// A small change dH of the Hankel or Toeplitz matrix, reduced to the parts that affect poles of any order: small matrices made
+/// from  W = dH V  (one product with the n_max right singular vectors). No matrix of the size of vec(H) is formed.
 struct SubspaceChange {
   Eigen::MatrixXd inner;      ///< U' W (n_max × n_max)
   Eigen::MatrixXd up, down;   ///< Q' W_perp of its upper and lower rows (n_max × n_max), W_perp = (1 - U U') W
@@ -25,7 +25,7 @@ struct PoleChange {
   Eigen::VectorXcd shape;  ///< (n_outputs) of the normalised shape (unit norm, phase as in normalised_shape)
 };
 
-/// First-order change of all poles of one order. The subspace of the leading n singular vectors turns by
+/// First-order change of all poles of one order. The subspace of the leading n singular vectors changes by
 ///
 ///     dU = sum over k > n of u_k (sigma_j u_k' dH v_j + sigma_k u_j' dH v_k) / (sigma_j² - sigma_k²),
 ///

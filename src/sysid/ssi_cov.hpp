@@ -19,7 +19,7 @@ namespace twindeck::sysid {
 
 /// Covariance-driven stochastic subspace identification: O = U_n S_n^(1/2) of the leading n singular triplets of T.
 /// @param n_max  largest order wanted
-/// @throws InputError  if n_max exceeds what the block rows can carry, (p - 1) n_outputs or p n_references
+/// @throws InputError  if n_max exceeds (p - 1) n_outputs or p n_references
 [[nodiscard]] Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Eigen::Index block_rows, Eigen::Index n_outputs,
                                     Eigen::Index n_max);
 

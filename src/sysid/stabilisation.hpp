@@ -13,7 +13,7 @@ struct StabilisationCriteria {
   double mac = 0.95;             ///< MAC from which a shape is stable
 };
 
-/// Hard limits that no mode of a structure fails.
+/// Hard limits that every mode of a structure meets.
 struct PoleLimits {
   double lowest_Hz = 0.0, highest_Hz = 1e300;
   double largest_damping = 0.20;  ///< 0 < zeta < largest_damping
@@ -28,7 +28,7 @@ struct DiagramPole {
 };
 
 /// The stabilisation diagram: poles of all orders within the limits, each compared with the pole of the next smaller order that has
-/// the highest MAC with it among those within the frequency criterion (close modes swap places in frequency, not in shape).
+/// the highest MAC with it among those within the frequency criterion (close modes may change their order in frequency, not their shapes).
 /// @param poles  one list an order, orders ascending
 [[nodiscard]] std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles, const StabilisationCriteria& criteria,
                                                              const PoleLimits& limits);

@@ -12,7 +12,7 @@ struct Pole {
   std::complex<double> eigenvalue;      ///< continuous, lambda = ln(mu) · rate [rad/s], imaginary part positive
   double frequency_Hz = 0.0;            ///< |lambda| / (2 pi), undamped
   double damping_ratio = 0.0;           ///< -Re lambda / |lambda| [-]
-  Eigen::VectorXcd shape;               ///< (n_outputs) C phi, unit norm, turned so that its real part is as large as it can be
+  Eigen::VectorXcd shape;               ///< (n_outputs) C phi, unit norm, phase with the largest real part
 };
 
 /// An observability matrix of the largest order wanted, whose first n columns are that of order n: O = U S^(1/2) of the leading

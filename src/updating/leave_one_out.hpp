@@ -7,12 +7,11 @@
 
 namespace twindeck::updating {
 
-/// How well an updated model predicts: each target is left out of the updating in turn, the others are fitted, and the
-/// frequency of the left-out one at that optimum is a prediction, since nothing of it entered.
+/// How well an updated model predicts. Each target is left out of the updating in turn and the others are fitted. The frequency
+/// of the left-out target at that optimum is a prediction, because it did not enter the fit.
 ///
-/// Each update is searched from the initial values, as its user would: the optimum of all targets knows the one that is left
-/// out. That one start is enough is what the starts of the whole update show. The modal basis of the whole update serves all
-/// searches.
+/// Each search begins at the initial values, not at the optimum of all targets, which depends on the left-out one. One start is
+/// used; the starts of the whole update show whether that is enough. All searches use the modal basis of the whole update.
 ///
 /// @param initial (n_active) normalised initial values
 /// @return (n_targets) in the order of the targets; empty with fewer than two of them

@@ -8,15 +8,15 @@
 
 namespace twindeck::updating {
 
-/// Starting points of a multi-start search: `first` as it stands, then a Latin hypercube of the rest, so that each parameter's
-/// range is covered evenly whatever their number. The uniform numbers are made from std::mt19937_64 by our own transform (the
-/// standard's distributions differ between libraries): the same seed gives the same bytes everywhere.
+/// Starting points of a multi-start search: `first`, then a Latin hypercube, which covers the range of each parameter evenly.
+/// Our own transform makes uniform numbers from std::mt19937_64, because the standard's distributions differ between libraries:
+/// the same seed gives the same bytes everywhere.
 /// @param starts  number of points, at least 1
 /// @return (n × starts)
 /// Reference: McKay, Beckman and Conover (1979), Technometrics 21, 239-245.
 [[nodiscard]] Eigen::MatrixXd starting_points(const Eigen::VectorXd& first, const Box& box, int starts, std::uint64_t seed);
 
-/// An end point of a search, as far as telling optima apart needs it.
+/// An end point of a search, with the data that are needed to tell optima apart.
 struct EndPoint {
   Eigen::VectorXd x;         ///< (n)
   double cost = 0.0;         ///< F(x)
@@ -25,8 +25,8 @@ struct EndPoint {
 };
 
 /// Sorts end points into distinct optima. Two are the same optimum if their parameters agree within 1 % of each range; or if
-/// their costs agree and the residuals' linearised difference J (x_a - x_b) stays below 1e-4: then they only slid apart along a
-/// direction that no residual feels.
+/// their costs agree and the residuals' linearised difference J (x_a - x_b) stays below 1e-4: they then differ only
+/// along a direction that changes no residual.
 /// @return for each end point the position of its optimum's representative (the cheapest converged member), -1 if not converged
 [[nodiscard]] std::vector<int> distinct_optima(const std::vector<EndPoint>& ends, const Box& box);
 

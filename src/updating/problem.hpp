@@ -8,7 +8,7 @@
 
 namespace twindeck::updating {
 
-/// Residuals r(x) and, when asked for (not null), their Jacobian. Returns false where they do not exist: the step is refused.
+/// Residuals r(x) and, if the pointer is not null, their Jacobian. Returns false if they do not exist; the step is then refused.
 /// @param x (n) @param residual (n_residuals) @param jacobian (n_residuals × n)
 using ResidualFunction = std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian)>;
 
@@ -38,11 +38,12 @@ struct BoundedResult {
 /// min 1/2 ‖r(x)‖² on a box by Powell's dogleg (Ceres, TRADITIONAL_DOGLEG), spherical trust region in x as in Madsen, Nielsen and
 /// Tingleff (2004), algorithm 3.21.
 ///
-/// Ceres projects each dogleg step onto the box. With several bounds active such a step need not descend, and the search ends
-/// short of the optimum although the trust region has collapsed. Hence rounds: components that stay on their bound are constants of
-/// the round (SubsetManifold); which ones do is predicted by the bounded linearised problem (bounded_quadratic.hpp). A round ends
-/// as soon as a component meets a bound, and the next one decides anew, releasing those whose multiplier will change sign. The
-/// search has converged when the projected gradient says so, whatever Ceres says. Cost never rises from one accepted step to the next.
+/// Ceres projects each dogleg step onto the box. With several active bounds such a step may not descend, and the trust region
+/// then collapses before the optimum is reached. The search therefore runs in rounds. Components that stay on their bound are
+/// constants of the round (SubsetManifold); the bounded linearised problem predicts them (bounded_quadratic.hpp). A round ends as
+/// soon as a component meets a bound. The next round predicts the constants anew and releases those whose multiplier will change
+/// sign. The norm of the projected gradient alone decides convergence, not the verdict of Ceres. The cost never rises from one
+/// accepted step to the next.
 /// @param accepted  called for each accepted step, may be empty
 [[nodiscard]] BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start,
                                             const Box& box, const BoundedOptions& options,

@@ -8,12 +8,12 @@
 
 namespace twindeck::updating {
 
-/// Galerkin projection of a parametric system on a fixed basis Q: Q' K(theta) Q = sum a_g(theta) Q' K_g Q, M likewise. Exact in
-/// theta up to what the basis cannot represent, at the cost of dense matrices of the basis' size.
+/// Galerkin projection of a parametric system on a fixed basis Q: Q' K(theta) Q = sum a_g(theta) Q' K_g Q, M likewise. Its only
+/// error is what the basis cannot represent. Its matrices are dense and have the size of the basis.
 class ReducedSystem {
  public:
   /// @param basis (n × r); shared by projections of the same structure under several prestresses
-  /// @param like  a projection on the same basis, whose terms are taken over where the system's are the same; may be null
+  /// @param like  a projection on the same basis; terms that are equal in both systems are reused. May be null
   ReducedSystem(std::shared_ptr<const fe::ParametricSystem> system, std::shared_ptr<const Eigen::MatrixXd> basis,
                 const ReducedSystem* like);
 
@@ -30,9 +30,9 @@ class ReducedSystem {
   std::vector<std::shared_ptr<const Eigen::MatrixXd>> stiffness_, mass_;  // one a term
 };
 
-/// A basis that spans the given vectors up to a relative loss, M-orthonormal (proper orthogonal decomposition).
+/// A basis that spans the given vectors up to a relative error, M-orthonormal (proper orthogonal decomposition).
 /// @param vectors (n × m)  @param mass_lower  lower triangle of M
-/// @param loss  directions whose part of the largest is below it are dropped
+/// @param loss  directions whose size relative to the largest is below this are dropped
 /// Reference: Sirovich (1987), Quarterly of Applied Mathematics 45, 561-571 (method of snapshots).
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& vectors, const linalg::SparseMatrix& mass_lower,
                                                 double loss);

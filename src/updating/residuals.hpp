@@ -12,11 +12,11 @@
 
 namespace twindeck::updating {
 
-/// What is asked of a model, the same for every start and every prestress: targets, parameters, reference modes.
+/// Definition of the updating problem, the same for every start and every prestress: targets, parameters, reference modes.
 struct ResidualDefinition {
   std::vector<FrequencyTarget> targets;
   std::vector<int> active;        ///< positions of the updated parameters
-  Eigen::VectorXd initial;        ///< (n_parameters) values of those that stay
+  Eigen::VectorXd initial;        ///< (n_parameters) values of the parameters that are not updated
   Eigen::VectorXd scale;          ///< (n_active) parameter = scale · x: the initial value's size, or the range where it is 0
   int n_modes = 0;                ///< modes solved for
   std::shared_ptr<const ModeFollower> follower;
@@ -40,8 +40,8 @@ struct Evaluation {
 
 /// Relative frequency residuals, paper Eq. (5), of one frozen system as a function of normalised parameters x = p/p0:
 ///   r_i(x) = (f_i(x) - f_X,i)/f_X,i,   dr_i/dx_j = (p0_j/f_X,i) df_i/dp_j.
-/// Residual and Jacobian at one point share one eigen-solve; the last points are kept, since a refused step returns to one.
-/// One object a thread: it holds its own solver.
+/// Residual and Jacobian at one point share one eigen-solve. The last points are kept, because a refused step returns to an
+/// earlier point. Each thread needs its own object, which holds a solver.
 class FrequencyResiduals {
  public:
   FrequencyResiduals(std::shared_ptr<const fe::ParametricSystem> system, const ResidualDefinition& definition);

@@ -9,10 +9,10 @@
 #include "updating/residuals.hpp"
 #include "updating/updating.hpp"
 
-/// One search of an update, from one starting point: what `update` runs side by side.
+/// One search of an update, from one starting point. `update` runs several in parallel.
 namespace twindeck::updating {
 
-/// What all searches share of the reduced model: projections of the start model.
+/// Data of the reduced model that all searches share: projections of the start model.
 struct Surrogate {
   std::shared_ptr<const Eigen::MatrixXd> basis;  ///< null: there is none
   Eigen::MatrixXd mass_reference, mass;          ///< Q' M phi (r × n_reference), Q' M Q (r × r)
@@ -39,17 +39,19 @@ struct SearchEnd {
 /// @param points (n_active × n_points) where snapshots are taken
 [[nodiscard]] Surrogate make_surrogate(const Search& search, const Eigen::MatrixXd& points);
 
-/// The whole search from `first`: with a surrogate, each prestress state costs one solve of the full system, whose value and
-/// Jacobian correct the reduced one; the search between two states runs on that. It ends when the full projected gradient at
-/// the prestress of its own point is below the tolerance. Without a surrogate, or where it does not come to rest: bounded
-/// solves on the full system at frozen prestress, the prestress found anew in between, until the parameters stay.
+/// The whole search from `first`. With a surrogate, the full system is solved once for each prestress state. Its value and
+/// Jacobian correct the reduced system, on which the search continues. The search ends when the projected gradient of the full
+/// system, with the prestress of the same point, is below the tolerance. Without a surrogate, or if that search does not
+/// converge, bounded solves run on the full system at frozen prestress. The prestress is computed anew between them, until no
+/// parameter changes by more than the tolerance.
 [[nodiscard]] SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start);
 
 /// Residuals at normalised parameters x, with the prestress of x.
 [[nodiscard]] Evaluation evaluate_in_balance(const Search& search, const Eigen::VectorXd& x);
 
-/// The problem of a search that has ended, from its first point by the smooth map of the bounds, at the prestress of its end: on
-/// the reduced system corrected to agree with the full one there, or on the full one where there is no reduced one.
+/// Solves the problem of a finished search again from its first point, with the smooth map of the bounds and the prestress of
+/// its end point. It uses the reduced system, corrected to agree with the full one there, or the full one if there is no
+/// reduced one.
 [[nodiscard]] SmoothCheck check_by_smooth_map(const Search& search, const SearchEnd& ended);
 
 }  // namespace twindeck::updating

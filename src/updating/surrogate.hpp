@@ -17,9 +17,9 @@ namespace twindeck::updating {
                                                                  const ResidualDefinition& definition,
                                                                  const Eigen::MatrixXd& points);
 
-/// Residuals of a reduced system, corrected so that at one point value and Jacobian are those of the full system:
+/// Residuals of a reduced system, corrected so that value and Jacobian at one point equal those of the full system:
 ///   r(x) = r_red(x) + [r(x_k) - r_red(x_k)] + [J(x_k) - J_red(x_k)] (x - x_k).
-/// A search on it that comes to rest at x_k itself has come to rest on the full system.
+/// If a search on it converges to x_k, x_k is also an optimum of the full system.
 /// Reference: Alexandrov and Lewis (2001), Optimization and Engineering 2, 413-430 (first-order model management).
 class CorrectedResiduals {
  public:

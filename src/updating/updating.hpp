@@ -17,22 +17,22 @@ struct FrequencyTarget {
   int reference_mode = 0;       ///< 0-based position in the modes of the start model
   double measured_Hz = 0.0;
   double std_Hz = 0.0;
-  bool fitted = true;  ///< false: followed and reported, but no residual of the search
+  bool fitted = true;  ///< false: tracked and reported, but not fitted
 };
 
 struct UpdatingOptions {
   double trust_radius = 2.0;            ///< initial radius in normalised parameters (paper section 4.2)
   int starts = 8;                       ///< the initial values first, then seeded points inside the bounds
   int max_iterations = 100;
-  int n_modes = 20;                     ///< modes solved for, so that followed modes are among them
-  int outer_iterations = 12;            ///< most prestress states per start: pulls are fixed inside a solve
+  int n_modes = 20;                     ///< number of computed modes; the tracked modes must be among them
+  int outer_iterations = 12;            ///< most prestress states per start; cable forces are fixed inside a solve
   double outer_tolerance = 1e-6;        ///< change of normalised parameters between prestress states below which they agree
   double optimality_tolerance = 1e-6;   ///< relative norm of the projected gradient
   double bound_tolerance = 1e-6;        ///< of the range, within which a parameter counts as on its bound
-  Eigen::Index surrogate_from_size = 1000;  ///< degrees of freedom from which a reduced system makes the steps (see `update`)
+  Eigen::Index surrogate_from_size = 1000;  ///< least degrees of freedom for a search on a reduced system (see `update`)
   std::uint64_t seed = 1;
   bool leave_one_out = false;              ///< afterwards each target is left out in turn and predicted (leave_one_out.hpp)
-  std::vector<Eigen::VectorXd> elsewhere;  ///< (n_active each) values at which the cost is told as well
+  std::vector<Eigen::VectorXd> elsewhere;  ///< (n_active each) further values at which the cost is computed
 };
 
 /// One accepted step of a search. `theta` are the active parameters divided by their initial values (by their range where the
@@ -58,7 +58,7 @@ struct SmoothCheck {
   int iterations = 0;
 };
 
-/// A target that was left out of the updating, and what the others make of it.
+/// A target that was left out of the updating, with its prediction from the others.
 struct LeftOut {
   Eigen::VectorXd theta;      ///< (n_active) in the parameters' units
   double frequency_Hz = 0.0;  ///< of the left-out target's mode there: nothing was fitted to it
@@ -97,16 +97,17 @@ struct UpdatingResult {
 using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)>;
 
 /// Bounded nonlinear least squares on relative frequency residuals, paper Eq. (5): F = 1/2 sum ((f_N - f_X)/f_X)².
-/// Powell's dogleg (Ceres, see problem.hpp) on parameters divided by their initial values, exact Jacobian; modes are followed by
-/// mass-weighted MAC with the start model's.
+/// Powell's dogleg (Ceres, see problem.hpp) on parameters divided by their initial values, with the exact Jacobian. Modes are
+/// tracked by their mass-weighted MAC with the start model's modes.
 ///
-/// Each start is a whole search: all begin with the prestress of the initial values; when a search has ended, the prestress is
-/// found anew at its own end point and it goes on from there, until the parameters no longer change. So the costs of the starts
-/// are comparable, each being that of a structure in balance. What is found is a point at which the gradient at frozen prestress
-/// vanishes (inside the bounds): the modulus and density do not act through a change of pulls within a solve.
-/// Large systems (options.surrogate_from_size) are searched through a reduced one: at each prestress state the full system is
-/// solved once, and its frequencies and Jacobian correct a projection on snapshots of its modes, on which the next point is
-/// found. What is returned, cost, gradient and frequencies, is always the full system's.
+/// Each start is a complete search. All searches begin with the prestress of the initial values. When a solve has ended, the
+/// prestress is computed anew at its end point and the search continues from there, until no parameter changes by more than
+/// options.outer_tolerance. The costs of the starts are therefore comparable: each is that of a structure in equilibrium. At the
+/// result the gradient at frozen prestress vanishes (inside the bounds): within a solve, modulus and density do not change the
+/// cable forces.
+/// Large systems (options.surrogate_from_size) are searched on a reduced system. At each prestress state the full system is
+/// solved once. Its frequencies and Jacobian correct a projection on snapshots of its modes, which gives the next point. The
+/// returned cost, gradient and frequencies are always those of the full system.
 /// The starts run in parallel; results do not depend on the number of threads.
 ///
 /// @param start    the model as it is before the updating, with the prestress of its initial parameter values

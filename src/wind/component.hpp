@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-/// Turbulent wind. Wind axes throughout: `along` where the mean wind blows to, `vertical` up, `across` = vertical × along.
-/// One-sided spectra per Hz: the integral over f > 0 is the variance.
+/// Turbulent wind. Wind axes: `along` in the direction to which the mean wind blows, `vertical` up, `across` = vertical ×
+/// along. One-sided spectra per Hz: the integral over f > 0 is the variance.
 namespace twindeck::wind {
 
 /// Components of the turbulence. The paper's frame has Y downwind: its v' is along, u' (along the deck) is across, w' vertical.
@@ -16,7 +16,7 @@ inline constexpr std::array<Component, 3> components = {Component::along, Compon
   return component == Component::along ? "v" : component == Component::across ? "u" : "w";
 }
 
-/// One value a component.
+/// One value per component.
 using PerComponent = std::array<double, 3>;
 [[nodiscard]] inline double of(const PerComponent& values, Component component) {
   return values[static_cast<std::size_t>(component)];

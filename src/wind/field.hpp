@@ -11,9 +11,9 @@ namespace twindeck::wind {
 ///
 ///     S_jk(f) = sqrt(S_j(f) S_k(f)) gamma_jk(f),   gamma_jk = exp(-f sqrt(sum_a (C_a d_a)²) / V_jk),   Eq. (13) and (17),
 ///
-/// with the separations d_a of two points along, across and vertical and V_jk the mean of their two speeds. Where the decks are
-/// curved, points lie behind each other: with `frozen` the gusts drift with the mean wind (Taylor's hypothesis) and gamma has
-/// the factor exp(-2 pi i f (x_j - x_k) / V), x along the wind, V the mean of all speeds.
+/// with the separations d_a of two points along, across and vertical and V_jk the mean of their two speeds. On curved
+/// decks some points lie behind others in the wind. With `frozen` the gusts move with the mean wind (Taylor's hypothesis) and
+/// gamma has the factor exp(-2 pi i f (x_j - x_k) / V), x along the wind, V the mean of all speeds.
 struct FieldDefinition {
   Component component = Component::along;
   Eigen::MatrixX3d position_m;  ///< (n × 3) along, across, vertical
@@ -37,17 +37,16 @@ void check(const FieldDefinition& field);
 [[nodiscard]] Eigen::VectorXd spectra(const FieldDefinition& field, double f_Hz);
 /// |gamma_jk(f)|, real. @return [-] (n × n), ones on the diagonal
 [[nodiscard]] Eigen::MatrixXd coherence(const FieldDefinition& field, double f_Hz);
-/// Phase factor of each point, exp(-2 pi i f x_j / V); ones where the field is not frozen. @return (n)
+/// Phase factor of each point, exp(-2 pi i f x_j / V); ones if the field is not frozen. @return (n)
 [[nodiscard]] Eigen::VectorXcd drift(const FieldDefinition& field, double f_Hz);
 /// S(f) of Eq. (13), Hermitian. @return [(m/s)²/Hz] (n × n)
 [[nodiscard]] Eigen::MatrixXcd cross_spectrum(const FieldDefinition& field, double f_Hz);
 
-/// Cholesky factor of the coherence, gamma = L L'. Since the drift is a phase of each point by itself, H of Eq. (14) is
-/// diag(sqrt(S_j) drift_j) L, and L is real whatever the wind does.
+/// Cholesky factor of the coherence, gamma = L L'. The drift is a separate phase of each point, so H of Eq. (14) is
+/// diag(sqrt(S_j) drift_j) L with a real L.
 /// @return (n × n) lower triangular, rows of unit length
-/// @throws InputError  naming the point and the frequency where the coherence is not positive definite (two points that
-/// coincide,
-///                     or speeds that differ too much for the mean of two to give a coherence)
+/// @throws InputError  with the point and the frequency at which the coherence is not positive definite (two points that
+///                     coincide, or speeds that differ too much for the mean of two to give a coherence)
 [[nodiscard]] Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz);
 /// H(f) of Eq. (14), H H* = S. @return (n × n)
 [[nodiscard]] Eigen::MatrixXcd spectral_factor(const FieldDefinition& field, double f_Hz);

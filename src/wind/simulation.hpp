@@ -11,16 +11,17 @@ namespace twindeck::wind {
 
 /// Amplitudes of the waves.
 enum class Amplitudes {
-  fixed,    ///< as Eq. (15): only phases are random. The first point has the same variance in every sample, the last scatters
-  gaussian  ///< complex normal: exactly Gaussian, and all points alike
+  fixed,    ///< as Eq. (15): only phases are random. The first point has the same variance in every sample, that of the last
+            ///< varies
+  gaussian  ///< complex normal: exactly Gaussian, all points have the same law
 };
 
 struct SimulationOptions {
-  double duration_s = 600.0;  ///< T; the sample repeats after it, so that it may be continued at its end
+  double duration_s = 600.0;  ///< T; the sample is periodic in T
   double rate_Hz = 16.0;      ///< samples a second; T times it is rounded to a whole number of samples
   double cutoff_Hz = 0.0;     ///< no wave at or above; 0 means half the rate
   /// Frequencies, evenly spaced on a logarithmic scale, at which the coherence is factorised; in between the factor is
-  /// interpolated and its rows brought back to length one, so that every point keeps its spectrum exactly. 0: at every
+  /// interpolated and its rows are scaled to length one, so that every point keeps its exact spectrum. 0: at every
   /// frequency.
   int anchors = 40;
   Amplitudes amplitudes = Amplitudes::fixed;
@@ -36,7 +37,7 @@ struct SimulationOptions {
 /// 778-787.
 class Simulator {
  public:
-  /// @throws InputError  as `check` and `coherence_factor`; for a duration, rate or cutoff that leave no wave
+  /// @throws InputError  as `check` and `coherence_factor`; for a duration, rate or cutoff without any wave
   Simulator(FieldDefinition field, const SimulationOptions& options);
 
   /// One sample. @return [m/s] at t = 0, 1/rate, … over the whole period: (n_samples × n_points)
@@ -47,7 +48,7 @@ class Simulator {
   [[nodiscard]] double spacing_Hz() const { return df_; }
   /// Number of waves l = 1 … n_waves a point.
   [[nodiscard]] Eigen::Index n_waves() const { return n_waves_; }
-  /// |H_jm(f_l)| as it is used (interpolated where it is). @param l  from 1 @return (n × n) lower triangular
+  /// |H_jm(f_l)| as used in a sample (interpolated between anchors). @param l  from 1 @return (n × n) lower triangular
   [[nodiscard]] Eigen::MatrixXd amplitude_factor(Eigen::Index l) const;
 
  private:
@@ -56,7 +57,7 @@ class Simulator {
     double share;        ///< of the anchor above it, in [0, 1]
   };
   [[nodiscard]] Bracket bracket(double f_Hz) const;
-  /// Row j of L: that of the two anchors around f, mixed and brought to length one.
+  /// Row j of L: interpolated between the two anchors around f and scaled to length one.
   [[nodiscard]] Eigen::RowVectorXd interpolated_row(double f_Hz, Eigen::Index j) const;
   /// Waves [real, imaginary] of stream m, l = first, first + 1, … first + kLanes - 1.
   void waves(std::uint64_t seed, Eigen::Index m, Eigen::Index first, double* real, double* imaginary) const;
@@ -68,7 +69,7 @@ class Simulator {
   double df_ = 0.0;
   std::vector<double> anchor_Hz_;        ///< ascending
   std::vector<Eigen::MatrixXd> factor_;  ///< L at the anchors
-  // What a sample needs of its waves, none of it random.
+  // Deterministic data of the waves of a sample.
   struct Stretch {
     std::size_t pair;           ///< of anchors
     Eigen::Index first, count;  ///< waves, at most kLanes

@@ -9,8 +9,8 @@ namespace twindeck::wind {
 ///     along            f S / sigma² = 4 n / (1 + 70.8 n²)^(5/6)                          paper Eq. (16)
 ///     across, vertical f S / sigma² = 4 n (1 + 755.2 n²) / (1 + 283.2 n²)^(11/6)
 ///
-/// The paper prints the first alone and uses it "both for the horizontal and the vertical component"; isotropic turbulence asks
-/// for the second. Both integrate to sigma² (to the four digits of their constants).
+/// The paper prints only the first and uses it "both for the horizontal and the vertical component"; isotropic turbulence
+/// requires the second. Both integrate to sigma² (to the four digits of their constants).
 /// @param f_Hz  > 0  @param sigma  [m/s]  @param length_m  L  @param speed_m_s  V
 /// @return  S [(m/s)²/Hz]
 /// Reference: Teunissen (1980), Boundary-Layer Meteorol. 19, 187-221.

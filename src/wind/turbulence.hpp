@@ -7,14 +7,14 @@
 
 namespace twindeck::wind {
 
-/// What a code says about turbulence over one kind of terrain; a row of data/wind/turbulence_sets.csv.
+/// Turbulence over one kind of terrain according to a code; a row of data/wind/turbulence_sets.csv.
 ///
 /// Intensity and length scale of the along-wind component (EN 1991-1-4, 4.4 and annex B.1; CNR-DT 207/2008, 3.2.5, 3.2.6):
 ///
 ///     I(z) = 1 / ln(z / z0),   L(z) = 300 m (z / 200 m)^kappa,   kappa = 0.67 + 0.05 ln z0,   z = max(z, z_min).
 ///
-/// The other components by ratios (Solari and Piccardo, 2001, Prob. Eng. Mech. 16, 73-86). All length scales run along the
-/// wind.
+/// The other components follow by ratios (Solari and Piccardo, 2001, Prob. Eng. Mech. 16, 73-86). All length scales run along
+/// the wind.
 struct TurbulenceSet {
   std::string name;               ///< "CNR-DT 207 I"
   double roughness_m = 0.0;       ///< z0

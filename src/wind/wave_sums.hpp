@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <vector>
 
-/// The sums over m of Eq. (15), a few waves at a time: most of what a simulation costs.
+/// The sums over m of Eq. (15), a few waves at a time. They are the largest cost of a simulation.
 namespace twindeck::wind {
 
-/// Waves that are worked on together.
+/// Number of waves that are processed together (SIMD).
 inline constexpr int kLanes = 8;
 
-/// The rows of two neighbouring anchors' factors, without entries that are nothing beside a row's length of one: where gusts
-/// are shorter than the distance of points, that is most of them.
+/// The rows of the factors of two neighbouring anchors, without negligible entries (rows have length one). If gusts are shorter
+/// than the distance of points, most entries are negligible.
 class FactorPair {
  public:
   /// @param low, high  (n × n) lower triangular, rows of length one
@@ -36,17 +36,17 @@ class FactorPair {
   std::vector<double> apart_;
 };
 
-/// Random waves exp(i phi), or complex normal numbers of unit mean square, of kLanes places of a stream from `first` on: pure
-/// functions of seed, stream and place. @param real, imaginary  kLanes numbers each
+/// Random waves exp(i phi), or complex normal numbers of unit mean square, of kLanes positions of a stream from `first` on:
+/// pure functions of seed, stream and position. @param real, imaginary  kLanes numbers each
 void random_waves(std::uint64_t seed, std::uint64_t stream, Eigen::Index first, bool normal, double* real, double* imaginary);
 
-/// Where the waves of one call lie.
+/// Interpolation data of the waves of one call.
 struct WaveLanes {
   double share[kLanes];      ///< of the anchor above, in [0, 1]
   double amplitude[kLanes];  ///< of the waves
 };
 
-/// exp(-2 pi i turns) of kLanes places.
+/// exp(-2 pi i turns) of kLanes waves.
 struct Drift {
   double real[kLanes], imaginary[kLanes];
 };
@@ -54,7 +54,7 @@ struct Drift {
 void drifts(const double* turns, double* real, double* imaginary);
 
 /// For the point of row j and the waves l of the lanes:  z_l = amplitude_l first lane_l sum_m L_jm(f_l) wave_ml,  L_j the two
-/// rows mixed by share and brought back to length one.
+/// rows interpolated by share and scaled to length one.
 /// @param wave   [m][real, imaginary][lane]
 /// @param first, lane  factors of unit size: of all waves, of each (the drift to the point)
 /// @param out    [lane][real, imaginary]

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// Room diagnosis/features: what the rows of a measurement have in common where the model's form is wrong. It takes modes of
+/// Room diagnosis/features: common errors of the rows of a measurement if the model's form is wrong. It takes modes of
 /// the model and the rows that they are paired with, as plain numbers, and gives columns of unknowns with unit deviation
 /// (decision 0013).
 namespace twindeck::diagnosis {
@@ -18,14 +18,14 @@ struct ModelModes {
 
 /// A measured mode of one condition with the model mode that it is paired with.
 struct PairedMode {
-  int model_mode = -1;  ///< position in ModelModes, -1 where it is none of them
+  int model_mode = -1;  ///< position in ModelModes, -1 for none
   int condition = 0;
   int frequency_row = -1;           ///< -1: no frequency was measured
   std::vector<int> shape_rows;      ///< real parts
   std::vector<int> shape_channels;  ///< (n_shape_rows)
 };
 
-/// Errors of the model's form, alike in all conditions; one column an unknown.
+/// Errors of the model's form, equal in all conditions; one column per unknown.
 struct FormColumns {
   Eigen::MatrixXd frequency;  ///< F (n_rows × paired model modes): ln f of one model mode
   Eigen::MatrixXd shape;  ///< U (n_rows × pairs of modes): a random symmetric stiffness in the model's modes (Soize 2000): of
@@ -42,12 +42,12 @@ struct FormColumns {
 [[nodiscard]] Eigen::MatrixXd close_rotations(const std::vector<PairedMode>& paired, const std::vector<double>& frequency_Hz,
                                               const Eigen::VectorXd& values);
 
-/// What tells conditions from each other: a key of conditions.toml, from 0 to 1 at its extreme.
+/// Contrast between conditions: a key of conditions.toml, from 0 to 1 at its extreme.
 struct Contrast {
   std::string key;
   Eigen::VectorXd weight;  ///< (n_conditions)
 };
-/// Nothing where fewer than two different values are known. Temperatures count from their mean, other keys from zero.
+/// Empty if fewer than two different values are known. Temperatures count from their mean, other keys from zero.
 /// @param values  (n_conditions)
 [[nodiscard]] std::optional<Contrast> contrast_of(const std::string& key, const std::vector<std::optional<double>>& values);
 

@@ -7,7 +7,7 @@
 
 namespace twindeck::diagnosis {
 
-/// Unknowns of a generic change with one contrast, and the signatures that are weighed beside it.
+/// Unknowns of a generic change with one contrast, and the signatures that are compared with it.
 struct ChangeColumns {
   Eigen::MatrixXd columns;      ///< G (n_rows × n)
   std::vector<int> signatures;  ///< positions in FormSystem::signatures
@@ -22,15 +22,15 @@ struct FormSystem {
   std::vector<ChangeColumns> change;
   Eigen::VectorXd residual;    ///< r (n_rows)
   Eigen::MatrixXd signatures;  ///< s (n_rows × n_signatures)
-  bool all_products = false;   ///< of signatures with each other, not of each with itself alone
+  bool all_products = false;   ///< true: products of all pairs of signatures; false: of each with itself only
 };
 
-/// What one covariance Sigma says of the residual and the signatures.
+/// Quadratic forms of the residual and the signatures under one covariance Sigma.
 struct Quadratic {
   double log_determinant = 0.0;   ///< of Sigma
   double chi_squared = 0.0;       ///< r' Sigma^-1 r
   Eigen::VectorXd along, square;  ///< s' Sigma^-1 r, s' Sigma^-1 s (n_signatures, or those of a ChangeColumns)
-  Eigen::MatrixXd products;       ///< S' Sigma^-1 S where asked for
+  Eigen::MatrixXd products;       ///< S' Sigma^-1 S if requested
   /// ln N(r - t s; 0, Sigma), the constant -n/2 ln 2 pi left out. @param s -1: without a signature
   [[nodiscard]] double log_density(Eigen::Index s = -1, double t = 1.0) const;
   [[nodiscard]] double remaining(Eigen::Index s = -1, double t = 1.0) const;  ///< (r - t s)' Sigma^-1 (r - t s)
@@ -42,9 +42,9 @@ struct AtScales {
   std::vector<std::vector<Quadratic>> change;  ///< (n_contrasts × n_kappa)
 };
 
-/// Whitens everything and takes all products once; then a point of the scales costs one Cholesky factor over the unknowns for
-/// all signatures, and a kappa one over the unknowns of its contrast (Schur complement). Kinks are eliminated beforehand, once
-/// a tau_s, in the blocks that Sigma_0 leaves them (a mode each, or modes whose shapes' errors are correlated).
+/// Whitens all columns and computes all products once. A point of the scales then costs one Cholesky factor over the unknowns
+/// for all signatures. Each kappa costs one over the unknowns of its contrast (Schur complement). Kinks are eliminated
+/// beforehand, once for each tau_s, in the blocks of Sigma_0 (one mode each, or modes with correlated errors of shapes).
 class FormEvidence {
  public:
   FormEvidence(const FormSystem& system, const ScaleGrid& grid);
@@ -53,9 +53,10 @@ class FormEvidence {
 
  private:
   struct Eliminated {
-    Eigen::MatrixXd gram;     ///< (m × m) of all columns after the kinks, m columns of every kind
-    Eigen::MatrixXd right;    ///< (m × 1 + n_signatures) columns' products with residual and signatures
-    Eigen::MatrixXd removed;  ///< (n_kinks × 1 + n_signatures): what the kinks take from products of residual and signatures
+    Eigen::MatrixXd gram;   ///< (m × m) of all columns after the kinks, m columns of every kind
+    Eigen::MatrixXd right;  ///< (m × 1 + n_signatures) columns' products with residual and signatures
+    Eigen::MatrixXd
+        removed;  ///< (n_kinks × 1 + n_signatures): part of the products of residual and signatures that the kinks remove
     double log_determinant = 0.0;
   };
   [[nodiscard]] Quadratic quadratic(double log_determinant, const Eigen::MatrixXd& removed_here,
@@ -73,19 +74,19 @@ class FormEvidence {
   std::vector<Eliminated> eliminated_;  // (n_shape scales)
 };
 
-/// A point's part in a sum over scales (and magnitudes).
+/// Term of a sum over scales (and magnitudes).
 struct EvidenceTerm {
   double log_weight = 0.0;  ///< ln (prior × likelihood)
   int point = 0, kappa = -1;
   double chi_squared = 0.0;
 };
 
-/// A hypothesis' evidence and what it says of the scales.
+/// Evidence of a hypothesis and its posterior of the scales.
 struct HypothesisEvidence {
   double log_evidence = -1e300;
   EvidenceTerm best;                 ///< the point of the largest weight
   Eigen::VectorXd frequency, shape;  ///< posterior probabilities of the grid's tau_f, tau_s
-  double kappa = 0.0;                ///< posterior geometric mean, 0 where there is none
+  double kappa = 0.0;                ///< posterior geometric mean; 0 if there is none
 };
 
 [[nodiscard]] HypothesisEvidence summed(const std::vector<EvidenceTerm>& terms, const ScaleGrid& grid);

@@ -23,9 +23,9 @@ struct Explanation {
   Eigen::VectorXd log_weight;  ///< (n_magnitudes) ln prior of the entry and the magnitude
 };
 
-/// What rows that a fold leaves out say of the entry that the others chose.
+/// Prediction of the rows that a fold leaves out, by the entry that the other rows chose.
 struct BlockGain {
-  double log_gain = 0.0;             ///< ln predictive density, that entry's less none's
+  double log_gain = 0.0;             ///< ln predictive density of that entry minus that without a cause
   double before = 0.0, after = 0.0;  ///< sums of squared standardised residuals
   int rows = 0;
   int chosen = -1;  ///< position among the entries
@@ -38,10 +38,10 @@ struct PredictiveGain {
 };
 
 /// Nested leave-one-block-out prediction. With Q = Sigma^-1 and block b: e_b = (Q_bb)^-1 (Q r)_b has covariance (Q_bb)^-1;
-/// magnitudes are weighted by what the other rows say, chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s), and the entry is chosen
-/// anew in each fold by its evidence on them. With fewer than three blocks the intervals reach to zero: one block decides
-/// nothing.
-/// @param blocks  rows of each; rows of none are always seen
+/// magnitudes are weighted by the other rows, chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s), and the entry is chosen
+/// anew in each fold by its evidence on them. With fewer than three blocks the intervals reach to zero, because so few blocks
+/// cannot decide.
+/// @param blocks  rows of each; rows outside all blocks are always used
 [[nodiscard]] PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const Explanation& none,
                                            const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed);
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 /// Room diagnosis/inference: odds, verdict and gain. It takes residuals, columns of unknowns and signatures as plain matrices
-/// and knows no structure; it gives evidences, a verdict, and what a name is worth on rows that it did not see (decision 0013).
+/// and knows no structure. It gives evidences, a verdict, and the predictive gain of a name on left-out rows (decision 0013).
 namespace twindeck::diagnosis {
 
 /// One point of the scales that the evidence is summed over: of element scatter, of the form error in frequencies and in
@@ -25,11 +25,12 @@ struct ScaleGrid {
 /// scatter 1 and 2.5 times as stated with weights 0.7 and 0.3; kappa 0.05 to 20 %.
 [[nodiscard]] ScaleGrid scale_grid();
 
-/// Probabilities of a half-t law of three degrees of freedom on the cells about the points, cut at geometric means; the first
-/// reaches down to zero and the last has no end, so that they sum to one. @param points ascending, above zero
+/// Probabilities of a half-t law of three degrees of freedom on the cells around the points. The cells meet at geometric means;
+/// the first begins at zero and the last is unbounded, so that the probabilities sum to one. @param points ascending, above
+/// zero
 [[nodiscard]] Eigen::VectorXd half_t_weights(const Eigen::VectorXd& points, double scale);
 
-/// kappa's points of what a cause leaves over (0.05 to 8 %) and of "something else changed" (0.2 to 20 %): first and count.
+/// Points of kappa for the leftover of a cause (0.05 to 8 %) and of "something else changed" (0.2 to 20 %): first and count.
 struct Part {
   Eigen::Index first, count;
 };

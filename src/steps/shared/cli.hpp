@@ -11,7 +11,7 @@
 
 namespace twindeck::steps {
 
-/// What the command line said. Private to run_step.
+/// The parsed command line. Private to run_step.
 struct CommandLine {
   enum class Action { run, print, help, version, print_config, describe };
   Action action = Action::run;
@@ -19,7 +19,7 @@ struct CommandLine {
   std::filesystem::path study, out, results;
   std::optional<std::filesystem::path> model, campaign, modes, features;
   std::optional<std::uint64_t> seed;
-  int threads = 0;  ///< 0: as many as the machine has
+  int threads = 0;  ///< 0: one per processor
   bool quiet = false;
   bool accept_unconverged = false;
   std::vector<std::string> sets;                           ///< key=value, in order

@@ -6,8 +6,8 @@
 
 namespace twindeck::steps {
 
-/// Folders that a step reads, as its configuration names them: what --model and --campaign say goes before them. So a study says once
-/// what its steps work on, and a step run by hand gives the same as through make. Private to run_step.
+/// Folders that a step reads, as named in its configuration; --model and --campaign take precedence. A study then names the
+/// inputs of its steps once, and a step run by hand gives the same result as through make. Private to run_step.
 class ConfiguredInputs {
  public:
   /// Binds the keys that `step.configured_inputs` lists to its configuration. Must outlive the step's fields.
@@ -16,7 +16,7 @@ class ConfiguredInputs {
   ConfiguredInputs& operator=(const ConfiguredInputs&) = delete;
 
   /// Sets the context's folders that the command line has left open.
-  /// @throws InputError  naming file and key, for a folder that is not there
+  /// @throws InputError  with file and key, for a missing folder
   void apply(const Step& step, StepContext& context) const;
 
  private:

@@ -10,17 +10,16 @@
 #include "steps/shared/measured_tables.hpp"
 #include "steps/shared/run_step.hpp"
 
-/// What is known to be wrong with single channels is put right before a step looks at the measurement (`--correct FILE`). The
-/// room takes corrections.toml, which s9_diagnosis writes and anybody may write by hand, and gives the measured rows as they
-/// should have been.
+/// Corrects known faults of single channels before a step uses the measurement (`--correct FILE`). Input is corrections.toml,
+/// which s9_diagnosis writes and which can be written by hand. Output are the corrected rows.
 namespace twindeck::steps {
 
-/// One correction of corrections.toml. Corrections act in the order of the file; each names channels as those before it have
-/// left them.
+/// One correction of corrections.toml. Corrections act in the order of the file; each refers to the
+/// channels after the corrections before it.
 struct Correction {
   enum class Action {
     reverse,   ///< the channel's sign is turned
-    exchange,  ///< what stands under `channel` belongs to `with`, and the other way round
+    exchange,  ///< the values of `channel` and `with` are exchanged
     scale      ///< the channel's values are multiplied by `factor`
   };
   std::string channel;
@@ -41,20 +40,20 @@ struct Correction {
 ///         belong to the action, a factor that is not above 0, a channel exchanged with itself, a correction that stands twice
 [[nodiscard]] std::vector<Correction> read_corrections(const std::filesystem::path& file);
 
-/// Which correction of a list the next one would take back; none where it would not.
+/// The correction of a list that the next one would cancel, if any.
 [[nodiscard]] std::optional<std::size_t> undone_by(const std::vector<Correction>& list, const Correction& next);
 
 /// The text of a corrections.toml that reads back to the same corrections.
 [[nodiscard]] std::string corrections_toml(const std::vector<Correction>& corrections);
 
-/// What `--correct FILE` asks for, registered as an input and written into the manifest. Nothing without the option.
-/// @throws InputError  see read_corrections; a file that is not there
+/// What `--correct FILE` asks for, registered as an input and written into the manifest. Empty without the option.
+/// @throws InputError  see read_corrections; a missing file
 [[nodiscard]] std::vector<Correction> asked_corrections(StepContext& context);
 
-/// What becomes of a channel: the name under which its values belong, and what they are multiplied by.
+/// Correction of a channel: the channel to which its values belong, and their factor.
 struct CorrectedChannel {
   std::string name;
-  double factor = 1.0;  ///< [-] negative where it is reversed
+  double factor = 1.0;  ///< [-] negative if the channel is reversed
 };
 [[nodiscard]] CorrectedChannel corrected(const std::vector<Correction>& corrections, const std::string& channel);
 
@@ -64,12 +63,12 @@ void refuse_unknown_channels(const std::vector<Correction>& corrections, const s
                              const std::string& source);
 
 /// Corrects measured rows with their deviations and covariance: signed rows (shapes, load tests) by sign and factor, RMS by the
-/// factor's size, spectral floors by its square. Frequencies, damping and stays have no channel of their own and stay.
+/// factor's size, spectral floors by its square. Frequencies, damping and stays have no channel and stay unchanged.
 void correct(const std::vector<Correction>& corrections, FeatureRows& features);
 /// Corrects where amplitudes were measured, and how large they were.
 void correct(const std::vector<Correction>& corrections, std::vector<MeasuredCondition>& conditions);
 /// Corrects shapes whose rows are named by channel (`direction` of shapes.csv).
-/// @throws InputError  for a name that is no channel there, or that stands at several points
+/// @throws InputError  for an unknown channel name, or one that is used at several points
 void correct(const std::vector<Correction>& corrections, modal::ModeSet& modes, const std::string& source);
 
 }  // namespace twindeck::steps

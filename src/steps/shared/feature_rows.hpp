@@ -24,21 +24,21 @@ struct FeatureRow {
   [[nodiscard]] bool is_modal() const { return is_shape() || type == "frequency_Hz" || type == "damping_ratio_pct"; }
 };
 
-/// The types of row that the format has.
+/// The row types of the format.
 [[nodiscard]] const std::vector<std::string>& feature_types();
 
 struct FeatureRows {
   io::CsvTable table;            ///< rows.csv itself, for messages that name a line
   std::vector<FeatureRow> rows;  ///< in the order of the file
-  Eigen::MatrixXd covariance;    ///< (n_rows × n_rows) of covariance.npy; empty where there is none
+  Eigen::MatrixXd covariance;    ///< (n_rows × n_rows) of covariance.npy; empty without one
 };
 
-/// Reads rows.csv of a features folder, and covariance.npy where it is there: the one reader for every step.
+/// Reads rows.csv of a features folder, and covariance.npy if it exists. All steps use this reader.
 /// @param conditions  of conditions.toml
 /// @param channels    of channels.csv
 /// @throws InputError  with file, line and column: an unknown type, condition or channel; a row without a standard deviation; a
-///         value that its type cannot have; a mode that is a number but none from 1 on; `held_out` other than 0 and 1; two rows
-///         of one quantity; a static row without a load; a mode whose shape is zero everywhere; a covariance that is none
+///         value that its type cannot have; a mode number that is not a whole number from 1; `held_out` other than 0 and 1; two
+///         rows of one quantity; a static row without a load; a mode whose shape is zero everywhere; an invalid covariance
 ///         (covariance.hpp)
 [[nodiscard]] FeatureRows read_feature_rows(const std::filesystem::path& folder,
                                             const std::vector<MeasuredCondition>& conditions,

@@ -14,15 +14,15 @@ namespace twindeck::steps {
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< a number that a file leaves empty
 
-/// A measuring channel of channels.csv: where it sits and along what.
+/// A measuring channel of channels.csv: its position and direction.
 struct Channel {
   std::string name;
-  std::string point;                                    ///< "" where channels.csv gives none
-  std::optional<Eigen::Vector3d> x_m;                   ///< position, where it is known
+  std::string point;                                    ///< "" if channels.csv has none
+  std::optional<Eigen::Vector3d> x_m;                   ///< position, if known
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< direction cosines dx dy dz, unit length
 };
 
-/// Measured modes with what names and places them.
+/// Measured modes with their names and channels.
 struct Measured {
   modal::ModeSet modes;             ///< direction of a shape's dof: x … rz, or the name of a channel
   std::vector<std::string> labels;  ///< (n_modes) "7X"
@@ -33,20 +33,20 @@ struct Measured {
 struct MeasuredChoice;
 
 /// Reads the modes of one condition out of a features folder (docs/my_records.md): rows.csv, conditions.toml and, where there
-/// are shapes, channels.csv. Modes come in ascending frequency; rows that are held out stay out.
-/// @param choice  which condition (choose_condition), and what is put right first (corrections.hpp)
+/// are shapes, channels.csv. Modes come in ascending frequency; held-out rows are not read.
+/// @param choice  which condition (choose_condition), and the corrections to apply (corrections.hpp)
 /// @throws InputError  with file, line, column: an unknown type, condition, state or channel, a row without a standard deviation, a
 /// mode
 ///                     without a frequency, a mode without a shape where others have one. Channels that one mode lacks are NaN there
 [[nodiscard]] Measured read_measured_features(const std::filesystem::path& folder, const MeasuredChoice& choice);
 
-/// Reads modes.csv, and shapes.csv and channels.csv where they are there, from a folder (`--modes DIR`).
+/// Reads modes.csv, and shapes.csv and channels.csv if they exist, from a folder (`--modes DIR`).
 /// @throws InputError  as above
 [[nodiscard]] Measured read_measured_modes(const std::filesystem::path& folder, const MeasuredChoice& choice);
 
 /// The measured modes that a step works with: `--modes DIR`, else `--features DIR`, else the study's features, registered as
-/// inputs. Nothing if none of the three is there.
-/// @param condition  of the step's configuration; --condition goes before it
+/// inputs. Empty if none of the three exists.
+/// @param condition  of the step's configuration; --condition takes precedence
 [[nodiscard]] std::optional<Measured> find_measured(StepContext& context, const std::string& condition);
 
 }  // namespace twindeck::steps

@@ -9,7 +9,7 @@
 
 namespace twindeck::steps {
 
-/// Which part of a measurement a step looks at, and what of it is put right first.
+/// The part of a measurement that a step uses, and the corrections to apply to it.
 struct MeasuredChoice {
   ConditionChoice conditions;
   std::vector<Correction> corrections;
@@ -18,8 +18,8 @@ struct MeasuredChoice {
 /// `--condition NAME`, `--state NAME` and `--correct FILE`: the options of every step that reads measured modes or features.
 [[nodiscard]] std::vector<Flag> measured_flags();
 
-/// What these options say.
-/// @param condition  of the step's configuration: what holds where neither --condition nor --state is given
+/// Reads these options.
+/// @param condition  of the step's configuration: used if neither --condition nor --state is given
 /// @throws InputError  see asked_corrections; an empty name
 [[nodiscard]] MeasuredChoice asked_choice(StepContext& context, const std::string& condition = "");
 

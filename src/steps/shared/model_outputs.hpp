@@ -10,7 +10,7 @@
 #include "modal/modes.hpp"
 #include "steps/shared/model_source.hpp"
 
-/// What a step writes about a model and its modes, beside what model_io writes.
+/// Files that a step writes about a model and its modes, in addition to those of model_io.
 namespace twindeck::steps {
 
 /// Modes of a model as the steps publish them: translations x y z at every node of an FE model (rotations are left out: no
@@ -19,14 +19,14 @@ namespace twindeck::steps {
 [[nodiscard]] modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system,
                                              const dynamics::EigenModes& modes);
 
-/// stays.csv: `stay,group,length_m,pull_N,site_pull_N,stress_Pa,equivalent_modulus_Pa`. Length between the nodes; pull of the
-/// prestress state; site pull where the model gives one (Element::pull_N > 0); stress T/A; Ernst's tangent modulus at that
+/// stays.csv: `stay,group,length_m,pull_N,site_pull_N,stress_Pa,equivalent_modulus_Pa`. Length between the nodes; cable force
+/// of the prestress state; site value if the model gives one (Element::pull_N > 0); stress T/A; Ernst's tangent modulus at that
 /// stress.
 /// @param model  null for a matrix model: header only
 void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder);
 
-/// member_forces.csv: `element,group,x_m,y_m,z_m,length_m,axial_force_N` of every beam and bar under dead load and pulls:
-/// middle and length between the ends (nodes and offsets), axial force, tension positive.
+/// member_forces.csv: `element,group,x_m,y_m,z_m,length_m,axial_force_N` of every beam and bar under dead load and cable
+/// forces: middle and length between the ends (nodes and offsets), axial force, tension positive.
 /// @param model  null for a matrix model: header only
 void write_member_forces(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder);
 
@@ -43,7 +43,7 @@ using PartOf = std::function<std::string(const std::string& group)>;
 void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const PartOf& part_of,
                    const std::filesystem::path& folder);
 
-/// model.inp for CalculiX, model_abaqus.inp for Abaqus, with a word on what such a file cannot carry.
+/// model.inp for CalculiX, model_abaqus.inp for Abaqus, with a message about what such a file cannot hold.
 /// @throws InputError  for a matrix model, which has no elements
 void export_inp(const LoadedModel& loaded, int n_modes, const StepContext& context);
 

@@ -13,36 +13,36 @@
 
 namespace twindeck::steps {
 
-/// A model ready to be solved, wherever it came from.
+/// A model ready to be solved, from any source.
 struct LoadedModel {
   std::shared_ptr<const fe::Model> model;          ///< null for a matrix model
   std::shared_ptr<const fe::Structure> structure;  ///< the same, numbered and assembled
   fe::ParametricSystem system;
-  Eigen::VectorXd theta;     ///< (n_parameters) values as the model stands, in the parameters' units
+  Eigen::VectorXd theta;     ///< (n_parameters) current values, in the parameters' units
   fe::PrestressState state;  ///< empty vectors for a matrix model
   std::string source;        ///< folder or generator, for messages
-  /// Null for a matrix model: what model_io's writers take.
+  /// For the writers of model_io; null for a matrix model.
   [[nodiscard]] const fe::Model* fe_model() const { return model.get(); }
 };
 
 /// Checks a model, finds its prestress and assembles it.
-/// @throws InputError  for a model that is not sound, or a mechanism
+/// @throws InputError  for an invalid model, or a mechanism
 [[nodiscard]] LoadedModel from_model(fe::Model model);
 
 /// Reads a model folder, of finite elements or of matrices.
 [[nodiscard]] LoadedModel read_model_folder(const std::filesystem::path& folder);
 
-/// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp), or a deck of ANSYS (model_io/ansys.hpp), and says what of it
-/// does not enter a model.
+/// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp), or a deck of ANSYS (model_io/ansys.hpp), and reports what it
+/// cannot use.
 [[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
 
-/// The model that a step works on: `--model DIR` (or an .inp file) where it is given, otherwise the folder that an earlier step
+/// The model that a step works on: `--model DIR` (or an .inp file) if given, otherwise the folder that an earlier step
 /// wrote, with its files registered as inputs.
 /// @throws InputError  naming the step to run first if there is neither
 [[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
 
 /// The study's own model (study.toml [model]): a variant of the generator, or a folder or .inp file, which have no variants.
-/// `--model DIR` goes before both.
+/// `--model DIR` takes precedence over both.
 [[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
 
 /// The same model in equilibrium under its dead load with displacements "linear" or "large" (fe::Displacements); "as_model", or

@@ -13,7 +13,7 @@
 
 namespace twindeck::steps {
 
-/// What a step's `run` is given. Files are written into `out`, a temporary folder that replaces the earlier results only when
+/// Input of a step's `run`. Files are written into `out`, a temporary folder that replaces the earlier results only when
 /// the step has finished.
 class StepContext {
  public:
@@ -30,11 +30,11 @@ class StepContext {
   /// Registers a file, or every file of a folder, as an input for the manifest, checks it against its own step's manifest,
   /// returns it.
   std::filesystem::path input(const std::filesystem::path& path);
-  /// The path that a configuration names: "{results}/…" lies below --results, another is taken as it stands, from the current folder.
+  /// The path that a configuration names: "{results}/…" lies below --results, other paths are relative to the current folder.
   [[nodiscard]] std::filesystem::path resolved(const std::string& path) const;
   /// A line for people on stderr, prefixed with the step's token; nothing with --quiet.
   void say(const std::string& line) const;
-  /// Something odd in an input that the step takes as it is: said as "warning: …", and kept in the manifest, with --quiet too.
+  /// A doubtful input that the step uses unchanged: printed as "warning: …" and kept in the manifest, with --quiet too.
   void warn(const std::string& line);
   /// Progress with remaining time on anything over two seconds (terminal: one line rewritten; otherwise a line every ten
   /// seconds).
@@ -53,25 +53,25 @@ struct Flag {
   std::string name;
   bool takes_value = false;
   std::string meaning;
-  /// Where it is set: what the option prints on stdout instead of running the step (no --out is needed then).
+  /// If set: what the option prints on stdout instead of running the step (no --out is needed then).
   std::function<std::vector<std::string>(const std::string& value)> instead = {};
 };
 
-/// A step: everything its `main` has to say.
+/// Description of a step, which its `main` passes to run_step.
 struct Step {
   std::string token;                  ///< "s6_updating"
   std::string summary;                ///< one sentence
   std::vector<std::string> examples;  ///< at least two full command lines
   io::FieldTable fields;              ///< bound to the step's configuration struct
-  /// Folders that the configuration can name as the command line can: "model", "campaign". The command line goes first.
+  /// Folders that the configuration may name too: "model", "campaign". The command line takes precedence.
   std::vector<std::string> configured_inputs;
   std::vector<Flag> flags;
   std::function<Status(StepContext&)> run;
 };
 
 /// The command line contract of every step: --study --out --results --threads --set --seed --quiet --model --campaign
-/// --modes --features --accept-unconverged --help --version --print-config --describe [key]. Reads <study>/<token>.toml when
-/// there is one, runs, writes manifest.json last and renames. Exit codes: 0 done, 1 not converged (written to
+/// --modes --features --accept-unconverged --help --version --print-config --describe [key]. Reads <study>/<token>.toml if
+/// it exists, runs, writes manifest.json last and renames. Exit codes: 0 done, 1 not converged (written to
 /// <out>.unconverged), 2 bad input, 3 our own mistake; each failure is one line on stderr.
 int run_step(int argc, char** argv, Step step);
 

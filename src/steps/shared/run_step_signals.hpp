@@ -4,8 +4,8 @@
 
 namespace twindeck::steps {
 
-/// While it lives, Ctrl-C or a termination removes the partial folder and ends the program by that signal, so that earlier
-/// results stay whole, nothing half-written is left, and Make or the shell sees what happened. Private to run_step.
+/// During its lifetime, Ctrl-C or a termination removes the partial folder and ends the program by that signal. Earlier results
+/// stay unchanged, no partial files remain, and Make or the shell sees the signal. Private to run_step.
 class CleanInterrupt {
  public:
   explicit CleanInterrupt(std::filesystem::path partial);

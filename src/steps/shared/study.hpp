@@ -7,7 +7,7 @@
 
 namespace twindeck::steps {
 
-/// What `workflows/<study>/study.toml` says. Paths are relative to the current folder (the root of the repository).
+/// Content of `workflows/<study>/study.toml`. Paths are relative to the current folder (the root of the repository).
 struct Study {
   std::string title;
   std::uint64_t seed = 1;              ///< default of each step's --seed
@@ -23,7 +23,7 @@ struct Study {
 
 /// Reads `folder/study.toml`.
 /// @throws InputError  if the file is missing or wrong, or if it names more than one of a generator with its file, a folder, an
-/// .inp file. A study of records alone names none; the steps that need a model say so.
+/// .inp file. A study of records alone names none; steps that need a model then report it.
 [[nodiscard]] Study read_study(const std::filesystem::path& folder);
 
 /// Meaning, unit, range and default of each key of study.toml.

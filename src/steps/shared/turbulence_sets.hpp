@@ -7,9 +7,9 @@
 
 namespace twindeck::steps {
 
-/// Reads a set by its name from a file such as data/wind/turbulence_sets.csv, whose columns carry the paper's letters (v along,
+/// Reads a set by its name from a file such as data/wind/turbulence_sets.csv, whose columns have the paper's letters (v along,
 /// u across, w vertical).
-/// @throws InputError  for an unknown set, naming the nearest and all; for a number out of its range
+/// @throws InputError  for an unknown set, with the nearest name and all names; for a number out of its range
 [[nodiscard]] wind::TurbulenceSet read_turbulence_set(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace twindeck::steps

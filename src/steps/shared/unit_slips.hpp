@@ -10,22 +10,22 @@
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
 
-/// Units that a program cannot refuse but an engineer would: a modulus in MPa, coordinates in millimetres, a frequency in
-/// millihertz among hertz. Each is a number that is possible and a structure that is not; the functions name the likely slip by
-/// the model's own figures, one line each, and the steps warn with them.
+/// Detects likely unit errors: a modulus in MPa, coordinates in millimetres, a frequency in millihertz among hertz. Such
+/// numbers are possible, but the structure is not plausible. Each function returns one line per likely error, with the model's
+/// own figures; the steps print them as warnings.
 namespace twindeck::steps {
 
 /// By the speed of waves sqrt(E / rho) of each material that elements use, the span, the slenderness of members and the size of
 /// sections.
 [[nodiscard]] std::vector<std::string> unit_slips(const fe::Model& model);
 
-/// By the lowest computed frequency that belongs to no rigid body: slower or faster than any structure.
+/// By the lowest computed frequency that is not a rigid-body mode: lower or higher than that of any structure.
 /// @param computed_Hz  ascending
 /// @param mass_kg      that moves in translation
-/// @param span_m       0 where it is not known
+/// @param span_m       0 if unknown
 [[nodiscard]] std::vector<std::string> frequency_slips(const Eigen::VectorXd& computed_Hz, double mass_kg, double span_m);
 
-/// What was measured at a time: modes of one condition.
+/// Measured modes of one condition.
 struct MeasuredFrequencies {
   std::vector<std::string> names;
   Eigen::VectorXd frequency_Hz;
@@ -35,12 +35,12 @@ struct MeasuredFrequencies {
 /// @param computed_Hz  ascending; empty to leave the comparison out
 [[nodiscard]] std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz);
 
-/// What a step that compares with one condition has.
+/// Input for a step that compares with one condition.
 [[nodiscard]] std::vector<MeasuredFrequencies> frequencies_of(const std::optional<Measured>& measured);
 
-/// Warns of all of them. Where the model itself shows a slip, the comparison with the measurement is left out: it would say the
-/// same again.
-/// @param measured  one for each condition; empty where nothing is measured
+/// Runs all checks and warns. If the model itself shows an error, the comparison with the measurement is left out, because it
+/// would show the same error.
+/// @param measured  one for each condition; empty without a measurement
 void warn_of_unit_slips(StepContext& context, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                         const std::vector<MeasuredFrequencies>& measured);
 
