@@ -78,6 +78,13 @@ std::map<std::string, double> own_frequency(const Candidate& candidate, const Fe
   return {{"f_own", modelled->second}, {"f_own_low", 0.6 * modelled->second}, {"f_own_high", 1.6 * modelled->second}};
 }
 
+/// Whether load tests are there, and a support of this name holds vertically.
+bool can_settle(const ReducedModel& model, const std::string& support) {
+  const auto& grounds = model.load_tests.grounds;
+  return std::any_of(grounds.begin(), grounds.end(),
+                     [&](const Ground& ground) { return ground.support == support && ground.settle.squaredNorm() > 0.0; });
+}
+
 /// Locations of a set before bounds and priors.
 std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model, const FeatureSet& features) {
   std::vector<Candidate> found;
@@ -157,6 +164,7 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
       if (candidate.places.empty()) continue;
       if (action.kind.ends_with(".stiffness") && candidate.places[0]->stiffness.size() == 0)
         return true;
+      if (action.kind == "support.settle" && !can_settle(model, candidate.location)) return true;
       if (action.kind == "scale.mass" && candidate.places[0]->mass.size() == 0) return true;
     }
     return false;

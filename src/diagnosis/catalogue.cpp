@@ -11,6 +11,7 @@ const std::map<std::string, std::vector<std::string>>& action_kinds() {
       {"slip.stiffness", {"factor", "above"}},                            // factor where v > above
       {"soften.stiffness", {"half"}},                                     // factor 1/(1 + v/half): half is left at v = half
       {"support.move", {"position"}},                                     // to another place on its line of beams
+      {"support.settle", {"rise"}},                                       // of the ground under it, upwards, as load tests see it
       {"mass.add", {"mass"}},                                             // point mass
       {"mass.per_count", {"mass", "assumed"}},                            // mass per person instead of the assumed one
       {"person.oscillator", {"mass", "frequency", "damping"}},            // people as masses on springs

@@ -64,7 +64,7 @@ struct FormModes {
 };
 
 /// g(x, a): rows of the measurement as functions of the nuisance unknowns x and of causes. Frequencies, damping, RMS, floors and stay
-/// frequencies in ln; shapes scaled to the measured ones, the scale being free.
+/// frequencies in ln; shapes scaled to the measured ones, the scale being free; rows of load tests in their own unit.
 class FeatureMap {
  public:
   FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter);
@@ -116,6 +116,7 @@ class FeatureMap {
   void collect_modes();
   void list_nuisances(const ScatterOptions& scatter);
   void transform(const ScatterOptions& scatter);
+  void add_static_form();  ///< what every model leaves open of a load test
 
   const ReducedModel& model_;
   FeatureSet features_;

@@ -63,7 +63,8 @@ std::vector<std::string> states_of(const FeatureSet& features) {
 
 const std::vector<std::string>& row_type_names() {
   static const std::vector<std::string> names = {"frequency_Hz",      "damping_ratio_pct", "shape",           "shape_imag",
-                                                 "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m"};
+                                                 "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m",
+                                                 "static_rotation_rad", "static_strain",   "static_force_N"};
   return names;
 }
 

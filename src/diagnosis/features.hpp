@@ -10,7 +10,29 @@
 /// computed.
 namespace twindeck::diagnosis {
 
-enum class RowType { frequency, damping, shape, shape_imag, stay_frequency, rms, psd_floor, static_displacement };
+enum class RowType {
+  frequency,
+  damping,
+  shape,
+  shape_imag,
+  stay_frequency,
+  rms,
+  psd_floor,
+  static_displacement,
+  static_rotation,
+  static_strain,
+  static_force
+};
+
+/// Whether a row is of a load test.
+[[nodiscard]] constexpr bool is_static(RowType type) {
+  return type == RowType::static_displacement || type == RowType::static_rotation || type == RowType::static_strain ||
+         type == RowType::static_force;
+}
+/// Whether a row is compared in ln: all but components of shapes and rows of load tests, which may have either sign.
+[[nodiscard]] constexpr bool is_logarithmic(RowType type) {
+  return type != RowType::shape && type != RowType::shape_imag && !is_static(type);
+}
 
 /// Under which circumstances a row was measured; what is not known is empty.
 struct Condition {
@@ -21,6 +43,7 @@ struct Condition {
   std::string amplitude_channel;
   std::optional<double> temperature_C, wind_m_s, direction_deg, people;
   long line = 0;  ///< of conditions.toml: the order of the file
+  std::string load = {};  ///< load case of a load test
 };
 
 /// A number of the measurement. Frequencies in Hz, damping ratios in per cent, the rest in SI units.
@@ -41,7 +64,6 @@ struct FeatureSet {
   std::vector<std::string> channels;            ///< names, in the order of channels.csv
   std::vector<Eigen::Vector3d> direction;       ///< (n_channels) direction cosines, zero where unknown
   Eigen::MatrixXd covariance;                   ///< (n_rows × n_rows) instead of std, or empty
-  int load_test_rows = 0;                       ///< rows of load tests, which are read and checked, but which nothing here predicts
   std::map<std::string, double> clipped, drift; ///< of quality.csv by channel: fraction of samples, slope in rms; may be empty
 };
 

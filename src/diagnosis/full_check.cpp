@@ -121,6 +121,17 @@ struct Assembly {
   }
 };
 
+/// omega² of a small system, ascending. What answers loads has hardly any mass, so that M is singular to rounding: where K is not, the
+/// problem is solved for 1/omega².
+VectorXd lowest_squares(const MatrixXd& k, const MatrixXd& m) {
+  if (Eigen::LLT<MatrixXd>(k).info() == Eigen::Success) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> inverse(m, k, Eigen::EigenvaluesOnly);
+    constexpr double kMassless = 1e-300;  // far above every frequency: no division by zero
+    return inverse.eigenvalues().reverse().cwiseMax(kMassless).cwiseInverse();
+  }
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(k, m, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
 }  // namespace
 
 FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map, const Fit& fit,
@@ -146,7 +157,7 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
   }
   for (Index k = map.model().size(); k < reduced.stiffness.rows(); ++k) columns.push_back(static_cast<int>(k));
   const MatrixXd k = reduced.stiffness(columns, columns), m = reduced.mass(columns, columns);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> small(k, m, Eigen::EigenvaluesOnly);
+  const VectorXd small = lowest_squares(k, m);
   const int count = std::min(modes, static_cast<int>(k.rows()));
   linalg::Cholesky factor;
   const linalg::SparseMatrix lower_k = full.stiffness.triangularView<Eigen::Lower>();
@@ -161,7 +172,7 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
     return VectorXd(values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi));
   };
   check.full_Hz = hertz(pairs.values.head(count));
-  check.reduced_Hz = hertz(small.eigenvalues().head(count));
+  check.reduced_Hz = hertz(small.head(count));
   for (int i = 0; i < count; ++i)
     if (check.full_Hz[i] > 0.0)
       check.largest_pct = std::max(check.largest_pct, 100.0 * std::abs(check.reduced_Hz[i] / check.full_Hz[i] - 1.0));

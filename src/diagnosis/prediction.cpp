@@ -360,10 +360,12 @@ Prediction Predictor::run() {
     out_.jacobian = Eigen::MatrixXd::Zero(n, static_cast<Index>(map_.nuisances_.size()));
     out_.scales = Eigen::MatrixXd::Zero(n, map_.n_scales_);
   }
-  std::vector<bool> modal(map_.features().conditions.size(), false), loaded(modal);
+  std::vector<bool> modal(map_.features().conditions.size(), false), loaded(modal), tested(modal);
   for (const MeasuredMode& mode : map_.modes_) modal[static_cast<std::size_t>(mode.condition)] = true;
   for (const Row& row : map_.features().rows)
     if (row.type == RowType::rms || row.type == RowType::psd_floor) loaded[static_cast<std::size_t>(row.condition)] = true;
+  for (const Row& row : map_.features().rows)
+    if (is_static(row.type)) tested[static_cast<std::size_t>(row.condition)] = true;
   std::vector<std::vector<int>> alike;  // conditions in one state of the structure
   for (std::size_t c = 0; c < modal.size(); ++c) {
     if (!modal[c]) continue;
@@ -383,6 +385,9 @@ Prediction Predictor::run() {
   for (std::size_t c = 0; c < loaded.size(); ++c)
     if (loaded[c]) predict_load(static_cast<int>(c));
   predict_stays();
+  for (std::size_t c = 0; c < tested.size() && out_.valid; ++c)
+    if (tested[c]) predict_load_tests(static_cast<int>(c));
+  if (!out_.valid) return out_;
   out_.valid = out_.g.allFinite() && (!with_jacobian_ || out_.jacobian.allFinite());
   return out_;
 }

@@ -48,6 +48,8 @@ class Predictor {
   // structure (structure_of_causes.cpp)
   void read_channels();
   [[nodiscard]] bool acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
+  /// Relative change of a place's stiffness by an action on it, 0 for an action of another kind.
+  [[nodiscard]] double stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   [[nodiscard]] StructureState build_state(const Condition& condition) const;
   void apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const;
   void apply_dampers(const Condition& condition, StructureState& state) const;
@@ -75,6 +77,7 @@ class Predictor {
   void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const Eigen::VectorXcd& phi);
   void predict_load(int condition);
   void predict_stays();
+  void predict_load_tests(int condition);  ///< load_test_rows.cpp
   /// What the channels show of each mode of a state, (n_channels × n_modes), gains, signs and delays of causes included.
   [[nodiscard]] const Eigen::MatrixXcd& motion(const SolvedState& state);
   [[nodiscard]] Eigen::VectorXcd shape_at(const std::vector<int>& channels, const SolvedState& state, Eigen::Index mode);

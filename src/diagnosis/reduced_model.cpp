@@ -126,7 +126,9 @@ class Basis {
 };
 
 /// What stands for causes at a place, beside the common vectors: K^-1 b for a force direction, K^-1 (dK Phi) for a factor.
-MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const Place& place, const MatrixXd& low, int count) {
+/// @param answers  to the loads of load tests, whose change by a factor is kept as well
+MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const Place& place, const MatrixXd& low, const MatrixXd& answers,
+                     int count) {
   if (count == 0) return {};
   MatrixXd load;
   if (place.directions.size() > 0)
@@ -135,7 +137,37 @@ MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const P
     load = place.stiffness * low;
   else if (place.mass.size() > 0)
     load = place.mass * low;
-  return load.cols() > 0 ? basis.orthonormal(basis.strongest({factor.solve(load), load}, count).vectors) : MatrixXd();
+  if (load.cols() == 0) return {};
+  MatrixXd own = basis.strongest({factor.solve(load), load}, count).vectors;
+  if (answers.cols() > 0 && place.directions.size() == 0 && place.stiffness.size() > 0) {
+    const MatrixXd change = place.stiffness * answers;
+    const MatrixXd further = basis.strongest({factor.solve(change), change}, count).vectors;
+    own.conservativeResize(Eigen::NoChange, own.cols() + further.cols());
+    own.rightCols(further.cols()) = further;
+  }
+  return basis.orthonormal(own);
+}
+
+/// What changes of K make of given vectors, K^-1 (change): of each change the strongest few beyond the basis, of these the strongest of all.
+/// @param scale  of each vector
+MatrixXd strongest_of(const Basis& basis, const linalg::Cholesky& factor, const std::vector<std::function<MatrixXd()>>& changes,
+                      const Eigen::VectorXd& scale, const ReductionOptions& options) {
+  std::vector<Basis::Held> found(changes.size());
+  parallel_for(changes.size(), [&](std::size_t i) {
+    const MatrixXd load = changes[i]() * scale.asDiagonal();
+    found[i] = basis.strongest({factor.solve(load), load}, 6);
+  });
+  Index columns = 0;
+  for (const Basis::Held& block : found) columns += block.vectors.cols();
+  const Index n = basis.vectors().rows();
+  Basis::Held all{MatrixXd(n, columns), MatrixXd(n, columns)};
+  Index at = 0;
+  for (const Basis::Held& block : found) {
+    all.vectors.middleCols(at, block.vectors.cols()) = block.vectors;
+    all.loads.middleCols(at, block.vectors.cols()) = block.loads;
+    at += block.vectors.cols();
+  }
+  return basis.strongest(std::move(all), options.parameter_vectors, options.least_correction).vectors;
 }
 
 /// K^-1 dK Phi and K^-1 dM Phi Lambda for each parameter and, where asked for, each group of elements, by as much as they may
@@ -163,21 +195,26 @@ MatrixXd corrections(const Basis& basis, const linalg::Cholesky& factor, const f
         changes.emplace_back([&] { return MatrixXd(options.element_change * (place.mass * low) * squares.asDiagonal()); });
     }
   const double least = 1e-6 * squares[squares.size() - 1];  // modes of a free structure have none
-  std::vector<Basis::Held> found(changes.size());
-  parallel_for(changes.size(), [&](std::size_t i) {
-    const MatrixXd load = changes[i]() * squares.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal();
-    found[i] = basis.strongest({factor.solve(load), load}, 6);
-  });
-  Index columns = 0;
-  for (const Basis::Held& block : found) columns += block.vectors.cols();
-  Basis::Held all{MatrixXd(low.rows(), columns), MatrixXd(low.rows(), columns)};
-  Index at = 0;
-  for (const Basis::Held& block : found) {
-    all.vectors.middleCols(at, block.vectors.cols()) = block.vectors;
-    all.loads.middleCols(at, block.vectors.cols()) = block.loads;
-    at += block.vectors.cols();
+  const Eigen::VectorXd scale = squares.cwiseMax(least).cwiseSqrt().cwiseInverse();
+  return strongest_of(basis, factor, changes, scale, options);
+}
+
+/// The same of what load tests do: K^-1 dK u for each parameter and group of elements.
+/// @param answers  u (n × m), of unit strain energy
+MatrixXd answer_corrections(const Basis& basis, const linalg::Cholesky& factor, const fe::ParametricSystem& system,
+                            const Eigen::VectorXd& theta, const MatrixXd& answers, const Places& places, const ReductionOptions& options) {
+  std::vector<std::function<MatrixXd()>> changes;
+  for (std::size_t p = 0; p < system.parameters.size(); ++p) {
+    const double range = system.parameters[p].upper - system.parameters[p].lower;
+    if (range > 0.0)
+      changes.emplace_back([&, p, range] {
+        return MatrixXd(0.25 * range * system.stiffness_derivative_times(theta, static_cast<int>(p), answers));
+      });
   }
-  return basis.strongest(std::move(all), options.parameter_vectors, options.least_correction).vectors;
+  if (const auto elements = places.sets.find("elements"); elements != places.sets.end() && options.element_change > 0.0)
+    for (const Place& place : elements->second)
+      if (place.stiffness.size() > 0) changes.emplace_back([&] { return MatrixXd(options.element_change * (place.stiffness * answers)); });
+  return strongest_of(basis, factor, changes, Eigen::VectorXd::Ones(answers.cols()), options);
 }
 
 }  // namespace
@@ -235,6 +272,13 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     basis.append(corrections(basis, factor, system, theta, modes.eigenvalue, low, places, options));
     if (const auto dampers = places.sets.find("dampers"); dampers != places.sets.end())
       for (const Place& damper : dampers->second) basis.append(factor.solve(MatrixXd(damper.directions)));
+    MatrixXd answers;
+    if (!structure.load_tests.empty()) {
+      answers = factor.solve(loads_to_answer(structure.load_tests));
+      for (Index c = 0; c < answers.cols(); ++c) answers.col(c) /= std::sqrt(answers.col(c).dot(stiffness_now * answers.col(c)));
+      basis.append(answers);
+      basis.append(answer_corrections(basis, factor, system, theta, answers, places, options));
+    }
     common = static_cast<int>(basis.vectors().cols());
     std::vector<const Place*> all;
     std::vector<int> count;
@@ -247,7 +291,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
         count.push_back(served ? 0 : kept);
       }
     std::vector<MatrixXd> vectors(all.size());
-    parallel_for(all.size(), [&](std::size_t i) { vectors[i] = own_vectors(basis, factor, *all[i], low, count[i]); });
+    parallel_for(all.size(), [&](std::size_t i) { vectors[i] = own_vectors(basis, factor, *all[i], low, answers, count[i]); });
     Index size = common;
     for (const MatrixXd& block : vectors) size += block.cols();
     v.resize(n, size);
@@ -302,6 +346,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.size > b.size; });
   parallel_for(jobs.size(), [&](std::size_t i) { jobs[i].run(); });
   sensors = structure.sensors(v);
+  load_tests = projected(structure.load_tests, v);
   // modes = V q with q from the K inner product (V is K-orthonormal), or the modes themselves.
   mode_coordinates = whole ? modes.shapes : MatrixXd(v.transpose() * (stiffness_now * modes.shapes));
 }

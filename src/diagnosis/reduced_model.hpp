@@ -37,7 +37,8 @@ struct ReductionOptions {
 /// The structure projected once to a small basis, so that thousands of changed structures can be solved:
 ///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by place].
 /// A change at a location uses the common vectors and those of the location: K^-1 (dK Phi) for a factor, K^-1 b for a force direction b
-/// (statically exact; Craig and Bampton 1968, MacNeal 1971). V is orthonormal in K up to a common factor.
+/// (statically exact; Craig and Bampton 1968, MacNeal 1971). With load tests V also holds K^-1 f of each load, and its first-order
+/// change by parameters, element scatter and causes. V is orthonormal in K up to a common factor.
 class ReducedModel {
  public:
   struct Term {
@@ -57,6 +58,7 @@ class ReducedModel {
   double total_mass_kg = 0.0;
   Eigen::VectorXd frequency_Hz;        ///< of the computed modes of the unchanged full model
   Eigen::MatrixXd mode_coordinates;    ///< (r × n_modes) the same modes in the basis
+  LoadTests load_tests;                ///< in the basis, which answers their loads exactly at `theta`
 
   [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
   /// The location called `id` in any set; null if there is none.

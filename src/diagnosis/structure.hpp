@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/features/load_tests.hpp"
 #include "fe/assembly.hpp"
 #include "fe/model.hpp"
 #include "fe/parametric_system.hpp"
@@ -29,6 +30,7 @@ struct Structure {
   SensorValues sensors;
   std::vector<std::string> sensor_nodes;      ///< (n_channels) name of each channel's node, "" where unknown
   std::vector<std::string> rigid_supports;    ///< groups of springs that stand for a rigid support, far stiffer than what they hold
+  LoadTests load_tests;                       ///< over the free dofs (load_tests_of); empty where none was made
   std::string source;
 };
 

@@ -146,6 +146,21 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
   }
 }
 
+double Predictor::stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const {
+  const Candidate& candidate = *cause.candidate;
+  const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
+  const std::string& kind = action.kind;
+  if (kind == "scale.stiffness")
+    return (value("factor") - 1.0) * parameter_ratio(candidate.places[0]->attributes, map_.model().theta, base_.theta);
+  const double v = variable(action, condition);
+  if (kind == "field.stiffness") return std::isfinite(v) ? value("rate") * (v - value("reference")) : 0.0;
+  // The hyperbola of soils (Hardin and Drnevich, J. Soil Mech. Found. Div. ASCE 98 SM7, 1972).
+  if (kind == "soften.stiffness") return std::isfinite(v) ? -(v / (v + value("half"))) : 0.0;
+  if (kind == "step.stiffness") return v < value("below") ? value("factor") - 1.0 : 0.0;
+  if (kind == "slip.stiffness") return v > value("above") ? value("factor") - 1.0 : 0.0;
+  return 0.0;
+}
+
 void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const {
   const Candidate& candidate = *cause.candidate;
   if (candidate.places.empty()) return;
@@ -153,22 +168,10 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
   const Index n = state.stiffness.rows();
   const std::string& kind = action.kind;
-  if (kind == "scale.stiffness") {
-    state.stiffness += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) * sliced(place.stiffness, columns_, n);
+  if (const double change = stiffness_change(cause, action, condition); change != 0.0) {
+    state.stiffness += change * sliced(place.stiffness, columns_, n);
   } else if (kind == "scale.mass") {
     state.mass += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) * sliced(place.mass, columns_, n);
-  } else if (kind == "field.stiffness") {
-    const double v = variable(action, condition);
-    if (std::isfinite(v)) state.stiffness += value("rate") * (v - value("reference")) * sliced(place.stiffness, columns_, n);
-  } else if (kind == "soften.stiffness") {  // the hyperbola of soils (Hardin and Drnevich, J. Soil Mech. Found. Div. ASCE 98 SM7, 1972)
-    const double v = variable(action, condition);
-    if (std::isfinite(v)) state.stiffness -= v / (v + value("half")) * sliced(place.stiffness, columns_, n);
-  } else if (kind == "step.stiffness") {
-    if (variable(action, condition) < value("below"))
-      state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
-  } else if (kind == "slip.stiffness") {
-    if (variable(action, condition) > value("above"))
-      state.stiffness += (value("factor") - 1.0) * sliced(place.stiffness, columns_, n);
   } else if (kind == "support.move") {
     move_support(place, value("position"), columns_, state);
   } else if (kind == "mass.add") {

@@ -23,21 +23,37 @@ void check_one_of(const io::CsvTable& table, std::size_t row, const std::string&
 
 }  // namespace
 
-std::vector<std::string> load_case_names(const std::filesystem::path& folder) {
-  static const std::vector<std::string> units = {"N", "N m", "m"};
+std::vector<LoadEntry> read_load_cases(const std::filesystem::path& folder) {
+  static const std::vector<std::string> units = {"N", "N m", "m"};  // in the order of LoadEntry::Kind
   if (!std::filesystem::exists(folder / kFile)) return {};
   const auto table = io::CsvTable::read(folder / kFile, {"load", "node", "direction", "value", "unit"});
-  std::vector<std::string> names;
+  std::vector<LoadEntry> entries;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string name = table.text(row, "load");
-    if (name.empty())
+    LoadEntry entry;
+    entry.line = table.line(row);
+    entry.load = table.text(row, "load");
+    if (entry.load.empty())
       table.fail(row, "load", "is empty, expected the name of a load case", "name it so that a condition can refer to it");
-    if (table.text(row, "node").empty()) table.fail(row, "node", "is empty, expected a node", "name the node that is loaded");
+    entry.node = table.text(row, "node");
+    if (entry.node.empty()) table.fail(row, "node", "is empty, expected a node", "name the node that is loaded");
     check_one_of(table, row, "direction", direction_names());
-    static_cast<void>(table.number(row, "value"));
+    entry.direction = position_of(table.text(row, "direction"), direction_names());
+    entry.value = table.number(row, "value");
     check_one_of(table, row, "unit", units);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    entry.kind = static_cast<LoadEntry::Kind>(position_of(table.text(row, "unit"), units));
+    constexpr int translations = 3;
+    if ((entry.direction >= translations) != (entry.kind == LoadEntry::Kind::moment))
+      table.fail(row, "unit", fmt::format("is '{}' in direction {}", table.text(row, "unit"), table.text(row, "direction")),
+                 "N and m go with x, y, z; N m goes with rx, ry, rz");
+    entries.push_back(entry);
   }
+  return entries;
+}
+
+std::vector<std::string> load_case_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const LoadEntry& entry : read_load_cases(folder))
+    if (std::find(names.begin(), names.end(), entry.load) == names.end()) names.push_back(entry.load);
   return names;
 }
 

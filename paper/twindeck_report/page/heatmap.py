@@ -6,6 +6,7 @@ import numpy as np
 CELL, FULL = 15, 5.0  # [px]; the colour is full at this many standard deviations
 NAMES = {"frequency_Hz": "Frequencies", "damping_ratio_pct": "Damping ratios", "shape": "Shapes", "shape_imag": "Shapes, imaginary parts",
          "stay_frequency_Hz": "Frequencies of the stays", "rms_m_s2": "RMS accelerations", "static_m": "Static displacements",
+         "static_rotation_rad": "Static rotations", "static_strain": "Static strains", "static_force_N": "Support forces",
          "psd_floor_m2_s3": "Floors of the spectra"}
 COLD, WARM = (11, 95, 165), (179, 38, 30)
 

@@ -17,7 +17,7 @@ namespace twindeck::steps {
 [[nodiscard]] std::vector<diagnosis::Hypothesis> read_catalogue(const std::filesystem::path& folder);
 
 /// All rows of a features folder (docs/my_records.md) with their conditions and channels, quality.csv and covariance.npy where
-/// they are there. Rows of load tests are checked and counted, not kept: no cause is told by them.
+/// they are there.
 /// @param choice  which conditions are kept, with their rows; what is put right in them first
 /// @throws InputError  with file, line, column: see steps/shared/feature_rows.hpp, measured_tables.hpp and corrections.hpp
 [[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder, const MeasuredChoice& choice = {});

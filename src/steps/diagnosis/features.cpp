@@ -23,7 +23,7 @@ std::vector<Condition> all_of(const std::vector<MeasuredCondition>& measured) {
   std::vector<Condition> conditions;
   for (const MeasuredCondition& c : measured)
     conditions.push_back({c.name, c.state, c.dampers_on, c.amplitude_m, c.amplitude_channel, c.temperature_C, c.wind_m_s, c.direction_deg,
-                          c.people, c.line});
+                          c.people, c.line, c.load});
   return conditions;
 }
 
@@ -93,13 +93,8 @@ FeatureSet read_all_features(const std::filesystem::path& folder, const Measured
   for (std::size_t r = 0; r < read.rows.size(); ++r) {
     const auto is_its = [&](const MeasuredCondition& c) { return c.name == read.rows[r].condition; };
     if (std::none_of(conditions.begin(), conditions.end(), is_its)) continue;
-    const Row row = to_row(read.rows[r], conditions, features);
-    if (row.type == RowType::static_displacement) {
-      ++features.load_test_rows;
-      continue;
-    }
     kept.push_back(static_cast<int>(r));
-    features.rows.push_back(row);
+    features.rows.push_back(to_row(read.rows[r], conditions, features));
   }
   if (features.rows.empty()) throw InputError({(folder / "rows.csv").string(), 0, ""}, "holds no row that can be used", "");
   if (read.covariance.size() > 0) features.covariance = read.covariance(kept, kept);

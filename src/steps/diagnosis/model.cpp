@@ -84,7 +84,7 @@ std::vector<std::string> nodes_of_channels(const DiagnosedModel& model) {
   for (const Channel& channel : model.channels) {
     std::string name;
     double least = model.sensor_tolerance_m;
-    if (channel.x_m) {
+    if (channel.is_at_a_point() && channel.x_m) {
       for (std::size_t i = 0; i < known.size(); ++i) {
         const double distance = (where[i] - *channel.x_m).norm();
         if (distance <= least) {
@@ -93,7 +93,7 @@ std::vector<std::string> nodes_of_channels(const DiagnosedModel& model) {
         }
       }
     }
-    if (name.empty() && std::find(known.begin(), known.end(), channel.point) != known.end()) name = channel.point;
+    if (channel.is_at_a_point() && name.empty() && std::find(known.begin(), known.end(), channel.point) != known.end()) name = channel.point;
     names.push_back(name);
   }
   return names;
@@ -128,10 +128,19 @@ diagnosis::Structure DiagnosedModel::structure() const {
   out.sensors = [this](const Eigen::MatrixXd& vectors) {
     const auto n = static_cast<Index>(channels.size());
     Eigen::MatrixXd values = Eigen::MatrixXd::Zero(4 * n, vectors.cols());
+    std::vector<Index> at_points;  // strain and force gauges show no displacement
+    std::vector<Channel> points;
+    for (Index c = 0; c < n; ++c) {
+      const Channel& channel = channels[static_cast<std::size_t>(c)];
+      if (!channel.is_at_a_point()) continue;
+      at_points.push_back(c);
+      points.push_back(channel);
+    }
+    if (points.empty()) return values;
     for (int kind = 0; kind < 4; ++kind) {  // along the channel, then x, y, z at its place
       Measured asked;
       asked.source = "channels.csv";
-      asked.channels = channels;
+      asked.channels = points;
       for (Channel& channel : asked.channels) {
         asked.modes.dofs.push_back({channel.point.empty() ? channel.name : channel.point, channel.name});
         if (kind > 0) channel.direction = Eigen::Vector3d::Unit(kind - 1);
@@ -139,7 +148,7 @@ diagnosis::Structure DiagnosedModel::structure() const {
       dynamics::EigenModes modes;
       modes.shapes = vectors;
       const Eigen::MatrixXd rows = shapes_at_sensors(asked, loaded, modes, sensor_tolerance_m).real();
-      for (Index c = 0; c < n; ++c) values.row(4 * c + kind) = rows.row(c);
+      for (std::size_t p = 0; p < at_points.size(); ++p) values.row(4 * at_points[p] + kind) = rows.row(static_cast<Index>(p));
     }
     return values;
   };

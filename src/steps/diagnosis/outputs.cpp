@@ -21,8 +21,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 double own_unit(const Row& row, double transformed) {
-  const bool shape = row.type == diagnosis::RowType::shape || row.type == diagnosis::RowType::shape_imag;
-  return shape ? transformed : std::exp(transformed);
+  return is_logarithmic(row.type) ? std::exp(transformed) : transformed;
 }
 
 std::string channel_of(const Inference& inference, const Row& row) {

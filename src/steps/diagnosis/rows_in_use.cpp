@@ -98,7 +98,9 @@ std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const d
 }
 
 bool with_form(const DiagnosisConfig& config, const diagnosis::FeatureSet& features) {
-  return config.form == "on" || (config.form == "auto" && diagnosis::states_of(features).size() > 1);
+  // The form error is one of modes: load tests alone have none, and a part of the covariance instead.
+  const bool modes = std::any_of(features.rows.begin(), features.rows.end(), [](const diagnosis::Row& row) { return !is_static(row.type); });
+  return modes && (config.form == "on" || (config.form == "auto" && diagnosis::states_of(features).size() > 1));
 }
 
 void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {

@@ -58,6 +58,14 @@ std::string quantity_words(const Row& row, const std::string& sensor) {
       return "the RMS acceleration at " + sensor;
     case RowType::psd_floor:
       return "the noise floor at " + sensor;
+    case RowType::static_displacement:
+      return "the displacement under load at " + sensor;
+    case RowType::static_rotation:
+      return "the rotation under load at " + sensor;
+    case RowType::static_strain:
+      return "the strain under load at " + sensor;
+    case RowType::static_force:
+      return "the support force under load at " + sensor;
     default:
       return "the shape of mode " + row.mode;
   }
@@ -71,6 +79,14 @@ std::string unit_of(RowType type) {
       return "m/s2";
     case RowType::psd_floor:
       return "m2/s3";
+    case RowType::static_displacement:
+      return "m";
+    case RowType::static_rotation:
+      return "rad";
+    case RowType::static_strain:
+      return "m/m";
+    case RowType::static_force:
+      return "N";
     default:
       return "Hz";
   }
@@ -114,7 +130,7 @@ std::string block_words(const Block& block, const Inference& inference, const Di
                        block.rows.size());
   } else {
     const auto r = static_cast<Index>(block.rows.front());
-    const double computed = std::exp(result.before.all.g[r]);
+    const double transformed = result.before.all.g[r], computed = is_logarithmic(row.type) ? std::exp(transformed) : transformed;
     text = fmt::format("{} is measured as {} {}, the best admissible model has {} {}: {:.1f} standard deviations", block.words,
                        number_in_words(row.value, kMeasuredDigits), unit_of(row.type),
                        number_in_words(computed, kMeasuredDigits), unit_of(row.type), std::abs(before[r]));

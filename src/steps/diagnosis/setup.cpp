@@ -83,8 +83,9 @@ struct BasisSize {
 
 /// Places and reduced model of the model as it is now.
 void reduce(const diagnosis::PlaceOptions& place_options, const BasisSize& size, DiagnosisInputs& inputs) {
-  const diagnosis::Structure structure = inputs.model->structure();
+  diagnosis::Structure structure = inputs.model->structure();
   inputs.places = diagnosis::find_places(structure, place_options);
+  structure.load_tests = load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
   diagnosis::ReductionOptions reduction;
   reduction.modes = size.modes;
   // Fits end far from where the basis is made (full_model): parameters on bounds, workmanship off by several deviations.
@@ -158,6 +159,7 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   const LoadedModel loaded = own ? load_study_model(context, "") : load_model(context, updated);
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
   refuse_unknown_loads(folder, loaded.source);
+  inputs.load_tests = {loaded.source, folder / "channels.csv"};
   inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
   if (!config.damper_places.empty())
@@ -165,8 +167,6 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   reduce(place_options, {static_cast<int>(config.modes), 0}, inputs);
   refuse_unknown_stays(inputs.features, inputs.places, folder);
   if (config.stays == "auto") swing_stays(config, place_options, stay_rows, inputs);
-  if (inputs.features.load_test_rows > 0)
-    context.warn(fmt::format("{} rows of load tests are not used: no cause here is told by them", inputs.features.load_test_rows));
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   warn_of_unit_slips(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
   const std::size_t swinging = inputs.bar_stays ? inputs.bar_stays->stays() : 0;

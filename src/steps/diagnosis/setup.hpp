@@ -10,6 +10,7 @@
 #include "io/config.hpp"
 #include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/extended_stays.hpp"
+#include "steps/diagnosis/load_tests.hpp"
 #include "steps/diagnosis/model.hpp"
 #include "steps/shared/corrections.hpp"
 #include "steps/shared/run_step.hpp"
@@ -49,6 +50,7 @@ struct DiagnosisInputs {
   std::vector<Correction> corrected;  ///< what of the features --correct has put right
   std::vector<diagnosis::Hypothesis> catalogue;
   std::vector<Finding> account;             ///< what claims and rows say before any odds
+  LoadTestFiles load_tests;                 ///< where loads and gauges stand
   std::optional<BarStaysEffect> bar_stays;  ///< where stays swing that the model had as bars; `model` has them as cables
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -37,6 +38,7 @@ void put_rules(std::ostream& key, const DiagnosisConfig& config) {
 
 void put_model(std::ostream& key, const diagnosis::ReducedModel& model) {
   key << "|model " << model.size() << ',' << model.total_mass_kg << ',' << model.frequency_Hz.transpose();
+  if (!model.load_tests.empty()) key << ",loads " << model.load_tests.force << model.sensors;
   for (const fe::Parameter& p : model.parameters) key << ',' << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial;
 }
 
@@ -44,6 +46,7 @@ void put_rows(std::ostream& key, const diagnosis::FeatureSet& features) {
   key << "|conditions ";
   for (const diagnosis::Condition& c : features.conditions) {
     key << c.name << ',' << (c.dampers_on ? *c.dampers_on ? "on," : "off," : ",") << c.amplitude_channel << ',';
+    if (!c.load.empty()) key << c.load << ',';
     for (const auto& value : {c.amplitude_m, c.temperature_C, c.wind_m_s, c.direction_deg, c.people}) put(key, value);
   }
   key << "|rows ";
@@ -55,7 +58,12 @@ void put_rows(std::ostream& key, const diagnosis::FeatureSet& features) {
 
 void put_causes(std::ostream& key, const DiagnosisInputs& inputs, const diagnosis::Inference& inference) {
   key << "|causes ";
+  const auto& rows = inputs.features.rows;
+  const bool tested = std::any_of(rows.begin(), rows.end(), [](const diagnosis::Row& row) { return is_static(row.type); });
+  const auto of_load_tests = [](const std::string& type) { return type.starts_with("static_"); };
   for (const diagnosis::Hypothesis& h : inputs.catalogue) {
+    // What only load tests show is no part of a null without them.
+    if (!tested && !h.needs.rows.empty() && std::all_of(h.needs.rows.begin(), h.needs.rows.end(), of_load_tests)) continue;
     key << h.id << ',' << h.set << ',' << h.filter << ',' << h.prior_weight << ',' << h.measurement << ':';
     for (const diagnosis::UnknownSpec& u : h.unknowns) {
       key << u.name << (u.log ? " log " : " linear ");

@@ -21,7 +21,7 @@ constexpr double least_relative_std = 1e-12;  ///< [-] nothing is measured to tw
 
 bool is_frequency(const FeatureRow& row) { return row.type == "frequency_Hz" || row.type == "stay_frequency_Hz"; }
 
-bool may_be_negative(const FeatureRow& row) { return row.is_shape() || row.type == "static_m"; }
+bool may_be_negative(const FeatureRow& row) { return row.is_shape() || row.is_static(); }
 
 /// The condition or channel that a cell names.
 template <class Part>
@@ -78,6 +78,18 @@ std::string read_mode(const io::CsvTable& table, std::size_t at, const FeatureRo
   return mode;
 }
 
+/// A load test's row needs a channel that can show it.
+void check_gauge(const io::CsvTable& table, std::size_t at, const FeatureRow& row, const std::vector<Channel>& channels) {
+  const auto channel = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == row.channel; });
+  const std::string needed = row.type == "static_strain" ? "an element" : row.type == "static_force_N" ? "a support" : "a point";
+  const bool there = row.type == "static_strain"    ? !channel->element.empty()
+                     : row.type == "static_force_N" ? !channel->support.empty()
+                                                    : channel->is_at_a_point();
+  if (!there)
+    table.fail(at, "channel", fmt::format("a row of type {} needs a channel at {}, which '{}' is not", row.type, needed, row.channel),
+               "fill channels.csv: element, xi, y_m, z_m for a strain; support, dx, dy, dz for a force; a point or x_m, y_m, z_m for others");
+}
+
 FeatureRow read_row(const io::CsvTable& table, std::size_t at, const std::vector<MeasuredCondition>& conditions,
                     const std::vector<Channel>& channels, bool has_covariance) {
   FeatureRow row;
@@ -93,10 +105,11 @@ FeatureRow read_row(const io::CsvTable& table, std::size_t at, const std::vector
   row.channel = table.text(at, "channel");
   if (row.is_shape() || (!row.is_modal() && row.type != "stay_frequency_Hz"))
     row.channel = named(table, at, "channel", channels, "channels.csv").name;
-  if (row.type == "static_m" && condition.load.empty())
-    table.fail(at, "type", fmt::format("a row of type static_m needs a load, but condition '{}' names none", row.condition),
+  if (row.is_static() && condition.load.empty())
+    table.fail(at, "type", fmt::format("a row of type {} needs a load, but condition '{}' names none", row.type, row.condition),
                "name a load case of the model's loads.csv in conditions.toml: load = \"…\"");
   row.value = read_value(table, at, row);
+  if (row.is_static()) check_gauge(table, at, row, channels);
   if (!has_covariance) row.std = read_std(table, at, row);
   const double held_out = table.number_or(at, "held_out", 0.0);
   if (held_out != 0.0 && held_out != 1.0)
@@ -148,7 +161,8 @@ void refuse_shapes_of_zeros(const FeatureRows& read) {
 
 const std::vector<std::string>& feature_types() {
   static const std::vector<std::string> types = {"frequency_Hz",      "damping_ratio_pct", "shape",           "shape_imag",
-                                                 "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m"};
+                                                 "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m",
+                                                 "static_rotation_rad", "static_strain",   "static_force_N"};
   return types;
 }
 

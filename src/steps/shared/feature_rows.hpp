@@ -21,6 +21,7 @@ struct FeatureRow {
   long line = 0;  ///< of rows.csv
 
   [[nodiscard]] bool is_shape() const { return type == "shape" || type == "shape_imag"; }
+  [[nodiscard]] bool is_static() const { return type.starts_with("static_"); }
   [[nodiscard]] bool is_modal() const { return is_shape() || type == "frequency_Hz" || type == "damping_ratio_pct"; }
 };
 
@@ -38,7 +39,8 @@ struct FeatureRows {
 /// @param channels    of channels.csv
 /// @throws InputError  with file, line and column: an unknown type, condition or channel; a row without a standard deviation; a
 ///         value that its type cannot have; a mode number that is not a whole number from 1; `held_out` other than 0 and 1; two
-///         rows of one quantity; a static row without a load; a mode whose shape is zero everywhere; an invalid covariance
+///         rows of one quantity; a row of a load test without a load, or of a channel that cannot show it; a mode whose shape is
+///         zero everywhere; an invalid covariance
 ///         (covariance.hpp)
 [[nodiscard]] FeatureRows read_feature_rows(const std::filesystem::path& folder,
                                             const std::vector<MeasuredCondition>& conditions,

@@ -147,6 +147,18 @@ Measured read_measured_modes(const std::filesystem::path& folder, const Measured
   return measured;
 }
 
+namespace {
+
+/// Comparing and updating go by modes: that rows of load tests were left is said.
+void warn_of_load_tests(const std::filesystem::path& folder, StepContext& context) {
+  const auto table = io::CsvTable::read(folder / "rows.csv", {"type"}, {}, true);
+  int count = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) count += table.text(row, "type").starts_with("static_") ? 1 : 0;
+  if (count > 0) context.warn(fmt::format("{} rows of load tests are not used here: s9_diagnosis compares them", count));
+}
+
+}  // namespace
+
 std::optional<Measured> find_measured(StepContext& context, const std::string& condition) {
   if (context.modes) {
     for (const char* flag : {"condition", "state"}) {
@@ -162,7 +174,11 @@ std::optional<Measured> find_measured(StepContext& context, const std::string& c
   else if (!context.study.empty())
     folder = read_study(context.study).features;
   const MeasuredChoice choice = asked_choice(context, condition);
-  if (!folder.empty()) return read_measured_features(context.input(folder), choice);
+  if (!folder.empty()) {
+    Measured measured = read_measured_features(context.input(folder), choice);
+    warn_of_load_tests(folder, context);
+    return measured;
+  }
   for (const Flag& flag : measured_flags()) {
     if (context.has_flag(flag.name))
       throw InputError({"command line", 0, "--" + flag.name}, "is given, but no measured modes are", "give --features DIR or --modes DIR");

@@ -17,9 +17,15 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  //
 /// A measuring channel of channels.csv: its position and direction.
 struct Channel {
   std::string name;
-  std::string point;                                    ///< "" if channels.csv has none
-  std::optional<Eigen::Vector3d> x_m;                   ///< position, if known
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< direction cosines dx dy dz, unit length
+  std::string point;                                    ///< "" where channels.csv gives none
+  std::optional<Eigen::Vector3d> x_m;                   ///< position, where it is known
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< direction cosines dx dy dz, unit length; axis of a rotation
+  std::string element;                                  ///< of a strain gauge: name or number in elements.csv; "" for no such gauge
+  double xi = 0.5;                                      ///< its place, as a part of the element's length from the first end
+  Eigen::Vector2d fibre_m = Eigen::Vector2d::Zero();    ///< its local y and z in the section
+  std::string support;                                  ///< of a force gauge: the support that it stands under; "" for no such gauge
+  long line = 0;                                        ///< of channels.csv
+  [[nodiscard]] bool is_at_a_point() const { return element.empty() && support.empty(); }
 };
 
 /// Measured modes with their names and channels.

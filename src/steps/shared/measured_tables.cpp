@@ -94,7 +94,7 @@ void one_of(const io::CsvTable& table, std::size_t row, const std::string& colum
 /// Columns that features carry along from their campaign. They scale nothing here, but must not contradict each other.
 void check_origin(const io::CsvTable& table, std::size_t row) {
   constexpr double largest_calibration = 2.0;  // [-] as in a campaign: units of one quantity lie a factor of 9.8 and more apart
-  one_of(table, row, "quantity", {"acceleration", "velocity", "displacement", "force"});
+  one_of(table, row, "quantity", {"acceleration", "velocity", "displacement", "force", "rotation", "strain"});
   one_of(table, row, "role", {"response", "input"});
   one_of(table, row, "reference", {"0", "1"});
   const double gain = table.number_or(row, "gain", 1.0);
@@ -121,11 +121,32 @@ Eigen::Vector3d read_direction(const io::CsvTable& table, std::size_t row) {
   return given ? Eigen::Vector3d(direction / length) : direction;
 }
 
+/// Where a strain or force gauge of a load test sits.
+void read_gauge(const io::CsvTable& table, std::size_t row, Channel& channel) {
+  channel.element = table.text(row, "element");
+  channel.support = table.text(row, "support");
+  if (!channel.element.empty() && !channel.support.empty())
+    table.fail(row, "support", "stands beside an element: a channel measures a strain or a force", "empty one of the two cells");
+  if (channel.element.empty()) {
+    if (table.number_if(row, "xi")) table.fail(row, "xi", "is given without an element", "name the element that the gauge is on");
+    return;
+  }
+  if (table.number_if(row, "x_m"))
+    table.fail(row, "x_m", "is given beside an element: a strain gauge sits at xi along it, and y_m, z_m are in its section",
+               "empty the cell");
+  channel.xi = table.number_or(row, "xi", channel.xi);
+  if (!(channel.xi >= 0.0 && channel.xi <= 1.0))
+    table.fail(row, "xi", fmt::format("is {}, expected a part of the element's length from 0 to 1", table.text(row, "xi")),
+               "0.5 is the middle");
+  channel.fibre_m = {table.number_or(row, "y_m", 0.0), table.number_or(row, "z_m", 0.0)};
+}
+
 }  // namespace
 
 std::vector<Channel> read_channels(const std::filesystem::path& file) {
   const auto table = io::CsvTable::read(
-      file, {"channel"}, {"point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"});
+      file, {"channel"}, {"point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role", "element", "xi",
+                    "support"});
   std::vector<Channel> channels;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     Channel channel;
@@ -136,7 +157,9 @@ std::vector<Channel> read_channels(const std::filesystem::path& file) {
         table.fail(row, "channel", fmt::format("'{}' appears twice", channel.name), "remove one of the two rows");
     }
     channel.point = table.text(row, "point");
-    if (table.number_if(row, "x_m"))
+    channel.line = table.line(row);
+    read_gauge(table, row, channel);
+    if (channel.element.empty() && table.number_if(row, "x_m"))
       channel.x_m = Eigen::Vector3d(table.number(row, "x_m"), table.number(row, "y_m"), table.number(row, "z_m"));
     channel.direction = read_direction(table, row);
     check_origin(table, row);

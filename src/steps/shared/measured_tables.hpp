@@ -10,7 +10,8 @@
 /// The tables of a features folder with the channels and conditions of the measurement.
 namespace twindeck::steps {
 
-/// channels.csv: `channel` and, as far as known, `point,x_m,y_m,z_m,dx,dy,dz,quantity,unit,gain,reference,role`.
+/// channels.csv: `channel` and, as far as known, `point,x_m,y_m,z_m,dx,dy,dz,quantity,unit,gain,reference,role`; of
+/// load tests `element,xi` for a strain (y_m, z_m are then the fibre in the section) and `support` for a force.
 /// @throws InputError  for a channel named twice, direction cosines that are not a unit vector (within 2 %), an unknown unit, or one
 ///         that the gain contradicts
 [[nodiscard]] std::vector<Channel> read_channels(const std::filesystem::path& file);

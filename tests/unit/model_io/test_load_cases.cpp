@@ -14,6 +14,21 @@ TEST(LoadCases, AreNamedOnceInTheOrderOfTheFile) {
   EXPECT_EQ(load_case_names(folder.path()), (std::vector<std::string>{"lorry", "wind"}));
 }
 
+TEST(LoadCases, AreReadWithDirectionKindAndLine) {
+  const TestFolder folder;
+  folder.write("loads.csv", "load,node,direction,value,unit\nlorry,7,z,-1.2e5,N\nsun,1,ry,3e4,N m\nlowered,pier,z,-0.01,m\n");
+  const auto entries = read_load_cases(folder.path());
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(entries[0].direction, 2);
+  EXPECT_EQ(entries[0].value, -1.2e5);
+  EXPECT_EQ(entries[0].kind, LoadEntry::Kind::force);
+  EXPECT_EQ(entries[1].direction, 4);
+  EXPECT_EQ(entries[1].kind, LoadEntry::Kind::moment);
+  EXPECT_EQ(entries[2].kind, LoadEntry::Kind::movement);
+  EXPECT_EQ(entries[2].node, "pier");
+  EXPECT_EQ(entries[2].line, 4);
+}
+
 TEST(LoadCases, AreCarriedToAnotherFolderAsTheyStand) {
   const TestFolder folder;
   std::filesystem::create_directories(folder.path() / "other");
@@ -36,6 +51,8 @@ TEST(LoadCases, AreRefusedWithLineAndColumn) {
   EXPECT_NE(said("3,y", "3,Y").find("loads.csv:3: direction: is 'Y' (did you mean 'y'?); use x, y, z"), std::string::npos);
   EXPECT_NE(said("2e3", "much").find("loads.csv:3: value: is \"much\""), std::string::npos);
   EXPECT_NE(said("2e3,N", "2e3,kN").find("loads.csv:3: unit: is 'kN'"), std::string::npos);
+  EXPECT_NE(said("-1.2e5,N", "-1.2e5,N m").find("loads.csv:2: unit: is 'N m' in direction z"), std::string::npos);
+  EXPECT_NE(said("3,y", "3,ry").find("loads.csv:3: unit: is 'N' in direction ry"), std::string::npos);
   EXPECT_NE(said("unit", "units").find("loads.csv:1: unknown column 'units'"), std::string::npos);
 }
 

@@ -35,7 +35,12 @@ class FeatureRowsOf : public ::testing::Test {
     Channel a, b;
     a.name = "a";
     b.name = "b";
-    return read_feature_rows(folder_, {calm, windy, loaded}, {a, b});
+    Channel gauge, cell;
+    gauge.name = "gauge";
+    gauge.element = "17";
+    cell.name = "cell";
+    cell.support = "pier";
+    return read_feature_rows(folder_, {calm, windy, loaded}, {a, b, gauge, cell});
   }
   std::string refusal(const std::string& rows) const {
     try {
@@ -88,7 +93,12 @@ TEST_F(FeatureRowsOf, RefuseWhatTheFormatDoesNotHave) {
   expect("damping_ratio_pct,1,,calm,100,0.1,\n", "rows.csv:2: value: is 100, expected a damping ratio below 100 %");
   expect("stay_frequency_Hz,first,S1,calm,2,0.1,\n", "rows.csv:2: mode: is 'first', expected the harmonic of the stay");
   expect("static_m,,a,calm,-0.01,0.001,\n", "rows.csv:2: type: a row of type static_m needs a load, but condition 'calm' names none");
-  EXPECT_EQ(refusal("static_m,,a,loaded,-0.01,0.001,\n"), "");
+  EXPECT_EQ(refusal("static_m,,a,loaded,-0.01,0.001,\nstatic_rotation_rad,,a,loaded,0,1e-5,\nstatic_strain,,gauge,loaded,-2e-5,1e-6,\n"
+                    "static_force_N,,cell,loaded,-3e4,1e3,\n"),
+            "");
+  expect("static_strain,,a,loaded,1e-5,1e-6,\n", "rows.csv:2: channel: a row of type static_strain needs a channel at an element, which 'a' is not");
+  expect("static_force_N,,gauge,loaded,1e5,1e3,\n", "rows.csv:2: channel: a row of type static_force_N needs a channel at a support");
+  expect("static_m,,cell,loaded,1e-3,1e-4,\n", "rows.csv:2: channel: a row of type static_m needs a channel at a point");
 }
 
 TEST_F(FeatureRowsOf, RefuseAHeldOutThatIsNeitherYesNorNo) {
