@@ -124,7 +124,7 @@ class OwnReport(unittest.TestCase):
         rows = [visible(row) for row in re.findall(r"<tr><td>.*?</tr>", self.section("quality"), flags=re.S)]
         self.assertEqual(len(rows), 8)
         for name, words in (("P5z", "dead: it does not move at all"), ("P6z", "4 % of the samples clipped"), ("P7z", "0.5 % missing, longest gap 12 samples"),
-                            ("P8z", "its clock is 50 ms behind the first channel's")):
+                            ("P8z", "clock 50 ms behind the first channel's")):
             self.assertIn(words, next(row for row in rows[:4] if row.startswith(name)))
         self.assertTrue(all("nothing" in row for row in rows[4:]))
         told = visible(self.section("warnings"))
@@ -171,7 +171,26 @@ class OwnReport(unittest.TestCase):
                     b.run(f"location.hash = '#{name}'")
                     top = b.run(f"new Promise(r => setTimeout(() => r(document.getElementById('{name}').getBoundingClientRect().top), 300))")
                     self.assertLess(abs(top), 60.0, f"the link to {name} lands where it points at {width}")
+            self.ramps_stay_in_the_picture(b)
             self.assertEqual(b.errors, [])
+
+    def ramps_stay_in_the_picture(self, b):
+        """A deck of 1000 points, 100 m long, and ten points of a ramp that leads 500 m away: all inside a narrow picture and a wide one."""
+        outside = b.run("""(() => {
+          const points = new Float32Array(3 * 1010), out = new Float32Array(3 * 1010);
+          for (let i = 0; i < 1010; ++i)
+            points.set(i < 1000 ? [i % 100, Math.floor(i / 100) * 0.5, 10] : [100 + 50 * (i - 999), 3 * (i - 999), 10 - (i - 999)], 3 * i);
+          let found = 0;
+          for (const [width, height] of [[360, 500], [1100, 500]])
+            for (const view of ['space', 'plan', 'side', 'end']) {
+              const orbit = new twindeck.modes.viewer.orbit.constructor(points);
+              orbit.aspect = width / height;
+              orbit.home(view);
+              orbit.project(points, width, height, out);
+              for (let i = 0; i < out.length; i += 3) found += out[i] < 0 || out[i] > width || out[i + 1] < 0 || out[i + 1] > height;
+            }
+          return found; })()""")
+        self.assertEqual(outside, 0)
 
 
 class Pieces(unittest.TestCase):

@@ -13,7 +13,7 @@ WIDTH, MARGIN = 480, 34  # of the view box: legible on a telephone
 TALLEST = 0.85  # height of the structure at most, in widths of the picture
 ARROW = 26.0  # [px]
 MODELS = ("s6_updating", "s4_refinement", "s1_model")
-MOST_LINES, MOST_NAMES = 5000, 40
+MOST_LINES, MOST_NAMES, FEW_POINTS = 5000, 40, 12
 LETTER = 5.6  # [px] width of a letter of the names, on the safe side
 
 
@@ -65,18 +65,19 @@ def _mark(mark: dict, x: float, y: float) -> str:
 
 def _sensors(channels, place, across, up) -> str:
     """An arrow a channel along its direction, and the points' names where there is room."""
-    body, taken = "", []
+    body, points, taken = "", [], []
+    reach = ARROW if channels["point"].nunique() <= FEW_POINTS else 0.6 * ARROW
     for point, rows in channels.groupby("point", sort=False):
         x, y = place(rows[["x_m", "y_m", "z_m"]].to_numpy(float)[:1])[0]
+        points.append((str(point), x, y))
+        taken.append((x - 3, y - 3, x + 3, y + 3))
         names = ", ".join(rows["channel"])
         body += f'<g class="sensor"><title>{html.escape(f"{point}: {names}")}</title>'
         for d in rows[["dx", "dy", "dz"]].to_numpy(float):
-            dx, dy = ARROW * (d @ across), -ARROW * (d @ up)
+            dx, dy = reach * (d @ across), -reach * (d @ up)
             body += f'<path d="M{x:.1f} {y:.1f}l{dx:.1f} {dy:.1f}{_head(dx, dy)}"/>'
         body += f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3"/></g>'
-        if channels["point"].nunique() <= MOST_NAMES:
-            body += _named(str(point), x, y, taken)
-    return body
+    return body + "".join(_named(name, x, y, taken) for name, x, y in points if len(points) <= MOST_NAMES)
 
 
 def _head(dx: float, dy: float) -> str:
