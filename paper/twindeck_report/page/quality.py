@@ -82,7 +82,7 @@ def _lag(row: dict) -> str:
     lag, std = row.get("lag_s"), row.get("lag_std_s")
     if lag is None or lag != lag:
         return ""
-    return f"{1e3 * lag:.2f}" + (f" ± {1e3 * std:.2f}" if std is not None and std == std else "")
+    return f"{round(1e3 * lag, 2) + 0.0:.2f}" + (f" ± {1e3 * std:.2f}" if std is not None and std == std else "")
 
 
 def _share(count, row: dict) -> str:
