@@ -18,7 +18,7 @@ LETTER = 5.6  # [px] width of a letter of the names, on the safe side
 
 
 def layout(study: Study, settings: dict) -> dict | None:
-    """{svg, channels, points, supports, springs}; None where there is neither a drawn model nor a sensor with a place."""
+    """{svg, drawn (whether a model is), channels, points, supports, springs}; None where there is neither a drawn model nor a sensor with a place."""
     folder = next((f"{t}/model" for t in MODELS if t in study.steps() and (study.results / t / "model/elements.csv").is_file()), None)
     drawing = read_drawing(study, folder) if folder else None
     held = marks(study, folder) if drawing is not None else []
@@ -42,7 +42,7 @@ def layout(study: Study, settings: dict) -> dict | None:
         body += _mark(mark, *place(mark["at"])[0])
     body += _sensors(placed, place, across, up) if placed is not None else ""
     svg = f'<svg class="layout" viewBox="0 0 {WIDTH} {height:.0f}" width="{WIDTH}" height="{height:.0f}" role="img" aria-label="Sensors, supports and springs on the model">{body}</svg>'
-    return {"svg": svg, "channels": 0 if placed is None else len(placed), "points": 0 if measured is None else len(measured.points),
+    return {"svg": svg, "drawn": drawing is not None, "channels": 0 if placed is None else len(placed), "points": 0 if measured is None else len(measured.points),
             "supports": sum(m["kind"] == "support" for m in held), "springs": len({tuple(m["at"]) for m in held if m["kind"] != "support"})}
 
 
