@@ -8,9 +8,14 @@ import pandas as pd
 from .cells import csv_text, number
 from .figures import figures_of
 from .manifests import stale_inputs, stale_outputs, write_manifest
+from .page.complexity import complexity
+from .page.layout import layout
+from .page.mac import mac_matrices
 from .page.parts import common_parts
 from .page.pieces import image, quantities, render, text
+from .page.quality import quality
 from .page.source import read_source
+from .page.spectra import spectra
 from .study import Study
 from .tables.writer import heading, write_csv
 from .unchanged import changed_steps, step_folders
@@ -24,7 +29,16 @@ TABLES = {
     "s6_updating/parameters.csv": ("parameters", "Parameters after updating"),
     "s6_updating/comparison.csv": ("updated_comparison", "Model and measurement, before and after updating"),
 }
-CAPTIONS = {"fig_01": "The steps of the study.", "fig_05": "Modes 1 and 2 of the model."}
+NOT_OF_ANY_STUDY = ("published",)  # columns of a step's table that only a study with a paper fills
+STATED_PAIRS = {"published": "stated"}  # how step 4 names pairs that study.toml or the configuration states
+LONG_TEXT = 30  # letters; a cell with more of them gets room, so that its row does not become a tower
+# Figures on the page: what a picture shows that no other part of the page does. Name -> (title, caption).
+FIGURES = {
+    "sensitivity_map": ("Sensitivities", "Relative sensitivities d ln f / d ln p of the model's modes, exact derivatives. Parameters in blue were selected for updating; "
+                        "the bars show each parameter's score."),
+    "updating_history": ("The updating", "Cost and parameters, divided by their initial values, over the iterations of the best start. Grey: outside the bounds; red: parameters "
+                         "that end on one. Dashed lines: the prestress was computed anew."),
+}
 
 
 def is_own(study: Study) -> bool:
@@ -39,7 +53,9 @@ def write_own_tables(study: Study) -> list:
         if file.split("/")[0] not in study.steps():
             continue
         table = study.step_csv(file).astype(object)
-        table = table.where(table.notna(), "").loc[:, lambda t: [c for c in t.columns if (t[c].astype(str) != "").any()]]
+        table = table.where(table.notna(), "").loc[:, lambda t: [c for c in t.columns if (t[c].astype(str) != "").any() and c not in NOT_OF_ANY_STUDY]]
+        if "pairing" in table:
+            table["pairing"] = table["pairing"].replace(STATED_PAIRS)
         write_csv(table, folder / f"{name}.csv")
         (folder / f"{name}.html").write_text(_html(table, title), encoding="utf-8")
         written += [folder / f"{name}.csv", folder / f"{name}.html"]
@@ -69,13 +85,14 @@ def _by_condition(study: Study):
 def _html(table, title: str) -> str:
     head = "".join(f"<th>{html.escape(heading(c))}</th>" for c in table.columns)
     rows = "\n".join("<tr>" + "".join(_cell(v) for v in row) + "</tr>" for row in table.itertuples(index=False))
-    return f'<table class="paper-table"><caption>{html.escape(title)}</caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table>\n'
+    return f'<table class="paper-table"><caption><span>{html.escape(title)}</span></caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table>\n'
 
 
 def _cell(value) -> str:
     text = csv_text(value)
     if number(text) is None:
-        return f"<td>{html.escape(text)}</td>"
+        kind = ' class="words"' if len(text) > LONG_TEXT else ""
+        return f"<td{kind}>{html.escape(text)}</td>"
     return f'<td class="number">{float(text):.5g}</td>'
 
 
@@ -85,12 +102,13 @@ def write_own_report(study: Study):
     tables = [text(study, f"tables/{name}.html") for file, (name, _) in TABLES.items() if file.split("/")[0] in declared]
     if (study.results / "tables/identified_by_condition.html").is_file():
         tables.append(text(study, "tables/identified_by_condition.html"))
-    figures = [{"name": f.NAME, "caption": CAPTIONS.get(f.NAME, f.CAPTION), "png": image(study, f.NAME)}
-               for f in figures_of(study) if image(study, f.NAME)]
+    figures = [{"name": f.NAME, "title": FIGURES[f.NAME][0], "caption": FIGURES[f.NAME][1], "png": image(study, f.NAME)}
+               for f in figures_of(study) if f.NAME in FIGURES and image(study, f.NAME)]
     page = render(
         "own_report.html.j2", **common_parts(study, settings), paper_sections=False, source=read_source(study), tables=tables,
         figures=figures, tiles=[], model=quantities(study, "s1_model/summary.csv"), updating=quantities(study, "s6_updating/summary.csv"),
-        bounds=_on_bounds(study))
+        bounds=_on_bounds(study), layout=layout(study, settings), quality=quality(study), spectra=spectra(study), complexity=complexity(study),
+        macs=mac_matrices(study))
     target = study.results / "report" / "report.html"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(page, encoding="utf-8")

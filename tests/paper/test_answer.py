@@ -90,9 +90,12 @@ class OneStudy(unittest.TestCase):
 
     def test_five_sentences_and_no_word_of_a_truth(self):
         text = self.answer(made_up_answer.diagnosis())
-        for part in (*made_up_answer.SENTENCES.values(), "Made-up frame (published measurements)", "Verdict: named"):
+        for part in (*made_up_answer.SENTENCES.values(), "Made-up frame", "Verdict: named"):
             self.assertIn(part, text)
         self.assertNotIn("hidden", text)
+        self.assertNotIn("published", text, "measurements of one's own are not published")
+        self.study.data.joinpath("paper").mkdir(parents=True)
+        self.assertIn("Made-up frame (published measurements)", self.answer(made_up_answer.diagnosis()))
 
     def test_a_campaign_that_was_not_scored_says_nothing_of_the_truth(self):
         (self.results / "score").mkdir(parents=True)

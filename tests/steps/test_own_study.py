@@ -7,6 +7,7 @@ messages; the executables' --describe for the reference page.
 import csv
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -44,6 +45,11 @@ class OwnStudy(unittest.TestCase):
         for part in ("two-storey frame", "Parameters after updating", "k_base", "data:image/png;base64,", 'id="mode-shapes"', 'id="poles"', "Nothing is missing",
                      "Modes identified from the records"):
             self.assertIn(part, page)
+        for section in ("warnings", "layout", "quality", "spectra", "complexity", "mac"):
+            self.assertIn(f'<section id="{section}">', page)
+        self.assertIn("Nothing odd in 4 channels", page)
+        words = re.sub(r"<(script|style|pre)\b.*?</\1>|<[^>]+>", " ", page, flags=re.S)
+        self.assertNotRegex(words, r"the paper|Eq\.|[Ss]ection \d|Fig\. ?\d|[Pp]ublished|not run|preliminary", "nothing of the paper")
         self.assertNotIn("template", (self.root / "workflows/mine/study.toml").read_text().replace("the template", ""))
 
     def test_updating_finds_what_the_records_were_made_with(self):

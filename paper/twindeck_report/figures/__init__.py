@@ -7,7 +7,7 @@ FIGURES = (fig_01, fig_02, fig_03, fig_04, fig_05, fig_06, fig_07, fig_08, fig_0
            fig_17, fig_18, fig_19, fig_20, fig_21, identification_scoring, damping_identified, sensitivity_map, updating_history, diagnosis)
 
 # Figures that say something of any structure; the others follow the paper's own.
-OF_ANY_STUDY = ("fig_01", "fig_05", "sensitivity_map", "updating_history", "diagnosis")
+OF_ANY_STUDY = ("fig_05", "sensitivity_map", "updating_history", "diagnosis")
 
 
 def figures_of(study) -> list:

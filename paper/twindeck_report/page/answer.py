@@ -27,9 +27,15 @@ def _answer(study: Study) -> dict | None:
         raise InputError(f"{path}: sentences: missing; it was written by an earlier version: run `make s9 STUDY={study.name}`")
     settings = study.read_toml(study.workflow / "study.toml")
     tone, title, _ = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
-    return {"title": settings.get("title", study.name), "kind": MEASURED.get(settings.get("measured", "published"), ""), "verdict": told["verdict"],
+    return {"title": settings.get("title", study.name), "kind": _kind(study, settings), "verdict": told["verdict"],
             "tone": tone, "heading": title, "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS],
             "score": _score(study, path)}
+
+
+def _kind(study: Study, settings: dict) -> str:
+    """Whose measurements these are: published ones only where the study has a paper."""
+    measured = settings.get("measured", "published")
+    return MEASURED.get(measured, "") if measured != "published" or study.has_paper() else ""
 
 
 def _score(study: Study, diagnosis) -> dict | None:

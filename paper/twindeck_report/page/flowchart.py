@@ -26,7 +26,7 @@ def flowchart(steps: list) -> str:
     arrows = "".join(_arrow(place[r], place[s.token]) for s in steps for r in s.reads if r in place)
     boxes = "".join(_box(s, *place[s.token]) for s in steps)
     return (
-        f'<svg class="flow" viewBox="0 0 {width:.0f} {height:.0f}" style="max-width:{width:.0f}px" role="img" aria-label="Flowchart of the steps">'
+        f'<svg class="flow" viewBox="0 0 {width:.0f} {height:.0f}" style="max-width:{width:.0f}px;--wide:{width:.0f}px" role="img" aria-label="Flowchart of the steps">'
         '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
         f'<path d="M0 0L8 4L0 8z"/></marker></defs>{arrows}{boxes}</svg>'
     )

@@ -47,7 +47,7 @@ def _strip(sides) -> str:
                 ink = "#fff" if abs(z) > 0.55 * FULL else "#1d2733"
                 body += (f'<g><title>mode {html.escape(c)}, {side}: {z:+.2f} standard deviations{", held out" if held else ""}</title>'
                          f'<rect x="{left + wide * i}" y="{20 + high * j}" width="{wide - 2}" height="{high - 2}" fill="{colour(z)}"{_held(held)}/>'
-                         f'<text x="{left + wide * (i + 0.5) - 1:.1f}" y="{20 + high * j + 15}" text-anchor="middle" style="fill:{ink}">{z:+.1f}</text></g>')
+                         f'<text x="{left + wide * (i + 0.5) - 1:.1f}" y="{20 + high * j + 15}" text-anchor="middle" style="fill:{ink}">{round(z, 1) + 0.0:+.1f}</text></g>')
     return _svg(left + wide * len(columns), 22 + high * len(sides), body)
 
 

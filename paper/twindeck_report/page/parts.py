@@ -2,6 +2,7 @@
 from ..figures.flow import flow
 from ..study import Study
 from . import answer, diagnosis, flowchart, model_facts, places, poles, processors, provenance, scripts, shapes, still
+from . import warnings as warned
 
 
 def common_parts(study: Study, settings: dict) -> dict:
@@ -33,6 +34,7 @@ def common_parts(study: Study, settings: dict) -> dict:
         "processors": processors.processors(study),
         "pulls": model_facts.pulls(study),
         "convergence": model_facts.convergence(study),
+        "warnings": warned.warnings(study, steps),
         "answers": answer.answers(study),
         "diagnosis": told,
         "modes": modes,

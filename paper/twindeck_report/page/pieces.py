@@ -1,9 +1,11 @@
 """Small pieces of a page: a picture, a step's summary, the template engine."""
 import base64
 import html
+import struct
 from pathlib import Path
 
 import jinja2
+from markupsafe import Markup
 
 from ..study import Study
 
@@ -13,6 +15,8 @@ TEMPLATES = Path(__file__).resolve().parents[1] / "templates"
 def render(template: str, **values) -> str:
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
+    environment.globals["sized"] = sized
+    environment.tests["cannot_be_asked"] = lambda words: words.startswith("Cannot be asked")
     return environment.get_template(template).render(**values)
 
 
@@ -27,6 +31,12 @@ def text(study: Study, name: str) -> str:
 def image(study: Study, name: str) -> str | None:
     path = study.results / "figures" / f"{name}.png"
     return base64.b64encode(path.read_bytes()).decode() if path.is_file() else None
+
+
+def sized(png: str) -> Markup:
+    """Width and height of a base64 PNG as attributes, so that the page keeps its place before the picture is decoded."""
+    width, height = struct.unpack(">II", base64.b64decode(png[:64])[16:24])  # of the IHDR chunk, which comes first
+    return Markup(f'width="{width}" height="{height}"')
 
 
 def six(value) -> str:

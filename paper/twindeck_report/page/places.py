@@ -7,6 +7,8 @@ from ..study import Study
 from .drawing import read_drawing
 from .shapes import packed
 
+LEAST_FULL = 3.0  # standard deviations at the end of the colours at least: what is smaller is noise and shall not look alarming
+
 
 def places(study: Study, settings: dict, folder: str | None, localisation: list) -> list:
     """[{location, score, spots: [[x, y, z], …], nodes: positions in the drawing}], highest score first; spots and nodes stay empty
@@ -28,7 +30,7 @@ def where_data(found: list, nodes: int) -> dict:
             {"name": entry["location"], "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]}
             for spot in entry["spots"]
         ]
-    most = max((entry["score"] for entry in found), default=1.0)
+    most = max([LEAST_FULL, *(entry["score"] for entry in found)])
     return {"mesh": 0, "score": packed(score / most, "f4"), "spots": spots, "most": round(most, 2)}
 
 

@@ -5,6 +5,7 @@ import numpy as np
 
 from ..study import Study
 from .drawing import read_drawing
+from .marks import by_node, marks
 from .measured import partners, read_measured
 
 MODELS = (("s6_updating", "Updated model"), ("s4_refinement", "Refined model"), ("s1_model", "Model as designed"))
@@ -28,7 +29,7 @@ def shape_data(study: Study, settings: dict) -> dict | None:
         modes, shapes = _model_modes(study, token, drawing, MOST_BYTES // len(models))
         if not modes:
             continue
-        meshes.append(mesh_data(drawing))
+        meshes.append({**mesh_data(drawing), "marks": by_node(marks(study, f"{token}/model"))})
         sets.append(
             {
                 "id": token,

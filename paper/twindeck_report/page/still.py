@@ -17,7 +17,7 @@ def stills(data: dict) -> str | None:
     if count == 0:
         return None
     points, lines = _geometry(data, chosen)
-    axis, up = _view(points)
+    axis, up = view(points)
     length = np.ptp(points, axis=0).max() or 1.0
     columns = min(3, count)
     figure, axes = plt.subplots(
@@ -48,12 +48,9 @@ def stills(data: dict) -> str | None:
 
 
 def _frame(axes_, flat, margin: float) -> None:
-    """Limits that hold nearly all points: a long thin approach ramp should not make the rest small."""
-    cut = 1.2 if len(flat) > 200 else 0.0
-    left, right = np.percentile(flat[:, 0], [cut, 100.0 - cut])
-    shown = flat[(flat[:, 0] >= left) & (flat[:, 0] <= right), 1]
-    axes_.set_xlim(left - margin, right + margin)
-    axes_.set_ylim(shown.min() - margin, shown.max() + margin)
+    """Limits that hold the whole structure, its approach ramps too."""
+    axes_.set_xlim(flat[:, 0].min() - margin, flat[:, 0].max() + margin)
+    axes_.set_ylim(flat[:, 1].min() - margin, flat[:, 1].max() + margin)
 
 
 def _geometry(data, chosen):
@@ -66,7 +63,7 @@ def _geometry(data, chosen):
     return points, lines[:: max(1, len(lines) // LINES)]
 
 
-def _view(points):
+def view(points):
     """Axes of a view from the side and a little above, across the structure's longest direction in plan."""
     centred = points[:, :2] - points[:, :2].mean(axis=0)
     _, vectors = np.linalg.eigh(centred.T @ centred)

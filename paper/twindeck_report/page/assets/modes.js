@@ -8,7 +8,8 @@ class ModeShapes {
     this.root = root;
     this.data = data;
     this.meshes = data.meshes.map(m => ({
-      points: unpack(m.points, Float32Array), lines: unpack(m.lines, Uint32Array), faces: unpack(m.faces, Uint32Array) }));
+      points: unpack(m.points, Float32Array), lines: unpack(m.lines, Uint32Array), faces: unpack(m.faces, Uint32Array),
+      marks: m.marks || [], held: Float32Array.from((m.marks || []).flatMap(k => k.at)) }));
     this.shapes = new Map();
     this.phase = Math.PI / 2;
     this.playing = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -70,7 +71,8 @@ class ModeShapes {
     const scene = { base: nowhere, faces: none, lines: none, spots: nowhere, names: [], dot: 9, ghost: this.rest.checked, spotsOnTop: true };
     this.along = null;
     if (set.kind === 'model') {
-      Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines });
+      Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines, spots: mesh.held, names: mesh.marks.map(k => k.words), dot: 7 });
+      this.real = this.imaginary = null;
       this.along = { shape: this.shape(mode, 'shape', Int16Array), scale: 1 / 32767 };
     } else {
       Object.assign(scene, { spots: unpack(set.points, Float32Array), names: set.names });
@@ -123,6 +125,11 @@ class ModeShapes {
     } else {
       v.moved.set(base);
       for (let i = 0; i < base.length; i += 3) blend([GHOST, GHOST], 0, v.colours, i);
+    }
+    if (!this.real) {  // supports and springs: where they are held, nothing moves
+      v.spots.set(v.scene.spots);
+      this.shown.marks.forEach((k, i) => blend(k.kind === 'support' ? [GREEN, GREEN] : [VIOLET, VIOLET], 0, v.spotColours, 3 * i));
+      return;
     }
     for (let i = 0; i < v.spots.length; ++i) v.spots[i] = v.scene.spots[i] + sway * (this.real[i] * c - this.imaginary[i] * s);
     for (let i = 0; i < v.spots.length; i += 3) blend([ORANGE, ORANGE], 0, v.spotColours, i);

@@ -4,7 +4,8 @@ const FIELD = 28 * Math.PI / 180;
 
 class Orbit {
   constructor(points) {
-    // the box that holds nearly all points: a long thin approach ramp should not make the rest small
+    this.points = points;
+    // size of the box that holds nearly all points: a long thin approach ramp should not make the mode sway more
     const low = [], high = [];
     for (let k = 0; k < 3; ++k) {
       const along = points.filter((_, i) => i % 3 === k).sort(), n = along.length, cut = n > 200 ? Math.floor(0.012 * n) : 0;
@@ -13,7 +14,9 @@ class Orbit {
     }
     this.middle = low.map((l, k) => 0.5 * (l + high[k]));
     this.size = Math.max(1e-9, Math.hypot(...low.map((l, k) => high[k] - l)));
-    this.span = low.map((l, k) => high[k] - l);
+    this.reach = this.size;  // of the point that is furthest from the middle, for the planes between which the camera sees
+    for (let i = 0; i < points.length; i += 3)
+      this.reach = Math.max(this.reach, Math.hypot(points[i] - this.middle[0], points[i + 1] - this.middle[1], points[i + 2] - this.middle[2]));
     // the longest direction in plan runs across the screen
     let xx = 0, xy = 0, yy = 0;
     for (let i = 0; i < points.length; i += 3) {
@@ -32,16 +35,27 @@ class Orbit {
     this.fit();
   }
 
-  /// Distance at which every corner of the box around the structure is inside the picture.
+  /// Target in the middle of what is seen, and the distance at which every point is inside the picture, approach ramps too.
   fit() {
     this.distance = 1;
     const [right, up, back] = this.axes(), tan = Math.tan(FIELD / 2);
+    const { points, middle } = this;
+    const along = (axis, i) => (points[i] - middle[0]) * axis[0] + (points[i + 1] - middle[1]) * axis[1] + (points[i + 2] - middle[2]) * axis[2];
+    const centre = axis => {
+      let low = Infinity, high = -Infinity;
+      for (let i = 0; i < points.length; i += 3) {
+        const at = along(axis, i);
+        low = Math.min(low, at);
+        high = Math.max(high, at);
+      }
+      return points.length ? 0.5 * (low + high) : 0;
+    };
+    const across = centre(right), above = centre(up);
+    this.target = middle.map((m, k) => m + across * right[k] + above * up[k]);
     let distance = 0;
-    for (let corner = 0; corner < 8; ++corner) {
-      const d = this.span.map((s, k) => (corner >> k & 1 ? 0.5 : -0.5) * s);
-      const along = axis => d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
-      const needed = Math.max(Math.abs(along(up)), Math.abs(along(right)) / this.aspect) / tan;
-      distance = Math.max(distance, along(back) + 1.06 * needed);
+    for (let i = 0; i < points.length; i += 3) {
+      const needed = Math.max(Math.abs(along(up, i) - above), Math.abs(along(right, i) - across) / this.aspect) / tan;
+      distance = Math.max(distance, along(back, i) + 1.12 * needed);  // room for the sway
     }
     this.distance = Math.max(distance, 0.05 * this.size);
   }

@@ -31,11 +31,12 @@ class Stabilisation {
     for (const control of [this.record, this.axis, this.stable]) control.addEventListener('change', () => this.draw());
     this.picture.addEventListener('pointermove', e => this.point(e));
     this.picture.addEventListener('pointerleave', () => this.leave());
+    new ResizeObserver(() => { if (this.picture.clientWidth !== this.drawn) this.draw(); }).observe(this.picture);
     this.draw();
   }
 
   draw() {
-    const W = 960, H = 430, L = 52, R = 14, T = 26, B = 42;
+    const W = Math.max(280, this.picture.clientWidth || 960), H = 430, L = 46, R = 10, T = 26, B = 42;  // a pixel of the page each, so that letters keep their size
     const panel = this.data.panels[this.record.value], [low, high] = panel.band, damping = this.axis.value === 'damping';
     const all = panel.poles.filter(([, f, zeta, met]) => f >= low && f <= high && (met === 7 || !this.stable.checked)
       && (!damping || (zeta >= 0 && zeta <= HIGHEST_DAMPING)));
@@ -45,7 +46,7 @@ class Stabilisation {
     const g = svg('g', {});
     const line = (x1, y1, x2, y2, kind) => g.append(svg('line', { x1, y1, x2, y2, class: kind }));
     const write = (text, at, anchor = 'middle', kind = 'tick') => g.append(svg('text', { ...at, class: kind, 'text-anchor': anchor }, text));
-    for (const t of ticks(low, high, 9)) {
+    for (const t of ticks(low, high, Math.max(3, Math.min(9, Math.floor(W / 90))))) {
       line(x(t), T, x(t), H - B, 'grid');
       write(String(t), { x: x(t), y: H - B + 16 });
     }
@@ -76,6 +77,7 @@ class Stabilisation {
     write(damping ? 'damping ratio (%)' : 'model order', { transform: `translate(13 ${(T + H - B) / 2}) rotate(-90)` });
     this.ring = svg('circle', { r: 7, class: 'ring', visibility: 'hidden' });
     g.append(this.ring);
+    this.drawn = this.picture.clientWidth;
     this.picture.setAttribute('viewBox', `0 0 ${W} ${H}`);
     this.picture.replaceChildren(g);
   }

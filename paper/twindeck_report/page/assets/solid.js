@@ -86,8 +86,8 @@ class SolidCanvas {
     }
     const eye = orbit.eye();
     this.camera.position.set(...eye);
-    this.camera.near = Math.max(0.005 * orbit.size, orbit.distance - 2 * orbit.size);
-    this.camera.far = orbit.distance + 2 * orbit.size;
+    this.camera.near = Math.max(0.005 * orbit.size, orbit.distance - 2 * orbit.reach);
+    this.camera.far = orbit.distance + 2 * orbit.reach;
     this.camera.updateProjectionMatrix();
     this.camera.lookAt(...orbit.target);
     this.lamp.position.set(eye[0] - orbit.target[0], eye[1] - orbit.target[1], eye[2] - orbit.target[2] + 0.6 * orbit.distance);

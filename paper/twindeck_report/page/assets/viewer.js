@@ -1,7 +1,7 @@
 // What both pictures in three dimensions share: size, camera, print, names under the pointer.
 const BACKGROUND = [0.973, 0.98, 0.988], GHOST = [0.8, 0.835, 0.87], LINE = [0.2, 0.27, 0.35];
 const PALE = [0.8, 0.85, 0.9], BLUE = [0.1, 0.45, 0.75], NAVY = [0.03, 0.18, 0.38];
-const AMBER = [0.95, 0.66, 0.24], RED = [0.72, 0.15, 0.1], ORANGE = [0.84, 0.33, 0.07];
+const AMBER = [0.95, 0.66, 0.24], RED = [0.72, 0.15, 0.1], ORANGE = [0.84, 0.33, 0.07], GREEN = [0.18, 0.49, 0.31], VIOLET = [0.36, 0.23, 0.55];
 
 const blend = (stops, t, out, at) => {
   const x = Math.max(0, Math.min(1, t)) * (stops.length - 1), i = Math.min(stops.length - 2, Math.floor(x)), f = x - i;
