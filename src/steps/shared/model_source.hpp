@@ -35,8 +35,14 @@ struct LoadedModel {
 /// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp) and says what of it does not enter a model.
 [[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
 
-/// The model that a step works on: `--model DIR` (or an .inp file) where it is given, otherwise the folder that an earlier step
-/// wrote, with its files registered as inputs.
+/// Reads a Nastran deck (model_io/nastran.hpp), registers the files that it includes, and says what of it enters no model.
+[[nodiscard]] LoadedModel import_nastran(StepContext& context, const std::filesystem::path& file);
+
+/// Reads a file of another program, by its name: Nastran, else .inp.
+[[nodiscard]] LoadedModel import_file(StepContext& context, const std::filesystem::path& file);
+
+/// The model that a step works on: `--model DIR` (or a file of another program) where it is given, otherwise the folder that an
+/// earlier step wrote, with its files registered as inputs.
 /// @throws InputError  naming the step to run first if there is neither
 [[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
 
