@@ -86,7 +86,6 @@ void read_member(Parts& parts, const Card& card) {
   const long a = parts.deck.integer(card, 2), b = parts.deck.integer(card, 3);
   e.offset_m = {offset_of(parts, card, 10, a, frames[1]), offset_of(parts, card, 13, b, frames[2])};
   e.releases = releases_of(parts, card);
-  // The vector starts at end A after its offset; as a grid it is measured from grid A, as Nastran does.
   const Eigen::Vector3d v = plane_vector(parts, card, frames[0]);
   const Eigen::Vector3d axis = parts.place(card, b) + e.offset_m[1] - parts.place(card, a) - e.offset_m[0];
   const Eigen::Vector3d z = axis.cross(v);

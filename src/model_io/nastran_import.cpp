@@ -73,9 +73,9 @@ void refuse_or_note(Parts& parts) {
     }
   }
   for (const auto& [name, entry] : passed_over)
-    parts.notes.push_back(fmt::format("{} {} (first in line {} of {}) left out: they {}", entry.first, name, entry.second->line,
-                                      parts.deck.files()[static_cast<std::size_t>(entry.second->file)].filename().string(),
-                                      ignored_cards().at(name)));
+    parts.notes.push_back(fmt::format(
+        "{} cards ({}, first in line {} of {}) are left out: they {}", name, entry.first, entry.second->line,
+        parts.deck.files()[static_cast<std::size_t>(entry.second->file)].filename().string(), ignored_cards().at(name)));
 }
 
 /// What Nastran takes for K6ROT in linear analyses where the deck does not say it, and the share of G t that one unit of it is:
@@ -125,7 +125,7 @@ void sort_nodes(Parts& parts) {
   for (fe::PointMass& mass : model.masses) move(mass.node);
   for (fe::Support& support : model.supports) move(support.node);
   const std::size_t unused = parts.grids.size() - model.nodes.size();
-  if (unused > 0) parts.notes.push_back(fmt::format("{} grids that no element, mass or link uses are left out", unused));
+  if (unused > 0) parts.notes.push_back(fmt::format("grids that no element, mass or link uses are left out: {}", unused));
 }
 
 }  // namespace

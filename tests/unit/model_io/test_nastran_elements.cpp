@@ -211,8 +211,9 @@ TEST(NastranElements, WhatIsPassedOverIsSaid) {
   const NastranModel m =
       import_deck(folder, two_grids + "CONROD,1,1,2,1,1.\nGRID,7,,9.,9.,9.\nFORCE,1,2,,5.,1.,0.,0.\nFORCE,1,2,,5.,0.,1.,0.\n");
   const std::string notes = fmt::format("{}", fmt::join(m.notes, "\n"));
-  EXPECT_NE(notes.find("2 FORCE (first in line 7 of deck.bdf) left out: they are loads"), std::string::npos) << notes;
-  EXPECT_NE(notes.find("1 grids that no element, mass or link uses"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("FORCE cards (2, first in line 7 of deck.bdf) are left out: they are loads"), std::string::npos)
+      << notes;
+  EXPECT_NE(notes.find("grids that no element, mass or link uses are left out: 1"), std::string::npos) << notes;
 }
 
 }  // namespace
