@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -36,8 +37,10 @@ void read_masses(const std::filesystem::path& folder, fe::Model& model, const Na
 void read_points(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
 
 /// model.toml: title, gravity, formulation, prestress, parameters. Called last, since parameters name parts of the others.
-/// @param model  its title and formulation stand where the file does not give them
-void read_model_toml(const std::filesystem::path& file, fe::Model& model);
+/// @param model     its title and formulation stand where the file does not give them
+/// @param add_keys  binds further keys that this file may have (the units of an imported deck)
+void read_model_toml(const std::filesystem::path& file, fe::Model& model,
+                     const std::function<void(io::FieldTable&)>& add_keys = {});
 void write_model_toml(const fe::Model& model, const std::filesystem::path& folder);
 
 /// [[matrix_element]] of model.toml: elements given by matrices, which lie in the folder matrices/ (Matrix Market, general or

@@ -168,13 +168,15 @@ std::string text_list(const std::vector<std::string>& texts) {
 
 std::string describe_model_toml() { return ModelEntry{}.fields().describe(); }
 
-void read_model_toml(const std::filesystem::path& file, fe::Model& model) {
+void read_model_toml(const std::filesystem::path& file, fe::Model& model, const std::function<void(io::FieldTable&)>& add_keys) {
   NameIndex index;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.nodes.emplace(model.nodes[i].id, static_cast<int>(i));
   ModelEntry entry;
   entry.title = model.title;
   entry.formulation = model.formulation;
-  entry.fields().load(file);
+  io::FieldTable table = entry.fields();
+  if (add_keys) add_keys(table);
+  table.load(file);
   model.title = entry.title;
   model.gravity_m_s2 = entry.gravity_m_s2;
   model.formulation = entry.formulation;

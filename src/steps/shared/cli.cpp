@@ -10,6 +10,7 @@
 #include "core/build_info.hpp"
 #include "io/atomic.hpp"
 #include "model_io/ansys.hpp"
+#include "model_io/nastran.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -71,7 +72,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
       ->type_name("DIR");
   app.add_option("--results", results, "root that results of earlier steps are read from (default: the folder above --out)")
       ->type_name("DIR");
-  app.add_option("--model", model, "model folder, or .inp or ANSYS file, to use instead of the study's")->type_name("DIR");
+  app.add_option("--model", model, "model folder, or .inp, Nastran or ANSYS file, to use instead of the study's")->type_name("DIR");
   app.add_option("--campaign", campaign, "campaign folder (raw records) to use instead of the study's")->type_name("DIR");
   app.add_option("--modes", modes, "folder with measured modes.csv to use instead of the study's")->type_name("DIR");
   app.add_option("--features", features, "features folder to use instead of the study's")->type_name("DIR");
@@ -157,7 +158,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
                      "name the folder to write, for example --out results/x/" + step.token);
   }
   if (!line.model || !fs::is_regular_file(*line.model) ||
-      (line.model->extension() != ".inp" && !model_io::is_ansys_deck(*line.model)))
+      (line.model->extension() != ".inp" && !model_io::is_nastran_file(*line.model) && !model_io::is_ansys_deck(*line.model)))
     check_folder("--model", line.model);
   check_folder("--campaign", line.campaign);
   check_folder("--modes", line.modes);

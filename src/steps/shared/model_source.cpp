@@ -7,6 +7,7 @@
 #include "model_io/inp.hpp"
 #include "model_io/load_cases.hpp"
 #include "model_io/model_folder.hpp"
+#include "model_io/nastran.hpp"
 #include "ponte/generator.hpp"
 #include "steps/shared/model_check.hpp"
 #include "steps/shared/study.hpp"
@@ -47,9 +48,23 @@ LoadedModel import_inp(StepContext& context, const std::filesystem::path& file) 
   return with_sound_matrices(from_model(std::move(imported.model)));
 }
 
+LoadedModel import_nastran(StepContext& context, const std::filesystem::path& file) {
+  auto beside = file;
+  beside.replace_extension(".toml");
+  if (std::filesystem::exists(beside)) context.input(beside);
+  model_io::NastranModel imported = model_io::read_nastran(file);
+  for (const std::filesystem::path& read : imported.files) context.input(read);
+  for (const std::string& note : imported.notes) context.say(note);
+  return with_sound_matrices(from_model(std::move(imported.model)));
+}
+
+LoadedModel import_file(StepContext& context, const std::filesystem::path& file) {
+  return model_io::is_nastran_file(file) ? import_nastran(context, file) : import_inp(context, file);
+}
+
 LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
   const std::filesystem::path folder = context.model.value_or(default_folder);
-  if (std::filesystem::is_regular_file(folder)) return import_inp(context, folder);
+  if (std::filesystem::is_regular_file(folder)) return import_file(context, folder);
   if (!std::filesystem::is_directory(folder)) {
     const std::string step = default_folder.parent_path().filename().string();
     throw InputError({folder.string(), 0, ""}, "is not there, expected a model folder",
@@ -65,7 +80,7 @@ LoadedModel load_study_model(StepContext& context, const std::string& variant) {
     throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
   }
   const Study study = read_study(context.study);
-  if (!study.model_inp.empty()) return import_inp(context, study.model_inp);
+  if (!study.model_inp.empty()) return import_file(context, study.model_inp);
   if (study.model_folder.empty() && study.model_generator.empty()) {
     throw InputError({(context.study / "study.toml").string(), 0, "model"}, "names no model",
                      "give [model] generator and file, or folder, or a model folder by --model DIR");

@@ -36,8 +36,14 @@ struct LoadedModel {
 /// cannot use.
 [[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
 
-/// The model that a step works on: `--model DIR` (or an .inp file) if given, otherwise the folder that an earlier step
-/// wrote, with its files registered as inputs.
+/// Reads a Nastran deck (model_io/nastran.hpp), registers the files that it includes, and reports what it cannot use.
+[[nodiscard]] LoadedModel import_nastran(StepContext& context, const std::filesystem::path& file);
+
+/// Reads a file of another program: Nastran, else .inp or ANSYS.
+[[nodiscard]] LoadedModel import_file(StepContext& context, const std::filesystem::path& file);
+
+/// The model that a step works on: `--model DIR` (or a file of another program) if given, otherwise the folder that an earlier
+/// step wrote, with its files registered as inputs.
 /// @throws InputError  naming the step to run first if there is neither
 [[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
 

@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "model_io/inp_cards.hpp"
+#include "model_io/nastran_parts.hpp"
+
+namespace twindeck::model_io::nastran {
+namespace {
+
+Eigen::Vector3d vector_at(const Parts& parts, const Card& card, std::size_t i) {
+  return {parts.deck.number_or(card, i, 0.0), parts.deck.number_or(card, i + 1, 0.0), parts.deck.number_or(card, i + 2, 0.0)};
+}
+
+/// Number and nodes of an element; the rest follows by its kind.
+fe::Element start_element(Parts& parts, const Card& card, fe::ElementType type, std::size_t first, std::size_t count) {
+  fe::Element e;
+  e.id = parts.deck.integer(card, 0);
+  if (!parts.element_ids.insert(e.id).second)
+    parts.deck.fail(card, fmt::format("element {} is defined twice", e.id), "give each element a number of its own");
+  e.type = type;
+  for (std::size_t i = first; i < first + count; ++i) e.nodes.push_back(parts.node(card, parts.deck.integer(card, i)));
+  if (type == fe::ElementType::beam || type == fe::ElementType::shell) parts.turning.insert(e.nodes.begin(), e.nodes.end());
+  return e;
+}
+
+/// Where the deck counts the vector and the offsets of a member: three letters, G = displacement system of the end, B = basic.
+/// Old decks have 1 or 2 there (vector or grid), which the fields in front say already.
+std::string frames_of(const Parts& parts, const Card& card) {
+  const std::string word = upper_case(Deck::text(card, 7));
+  if (word.empty() || word == "0" || word == "1" || word == "2") return "GGG";
+  const bool known = word.size() == 3 && word.find_first_not_of("GB") == std::string::npos;
+  if (!known)
+    parts.deck.fail(card, fmt::format("OFFT is '{}', of which GGG and its kin with B are read", word),
+                    "give the offsets in the displacement system of the grids");
+  return word;
+}
+
+/// The vector v of a member in basic axes: by a grid (G0) or by components.
+Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
+  const long a = parts.deck.integer(card, 2);
+  const std::string first = Deck::text(card, 4);
+  if (Deck::is_integer(first) && first != "0" && Deck::blank(card, 5) && Deck::blank(card, 6))
+    return parts.place(card, parts.deck.integer(card, 4)) - parts.place(card, a);
+  const Eigen::Vector3d v = vector_at(parts, card, 4);
+  return frame == 'B' ? v : Eigen::Vector3d(parts.displacement_axes(card, a).transpose() * v);
+}
+
+/// Offset of an end in basic axes.
+Eigen::Vector3d offset_of(Parts& parts, const Card& card, std::size_t i, long grid, char frame) {
+  const Eigen::Vector3d w = vector_at(parts, card, i);
+  if (w.isZero(0.0) || frame == 'B') return w;
+  return parts.displacement_axes(card, grid).transpose() * w;
+}
+
+/// Pin flags: digits 1 to 6 of local displacements that carry no force.
+std::uint16_t releases_of(const Parts& parts, const Card& card) {
+  unsigned bits = 0;
+  for (const std::size_t end : {0U, 1U}) {
+    if (Deck::blank(card, 8 + end) || Deck::text(card, 8 + end) == "0") continue;
+    const auto free = components(parts, card, 8 + end);
+    for (std::size_t i = 0; i < 6; ++i) bits |= free[i] ? 1U << (6 * end + i) : 0U;
+  }
+  return static_cast<std::uint16_t>(bits);
+}
+
+/// Mass that is not structural, per volume of a rod.
+double rod_added_density(const Parts& parts, const Card& card, std::size_t area, std::size_t mass) {
+  const double a = parts.deck.number(card, area);
+  if (!(a > 0.0)) parts.deck.fail(card, fmt::format("the area is {:g}, expected a value above 0", a), "give the area");
+  return parts.deck.number_or(card, mass, 0.0) / a;
+}
+
+}  // namespace
+
+void read_member(Parts& parts, const Card& card) {
+  fe::Element e = start_element(parts, card, fe::ElementType::beam, 2, 2);
+  const long property = parts.deck.integer_or(card, 1, e.id);
+  const MemberProperty p = card.name == "CBAR" ? bar_property(parts, card, property) : beam_property(parts, card, property);
+  e.material = p.material;
+  e.section = p.section;
+  if (p.section2 >= 0) e.section2 = p.section2;
+  e.group = parts.model.sections[static_cast<std::size_t>(p.section)].name;
+  const std::string frames = frames_of(parts, card);
+  const long a = parts.deck.integer(card, 2), b = parts.deck.integer(card, 3);
+  e.offset_m = {offset_of(parts, card, 10, a, frames[1]), offset_of(parts, card, 13, b, frames[2])};
+  e.releases = releases_of(parts, card);
+  const Eigen::Vector3d v = plane_vector(parts, card, frames[0]);
+  const Eigen::Vector3d axis = parts.place(card, b) + e.offset_m[1] - parts.place(card, a) - e.offset_m[0];
+  const Eigen::Vector3d z = axis.cross(v);
+  if (!(z.norm() > 1e-6 * axis.norm() * v.norm()))
+    parts.deck.fail(
+        card,
+        fmt::format("its vector ({:g}, {:g}, {:g}) lies along the member, or one of the two has no length", v[0], v[1], v[2]),
+        "give X1, X2, X3 or G0 across the member (plane 1)");
+  e.orientation = z.normalized();
+  parts.model.elements.push_back(e);
+}
+
+void read_rod(Parts& parts, const Card& card) {
+  const bool own = card.name == "CONROD";
+  fe::Element e = start_element(parts, card, fe::ElementType::bar, own ? 1 : 2, 2);
+  const Card& p = own ? card : parts.property(card, parts.deck.integer_or(card, 1, e.id), {"PROD"});
+  // PROD: PID MID A J C NSM; CONROD: EID G1 G2 MID A J C NSM.
+  const std::size_t mid = own ? 3 : 1;
+  const double added = rod_added_density(parts, p, mid + 1, mid + 4), j = parts.deck.number_or(p, mid + 2, 0.0);
+  e.material = parts.material(p, parts.deck.integer(p, mid), added, property_name(p));
+  fe::Section s;
+  s.name = e.group = property_name(p);
+  s.area_m2 = parts.deck.number(p, mid + 1);
+  e.section = parts.section(s);
+  if (j > 0.0) {
+    const auto at = [&](std::size_t i) { return parts.model.nodes[static_cast<std::size_t>(e.nodes[i])].x_m; };
+    const double length = (at(1) - at(0)).norm();
+    if (!(length > 0.0)) parts.deck.fail(card, "its two grids lie at one place", "give grids apart, or take the rod out");
+    const double g = parts.model.materials[static_cast<std::size_t>(e.material)].shear_modulus_Pa;
+    parts.twists.push_back({&card, e.nodes[0], e.nodes[1], g * j / length});
+  }
+  parts.model.elements.push_back(e);
+}
+
+void finish_rods(Parts& parts) {
+  std::set<int> holds = parts.turning;
+  for (const fe::RigidLink& link : parts.model.links) holds.insert(link.slave);
+  for (const fe::Support& support : parts.model.supports) {
+    if (support.fixed[3] && support.fixed[4] && support.fixed[5]) holds.insert(support.node);
+  }
+  std::size_t left_out = 0;
+  for (const Parts::Twist& twist : parts.twists) {
+    if (!holds.contains(twist.a) || !holds.contains(twist.b)) {
+      ++left_out;
+      continue;
+    }
+    fe::Spring s;
+    s.name = "crod_" + Deck::text(*twist.card, 0) + "_torsion";
+    s.group = "rod_torsion";
+    s.node = twist.a;
+    s.node2 = twist.b;
+    s.direction =
+        (parts.model.nodes[static_cast<std::size_t>(twist.b)].x_m - parts.model.nodes[static_cast<std::size_t>(twist.a)].x_m)
+            .normalized();
+    s.rotation = true;
+    s.stiffness = twist.stiffness;
+    parts.model.springs.push_back(s);
+  }
+  if (left_out > 0)
+    parts.notes.push_back(
+        fmt::format("the torsion of {} rods is left out: no beam, shell or support holds the rotations of both "
+                    "ends (AUTOSPC takes them out in Nastran)",
+                    left_out));
+}
+
+void read_shell(Parts& parts, const Card& card) {
+  const Deck& deck = parts.deck;
+  const std::size_t corners = card.name == "CTRIA3" ? 3 : 4, offset = 3 + corners, thicknesses = 10;
+  fe::Element e = start_element(parts, card, fe::ElementType::shell, 2, corners);
+  const Card& p = parts.property(card, deck.integer_or(card, 1, e.id), {"PSHELL"});
+  const std::string name = property_name(p);
+  if (deck.number_or(card, offset, 0.0) != 0.0)
+    deck.fail(card, "has an offset (ZOFFS), which is not read", "put the grids on the middle surface, or join them by RBE2");
+  const double t = deck.number_or(p, 2, 0.0);
+  if (!(t > 0.0)) deck.fail(p, fmt::format("the thickness is {:g}, expected a value above 0", t), "give T in field 4");
+  for (std::size_t i = thicknesses; i < thicknesses + corners; ++i) {
+    if (std::abs(deck.number_or(card, i, t) - t) > 1e-9 * t)
+      deck.fail(card, "has thicknesses at its corners that are not the property's, which is not read",
+                "give PSHELL the thickness");
+  }
+  const long membrane = deck.integer(p, 1), bending = deck.integer_or(p, 3, 0);
+  if (bending != membrane)
+    deck.fail(p,
+              bending == 0 ? "has no MID2, so that it is a membrane without bending, which is not read"
+                           : "has MID2 other than MID1, which is not read",
+              "give MID2 the material of MID1");
+  if (deck.integer_or(p, 10, 0) != 0)
+    deck.fail(p, "couples membrane and bending (MID4), which is not read", "leave MID4 blank");
+  fe::Section s;
+  s.name = e.group = name;
+  s.thickness_m = t;
+  s.bending_inertia_ratio = deck.number_or(p, 4, 1.0);
+  e.section = parts.section(s);
+  e.material = parts.material(p, membrane, deck.number_or(p, 7, 0.0) / t, name);
+  if (deck.integer_or(p, 5, 0) != 0)
+    note_once(parts, "shells are thin plates here: the transverse shear that MID3 of PSHELL allows is left out");
+  parts.model.elements.push_back(e);
+}
+
+void read_solid(Parts& parts, const Card& card) {
+  fe::Element e = start_element(parts, card, fe::ElementType::solid, 2, 8);
+  if (Deck::size(card) > 10)
+    parts.deck.fail(card, "has nodes on its edges (20 in all), which is not read", "mesh with solids of 8 nodes");
+  const Card& p = parts.property(card, parts.deck.integer_or(card, 1, e.id), {"PSOLID"});
+  if (const std::string kind = upper_case(Deck::text(p, 6)); !kind.empty() && kind != "SMECH")
+    parts.deck.fail(p, fmt::format("is '{}', no solid of the structure", kind), "leave the fluid out");
+  e.group = property_name(p);
+  e.material = parts.material(p, parts.deck.integer(p, 1));
+  parts.model.elements.push_back(e);
+}
+
+}  // namespace twindeck::model_io::nastran

@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+
+#include "core/error.hpp"
+#include "model_io/folder_parts.hpp"
+#include "model_io/inp_cards.hpp"
+#include "model_io/nastran.hpp"
+#include "model_io/nastran_ignored.hpp"
+#include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_units.hpp"
+
+namespace twindeck::model_io {
+namespace nastran {
+namespace {
+
+using Reader = void (*)(Parts&, const Card&);
+
+/// Cards in the order in which they must be understood: what others refer to, elements, what sits on them, rigid links.
+const std::vector<std::map<std::string, Reader>>& reading_passes() {
+  static const std::vector<std::map<std::string, Reader>> passes = {
+      {{"GRID", index_card},   {"GRDSET", index_card}, {"CORD1R", index_card}, {"CORD1C", index_card}, {"CORD1S", index_card},
+       {"CORD2R", index_card}, {"CORD2C", index_card}, {"CORD2S", index_card}, {"MAT1", index_card},   {"PBAR", index_card},
+       {"PBARL", index_card},  {"PBEAM", index_card},  {"PBEAML", index_card}, {"PROD", index_card},   {"PSHELL", index_card},
+       {"PSOLID", index_card}, {"PELAS", index_card},  {"PBUSH", index_card},  {"PMASS", index_card},  {"SPOINT", index_card}},
+      {{"CBAR", read_member},
+       {"CBEAM", read_member},
+       {"CROD", read_rod},
+       {"CONROD", read_rod},
+       {"CQUAD4", read_shell},
+       {"CHEXA", read_solid}},
+      {{"CELAS1", read_scalar_spring},
+       {"CELAS2", read_scalar_spring},
+       {"CBUSH", read_bush},
+       {"CONM1", read_mass},
+       {"CONM2", read_mass},
+       {"CMASS1", read_scalar_mass},
+       {"CMASS2", read_scalar_mass},
+       {"RBE2", read_rigid},
+       {"RBAR", read_rigid}}};
+  return passes;
+}
+
+/// Read together at the end, by the sets that the case control chooses; and parameters.
+bool is_read_apart(const std::string& name) {
+  constexpr std::array<const char*, 6> names = {"SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM"};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void refuse_or_note(Parts& parts) {
+  std::vector<std::string> known;
+  for (const auto& pass : reading_passes()) {
+    for (const auto& [name, reader] : pass) known.push_back(name);
+  }
+  std::map<std::string, std::pair<long, const Card*>> passed_over;
+  for (const Card& card : parts.deck.cards()) {
+    const bool is_known = is_read_apart(card.name) || std::find(known.begin(), known.end(), card.name) != known.end();
+    if (is_known) {
+      if (!card.stray.empty())
+        parts.deck.fail(card, fmt::format("the line '{}' below it is the continuation of another card", card.stray),
+                        "put the continuations of a card below it");
+    } else if (ignored_cards().contains(card.name)) {
+      auto& [count, first] = passed_over.try_emplace(card.name, 0, &card).first->second;
+      ++count;
+    } else if (const auto hint = refused_cards().find(card.name); hint != refused_cards().end()) {
+      parts.deck.fail(card, "this card is not read", hint->second);
+    } else {
+      parts.deck.fail(card, "unknown card" + did_you_mean(card.name, known),
+                      "leave it out if the model is meant without it; docs/import_nastran.md lists what is read");
+    }
+  }
+  for (const auto& [name, entry] : passed_over)
+    parts.notes.push_back(fmt::format(
+        "{} cards ({}, first in line {} of {}) are left out: they {}", name, entry.first, entry.second->line,
+        parts.deck.files()[static_cast<std::size_t>(entry.second->file)].filename().string(), ignored_cards().at(name)));
+}
+
+/// What Nastran takes for K6ROT in linear analyses where the deck does not say it, and the share of G t that one unit of it is:
+/// the drilling penalty over G, as in Hughes and Brezzi's form here.
+constexpr double default_k6rot = 100.0, k6rot_unit = 1e-6;
+
+/// @return  WTMASS
+double read_parameters(Parts& parts) {
+  double wtmass = 1.0, k6rot = default_k6rot;
+  parts.model.formulation.lumped_mass = true;
+  parts.model.formulation.beam_rotary_inertia = false;
+  parts.model.formulation.shell_rotary_inertia = false;
+  for (const Card& card : parts.deck.cards()) {
+    if (card.name != "PARAM") continue;
+    const std::string name = upper_case(Deck::text(card, 0));
+    if (name == "WTMASS") wtmass = parts.deck.number(card, 1);
+    if (name == "K6ROT") k6rot = parts.deck.number(card, 1);
+    if (name == "COUPMASS") parts.model.formulation.lumped_mass = parts.deck.integer(card, 1) <= 0;
+    if (name == "WTMASS" && !(wtmass > 0.0)) parts.deck.fail(card, "is not above 0", "give mass per weight, 1/g");
+    if (scales_matrices(name) && parts.deck.number(card, 1) != 1.0)
+      parts.deck.fail(card, "scales the matrices of the structure, which is not read", "leave it out");
+  }
+  // None at all leaves the rotation to AUTOSPC; here the formulation's own penalty stands in (factor 0).
+  parts.model.formulation.drilling_factor = std::max(0.0, k6rot_unit * k6rot);
+  return wtmass;
+}
+
+/// Nodes in the order of their numbers, which is how people look for them.
+void sort_nodes(Parts& parts) {
+  fe::Model& model = parts.model;
+  std::vector<int> now(model.nodes.size());
+  std::vector<fe::Node> sorted;
+  for (const auto& [grid, position] : parts.node_position) {
+    now[static_cast<std::size_t>(position)] = static_cast<int>(sorted.size());
+    sorted.push_back(model.nodes[static_cast<std::size_t>(position)]);
+  }
+  const auto move = [&](int& node) {
+    if (node >= 0) node = now[static_cast<std::size_t>(node)];
+  };
+  model.nodes = std::move(sorted);
+  for (fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), move);
+  for (fe::Spring& s : model.springs) move(s.node), move(s.node2);
+  for (fe::MatrixElement& e : model.matrix_elements) {
+    for (fe::MatrixElement::Dof& dof : e.dofs) move(dof.node);
+  }
+  for (fe::RigidLink& link : model.links) move(link.master), move(link.slave);
+  for (fe::PointMass& mass : model.masses) move(mass.node);
+  for (fe::Support& support : model.supports) move(support.node);
+  const std::size_t unused = parts.grids.size() - model.nodes.size();
+  if (unused > 0) parts.notes.push_back(fmt::format("grids that no element, mass or link uses are left out: {}", unused));
+}
+
+}  // namespace
+}  // namespace nastran
+
+bool is_nastran_file(const std::filesystem::path& file) {
+  const std::string ending = upper_case(file.extension().string());
+  if (ending == ".BDF" || ending == ".NAS" || ending == ".BLK") return true;
+  if (ending != ".DAT" || !std::filesystem::is_regular_file(file)) return false;
+  std::ifstream stream(file);
+  std::string line;
+  while (std::getline(stream, line)) {
+    const std::string word = upper_case(line.substr(0, 10));
+    if (word.starts_with("BEGIN BULK") || word.starts_with("GRID ") || word.starts_with("GRID,") || word.starts_with("GRID*"))
+      return true;
+  }
+  return false;
+}
+
+NastranModel read_nastran(const std::filesystem::path& path) {
+  const nastran::Deck deck = nastran::Deck::read(path);
+  nastran::Parts parts(deck);
+  parts.model.source = path.string();
+  parts.model.title = deck.case_control().title;
+  nastran::refuse_or_note(parts);
+  const double wtmass = nastran::read_parameters(parts);
+  for (const auto& pass : nastran::reading_passes()) {
+    for (const nastran::Card& card : deck.cards()) {
+      if (const auto reader = pass.find(card.name); reader != pass.end()) reader->second(parts, card);
+    }
+  }
+  nastran::refuse_multipoint(parts);
+  nastran::finish_masses(parts);
+  nastran::read_supports(parts);
+  nastran::finish_rods(parts);
+  if (parts.model.elements.empty() && parts.model.springs.empty() && parts.model.matrix_elements.empty())
+    throw InputError({path.string(), 0, ""}, "holds no element",
+                     "expected CBAR, CBEAM, CROD, CQUAD4, CHEXA, CELAS or CBUSH cards");
+  nastran::sort_nodes(parts);
+
+  auto beside = path;
+  beside.replace_extension(".toml");
+  nastran::UnitKeys keys;
+  const std::size_t own_matrices = parts.model.matrix_elements.size();
+  if (std::filesystem::exists(beside))
+    read_model_toml(beside, parts.model, [&keys](io::FieldTable& table) { keys.add_to(table); });
+  // What the TOML file adds is in SI already.
+  std::vector<fe::MatrixElement> added(parts.model.matrix_elements.begin() + static_cast<std::ptrdiff_t>(own_matrices),
+                                       parts.model.matrix_elements.end());
+  parts.model.matrix_elements.resize(own_matrices);
+  nastran::to_si(parts.model, nastran::units_of(keys, beside), wtmass);
+  parts.model.matrix_elements.insert(parts.model.matrix_elements.end(), added.begin(), added.end());
+  return {std::move(parts.model), std::move(parts.notes), deck.files()};
+}
+
+}  // namespace twindeck::model_io

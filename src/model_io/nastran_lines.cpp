@@ -1,0 +1,233 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "model_io/inp_cards.hpp"
+#include "model_io/nastran_cards.hpp"
+
+/// From the text of a deck and its INCLUDE files to cards: the part of Deck that knows columns.
+namespace twindeck::model_io::nastran {
+
+struct RawLine {
+  int file = 0;
+  long line = 0;
+  std::string text;
+};
+
+struct SplitLine {
+  std::string first;              ///< name, or what marks a continuation
+  std::vector<std::string> data;  ///< 8 fields, or 4 of the large form
+  std::string last;               ///< name of the continuation that follows
+};
+
+namespace {
+
+constexpr std::size_t deepest_include = 20;     ///< files within files; real decks have two or three levels
+constexpr std::size_t most_lines = 20'000'000;  ///< of a deck with all its files, two gigabytes: more is a mistake
+
+std::string stripped(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string without_comment(const std::string& text) { return text.substr(0, text.find('$')); }
+
+std::string with_tabs_expanded(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\t')
+      result.append(8 - result.size() % 8, ' ');
+    else if (c != '\r')
+      result += c;
+  }
+  return result;
+}
+
+/// Free field: commas part the fields. @return  false for more of them than a line holds
+bool split_free(const std::string& text, SplitLine& line) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0, comma = 0; comma != std::string::npos; start = comma + 1) {
+    comma = text.find(',', start);
+    parts.push_back(stripped(text.substr(start, comma == std::string::npos ? comma : comma - start)));
+  }
+  line.first = parts[0];
+  const std::size_t fields = line.first.ends_with('*') || line.first.starts_with('*') ? 4 : 8;
+  while (parts.size() > fields + 2 && parts.back().empty()) parts.pop_back();
+  if (parts.size() > fields + 2) return false;
+  parts.resize(fields + 2);
+  line.data.assign(parts.begin() + 1, parts.end() - 1);
+  line.last = parts.back();
+  return true;
+}
+
+void split_fixed(const std::string& text, SplitLine& line) {
+  std::string columns = with_tabs_expanded(text);
+  columns.resize(80, ' ');  // what stands beyond column 80 is no part of the card
+  line.first = stripped(columns.substr(0, 8));
+  const bool large = line.first.ends_with('*') || line.first.starts_with('*');
+  const std::size_t width = large ? 16 : 8;
+  for (std::size_t at = 8; at < 72; at += width) line.data.push_back(stripped(columns.substr(at, width)));
+  line.last = stripped(columns.substr(72, 8));
+}
+
+std::string continuation_name(const std::string& field) {
+  return upper_case(stripped(
+      field.substr(field.find_first_not_of("+*") == std::string::npos ? field.size() : field.find_first_not_of("+*"))));
+}
+
+/// "SPC = 3" as "SPC" and "3"; "SUBCASE 1" as it is, with an empty value.
+std::pair<std::string, std::string> key_and_value(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) return {upper_case(stripped(text)), ""};
+  return {upper_case(stripped(text.substr(0, equals))), stripped(text.substr(equals + 1))};
+}
+
+}  // namespace
+
+struct DeckReader {
+  Deck deck;
+  std::vector<RawLine> lines;
+  std::vector<std::filesystem::path> open;  ///< files being read, the deck first
+
+  [[noreturn]] void fail(const RawLine& at, const std::string& key, const std::string& problem, const std::string& mend) const {
+    throw InputError({deck.files_[static_cast<std::size_t>(at.file)].string(), at.line, key}, problem, mend);
+  }
+
+  /// The text of a file into `lines`, INCLUDE lines replaced by the lines of their files.
+  void expand(const std::filesystem::path& path) {
+    std::ifstream stream(path);
+    if (!std::filesystem::is_regular_file(path) || !stream)
+      throw InputError({path.string(), 0, ""}, "cannot be opened", "give the path of a Nastran deck");
+    const int file = static_cast<int>(deck.files_.size());
+    deck.files_.push_back(path);
+    open.push_back(std::filesystem::weakly_canonical(path));
+    RawLine line{file, 0, ""};
+    while (std::getline(stream, line.text)) {
+      ++line.line;
+      const std::string bare = stripped(without_comment(line.text));
+      if (bare.empty()) continue;
+      if (lines.size() >= most_lines) fail(line, "", "the deck has more than 20 million lines", "check its INCLUDE lines");
+      if (!upper_case(bare.substr(0, 8)).starts_with("INCLUDE") || bare.find('=') != std::string::npos) {
+        lines.push_back({file, line.line, without_comment(line.text)});
+        continue;
+      }
+      const RawLine at = line;
+      std::string name = stripped(bare.substr(7));
+      const char quote = name.empty() ? ' ' : name.front();
+      if (quote == '\'' || quote == '"') {
+        // A long path may go on over several lines, up to the closing quote.
+        while (name.find(quote, 1) == std::string::npos && std::getline(stream, line.text)) {
+          ++line.line;
+          name += stripped(line.text);
+        }
+        const auto close = name.find(quote, 1);
+        if (close == std::string::npos) fail(at, "INCLUDE", "the quote of the file's name is not closed", "close it");
+        name = name.substr(1, close - 1);
+      }
+      include(at, path, stripped(name));
+    }
+    open.pop_back();
+  }
+
+  void include(const RawLine& at, const std::filesystem::path& from, const std::string& name) {
+    std::string slashed = name;
+    std::replace(slashed.begin(), slashed.end(), '\\', '/');
+    std::filesystem::path path = from.parent_path() / slashed;
+    if (!std::filesystem::is_regular_file(path)) path = deck.files_.front().parent_path() / slashed;
+    if (name.empty() || !std::filesystem::is_regular_file(path))
+      fail(at, "INCLUDE", fmt::format("the file '{}' is not there", name), "put it beside the deck, or mend its path");
+    const auto canonical = std::filesystem::weakly_canonical(path);
+    if (open.size() >= deepest_include || std::find(open.begin(), open.end(), canonical) != open.end())
+      fail(at, "INCLUDE", fmt::format("the file '{}' includes itself", name), "take one of the INCLUDE lines out");
+    expand(path);
+  }
+
+  /// Executive and case control: only what changes the structure is looked at. @return  the first line of the bulk data
+  std::size_t read_control() {
+    const auto begins = [](const RawLine& line) { return upper_case(stripped(line.text).substr(0, 5)) == "BEGIN"; };
+    const auto named = [](const RawLine& line, const char* word) { return upper_case(stripped(line.text)) == word; };
+    const auto bulk = std::find_if(lines.begin(), lines.end(), begins);
+    const auto cend = std::find_if(lines.begin(), lines.end(), [&](const RawLine& line) { return named(line, "CEND"); });
+    if (bulk == lines.end()) {
+      if (cend != lines.end()) fail(*cend, "CEND", "no BEGIN BULK follows", "the bulk data stand below a line BEGIN BULK");
+      return 0;
+    }
+    deck.case_.present = true;
+    for (auto line = cend < bulk ? cend + 1 : lines.begin(); line != bulk; ++line) read_case_line(*line);
+    std::string rest = upper_case(stripped(bulk->text).substr(5));
+    rest.erase(std::remove(rest.begin(), rest.end(), ' '), rest.end());
+    if (rest != "BULK")
+      fail(*bulk, "BEGIN", "starts a section of its own (a superelement), which is not read", "write one model");
+    const auto second = std::find_if(bulk + 1, lines.end(), begins);
+    if (second != lines.end()) fail(*second, "BEGIN", "starts a second section, which is not read", "write one model");
+    return static_cast<std::size_t>(bulk - lines.begin()) + 1;
+  }
+
+  void read_case_line(const RawLine& line) {
+    const auto [key, value] = key_and_value(line.text);
+    if (key == "TITLE" && deck.case_.title.empty()) deck.case_.title = value;
+    if (key == "K2GG" || key == "M2GG" || key == "K2PP" || key == "M2PP")
+      fail(line, key, "adds matrices to the structure, which are not read",
+           "give the whole model as matrices (docs/my_model.md)");
+    if (key != "SPC" && key != "MPC") return;
+    if (!Deck::is_integer(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write SPC = 1");
+    std::optional<long>& chosen = key == "SPC" ? deck.case_.spc : deck.case_.mpc;
+    const long id = std::stol(value);
+    if (chosen && *chosen != id)
+      fail(line, key, fmt::format("chooses set {}, another subcase chooses {}", id, *chosen), "leave one subcase in the deck");
+    chosen = id;
+  }
+
+  void read_bulk(std::size_t start) {
+    std::string announced;
+    for (std::size_t i = start; i < lines.size(); ++i) {
+      const RawLine& raw = lines[i];
+      if (upper_case(stripped(raw.text).substr(0, 7)) == "ENDDATA") return;
+      SplitLine line;
+      if (raw.text.find(',') == std::string::npos)
+        split_fixed(raw.text, line);
+      else if (!split_free(stripped(raw.text), line))
+        fail(raw, line.first, "has more than ten fields on one line", "let the card go on in a line that begins with a comma");
+      if (line.first.starts_with('='))
+        fail(raw, line.first, "repeats the card above, which is not read", "write every card out");
+      const bool continues = line.first.empty() || line.first.starts_with('+') || line.first.starts_with('*');
+      if (continues)
+        continue_card(raw, line, announced);
+      else
+        start_card(raw, line);
+      announced = continuation_name(line.last);
+    }
+  }
+
+  void start_card(const RawLine& raw, SplitLine& line) {
+    Card card;
+    card.name = upper_case(stripped(line.first.substr(0, line.first.find('*'))));
+    card.file = raw.file;
+    card.line = raw.line;
+    card.fields = std::move(line.data);
+    deck.cards_.push_back(std::move(card));
+  }
+
+  void continue_card(const RawLine& raw, const SplitLine& line, const std::string& announced) {
+    if (deck.cards_.empty())
+      fail(raw, line.first, "continues a card, but none stands above it", "begin with the name of a card");
+    Card& card = deck.cards_.back();
+    const std::string name = continuation_name(line.first);
+    if (!name.empty() && !announced.empty() && name != announced) card.stray = line.first;
+    const std::size_t whole = line.data.size();  // a large line may begin in the middle of eight fields, a small one may not
+    while (card.fields.size() % whole != 0) card.fields.emplace_back();
+    card.fields.insert(card.fields.end(), line.data.begin(), line.data.end());
+  }
+};
+
+Deck Deck::read(const std::filesystem::path& file) {
+  DeckReader reader;
+  reader.expand(file);
+  reader.read_bulk(reader.read_control());
+  return std::move(reader.deck);
+}
+
+}  // namespace twindeck::model_io::nastran

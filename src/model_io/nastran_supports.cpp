@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "model_io/nastran_parts.hpp"
+
+/// Supports and rigid links.
+namespace twindeck::model_io::nastran {
+namespace {
+
+/// Three of a grid's components in its displacement axes as components in basic axes. They are whole (all or none) or each axis
+/// lies along a basic one; else the support is skew, which a model does not have.
+std::array<bool, 3> in_basic(const Parts& parts, const Card& card, long grid, const Eigen::Matrix3d& axes,
+                             const std::array<bool, 3>& local) {
+  if (local[0] == local[1] && local[1] == local[2]) return local;
+  std::array<bool, 3> basic{};
+  for (int i = 0; i < 3; ++i) {
+    if (!local[static_cast<std::size_t>(i)]) continue;
+    Eigen::Index along = 0;
+    constexpr double aligned = 1.0 - 1e-9;
+    if (axes.row(i).cwiseAbs().maxCoeff(&along) < aligned)
+      parts.deck.fail(card, fmt::format("holds grid {} along an axis of its system CD that is skew to the basic ones", grid),
+                      "hold it by a stiff CELAS2 there, which may be skew, or turn the model");
+    basic[static_cast<std::size_t>(along)] = true;
+  }
+  return basic;
+}
+
+void hold(Parts& parts, const Card& card, long grid, const std::array<bool, 6>& local) {
+  const Eigen::Matrix3d axes = parts.displacement_axes(card, grid);
+  const auto shift = in_basic(parts, card, grid, axes, {local[0], local[1], local[2]});
+  const auto turn = in_basic(parts, card, grid, axes, {local[3], local[4], local[5]});
+  auto& held = parts.held[grid];
+  for (std::size_t i = 0; i < 3; ++i) {
+    held[i] = held[i] || shift[i];
+    held[3 + i] = held[3 + i] || turn[i];
+  }
+}
+
+bool is_set_card(const Card& card) { return card.name == "SPC" || card.name == "SPC1"; }
+
+/// Numbers of the sets that hold: the chosen one, with those that SPCADD puts together.
+std::set<long> chosen_sets(Parts& parts) {
+  std::set<long> all, chosen;
+  for (const Card& card : parts.deck.cards()) {
+    if (is_set_card(card)) all.insert(parts.deck.integer(card, 0));
+  }
+  const CaseControl& control = parts.deck.case_control();
+  if (control.spc) {
+    chosen.insert(*control.spc);
+  } else if (!control.present && all.size() == 1) {
+    chosen = all;
+    parts.notes.push_back(fmt::format("the deck has no case control: its only set of supports, {}, is taken", *all.begin()));
+  } else if (!control.present && all.size() > 1) {
+    throw InputError({parts.deck.files().front().string(), 0, "SPC"},
+                     fmt::format("the deck has {} sets of supports and no case control that chooses one", all.size()),
+                     "put \"SPC = 1\" and \"BEGIN BULK\" above the cards");
+  } else if (!all.empty()) {
+    parts.notes.push_back("SPC and SPC1 cards are left out: the case control chooses no set of them");
+  }
+  for (const Card& card : parts.deck.cards()) {
+    if (card.name != "SPCADD" || chosen.count(parts.deck.integer(card, 0)) == 0) continue;
+    for (std::size_t i = 1; i < Deck::size(card); ++i) chosen.insert(parts.deck.integer(card, i));
+  }
+  if (control.spc && std::none_of(chosen.begin(), chosen.end(), [&](long id) { return all.contains(id); }))
+    throw InputError({parts.deck.files().front().string(), 0, "SPC"},
+                     fmt::format("the case control chooses the supports {}, which no SPC or SPC1 card has", *control.spc),
+                     "give the cards, or mend the number");
+  return chosen;
+}
+
+void read_support_card(Parts& parts, const Card& card) {
+  if (card.name == "SPC1") {
+    const auto flags = components(parts, card, 1);
+    for (const long grid : parts.grid_list(card, 2, false)) hold(parts, card, grid, flags);
+    return;
+  }
+  for (std::size_t i = 1; i < Deck::size(card); i += 3) {
+    if (Deck::blank(card, i)) continue;
+    hold(parts, card, parts.deck.integer(card, i), components(parts, card, i + 1));
+    if (parts.deck.number_or(card, i + 2, 0.0) != 0.0)
+      note_once(parts, "prescribed displacements of SPC cards are taken as zero: they do not enter modes");
+  }
+}
+
+void add_rigid(Parts& parts, const Card& card, long independent, long dependent) {
+  parts.model.links.push_back({fmt::format("{}_{}_{}", card.name == "RBE2" ? "rbe2" : "rbar", Deck::text(card, 0), dependent),
+                               parts.node(card, independent), parts.node(card, dependent)});
+}
+
+void read_rbar(Parts& parts, const Card& card) {
+  const auto all_six = [&](std::size_t i) {
+    std::string digits = Deck::text(card, i);
+    std::sort(digits.begin(), digits.end());
+    return digits == "123456";
+  };
+  const bool a_leads = all_six(3) && Deck::blank(card, 4) && (Deck::blank(card, 6) || all_six(6)) && Deck::blank(card, 5);
+  const bool b_leads = all_six(4) && Deck::blank(card, 3) && (Deck::blank(card, 5) || all_six(5)) && Deck::blank(card, 6);
+  if (!a_leads && !b_leads)
+    parts.deck.fail(card, "shares its six motions between both ends, or ties some of them only, which is not read",
+                    "give 123456 to one end (CNA or CNB); hinges are pin flags of CBAR, or springs");
+  const long a = parts.deck.integer(card, 1), b = parts.deck.integer(card, 2);
+  add_rigid(parts, card, a_leads ? a : b, a_leads ? b : a);
+}
+
+}  // namespace
+
+void read_rigid(Parts& parts, const Card& card) {
+  if (card.name == "RBAR") return read_rbar(parts, card);
+  const long independent = parts.deck.integer(card, 1);
+  const auto tied = components(parts, card, 2);
+  std::size_t last = Deck::size(card);
+  while (last > 3 && card.fields[last - 1].find('.') != std::string::npos) --last;  // ALPHA, TREF: they belong to heat
+  Card list = card;
+  list.fields.resize(last);
+  for (const long grid : parts.grid_list(list, 3, true)) {
+    // A dependent grid at which only rods and solids meet has no rotation to follow.
+    const bool turning = parts.turning.contains(parts.node(card, grid));
+    const bool whole = tied[0] && tied[1] && tied[2] && (!turning || (tied[3] && tied[4] && tied[5]));
+    if (!whole)
+      parts.deck.fail(card, fmt::format("ties grid {} in '{}' only, which is not read", grid, Deck::text(card, 2)),
+                      "tie 123456; hinges are pin flags of CBAR, or springs (CELAS2, CBUSH)");
+    add_rigid(parts, card, independent, grid);
+  }
+}
+
+void read_supports(Parts& parts) {
+  const std::set<long> chosen = chosen_sets(parts);
+  for (const Card& card : parts.deck.cards()) {
+    if (is_set_card(card) && chosen.contains(parts.deck.integer(card, 0))) read_support_card(parts, card);
+  }
+  for (const auto& [id, card] : parts.grids) {
+    // PS of the grid, or of GRDSET.
+    const Card& from = Deck::blank(*card, 6) && parts.grid_defaults != nullptr ? *parts.grid_defaults : *card;
+    if (!Deck::blank(from, 6) && Deck::text(from, 6) != "0") hold(parts, *card, id, components(parts, from, 6));
+  }
+  for (const auto& [grid, fixed] : parts.held) {
+    const auto node = parts.node_position.find(grid);
+    if (node != parts.node_position.end()) parts.model.supports.push_back({fmt::format("grid_{}", grid), node->second, fixed});
+  }
+}
+
+void refuse_multipoint(Parts& parts) {
+  const std::optional<long> chosen = parts.deck.case_control().mpc;
+  std::set<long> sets;
+  if (chosen) sets.insert(*chosen);
+  for (const Card& card : parts.deck.cards()) {
+    if (card.name == "MPCADD" && chosen && parts.deck.integer(card, 0) == *chosen) {
+      for (std::size_t i = 1; i < Deck::size(card); ++i) sets.insert(parts.deck.integer(card, i));
+    }
+  }
+  for (const Card& card : parts.deck.cards()) {
+    if (card.name != "MPC") continue;
+    if (parts.deck.case_control().present && !sets.contains(parts.deck.integer(card, 0))) {
+      note_once(parts, "MPC cards that the case control does not choose are left out");
+    } else if (parts.scalar_points.contains(parts.deck.integer(card, 1))) {
+      note_once(parts, "MPC cards that give a motion to a scalar point are left out: they measure and hold nothing");
+    } else {
+      parts.deck.fail(card, "ties grids by an equation, which is not read",
+                      "a rigid joint is RBE2 or RBAR; a stiff joint CELAS2 or CBUSH");
+    }
+  }
+}
+
+}  // namespace twindeck::model_io::nastran
