@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "diagnosis/place_parts.hpp"
 #include "fe/assembly_elements.hpp"
+#include "fe/mixed_sides.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -14,12 +15,16 @@ namespace {
 
 using Eigen::Index;
 
-fe::ElementMatrix element_stiffness(const fe::Model& model, const fe::Element& element) {
+fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const std::vector<std::uint8_t>& straight_sides) {
+  const fe::Element& element = model.elements[e];
   switch (element.type) {
     case fe::ElementType::beam:
       return {fe::six_per_node(element),
               fe::beam_stiffness(fe::beam_geometry(model, element), fe::beam_properties(model, element))};
     case fe::ElementType::shell: {
+      if (fe::is_triangle(element))
+        return {fe::six_per_node(element),
+                fe::shell_membrane_of(model, element, straight_sides[e]) + fe::shell_bending_of(model, element)};
       const auto geometry = fe::shell_geometry(model, element);
       const auto properties = fe::shell_properties(model, element);
       const auto rule = model.formulation.drilling == fe::Formulation::Drilling::penalty ? fe::DrillingRule::penalty
@@ -73,7 +78,10 @@ Symmetric ElementPlaces::free(const Sum& sum) const {
 }
 
 ElementPlaces::ElementPlaces(const Structure& structure)
-    : structure_(structure), model_(*structure.model), expansion_(structure.system->expansion) {
+    : structure_(structure),
+      model_(*structure.model),
+      straight_sides_(fe::sides_beside_four_nodes(model_)),
+      expansion_(structure.system->expansion) {
   for (std::size_t e = 0; e < model_.elements.size(); ++e) {
     const fe::Element& element = model_.elements[e];
     if (element.type == fe::ElementType::stay) continue;
@@ -120,7 +128,7 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
         centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
     const fe::Element& element = model_.elements[static_cast<std::size_t>(candidates_[i])];
     members[zone].push_back(candidates_[i]);
-    stiffness[zone].add(element_stiffness(model_, element));
+    stiffness[zone].add(element_stiffness(model_, static_cast<std::size_t>(candidates_[i]), straight_sides_));
     mass[zone].add(fe::element_mass(model_, element));
   }
   for (std::size_t z = 0; z < centres.size(); ++z) {
@@ -340,7 +348,8 @@ void ElementPlaces::add_groups(Places& places) const {
     const fe::Element& element = model_.elements[e];
     if (element.group.empty()) continue;
     Group& group = group_of(element.group);
-    group.stiffness.add(element.type == fe::ElementType::stay ? stay_stiffness(e, pull_of(e)) : element_stiffness(model_, element));
+    group.stiffness.add(element.type == fe::ElementType::stay ? stay_stiffness(e, pull_of(e))
+                                                                     : element_stiffness(model_, e, straight_sides_));
     group.mass.add(fe::element_mass(model_, element));
     group.elements.push_back(static_cast<int>(e));
     for (const int node : element.nodes) group.sum += model_.nodes[static_cast<std::size_t>(node)].x_m;
@@ -379,7 +388,7 @@ void ElementPlaces::fill_global(Place& global) const {
   double deck = 0.0;
   for (const int e : candidates_) {
     const fe::Element& element = model_.elements[static_cast<std::size_t>(e)];
-    stiffness.add(element_stiffness(model_, element));
+    stiffness.add(element_stiffness(model_, static_cast<std::size_t>(e), straight_sides_));
     if (shells && element.type != fe::ElementType::shell) continue;
     const fe::ElementMatrix m = fe::element_mass(model_, element);
     mass.add(m);

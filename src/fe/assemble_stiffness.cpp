@@ -1,6 +1,8 @@
-#include "fe/assembly_drilling.hpp"
+#include <fmt/format.h>
+
 #include "fe/assembly_terms.hpp"
 #include "fe/matrix_element.hpp"
+#include "fe/mixed_sides.hpp"
 
 namespace twindeck::fe {
 
@@ -44,20 +46,19 @@ ElementMatrix bar_axial(const Model& model, int i) {
           bar_stiffness(end_nodes(model, e), material_of(model, e).youngs_modulus_Pa, section_of(model, e).area_m2)};
 }
 
+template <std::uint8_t straight_sides>
 ElementMatrix membrane(const Model& model, int i) {
   const Element& e = element_at(model, i);
-  const ShellGeometry geometry = shell_geometry(model, e);
-  const ShellProperties properties = shell_properties(model, e);
-  const double factor = model.formulation.drilling_factor;
-  if (model.formulation.drilling == Formulation::Drilling::penalty)
-    return {six_per_node(e), shell_membrane_stiffness(geometry, properties, DrillingRule::penalty, factor)};
-  return {six_per_node(e), shell_membrane_stiffness(geometry, properties, DrillingRule::diagonal, factor) +
-                               drilling_spread(geometry, properties, factor)};
+  return {six_per_node(e), shell_membrane_of(model, e, straight_sides)};
 }
+
+/// By the sides that a triangle shares with four-node shells (mixed_sides.hpp); the first for all other shells.
+constexpr std::array membranes = {membrane<0>, membrane<1>, membrane<2>, membrane<3>,
+                                  membrane<4>, membrane<5>, membrane<6>, membrane<7>};
 
 ElementMatrix bending(const Model& model, int i) {
   const Element& e = element_at(model, i);
-  return {six_per_node(e), shell_bending_stiffness(shell_geometry(model, e), shell_properties(model, e))};
+  return {six_per_node(e), shell_bending_of(model, e)};
 }
 
 ElementMatrix solid(const Model& model, int i) {
@@ -76,6 +77,7 @@ ElementMatrix spring(const Model& model, int i) { return spring_stiffness(model.
 
 std::vector<TermPlan> plan_stiffness(const Model& model) {
   TermGroups groups;
+  const std::vector<std::uint8_t> straight_sides = sides_beside_four_nodes(model);
   for (int i = 0; i < static_cast<int>(model.elements.size()); ++i) {
     const Element& e = element_at(model, i);
     if (e.type == ElementType::stay) continue;
@@ -86,7 +88,9 @@ std::vector<TermPlan> plan_stiffness(const Model& model) {
     }
     const std::string& section = section_of(model, e).name;
     if (e.type == ElementType::shell) {
-      groups.add_element(model, i, section + of + " membrane", {.modulus = 1, .thickness = 1}, membrane);
+      const std::uint8_t sides = straight_sides[slot(i)];
+      const std::string beside = sides == 0 ? "" : fmt::format(" beside four-node shells ({})", sides);
+      groups.add_element(model, i, section + of + " membrane" + beside, {.modulus = 1, .thickness = 1}, membranes[sides]);
       groups.add_element(model, i, section + of + " bending", {.modulus = 1, .thickness = 3, .ratio = 1}, bending);
     } else if (e.type == ElementType::bar) {
       groups.add_element(model, i, e.group + of + " bars " + section, {.modulus = 1, .area = 1}, bar_axial);

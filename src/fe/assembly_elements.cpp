@@ -1,6 +1,7 @@
 #include "fe/assembly_elements.hpp"
 
 #include "core/error.hpp"
+#include "fe/assembly_drilling.hpp"
 
 namespace twindeck::fe {
 
@@ -57,8 +58,16 @@ TaperedProperties beam_end_properties(const Model& model, const Element& element
 }
 
 ShellGeometry shell_geometry(const Model& model, const Element& element) {
+  TWINDECK_ASSERT(element.nodes.size() == 4);
   ShellGeometry geometry;
   for (std::size_t i = 0; i < 4; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
+  return geometry;
+}
+
+TriangleGeometry triangle_geometry(const Model& model, const Element& element) {
+  TWINDECK_ASSERT(element.nodes.size() == 3);
+  TriangleGeometry geometry;
+  for (std::size_t i = 0; i < 3; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
   return geometry;
 }
 
@@ -66,6 +75,27 @@ ShellProperties shell_properties(const Model& model, const Element& element) {
   const Material& m = material_of(model, element);
   const Section& s = section_of(model, element);
   return {m.youngs_modulus_Pa, m.poisson_ratio, s.thickness_m, s.bending_inertia_ratio};
+}
+
+Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, std::uint8_t straight_sides) {
+  const ShellProperties properties = shell_properties(model, element);
+  if (is_triangle(element)) {
+    TriangleGeometry triangle = triangle_geometry(model, element);
+    triangle.straight_sides = straight_sides;
+    return triangle_membrane_stiffness(triangle, properties);
+  }
+  const ShellGeometry geometry = shell_geometry(model, element);
+  const double factor = model.formulation.drilling_factor;
+  if (model.formulation.drilling == Formulation::Drilling::penalty)
+    return shell_membrane_stiffness(geometry, properties, DrillingRule::penalty, factor);
+  return shell_membrane_stiffness(geometry, properties, DrillingRule::diagonal, factor) +
+         drilling_spread(geometry, properties, factor);
+}
+
+Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element) {
+  const ShellProperties properties = shell_properties(model, element);
+  if (is_triangle(element)) return triangle_bending_stiffness(triangle_geometry(model, element), properties);
+  return shell_bending_stiffness(shell_geometry(model, element), properties);
 }
 
 SolidGeometry solid_geometry(const Model& model, const Element& element) {
@@ -89,6 +119,12 @@ ElementMatrix beam_mass_of(const Model& model, const Element& element, const Bea
 }
 
 ElementMatrix shell_mass_of(const Model& model, const Element& element, double mass_per_area, double rotary_per_area) {
+  if (is_triangle(element)) {
+    const TriangleGeometry triangle = triangle_geometry(model, element);
+    return {six_per_node(element), model.formulation.lumped_mass
+                                       ? triangle_mass_lumped(triangle, mass_per_area, rotary_per_area)
+                                       : triangle_mass(triangle, mass_per_area, rotary_per_area)};
+  }
   const ShellGeometry geometry = shell_geometry(model, element);
   return {six_per_node(element), model.formulation.lumped_mass ? shell_mass_lumped(geometry, mass_per_area, rotary_per_area)
                                                                : shell_mass(geometry, mass_per_area, rotary_per_area)};

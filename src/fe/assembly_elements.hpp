@@ -6,6 +6,7 @@
 #include "fe/beam_tapered.hpp"
 #include "fe/elements.hpp"
 #include "fe/model.hpp"
+#include "fe/shell_triangle.hpp"
 #include "fe/solid.hpp"
 
 /// Converts the model's data to the arguments of the element functions. Gives each matrix its positions in the whole.
@@ -24,9 +25,21 @@ struct ElementMatrix {
 [[nodiscard]] BeamStiffnessProperties beam_properties(const Model& model, const Element& element);
 /// The same at both ends; they differ for a tapered beam (section2 given).
 [[nodiscard]] TaperedProperties beam_end_properties(const Model& model, const Element& element);
+/// Whether a shell has three nodes.
+[[nodiscard]] inline bool is_triangle(const Element& element) {
+  return element.type == ElementType::shell && element.nodes.size() == 3;
+}
+/// @pre four nodes
 [[nodiscard]] ShellGeometry shell_geometry(const Model& model, const Element& element);
+/// @pre three nodes
+[[nodiscard]] TriangleGeometry triangle_geometry(const Model& model, const Element& element);
 [[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
 [[nodiscard]] SolidGeometry solid_geometry(const Model& model, const Element& element);
+/// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners where
+/// the rule is diagonal); bending part. Over its six degrees of freedom a node.
+/// @param straight_sides  of this element, from sides_beside_four_nodes (mixed_sides.hpp); used for triangles only
+[[nodiscard]] Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, std::uint8_t straight_sides);
+[[nodiscard]] Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element);
 [[nodiscard]] std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element);
 
 [[nodiscard]] const Material& material_of(const Model& model, const Element& element);

@@ -89,6 +89,19 @@ FrameState quad_frame(const std::vector<Eigen::Vector3d>& x) {
   return f;
 }
 
+FrameState triangle_frame(const std::vector<Eigen::Vector3d>& x) {
+  const Eigen::Vector3d a = x[1] - x[0], b = x[2] - x[0];
+  FrameState f;
+  f.axes = axes_of(a, b);
+  const Eigen::Vector3d local = f.axes.transpose() * b;
+  const TwoVectors vectors{a.norm(), local.x(), local.y()};
+  f.spin = Spin::Zero(3, 18);
+  f.spin.block<3, 3>(0, 0) = -vectors.from_a() - vectors.from_b();
+  f.spin.block<3, 3>(0, 6) = vectors.from_a();
+  f.spin.block<3, 3>(0, 12) = vectors.from_b();
+  return f;
+}
+
 FrameState box_frame(const std::vector<Eigen::Vector3d>& x) {
   constexpr std::array<double, 8> along = {-1, 1, 1, -1, -1, 1, 1, -1}, across = {-1, -1, 1, 1, -1, -1, 1, 1};
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = a;
@@ -111,6 +124,8 @@ FrameState frame_at(const Element& element, const std::vector<Eigen::Vector3d>& 
       return chord_frame(x, element.across, motion);
     case Frame::quad:
       return quad_frame(x);
+    case Frame::triangle:
+      return triangle_frame(x);
     case Frame::box:
       return box_frame(x);
   }

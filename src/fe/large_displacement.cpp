@@ -11,6 +11,7 @@
 #include "fe/beam_frame.hpp"
 #include "fe/corotational.hpp"
 #include "fe/matrix_element.hpp"
+#include "fe/mixed_sides.hpp"
 #include "linalg/cholesky.hpp"
 
 namespace twindeck::fe {
@@ -37,7 +38,8 @@ struct Part {
 
 bool is_string(ElementType type) { return type == ElementType::bar || type == ElementType::stay; }
 
-Eigen::MatrixXd shell_stiffness(const Model& model, const Element& e) {
+Eigen::MatrixXd shell_stiffness(const Model& model, const Element& e, std::uint8_t straight_sides) {
+  if (is_triangle(e)) return shell_membrane_of(model, e, straight_sides) + shell_bending_of(model, e);
   const ShellGeometry g = shell_geometry(model, e);
   const ShellProperties p = shell_properties(model, e);
   const double factor = model.formulation.drilling_factor;
@@ -60,7 +62,7 @@ Eigen::MatrixXd solid_stiffness_six(const Model& model, const Element& e) {
 class MovingStructure {
  public:
   MovingStructure(const Model& model, const Eigen::VectorXd& load, const Eigen::VectorXd& stay_pull_N)
-      : model_(model), map_(make_dof_map(model)), pattern_(make_pattern(model, map_)), scatter_(pattern_, map_), load_(load) {
+      : model_(model), straight_sides_(sides_beside_four_nodes(model)), map_(make_dof_map(model)), pattern_(make_pattern(model, map_)), scatter_(pattern_, map_), load_(load) {
     for (int i = 0; i < std::ssize(model.elements); ++i) add_part(i, stay_pull_N);
   }
 
@@ -100,6 +102,7 @@ class MovingStructure {
   void add_matrix_elements(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent);
 
   const Model& model_;
+  std::vector<std::uint8_t> straight_sides_;  ///< by element
   DofMap map_;
   linalg::SparseMatrix pattern_;
   Scatter scatter_;
@@ -127,8 +130,8 @@ void MovingStructure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
     part.linear.stiffness =
         e.section2 >= 0 ? Eigen::MatrixXd(tapered_beam_stiffness(g, ends)) : Eigen::MatrixXd(beam_stiffness(g, ends.end1));
   } else if (e.type == ElementType::shell) {
-    part.linear.frame = corotational::Frame::quad;
-    part.linear.stiffness = shell_stiffness(model_, e);
+    part.linear.frame = is_triangle(e) ? corotational::Frame::triangle : corotational::Frame::quad;
+    part.linear.stiffness = shell_stiffness(model_, e, straight_sides_[slot(i)]);
   } else if (e.type == ElementType::solid) {
     part.linear.frame = corotational::Frame::box;
     part.linear.stiffness = solid_stiffness_six(model_, e);

@@ -42,9 +42,13 @@ struct Section {
 
 enum class ElementType { beam, bar, stay, shell, solid };
 
-/// Nodes of an element of this type.
+/// Nodes of an element of this type; a shell may also have three (has_node_count).
 [[nodiscard]] constexpr std::size_t node_count(ElementType type) {
   return type == ElementType::solid ? 8 : type == ElementType::shell ? 4 : 2;
+}
+/// Whether an element of this type can have so many nodes: shells have three or four.
+[[nodiscard]] constexpr bool has_node_count(ElementType type, std::size_t count) {
+  return count == node_count(type) || (type == ElementType::shell && count == 3);
 }
 
 struct Element {
@@ -55,7 +59,7 @@ struct Element {
   int material = -1;
   int section = -1;                 ///< none (-1) for a solid
   int section2 = -1;                ///< beams: section at the second end of a tapered one (see beam_tapered.hpp); -1 = uniform
-  std::vector<int> nodes;           ///< 2 (beam, bar, stay), 4 (shell, anticlockwise) or 8 (solid, see solid.hpp)
+  std::vector<int> nodes;           ///< 2 (beam, bar, stay), 3 or 4 (shell, anticlockwise) or 8 (solid, see solid.hpp)
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near to it as can be; 0 = global Z (X for vertical beams)
   std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< node -> beam end, global axes
   std::uint16_t releases = 0;       ///< beams: bit i set = local end degree of freedom i (0-11) carries no force

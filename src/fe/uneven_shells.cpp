@@ -34,7 +34,8 @@ Model with_uneven_shells(Model model, double unevenness, double wavelength_m) {
   for (Element& element : model.elements) {
     if (element.type != ElementType::shell) continue;
     double x = 0.0;
-    for (const int node : element.nodes) x += model.nodes[static_cast<std::size_t>(node)].x_m.x() / 4.0;
+    const auto corners = static_cast<double>(element.nodes.size());
+    for (const int node : element.nodes) x += model.nodes[static_cast<std::size_t>(node)].x_m.x() / corners;
     const Section nominal = model.sections[static_cast<std::size_t>(element.section)];
     // "slab_foot_B" and "slab_foot_C" are one deck: their names agree up to the second underscore.
     const std::string deck = nominal.name.substr(0, nominal.name.find('_', nominal.name.find('_') + 1));

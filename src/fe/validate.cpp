@@ -18,6 +18,8 @@ namespace {
 constexpr double farthest_m = 1e9;           ///< of a node from the origin, whatever the grid: beyond, differences are lost
 constexpr double least_across = 1e-9;        ///< [-] part of an orientation that lies across its beam, as in beam_axes
 
+constexpr double flattest_triangle = 1e-10;  ///< [-] twice the area over the squares of its sides, as in shell_triangle.cpp
+
 /// Whether a solid is sound once its two faces have changed places.
 bool solid_turned_is_sound(const Model& model, const Element& e) {
   SolidGeometry turned = solid_geometry(model, e);
@@ -66,12 +68,13 @@ void check_element(const Model& model, const Element& e) {
   }
   if (e.pull_N != 0.0 && e.type != ElementType::stay && e.type != ElementType::bar)
     refuse(model, label(e), fmt::format("has a pull of {:g} N, but is neither stay nor bar", e.pull_N), "leave the pull out");
-  const std::size_t expected = node_count(e.type);
-  if (e.nodes.size() != expected)
-    refuse(model, label(e), fmt::format("has {} nodes, expected {}", e.nodes.size(), expected),
-           "beams, bars and stays join two nodes, shells four, solids eight");
+  if (!has_node_count(e.type, e.nodes.size()))
+    refuse(model, label(e),
+           fmt::format("has {} nodes, expected {}{}", e.nodes.size(), e.type == ElementType::shell ? "3 or " : "",
+                       node_count(e.type)),
+           "beams, bars and stays join two nodes, shells three or four, solids eight");
   for (const int node : e.nodes) require_position(model, label(e), "node", node, model.nodes.size());
-  if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != expected)
+  if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != e.nodes.size())
     refuse(model, label(e), "names the same node twice", "give different nodes");
 }
 
@@ -176,6 +179,14 @@ void validate_geometry(const Model& model) {
   for (const Element& e : model.elements) {
     for (const int node : e.nodes) reach(node);
     const auto id = [&](std::size_t i) { return model.nodes[static_cast<std::size_t>(e.nodes[i])].id; };
+    if (is_triangle(e)) {
+      const auto x = triangle_geometry(model, e).node_m;
+      const double squares = (x[1] - x[0]).squaredNorm() + (x[2] - x[1]).squaredNorm() + (x[0] - x[2]).squaredNorm();
+      if (!((x[1] - x[0]).cross(x[2] - x[0]).norm() > flattest_triangle * squares))
+        refuse(model, label(e), fmt::format("the shell {}-{}-{} has no area", id(0), id(1), id(2)),
+               "give three nodes that do not lie on one line, anticlockwise");
+      continue;
+    }
     if (e.type == ElementType::shell) {
       const auto x = shell_geometry(model, e).node_m;
       const double twice_area = (x[2] - x[0]).cross(x[3] - x[1]).norm();

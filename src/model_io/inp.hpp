@@ -16,7 +16,7 @@ struct InpModel {
 };
 
 /// Reads an .inp file, in the flavour of CalculiX or Abaqus (one part, at most one instance): nodes, beams (B31 B32 B33,
-/// profiles RECT CIRC PIPE BOX I and general sections), T3D2, S4, springs, dashpots, masses, isotropic materials, supports,
+/// profiles RECT CIRC PIPE BOX I and general sections), T3D2, S4, S3, springs, dashpots, masses, isotropic materials, supports,
 /// sets, rigid links
 /// (*MPC BEAM, *RIGID BODY, *EQUATION that amounts to one). A B32 becomes two beams. The set that a section is given to becomes
 /// the group and the section's name; a set of one node becomes a monitoring point. What the format does not know (title,

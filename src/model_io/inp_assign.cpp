@@ -229,8 +229,11 @@ void assign_general_beam(InpParts& parts, const InpCard& card) {
   add_beams(parts, card, first_axis(parts, card), material, section);
 }
 
+/// *SHELL SECTION, and *USER SECTION of CalculiX' three-node user shell US3, whose constants begin with the thickness.
 void assign_shell(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {"ELSET", "MATERIAL", "SECTION INTEGRATION", "POISSON"});
+  parts.file.allow(card, card.keyword == "USER SECTION"
+                             ? std::vector<std::string>{"ELSET", "MATERIAL", "CONSTANTS"}
+                             : std::vector<std::string>{"ELSET", "MATERIAL", "SECTION INTEGRATION", "POISSON"});
   const int material = material_of(parts, card);
   fe::Section s;
   s.thickness_m = above_zero(parts, card, data_line(parts, card, 0, "the thickness"), 0);
@@ -268,7 +271,7 @@ void assign_inp_section(InpParts& parts, const InpCard& card) {
   (void)parts.file.required(card, "ELSET");
   if (card.keyword == "BEAM SECTION") return assign_beam(parts, card);
   if (card.keyword == "BEAM GENERAL SECTION") return assign_general_beam(parts, card);
-  if (card.keyword == "SHELL SECTION") return assign_shell(parts, card);
+  if (card.keyword == "SHELL SECTION" || card.keyword == "USER SECTION") return assign_shell(parts, card);
   assign_solid(parts, card);
 }
 

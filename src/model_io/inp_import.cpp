@@ -27,6 +27,7 @@ const std::vector<std::map<std::string, Reader>>& passes() {
       {{"BEAM SECTION", assign_inp_section},
        {"BEAM GENERAL SECTION", assign_inp_section},
        {"SHELL SECTION", assign_inp_section},
+       {"USER SECTION", assign_inp_section},
        {"SOLID SECTION", assign_inp_section},
        {"SPRING", attach_inp_spring},
        {"DASHPOT", attach_inp_spring},
@@ -74,6 +75,8 @@ void refuse_unknown(const InpFile& file) {
         file.fail(card, card.line, "a second instance, or one that is moved, is not supported",
                   "write the model as one part (flat input)");
       }
+    } else if (card.keyword == "USER ELEMENT" && upper_case(card.get("TYPE")) == "US3") {
+      // announces the three-node shell US3, which *ELEMENT lists
     } else if (card.keyword == "INCLUDE") {
       file.fail(card, card.line, "unsupported card: other files are not read", "put the text of the file in its place");
     } else if (!is_in(known, card.keyword) && !is_in(noted_cards(), card.keyword)) {

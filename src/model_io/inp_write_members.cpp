@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "fe/assembly_elements.hpp"
 #include "fe/elements.hpp"
 #include "fe/parametric_system.hpp"
 #include "io/csv.hpp"
@@ -192,7 +193,8 @@ void InpWriter::faces_and_blocks() {
     if (e.type != fe::ElementType::shell && e.type != fe::ElementType::solid) continue;
     std::vector<long> nodes;
     for (const int node : e.nodes) nodes.push_back(node_id(node));
-    auto& group = groups[fmt::format("{}|{}|{}|{}", static_cast<int>(e.type), e.group, e.section, e.material)];
+    const char* triangle = fe::is_triangle(e) ? "t" : "";  // a block has one element type
+    auto& group = groups[fmt::format("{}{}|{}|{}|{}", static_cast<int>(e.type), triangle, e.group, e.section, e.material)];
     group.first = &e;
     group.second.push_back({e.id, nodes});
   }
@@ -207,7 +209,10 @@ void InpWriter::faces_and_blocks() {
       continue;
     }
     const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
-    const std::string set = element_block("S4", e.group.empty() ? s.name : e.group, group.second);
+    const bool triangle = fe::is_triangle(e);
+    if (triangle && flavour_ == InpFlavour::calculix)
+      note("three-node shells are S3, of which CalculiX makes linear wedges: they bend too stiffly there");
+    const std::string set = element_block(triangle ? "S3" : "S4", e.group.empty() ? s.name : e.group, group.second);
     elements_ += fmt::format("*SHELL SECTION, ELSET={}, MATERIAL={}\n{}\n", set, material_name, format_number(s.thickness_m));
     if (s.bending_inertia_ratio != 1.0) {
       note(fmt::format("the bending inertia ratio {} of section '{}' is left out", s.bending_inertia_ratio, s.name));

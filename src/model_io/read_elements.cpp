@@ -42,13 +42,15 @@ fe::ElementType read_type(const io::CsvTable& table, std::size_t row) {
 }
 
 void read_element_nodes(const io::CsvTable& table, std::size_t row, const NameIndex& index, fe::Element& element) {
-  const std::size_t wanted = fe::node_count(element.type);
+  // A shell whose node4 is empty is a triangle.
+  const bool triangle = element.type == fe::ElementType::shell && table.text(row, kNodeColumns[3]).empty();
+  const std::size_t wanted = triangle ? 3 : fe::node_count(element.type);
   for (std::size_t i = 0; i < wanted; ++i) element.nodes.push_back(index.node(table, row, kNodeColumns[i]));
   for (std::size_t i = wanted; i < kNodeColumns.size(); ++i) {
     if (!table.text(row, kNodeColumns[i]).empty()) {
       table.fail(row, kNodeColumns[i],
-                 fmt::format("is filled, but a {} has {} nodes", name_of(element.type), wanted == 2 ? "two" : "four"),
-                 "leave the cell empty or make the element a shell (four nodes) or a solid (eight)");
+                 fmt::format("is filled, but a {} has {} nodes", name_of(element.type), wanted == 2 ? "two" : "three or four"),
+                 "leave the cell empty or make the element a shell (three or four nodes) or a solid (eight)");
     }
   }
   if (std::set<int>(element.nodes.begin(), element.nodes.end()).size() != wanted) {

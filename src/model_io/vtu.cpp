@@ -13,8 +13,19 @@
 namespace twindeck::model_io {
 namespace {
 
-/// VTK_LINE, VTK_QUAD, VTK_HEXAHEDRON: nodes in the order of the model's.
-int vtk_cell(const fe::Element& e) { return e.nodes.size() == 8 ? 12 : e.nodes.size() == 4 ? 9 : 3; }
+/// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_HEXAHEDRON: nodes in the order of the model's.
+int vtk_cell(const fe::Element& e) {
+  switch (e.nodes.size()) {
+    case 8:
+      return 12;
+    case 4:
+      return 9;
+    case 3:
+      return 5;
+    default:
+      return 3;
+  }
+}
 
 /// One DataArray; `body` is its text.
 std::string data_array(const std::string& type, const std::string& name, int components, const std::string& body) {

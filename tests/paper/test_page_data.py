@@ -73,6 +73,11 @@ class Drawings(unittest.TestCase):
         self.assertEqual((len(drawing.faces), len(drawing.lines)), (4, 7))
         self.assertEqual({drawing.ids[i] for i in drawing.names["NE1"]}, {"1", "12"})
 
+    def test_a_triangle_beside_a_square_shares_its_edge(self):
+        """A square and a triangle on one of its sides: three faces, five free edges."""
+        drawing = self.model(["1,shell,,slab,concrete,,1,2,6,5,,,,", "2,shell,,slab,concrete,,2,3,6,,,,,"])
+        self.assertEqual((len(drawing.faces), len(drawing.lines)), (3, 5))
+
     def test_an_unknown_node_is_named(self):
         with self.assertRaisesRegex(InputError, "elements.csv: node 77 is not in nodes.csv"):
             self.model(["1,beam,,b,steel,,1,77,,,,,,"])

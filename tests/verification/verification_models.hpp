@@ -67,6 +67,24 @@ inline void add_shells(Model& model, int nx, int ny, double thickness_m,
     }
 }
 
+/// Cuts every `each`-th four-node shell of the model into two triangles, along one diagonal and the other in turn.
+inline void cut_shells(Model& model, std::size_t each) {
+  const std::vector<Element> whole = std::move(model.elements);
+  model.elements.clear();
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const std::vector<int>& q = whole[i].nodes;
+    if (q.size() != 4 || i % each != 0) {
+      add_element(model, whole[i].type, whole[i].group, whole[i].material, whole[i].section, q);
+      continue;
+    }
+    const bool turned = i / each % 2 == 1;
+    const std::vector<int> first = turned ? std::vector<int>{q[1], q[2], q[3]} : std::vector<int>{q[0], q[1], q[2]},
+                           second = turned ? std::vector<int>{q[1], q[3], q[0]} : std::vector<int>{q[0], q[2], q[3]};
+    for (const std::vector<int>& nodes : {first, second})
+      add_element(model, ElementType::shell, whole[i].group, whole[i].material, whole[i].section, nodes);
+  }
+}
+
 /// nx × ny × nz solids over the unit cube carried to space; node (i, j, k) has number (k (ny + 1) + j) (nx + 1) + i.
 inline void add_solids(Model& model, int nx, int ny, int nz,
                        const std::function<Eigen::Vector3d(double, double, double)>& map) {

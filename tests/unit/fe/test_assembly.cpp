@@ -128,7 +128,7 @@ TEST(Assembly, MassOnASupportVanishesAndMassOfAnUnreachedRotationBreaksNothing) 
 }
 
 TEST(Assembly, TotalMassIsWhatTheDrawingsSay) {
-  // 12 m2 slab of 0.1 m at 2400; four edge beams and a tie; half the stay hangs on the deck, half on the mast (held).
+  // 12 m2 slab (and a triangle of 2 m2) of 0.1 m at 2400; four edge beams and a tie; half the stay hangs on the deck, half on the mast (held).
   const Model model = test::one_of_everything();
   Model free = model;
   free.supports.clear();
@@ -138,7 +138,7 @@ TEST(Assembly, TotalMassIsWhatTheDrawingsSay) {
   const double panel = std::sqrt(9.0 + 0.01);
   const double stay = std::sqrt(900.0 + 17.9 * 17.9), tie = std::sqrt(9.0 + 4.0 + 0.01);
   const double expected =
-      2.0 * panel * 2.0 * 0.1 * 2400.0 + 4.0 * panel * 0.01 * 8000.0 + (stay + tie) * 1.3e-3 * 8289.0 + 300.0;
+      (2.0 * panel * 2.0 + 2.0) * 0.1 * 2400.0 + 4.0 * panel * 0.01 * 8000.0 + (stay + tie) * 1.3e-3 * 8289.0 + 300.0;
   const linalg::SparseMatrix m = system.mass(system.initial());
   EXPECT_NEAR(up.dot(m.selfadjointView<Eigen::Lower>() * up), expected, 1e-9 * expected);
 }

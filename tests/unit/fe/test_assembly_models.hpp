@@ -58,7 +58,7 @@ inline Model cantilever() {
   return model;
 }
 
-/// A plate on edge beams with a stay, springs, a rigid link and a lumped mass: one of everything.
+/// A plate on edge beams, of four-node shells and a triangle, with a stay, springs, a rigid link and a lumped mass: one of everything.
 inline Model one_of_everything() {
   Model model = with_steel();
   model.formulation.beam_rotary_inertia = true;
@@ -90,6 +90,8 @@ inline Model one_of_everything() {
   stay.name = "N1";
   stay.pull_N = 60e3;
   add_element(model, ElementType::bar, "tie", 2, 2, {3, 4});
+  const int apex = add_node(model, 8.0, 1.0, 0.2);
+  add_element(model, ElementType::shell, "slab", 1, 1, {4, apex, 5});  // a triangle at the strip's end
   fix(model, 0);
   fix(model, 1);
   fix(model, head, {true, true, true, false, false, false});

@@ -8,6 +8,7 @@
 #include "fe/corotational.hpp"
 #include "fe/elements.hpp"
 #include "fe/large_displacement.hpp"
+#include "fe/shell_triangle.hpp"
 #include "fe/solid.hpp"
 #include "linalg/cholesky.hpp"
 #include "test_assembly_models.hpp"
@@ -34,6 +35,12 @@ corotational::Element element_of(Frame frame) {
     e.start_m.assign(g.node_m.begin(), g.node_m.end());
     const ShellProperties s{30e9, 0.2, 0.1, 1.0};
     e.stiffness = shell_bending_stiffness(g, s) + shell_membrane_stiffness(g, s, DrillingRule::penalty, 0.0);
+  } else if (frame == Frame::triangle) {
+    TriangleGeometry g;
+    g.node_m = {Eigen::Vector3d(0, 0, 0.01), Eigen::Vector3d(1.0, 0.1, 0), Eigen::Vector3d(0.3, 0.9, 0.2)};
+    e.start_m.assign(g.node_m.begin(), g.node_m.end());
+    const ShellProperties s{30e9, 0.2, 0.1, 1.0};
+    e.stiffness = triangle_bending_stiffness(g, s) + triangle_membrane_stiffness(g, s);
   } else {
     SolidGeometry g;
     for (std::size_t i = 0; i < 8; ++i)
@@ -114,7 +121,7 @@ TEST_P(Corotational, TheTangentIsTheDerivative) {
   EXPECT_LT((tangent - difference).norm(), 1e-3 * tangent.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(EachFrame, Corotational, ::testing::Values(Frame::chord, Frame::quad, Frame::box));
+INSTANTIATE_TEST_SUITE_P(EachFrame, Corotational, ::testing::Values(Frame::chord, Frame::quad, Frame::triangle, Frame::box));
 
 // Oracle: rotation vectors come back, H is the derivative of the vector by a spin from the left.
 TEST(Rotation, VectorsAndSpins) {

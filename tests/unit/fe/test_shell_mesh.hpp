@@ -4,14 +4,14 @@
 #include <functional>
 #include <vector>
 
-#include "fe/elements.hpp"
+#include "fe/shell_triangle.hpp"
 
 /// Small meshes and dense algebra for tests of elements: assembly as in a textbook, apart from the product's own.
 namespace twindeck::fe::testing_mesh {
 
 struct Mesh {
   std::vector<Eigen::Vector3d> node_m;
-  std::vector<std::vector<int>> element;  ///< 2 or 4 nodes each
+  std::vector<std::vector<int>> element;  ///< 2, 3 or 4 nodes each
   [[nodiscard]] int dofs() const { return 6 * static_cast<int>(node_m.size()); }
 };
 
@@ -19,6 +19,30 @@ struct Mesh {
   ShellGeometry g;
   for (std::size_t i = 0; i < 4; ++i) g.node_m[i] = mesh.node_m[static_cast<std::size_t>(e[i])];
   return g;
+}
+
+[[nodiscard]] inline TriangleGeometry triangle_of(const Mesh& mesh, const std::vector<int>& e) {
+  TriangleGeometry g;
+  for (std::size_t i = 0; i < 3; ++i) g.node_m[i] = mesh.node_m[static_cast<std::size_t>(e[i])];
+  return g;
+}
+
+/// The mesh with every `each`-th quadrilateral cut into two triangles, along one diagonal and the other in turn.
+[[nodiscard]] inline Mesh cut(const Mesh& mesh, std::size_t each) {
+  Mesh result{mesh.node_m, {}};
+  for (std::size_t i = 0; i < mesh.element.size(); ++i) {
+    const std::vector<int>& q = mesh.element[i];
+    if (i % each != 0) {
+      result.element.push_back(q);
+    } else if (i / each % 2 == 0) {
+      result.element.push_back({q[0], q[1], q[2]});
+      result.element.push_back({q[0], q[2], q[3]});
+    } else {
+      result.element.push_back({q[1], q[2], q[3]});
+      result.element.push_back({q[1], q[3], q[0]});
+    }
+  }
+  return result;
 }
 
 [[nodiscard]] inline BeamGeometry beam_of(const Mesh& mesh, const std::vector<int>& e) {

@@ -54,7 +54,10 @@ fe::Model one_of_everything() {
   shell.material = 1;
   shell.section = 1;
   shell.nodes = {0, 1, 2, 3};
-  m.elements = {beam, stay, bar, shell};
+  fe::Element triangle = shell;
+  triangle.id = 14;
+  triangle.nodes = {1, 2, 3};
+  m.elements = {beam, stay, bar, shell, triangle};
   m.springs = {{"C1", "damper_C", 2, -1, {0.6, 0.0, 0.8}, false, 1e6, 2e4, 3e3, true, false},
                {"turn", "bearing", 0, 3, Eigen::Vector3d(1.0, 2.0, 3.0).normalized(), true, 5e6, 0.0, 0.0, false, true}};
   const Eigen::Matrix3d k{{1e6 / 3.0, -2e5, 0.0}, {3e5, 1e5, 7.0}, {0.0, 1.0, 4e4}};

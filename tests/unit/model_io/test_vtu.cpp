@@ -64,14 +64,14 @@ TEST(Vtu, IsWellFormedXml) {
 TEST(Vtu, CountsPointsCellsAndComponents) {
   const TestFolder folder;
   const std::string text = vtu_of_one_mode(folder);
-  EXPECT_NE(text.find("<Piece NumberOfPoints=\"4\" NumberOfCells=\"4\">"), std::string::npos);
+  EXPECT_NE(text.find("<Piece NumberOfPoints=\"4\" NumberOfCells=\"5\">"), std::string::npos);
   EXPECT_EQ(numbers_of(text, "Points").size(), 12u);
-  EXPECT_EQ(numbers_of(text, "connectivity"), (std::vector<double>{0, 1, 1, 2, 1, 2, 0, 1, 2, 3}));
-  EXPECT_EQ(numbers_of(text, "offsets"), (std::vector<double>{2, 4, 6, 10}));
-  EXPECT_EQ(numbers_of(text, "types"), (std::vector<double>{3, 3, 3, 9}));
-  EXPECT_EQ(numbers_of(text, "type"), (std::vector<double>{0, 2, 1, 3}));
-  EXPECT_EQ(numbers_of(text, "group"), (std::vector<double>{0, 2, 2, 1}));  // chord, slab_foot_B, stay_60
-  EXPECT_EQ(numbers_of(text, "element"), (std::vector<double>{10, 11, 13, 12}));
+  EXPECT_EQ(numbers_of(text, "connectivity"), (std::vector<double>{0, 1, 1, 2, 1, 2, 0, 1, 2, 3, 1, 2, 3}));
+  EXPECT_EQ(numbers_of(text, "offsets"), (std::vector<double>{2, 4, 6, 10, 13}));
+  EXPECT_EQ(numbers_of(text, "types"), (std::vector<double>{3, 3, 3, 9, 5}));
+  EXPECT_EQ(numbers_of(text, "type"), (std::vector<double>{0, 2, 1, 3, 3}));
+  EXPECT_EQ(numbers_of(text, "group"), (std::vector<double>{0, 2, 2, 1, 1}));  // chord, slab_foot_B, stay_60
+  EXPECT_EQ(numbers_of(text, "element"), (std::vector<double>{10, 11, 13, 12, 14}));
 }
 
 TEST(Vtu, ModesAreScaledToTheLongestTranslation) {

@@ -1,0 +1,96 @@
+#include "fe/shell_triangle.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+
+#include "core/error.hpp"
+#include "fe/triangle_membrane.hpp"
+#include "fe/triangle_plate.hpp"
+
+namespace twindeck::fe {
+
+namespace {
+
+constexpr double kLeastFlatness = 1e-10;  ///< [-] twice the area over the sum of the squared sides, as for four-node shells
+
+struct TrianglePlane {
+  Eigen::Matrix3d axes;  ///< rows local x (along side 1-2), y, z in global axes
+  triangle::Corners corner_m;
+};
+
+TrianglePlane plane_of(const TriangleGeometry& geometry) {
+  const auto& x = geometry.node_m;
+  const Eigen::Vector3d side = x[1] - x[0], other = x[2] - x[0];
+  const Eigen::Vector3d normal = side.cross(other);
+  if (!(normal.norm() > kLeastFlatness * (side.squaredNorm() + other.squaredNorm() + (x[2] - x[1]).squaredNorm())))
+    throw InputError({},
+                     fmt::format("shell with first corner ({:.6g}, {:.6g}, {:.6g}) m has no area, expected a triangle", x[0].x(),
+                                 x[0].y(), x[0].z()),
+                     "give three distinct corners that do not lie on one line");
+  TrianglePlane plane;
+  plane.axes.row(0) = side.normalized();
+  plane.axes.row(2) = normal.normalized();
+  plane.axes.row(1) = plane.axes.row(2).cross(plane.axes.row(0));
+  for (std::size_t i = 0; i < 3; ++i) plane.corner_m[i] = (plane.axes * (x[i] - x[0])).head<2>();
+  return plane;
+}
+
+/// Puts three directions of each corner (of local x y z rx ry rz) in their places and turns them to global axes.
+Matrix18 in_space(const TrianglePlane& plane, const triangle::Matrix9& flat, const std::array<int, 3>& directions) {
+  Matrix18 local = Matrix18::Zero(), turn = Matrix18::Zero();
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < 9; ++j)
+      local(6 * (i / 3) + directions[static_cast<std::size_t>(i % 3)],
+            6 * (j / 3) + directions[static_cast<std::size_t>(j % 3)]) = flat(i, j);
+  for (int block = 0; block < 18; block += 3) turn.block<3, 3>(block, block) = plane.axes;
+  const Matrix18 k = turn.transpose() * local * turn;
+  return 0.5 * (k + k.transpose());
+}
+
+/// Mass with the products of the corners' shapes, ∫ N_i N_j dA (3 × 3).
+Matrix18 mass_of(const TrianglePlane& plane, const Eigen::Matrix3d& products, double mass_per_area, double rotary_per_area) {
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - plane.axes.row(2).transpose() * plane.axes.row(2);
+  Matrix18 m = Matrix18::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      m.block<3, 3>(6 * i, 6 * j) = mass_per_area * products(i, j) * Eigen::Matrix3d::Identity();
+      m.block<3, 3>(6 * i + 3, 6 * j + 3) = rotary_per_area * products(i, j) * across;
+    }
+  return m;
+}
+
+}  // namespace
+
+double triangle_area(const TriangleGeometry& geometry) {
+  const auto& x = geometry.node_m;
+  return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+}
+
+Matrix18 triangle_membrane_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties) {
+  const TrianglePlane plane = plane_of(geometry);
+  const double scale = properties.youngs_modulus_Pa * properties.thickness_m;
+  const triangle::Matrix9 flat = triangle::optimal_membrane(plane.corner_m, properties.poisson_ratio, geometry.straight_sides);
+  return in_space(plane, scale * flat, {0, 1, 5});
+}
+
+Matrix18 triangle_bending_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties) {
+  const TrianglePlane plane = plane_of(geometry);
+  const double t = properties.thickness_m;
+  const double scale = properties.youngs_modulus_Pa * t * t * t * properties.bending_inertia_ratio;
+  return in_space(plane, scale * triangle::kirchhoff_plate(plane.corner_m, properties.poisson_ratio), {2, 3, 4});
+}
+
+Matrix18 triangle_mass(const TriangleGeometry& geometry, double mass_per_area, double rotary_per_area) {
+  const TrianglePlane plane = plane_of(geometry);
+  const Eigen::Matrix3d ones = Eigen::Matrix3d::Ones(), unit = Eigen::Matrix3d::Identity();
+  return mass_of(plane, triangle::area(plane.corner_m) / 12.0 * (ones + unit), mass_per_area, rotary_per_area);
+}
+
+Matrix18 triangle_mass_lumped(const TriangleGeometry& geometry, double mass_per_area, double rotary_per_area) {
+  const TrianglePlane plane = plane_of(geometry);
+  const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
+  return mass_of(plane, triangle::area(plane.corner_m) / 3.0 * unit, mass_per_area, rotary_per_area);
+}
+
+}  // namespace twindeck::fe
