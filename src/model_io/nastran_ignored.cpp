@@ -47,7 +47,7 @@ const std::map<std::string, std::string>& ignored_cards() {
 const std::map<std::string, std::string>& refused_cards() {
   static const std::map<std::string, std::string> cards = [] {
     const Reason reasons[] = {
-        {"mesh the plate with quadrilaterals (CQUAD4)", {"CTRIA3", "CTRIAR"}},
+        {"mesh the plate with quadrilaterals (CQUAD4)", {"CTRIAR"}},
         {"a CQUADR may be written as CQUAD4", {"CQUADR"}},
         {"mesh with linear elements (CQUAD4)", {"CQUAD8", "CTRIA6"}},
         {"mesh with hexahedra of 8 nodes (CHEXA)", {"CTETRA", "CPENTA", "CPYRAM"}},

@@ -31,6 +31,7 @@ const std::vector<std::map<std::string, Reader>>& reading_passes() {
        {"CROD", read_rod},
        {"CONROD", read_rod},
        {"CQUAD4", read_shell},
+       {"CTRIA3", read_shell},
        {"CHEXA", read_solid}},
       {{"CELAS1", read_scalar_spring},
        {"CELAS2", read_scalar_spring},
@@ -163,7 +164,7 @@ NastranModel read_nastran(const std::filesystem::path& path) {
   nastran::finish_rods(parts);
   if (parts.model.elements.empty() && parts.model.springs.empty() && parts.model.matrix_elements.empty())
     throw InputError({path.string(), 0, ""}, "holds no element",
-                     "expected CBAR, CBEAM, CROD, CQUAD4, CHEXA, CELAS or CBUSH cards");
+                     "expected CBAR, CBEAM, CROD, CQUAD4, CTRIA3, CHEXA, CELAS or CBUSH cards");
   nastran::sort_nodes(parts);
 
   auto beside = path;
