@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -46,6 +47,10 @@ InpCard to_card(const std::string& text, long line) {
   return card;
 }
 
+/// Whether a line goes on with the card above it, which ends with a comma: with a further parameter. CalculiX' users end cards with a
+/// comma that means nothing; what follows is a card of its own or data then.
+bool continues_a_card(const std::string& line) { return std::isalpha(static_cast<unsigned char>(line.front())) != 0; }
+
 }  // namespace
 
 std::string upper_case(std::string text) {
@@ -69,7 +74,10 @@ InpFile InpFile::read(const std::filesystem::path& file) {
     ++number;
     const std::string line = trimmed(text);
     if (line.empty() || line.starts_with("**")) continue;
-    const bool heading = !result.cards_.empty() && result.cards_.back().keyword == "HEADING";
+    if (pending.starts_with('*') && !continues_a_card(line)) {
+      result.cards_.push_back(to_card(pending, first));
+      pending.clear();
+    }
     if (pending.empty()) first = number;
     pending += line;
     if (pending.starts_with('*') && line.ends_with(',')) continue;  // the card goes on in the next line
@@ -78,6 +86,7 @@ InpFile InpFile::read(const std::filesystem::path& file) {
     } else if (result.cards_.empty()) {
       throw InputError({file.string(), number, ""}, "data stand before the first card", "begin the file with *HEADING");
     } else {
+      const bool heading = result.cards_.back().keyword == "HEADING";
       result.cards_.back().data.push_back({first, heading ? std::vector<std::string>{line} : split(pending)});
     }
     pending.clear();
