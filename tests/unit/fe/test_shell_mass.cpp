@@ -15,13 +15,7 @@ TEST(ShellMass, MassAndInertiaOfRigidMotion) {
   const double per_area = 450.0, rotary = 1.2, area = 0.24 * 0.12, mass = per_area * area;
   const Eigen::MatrixXd m = assemble(mesh, [&](const auto& e) { return shell_mass(shell_of(mesh, e), per_area, rotary); });
   const auto energy = [&](int d) {
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(mesh.dofs());
-    const Eigen::Vector3d e = Eigen::Vector3d::Unit(d % 3);
-    for (std::size_t i = 0; i < mesh.node_m.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(6 * i);
-      u.segment<3>(at) = d < 3 ? e : e.cross(mesh.node_m[i]);
-      if (d >= 3) u.segment<3>(at + 3) = e;
-    }
+    const Eigen::VectorXd u = testing_mesh::rigid_motion_of(mesh.node_m, d);
     return u.dot(m * u);
   };
   for (int d = 0; d < 3; ++d) EXPECT_NEAR(energy(d) / mass, 1.0, 1e-12);

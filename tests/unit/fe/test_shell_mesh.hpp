@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Dense>
 #include <functional>
 #include <vector>
@@ -141,6 +143,42 @@ class Freedom {
                  {0.04, 0.02, 0.0}, {0.18, 0.03, 0.0}, {0.16, 0.08, 0.0}, {0.08, 0.08, 0.0}};
   mesh.element = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
   return mesh;
+}
+
+/// Displacements (6 a node) of a rigid motion: d = 0-2 along x y z, 3-5 a small turn about them.
+template <typename Nodes>
+[[nodiscard]] Eigen::VectorXd rigid_motion_of(const Nodes& node_m, int d) {
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(node_m.size()));
+  const Eigen::Vector3d e = Eigen::Vector3d::Unit(d % 3);
+  for (std::size_t i = 0; i < node_m.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(6 * i);
+    u.segment<3>(at) = d < 3 ? e : e.cross(node_m[i]);
+    if (d >= 3) u.segment<3>(at + 3) = e;
+  }
+  return u;
+}
+
+/// Linear u, v with the drilling rotation that belongs to them: u,x = exx, u,y = uy, v,x = vx, v,y = eyy.
+struct LinearMembrane {
+  double exx, eyy, uy, vx;
+  [[nodiscard]] Eigen::VectorXd at(const std::vector<Eigen::Vector3d>& node_m) const {
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(node_m.size()));
+    for (std::size_t i = 0; i < node_m.size(); ++i) {
+      const auto first = static_cast<Eigen::Index>(6 * i);
+      const Eigen::Vector3d& x = node_m[i];
+      u[first] = exx * x.x() + uy * x.y();
+      u[first + 1] = vx * x.x() + eyy * x.y();
+      u[first + 5] = 0.5 * (vx - uy);
+    }
+    return u;
+  }
+};
+
+/// Rank of a stiffness matrix that must not have a negative eigenvalue.
+[[nodiscard]] inline int shell_rank(const Eigen::MatrixXd& k) {
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+  EXPECT_GT(values.minCoeff(), -1e-10 * values.maxCoeff());
+  return static_cast<int>((values.array() > 1e-9 * values.maxCoeff()).count());
 }
 
 }  // namespace twindeck::fe::testing_mesh

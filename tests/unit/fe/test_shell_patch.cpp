@@ -26,14 +26,7 @@ Solved solve_patch(const Mesh& mesh, const Eigen::MatrixXd& k, const Eigen::Vect
 TEST(ShellPatch, ConstantMembraneStress) {
   const Mesh mesh = macneal_patch();
   const double exx = 1e-3, eyy = 0.8e-3, uy = 0.5e-3, vx = 1.1e-3;
-  Eigen::VectorXd exact = Eigen::VectorXd::Zero(mesh.dofs());
-  for (std::size_t i = 0; i < mesh.node_m.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(6 * i);
-    const Eigen::Vector3d& x = mesh.node_m[i];
-    exact[at] = exx * x.x() + uy * x.y();
-    exact[at + 1] = vx * x.x() + eyy * x.y();
-    exact[at + 5] = 0.5 * (vx - uy);
-  }
+  Eigen::VectorXd exact = testing_mesh::LinearMembrane{exx, eyy, uy, vx}.at(mesh.node_m);
   const double e = kPatch.youngs_modulus_Pa, nu = kPatch.poisson_ratio;
   const double energy =
       0.5 * 0.24 * 0.12 * kPatch.thickness_m *

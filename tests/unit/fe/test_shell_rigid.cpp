@@ -22,23 +22,6 @@ ShellGeometry tilted(double warp) {
   return g;
 }
 
-Vector24 rigid_motion(const ShellGeometry& g, int d) {
-  Vector24 u = Vector24::Zero();
-  const Eigen::Vector3d e = Eigen::Vector3d::Unit(d % 3);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto at = static_cast<Eigen::Index>(6 * i);
-    u.segment<3>(at) = d < 3 ? e : e.cross(g.node_m[i]);
-    if (d >= 3) u.segment<3>(at + 3) = e;
-  }
-  return u;
-}
-
-int shell_rank(const Matrix24& k) {
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
-  EXPECT_GT(values.minCoeff(), -1e-10 * values.maxCoeff());
-  return static_cast<int>((values.array() > 1e-9 * values.maxCoeff()).count());
-}
-
 // Oracle: six rigid motions without energy, flat and warped; ranks: membrane 12 - 3, bending 12 - 3, together 24 - 6;
 // symmetric, no negative eigenvalue (properties).
 TEST(ShellRigid, SixMotionsWithoutEnergy) {
@@ -47,14 +30,14 @@ TEST(ShellRigid, SixMotionsWithoutEnergy) {
     const Matrix24 membrane = shell_membrane_stiffness(g, kConcrete, DrillingRule::penalty, 0.0);
     const Matrix24 bending = shell_bending_stiffness(g, kConcrete);
     for (int d = 0; d < 6; ++d) {
-      EXPECT_NEAR((membrane * rigid_motion(g, d)).norm() / membrane.norm(), 0.0, 1e-13) << "motion " << d << ", warp " << warp;
-      EXPECT_NEAR((bending * rigid_motion(g, d)).norm() / bending.norm(), 0.0, 1e-13) << "motion " << d << ", warp " << warp;
+      EXPECT_NEAR((membrane * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / membrane.norm(), 0.0, 1e-13) << "motion " << d << ", warp " << warp;
+      EXPECT_NEAR((bending * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / bending.norm(), 0.0, 1e-13) << "motion " << d << ", warp " << warp;
     }
     EXPECT_NEAR((membrane - membrane.transpose()).norm(), 0.0, 1e-6);
-    EXPECT_EQ(shell_rank(membrane), 9);
-    EXPECT_EQ(shell_rank(bending), 9);
+    EXPECT_EQ(testing_mesh::shell_rank(membrane), 9);
+    EXPECT_EQ(testing_mesh::shell_rank(bending), 9);
     const double scale = membrane.norm() / bending.norm();
-    EXPECT_EQ(shell_rank(membrane + scale * bending), 18);
+    EXPECT_EQ(testing_mesh::shell_rank(membrane + scale * bending), 18);
   }
 }
 
@@ -64,9 +47,10 @@ TEST(ShellRigid, DiagonalDrillingIsGroundedAndOtherMotionsAreFree) {
   const ShellGeometry g = tilted(0.0);
   const Matrix24 k = shell_membrane_stiffness(g, kConcrete, DrillingRule::diagonal, 0.0);
   const Eigen::Vector3d normal = (g.node_m[2] - g.node_m[0]).cross(g.node_m[3] - g.node_m[1]).normalized();
-  for (int d = 0; d < 3; ++d) EXPECT_NEAR((k * rigid_motion(g, d)).norm() / k.norm(), 0.0, 1e-13);
+  for (int d = 0; d < 3; ++d) EXPECT_NEAR((k * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / k.norm(), 0.0, 1e-13);
   const auto turn = [&](const Eigen::Vector3d& axis) {
-    return Vector24(axis.x() * rigid_motion(g, 3) + axis.y() * rigid_motion(g, 4) + axis.z() * rigid_motion(g, 5));
+    return Vector24(axis.x() * testing_mesh::rigid_motion_of(g.node_m, 3) + axis.y() * testing_mesh::rigid_motion_of(g.node_m, 4) +
+                    axis.z() * testing_mesh::rigid_motion_of(g.node_m, 5));
   };
   const double expected = 4.0 * 0.03 * kConcrete.youngs_modulus_Pa * kConcrete.thickness_m * shell_area(g);
   EXPECT_NEAR(turn(normal).dot(k * turn(normal)) / expected, 1.0, 1e-10);

@@ -31,23 +31,6 @@ TriangleGeometry triangle_turned_by(const Eigen::Matrix3d& turn) {
   return g;
 }
 
-Eigen::Matrix<double, 18, 1> rigid_triangle(const TriangleGeometry& g, int d) {
-  Eigen::Matrix<double, 18, 1> u = Eigen::Matrix<double, 18, 1>::Zero();
-  const Eigen::Vector3d e = Eigen::Vector3d::Unit(d % 3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto at = static_cast<Eigen::Index>(6 * i);
-    u.segment<3>(at) = d < 3 ? e : e.cross(g.node_m[i]);
-    if (d >= 3) u.segment<3>(at + 3) = e;
-  }
-  return u;
-}
-
-int triangle_rank(const Matrix18& k) {
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
-  EXPECT_GT(values.minCoeff(), -1e-10 * values.maxCoeff());
-  return static_cast<int>((values.array() > 1e-9 * values.maxCoeff()).count());
-}
-
 // Oracle: six rigid motions without energy, the turn in the plane included; ranks: membrane 9 - 3, bending 9 - 3, together 18 - 6,
 // also near ν = ½, where the optimal β₀ vanishes (properties).
 TEST(ShellTriangle, SixMotionsWithoutEnergy) {
@@ -56,17 +39,17 @@ TEST(ShellTriangle, SixMotionsWithoutEnergy) {
     const ShellProperties s{30e9, nu, 0.18, 0.7};
     TriangleGeometry mixed = g;
     mixed.straight_sides = 0b101;
-    EXPECT_EQ(triangle_rank(triangle_membrane_stiffness(mixed, s)), 6);
+    EXPECT_EQ(testing_mesh::shell_rank(triangle_membrane_stiffness(mixed, s)), 6);
     for (int d = 0; d < 6; ++d)
-      EXPECT_LT((triangle_membrane_stiffness(mixed, s) * rigid_triangle(g, d)).norm(), 1e-12 * s.youngs_modulus_Pa);
+      EXPECT_LT((triangle_membrane_stiffness(mixed, s) * testing_mesh::rigid_motion_of(g.node_m, d)).norm(), 1e-12 * s.youngs_modulus_Pa);
     const Matrix18 membrane = triangle_membrane_stiffness(g, s), bending = triangle_bending_stiffness(g, s);
     for (int d = 0; d < 6; ++d) {
-      EXPECT_NEAR((membrane * rigid_triangle(g, d)).norm() / membrane.norm(), 0.0, 1e-13) << "motion " << d;
-      EXPECT_NEAR((bending * rigid_triangle(g, d)).norm() / bending.norm(), 0.0, 1e-13) << "motion " << d;
+      EXPECT_NEAR((membrane * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / membrane.norm(), 0.0, 1e-13) << "motion " << d;
+      EXPECT_NEAR((bending * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / bending.norm(), 0.0, 1e-13) << "motion " << d;
     }
-    EXPECT_EQ(triangle_rank(membrane), 6);
-    EXPECT_EQ(triangle_rank(bending), 6);
-    EXPECT_EQ(triangle_rank(membrane + membrane.norm() / bending.norm() * bending), 12);
+    EXPECT_EQ(testing_mesh::shell_rank(membrane), 6);
+    EXPECT_EQ(testing_mesh::shell_rank(bending), 6);
+    EXPECT_EQ(testing_mesh::shell_rank(membrane + membrane.norm() / bending.norm() * bending), 12);
   }
 }
 
@@ -131,14 +114,7 @@ TEST(ShellTriangle, ConstantMembraneStressInMixedMeshes) {
     EXPECT_EQ(*std::max_element(straight.begin(), straight.end()) > 0, each > 1);
     for (const DrillingRule rule : {DrillingRule::penalty, DrillingRule::diagonal}) {
       const Mesh mesh = cut(macneal_patch(), each);
-      Eigen::VectorXd exact = Eigen::VectorXd::Zero(mesh.dofs());
-      for (std::size_t i = 0; i < mesh.node_m.size(); ++i) {
-        const auto at = static_cast<Eigen::Index>(6 * i);
-        const Eigen::Vector3d& x = mesh.node_m[i];
-        exact[at] = exx * x.x() + uy * x.y();
-        exact[at + 1] = vx * x.x() + eyy * x.y();
-        exact[at + 5] = 0.5 * (vx - uy);
-      }
+      const Eigen::VectorXd exact = testing_mesh::LinearMembrane{exx, eyy, uy, vx}.at(mesh.node_m);
       const Eigen::MatrixXd k = assemble(mesh, [&](const auto& el) -> Eigen::MatrixXd {
         if (el.size() == 3) {
           TriangleGeometry triangle = triangle_of(mesh, el);
@@ -215,13 +191,7 @@ TEST(ShellTriangle, MassAndInertiaOfRigidMotion) {
   for (Eigen::Vector3d& x : mesh.node_m) x -= Eigen::Vector3d(0.12, 0.06, 0.0);
   const double per_area = 450.0, rotary = 1.2, area = 0.24 * 0.12, mass = per_area * area;
   const auto energy = [&](const Eigen::MatrixXd& m, int d) {
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(mesh.dofs());
-    const Eigen::Vector3d e = Eigen::Vector3d::Unit(d % 3);
-    for (std::size_t i = 0; i < mesh.node_m.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(6 * i);
-      u.segment<3>(at) = d < 3 ? e : e.cross(mesh.node_m[i]);
-      if (d >= 3) u.segment<3>(at + 3) = e;
-    }
+    const Eigen::VectorXd u = testing_mesh::rigid_motion_of(mesh.node_m, d);
     return u.dot(m * u);
   };
   const Eigen::MatrixXd m =
