@@ -12,21 +12,22 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-dynamics::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s, double frozen_omega_rad_s) {
+transient::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s,
+                                            double frozen_omega_rad_s) {
   const aero::ReducedStructure& structure = system.structure();
   const aero::AeroelasticSystem::Block wind = system.self_excited(speed_m_s, frozen_omega_rad_s);
-  dynamics::LinearSystem out;
+  transient::LinearSystem out;
   out.mass = MatrixXd::Identity(structure.size(), structure.size());
   out.damping = structure.damping() - wind.damping;
   out.stiffness = -wind.stiffness;
   out.stiffness.diagonal() += structure.omega_rad_s.cwiseAbs2();
   for (const aero::MaxwellUnit& unit : structure.maxwell) {
-    dynamics::add_maxwell(out, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);
+    transient::add_maxwell(out, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);
   }
   return out;
 }
 
-Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const MatrixXd>& load,
+Response respond(const transient::Newmark& newmark, const Eigen::Ref<const MatrixXd>& load,
                  const Eigen::Ref<const MatrixXd>& wind_m_s, double step_s, const Eigen::Ref<const MatrixXd>& sensors,
                  const ResponseOptions& options) {
   const Index n = wind_m_s.rows();
@@ -40,7 +41,7 @@ Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const Matrix
   for (Index i = 0; i < ramp; ++i) {
     alone.col(i) *= 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(ramp));
   }
-  const dynamics::History history = newmark.run_prepared(std::move(alone));
+  const transient::History history = newmark.run_prepared(std::move(alone));
   return {(sensors * history.acceleration.topRightCorner(sensors.cols(), n)).transpose(), history.status};
 }
 

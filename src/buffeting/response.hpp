@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "aero/aeroelastic_system.hpp"
-#include "dynamics/newmark.hpp"
+#include "transient/newmark.hpp"
 #include "wind/simulation.hpp"
 
 namespace twindeck::buffeting {
@@ -13,8 +13,8 @@ namespace twindeck::buffeting {
 /// A reduced structure in wind as equations in time:  q̈ + (C - Ca) q̇ + (Λ - Ka) q = f. Flutter derivatives hold for harmonic
 /// motion. In time they are frozen at one frequency (the paper does not state which). Maxwell units get further coordinates at
 /// the end.
-[[nodiscard]] dynamics::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s,
-                                                         double frozen_omega_rad_s);
+[[nodiscard]] transient::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s,
+                                                          double frozen_omega_rad_s);
 
 /// Accelerations at sensors under one sample of turbulence.
 struct ResponseOptions {
@@ -29,7 +29,7 @@ struct Response {
 /// @param wind_m_s       (n_steps × n_inputs) v' of every strip, then w'
 /// @param step_s         of the wind
 /// @param sensors        (n_sensors × m) motion of each sensor per unit of each coordinate
-[[nodiscard]] Response respond(const dynamics::Newmark& newmark, const Eigen::Ref<const Eigen::MatrixXd>& load,
+[[nodiscard]] Response respond(const transient::Newmark& newmark, const Eigen::Ref<const Eigen::MatrixXd>& load,
                                const Eigen::Ref<const Eigen::MatrixXd>& wind_m_s, double step_s,
                                const Eigen::Ref<const Eigen::MatrixXd>& sensors, const ResponseOptions& options = {});
 

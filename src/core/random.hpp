@@ -22,7 +22,8 @@ namespace twindeck {
 /// White number: uniform, mean 0, variance 1. Use it for loads of which hundreds act on a mode at once and thousands one after
 /// the other. The motion is then normal by the central limit theorem, at a fifth of the cost of normal numbers.
 [[nodiscard]] inline double white_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
-  constexpr double half_width = 1.7320508075688772;  // sqrt(3): the variance of a uniform number is its half width squared by three
+  constexpr double half_width =
+      1.7320508075688772;  // sqrt(3): the variance of a uniform number is its half width squared by three
   return half_width * (2.0 * uniform_number(seed, stream, index) - 1.0);
 }
 

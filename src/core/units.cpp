@@ -265,7 +265,8 @@ double parse_quantity(std::string_view text, std::string_view field_unit, const 
                          (field_unit.empty() ? std::string("a plain number") : "\"" + std::string(field_unit) + "\""),
                      "give it in " + proposals(wanted, field_unit));
   }
-  if (given.factor == wanted.factor && given.offset == wanted.offset) return checked(value);  // no rounding where nothing is converted
+  if (given.factor == wanted.factor && given.offset == wanted.offset)
+    return checked(value);  // no rounding where nothing is converted
   return checked((value * given.factor + given.offset - wanted.offset) / wanted.factor);
 }
 

@@ -51,7 +51,8 @@ std::string unmet(const Needs& needs, const FeatureSet& features) {
     if (static_cast<int>(values.size()) < count)
       return fmt::format("needs {} different values of {}, the rows have {}", count, key, values.size());
   }
-  if (!needs.rows.empty() && std::none_of(needs.rows.begin(), needs.rows.end(), [&](const auto& t) { return types.contains(t); }))
+  if (!needs.rows.empty() &&
+      std::none_of(needs.rows.begin(), needs.rows.end(), [&](const auto& t) { return types.contains(t); }))
     return fmt::format("no row of type {}", fmt::join(needs.rows, " or "));
   return "";
 }
@@ -98,7 +99,8 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
   std::vector<std::string> modes;
   for (const Row& row : features.rows) {
     if (row.channel >= 0) measured.insert(row.channel);
-    if (row.type == RowType::frequency && std::find(modes.begin(), modes.end(), row.mode) == modes.end()) modes.push_back(row.mode);
+    if (row.type == RowType::frequency && std::find(modes.begin(), modes.end(), row.mode) == modes.end())
+      modes.push_back(row.mode);
   }
   if (h.set == "channels") {
     for (const int c : measured) add("channel:" + features.channels[static_cast<std::size_t>(c)]).channels = {c};
@@ -162,8 +164,7 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
   const auto nothing_there = [&](const Candidate& candidate) {
     for (const ActionSpec& action : h.actions) {
       if (candidate.places.empty()) continue;
-      if (action.kind.ends_with(".stiffness") && candidate.places[0]->stiffness.size() == 0)
-        return true;
+      if (action.kind.ends_with(".stiffness") && candidate.places[0]->stiffness.size() == 0) return true;
       if (action.kind == "support.settle" && !can_settle(model, candidate.location)) return true;
       if (action.kind == "scale.mass" && candidate.places[0]->mass.size() == 0) return true;
     }
@@ -176,9 +177,9 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
 
 /// A number of the place; nothing where it has none of this name.
 std::optional<double> attribute_if(const Candidate& candidate, const Expression& e) {
-  static const std::set<std::string> known = {"damping", "stiffness", "series",     "k_drive",    "cable_mass", "length",
-                                              "pull",    "f_cable",   "deck_mass", "total_mass", "always_on",  "friction", "type",
-                                              "f_low",   "f_soft",    "f_stiff", "f_high", "f_own", "f_own_low", "f_own_high"};
+  static const std::set<std::string> known = {
+      "damping",   "stiffness", "series", "k_drive", "cable_mass", "length",  "pull",   "f_cable", "deck_mass", "total_mass",
+      "always_on", "friction",  "type",   "f_low",   "f_soft",     "f_stiff", "f_high", "f_own",   "f_own_low", "f_own_high"};
   if (const auto at = candidate.own.find(e.name); at != candidate.own.end()) return at->second;
   for (const ReducedPlace* place : candidate.places) {
     const auto at = place->attributes.find(e.name);
@@ -194,7 +195,9 @@ double attribute(const Candidate& candidate, const Expression& e) { return attri
 
 /// Whether every bound that refers to the place finds its number there (a stay without pull has no frequency).
 bool resolvable(const Candidate& candidate) {
-  const auto there = [&](const Expression& e) { return e.name.empty() || e.name == "f_measured" || attribute_if(candidate, e).has_value(); };
+  const auto there = [&](const Expression& e) {
+    return e.name.empty() || e.name == "f_measured" || attribute_if(candidate, e).has_value();
+  };
   return std::all_of(candidate.hypothesis->unknowns.begin(), candidate.hypothesis->unknowns.end(), [&](const UnknownSpec& u) {
     return there(u.low) && there(u.high) && std::all_of(u.start.begin(), u.start.end(), there);
   });
@@ -247,7 +250,8 @@ void bound(Candidate& candidate, const MeasuredModes& measured) {
     const bool change = !candidate.state.empty() && u.name == "factor";
     if (change) {
       const auto of_material = [&](const char* name, double otherwise) {
-        const auto found = candidate.places.empty() ? std::map<std::string, double>::const_iterator{} : candidate.places[0]->attributes.find(name);
+        const auto found = candidate.places.empty() ? std::map<std::string, double>::const_iterator{}
+                                                    : candidate.places[0]->attributes.find(name);
         return candidate.places.empty() || found == candidate.places[0]->attributes.end() ? otherwise : found->second;
       };
       low = of_material("least_change", std::min(low, kLeastChange));
@@ -308,7 +312,8 @@ double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
   if (e.name.front() == '$') {
     for (std::size_t i = 0; i < hypothesis->unknowns.size(); ++i)
       if (hypothesis->unknowns[i].name == e.name.substr(1)) return e.factor * physical(a, static_cast<Index>(i));
-    throw InputError({hypothesis->file, e.line, hypothesis->id}, "names no unknown: " + e.name, "declare it as a [[parameter]]");
+    throw InputError({hypothesis->file, e.line, hypothesis->id}, "names no unknown: " + e.name,
+                     "declare it as a [[parameter]]");
   }
   return e.factor * attribute(*this, e);
 }

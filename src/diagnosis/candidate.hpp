@@ -22,18 +22,18 @@ struct Tuning {
 /// A hypothesis at a location: an entry of the catalogue for this model and these data.
 struct Candidate {
   const Hypothesis* hypothesis = nullptr;
-  std::string location;                   ///< "stay:NE5", "channels:a,b", "global"
+  std::string location;                     ///< "stay:NE5", "channels:a,b", "global"
   std::vector<const ReducedPlace*> places;  ///< one, or two for a pair of nodes; empty for channels and modes
-  std::vector<int> channels;              ///< one, or two for a pair
-  std::string mode;                       ///< label of a measured mode
-  std::string state;                      ///< of the structure in which it acts alone, "" where it acts in all
-  Eigen::VectorXd low, high;              ///< (k) bounds of the unknowns, in ln where they are logarithmic
+  std::vector<int> channels;                ///< one, or two for a pair
+  std::string mode;                         ///< label of a measured mode
+  std::string state;                        ///< of the structure in which it acts alone, "" where it acts in all
+  Eigen::VectorXd low, high;                ///< (k) bounds of the unknowns, in ln where they are logarithmic
   std::vector<bool> log;
-  std::vector<Eigen::VectorXd> starts;    ///< magnitudes that the screen tries, in the same coordinates
-  std::map<std::string, double> own;      ///< numbers that the rows say of the place: f_own, f_own_low, f_own_high of a stay
-  int tuned = -1;                         ///< unknown that is a frequency tuned to measured modes, -1 for none
-  std::vector<Tuning> tuning;             ///< (n_starts) where there is one
-  double log_prior = 0.0;                 ///< ln (weight of the family / sum of weights / number of locations)
+  std::vector<Eigen::VectorXd> starts;  ///< magnitudes that the screen tries, in the same coordinates
+  std::map<std::string, double> own;    ///< numbers that the rows say of the place: f_own, f_own_low, f_own_high of a stay
+  int tuned = -1;                       ///< unknown that is a frequency tuned to measured modes, -1 for none
+  std::vector<Tuning> tuning;           ///< (n_starts) where there is one
+  double log_prior = 0.0;               ///< ln (weight of the family / sum of weights / number of locations)
 
   [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
   /// The same, told apart by the state that it acts in.
@@ -61,10 +61,10 @@ struct Instantiated {
   std::vector<Invisible> invisible;
 };
 
-/// Every hypothesis at every location of its set. Where the rows come from several states of the structure, the question is what
-/// changed: a part that is other than modelled is so in one state alone, with factors from 0.05 to 20; what is measured wrongly is
-/// so in all. Families whose needs the data don't meet, or whose set is empty here, go to
-/// `invisible` with the reason.
+/// Every hypothesis at every location of its set. Where the rows come from several states of the structure, the question is
+/// what changed: a part that is other than modelled is so in one state alone, with factors from 0.05 to 20; what is measured
+/// wrongly is so in all. Families whose needs the data don't meet, or whose set is empty here, go to `invisible` with the
+/// reason.
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
                                        const FeatureSet& features);

@@ -8,7 +8,8 @@
 /// The catalogue of causes as data: what a TOML file of workflows/common/hypotheses says, before it meets a model.
 namespace twindeck::diagnosis {
 
-/// `factor · name`: a number, a parameter ("$Fc"), an attribute of the place ("k_drive"), or a number times one ("0.05*k_drive").
+/// `factor · name`: a number, a parameter ("$Fc"), an attribute of the place ("k_drive"), or a number times one
+/// ("0.05*k_drive").
 struct Expression {
   double factor = 1.0;
   std::string name;  ///< "" for a plain number; "$Fc" for a parameter
@@ -19,8 +20,8 @@ struct Expression {
 struct UnknownSpec {
   std::string name, unit;
   Expression low, high;
-  bool log = true;                 ///< prior uniform in ln, otherwise uniform
-  std::vector<Expression> start;   ///< magnitudes that the screen tries
+  bool log = true;                ///< prior uniform in ln, otherwise uniform
+  std::vector<Expression> start;  ///< magnitudes that the screen tries
 };
 
 /// A primitive: what the cause does to the model or to the measurement. `kind` is one of `action_kinds()`.
@@ -39,10 +40,10 @@ struct Needs {
 
 struct Hypothesis {
   std::string id, title;
-  bool measurement = false;   ///< side
+  bool measurement = false;  ///< side
   double prior_weight = 1.0;
-  std::string set;            ///< location set
-  std::string filter;         ///< of pairs of channels: same_direction
+  std::string set;     ///< location set
+  std::string filter;  ///< of pairs of channels: same_direction
   std::vector<UnknownSpec> unknowns;
   std::vector<ActionSpec> actions;
   Needs needs;
@@ -56,7 +57,8 @@ struct Hypothesis {
 /// "off" for dampers, "above_zero" for a number.
 [[nodiscard]] const std::vector<std::string>& condition_keys();
 [[nodiscard]] const std::vector<std::string>& condition_demands();
-/// elements, nodes, stays, dampers, supports, support_moves, foundations, groups, all_stays, channels, modes, global, pairs(channels), pairs(nodes).
+/// elements, nodes, stays, dampers, supports, support_moves, foundations, groups, all_stays, channels, modes, global,
+/// pairs(channels), pairs(nodes).
 [[nodiscard]] const std::vector<std::string>& location_sets();
 
 }  // namespace twindeck::diagnosis

@@ -27,10 +27,12 @@ double tempered(const Scored& scored, double ratio) {
   return scored.log_odds < -1e299 ? -1e300 : (scored.log_odds - prior) / ratio + prior;
 }
 
-/// The ranking as it is told: one number an entry, the same as that of an effect or of the detection. The leader stays the first.
+/// The ranking as it is told: one number an entry, the same as that of an effect or of the detection. The leader stays the
+/// first.
 std::vector<Scored> with_widened_odds(std::vector<Scored> ranking, double ratio) {
   for (Scored& scored : ranking) scored.log_odds = tempered(scored, ratio);
-  std::stable_sort(ranking.begin() + 1, ranking.end(), [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; });
+  std::stable_sort(ranking.begin() + 1, ranking.end(),
+                   [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; });
   return ranking;
 }
 
@@ -48,8 +50,8 @@ double cosine_of(const Scored& a, const Scored& b) {
   return a.signature.size() == b.signature.size() && norms > 0.0 ? a.signature.dot(b.signature) / norms : 0.0;
 }
 
-/// Of entries that say the same equally well the one with the fewest unknowns leads: an oscillator tuned far above all modes is a
-/// mass.
+/// Of entries that say the same equally well the one with the fewest unknowns leads: an oscillator tuned far above all modes is
+/// a mass.
 void prefer_fewer_unknowns(std::vector<Scored>& ranking, double ratio, const DiagnoseOptions& options) {
   const Scored& best = ranking.front();
   auto simplest = ranking.begin();
@@ -271,8 +273,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
       Fit lower = lowest_from(inference, current, ranking);
       const double fall = 0.5 * (current.chi_squared - lower.chi_squared) / ratio;  // of the widened odds
       if (!(fall > 0.5)) break;
-      const double nats =
-          0.5 * (current.chi_squared + current.log_determinant - lower.chi_squared - lower.log_determinant);
+      const double nats = 0.5 * (current.chi_squared + current.log_determinant - lower.chi_squared - lower.log_determinant);
       current = std::move(lower);
       if (step == 0) out.before = current;
       if (fall < options.least_log_odds) {  // not worth another search: every entry gains that much less
@@ -363,8 +364,8 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
                           : "the best cause fits but does not predict the held-out rows";
     if (!out.effects.empty()) out.message += "; it acts like " + out.effects.front().cluster.front();
     if (rejects && out.residual.block_p_value < options.residual_alpha)
-      out.message += fmt::format("; not explained: {} ({} rows)", out.residual.blocks.front().name,
-                                 out.residual.blocks.front().rows);
+      out.message +=
+          fmt::format("; not explained: {} ({} rows)", out.residual.blocks.front().name, out.residual.blocks.front().rows);
   }
   if (out.verdict == "named" || out.verdict == "ambiguous") out.message = out.effects.front().sentence;
   return out;

@@ -35,8 +35,8 @@ struct EffectParameter {
 
 /// Another member of a cause's cluster.
 struct Rival {
-  std::string id;                           ///< "mass@node:7"; "other@global": something else changed
-  const Candidate* candidate = nullptr;     ///< null if it is not an entry of the catalogue
+  std::string id;                        ///< "mass@node:7"; "other@global": something else changed
+  const Candidate* candidate = nullptr;  ///< null if it is not an entry of the catalogue
   double probability = 0.0;
   std::vector<EffectParameter> parameters;  ///< 90 % intervals; empty if its magnitudes are unknown
 };
@@ -65,8 +65,8 @@ struct LocationScore {
 
 /// Scales of the model's form error under the winning hypothesis, and the predictive gain of a name on left-out modes.
 struct FormReport {
-  ScaleEstimate frequency, shape;   ///< relative deviations
-  PredictiveGain gain;              ///< of the first cause, whether it was named or not
+  ScaleEstimate frequency, shape;     ///< relative deviations
+  PredictiveGain gain;                ///< of the first cause, whether it was named or not
   std::vector<std::string> warnings;  ///< to be shown with the verdict
 };
 
@@ -74,7 +74,7 @@ struct Diagnosis {
   std::string verdict;  ///< none | named | ambiguous | unknown
   std::string message;  ///< one line for people
   double log_odds = 0.0, threshold = 0.0, alpha = 0.0;
-  ResidualTest residual;  ///< with the causes in the model
+  ResidualTest residual;              ///< with the causes in the model
   std::vector<ScatterScale> scatter;  ///< likewise; filled by scatter_scales on request
   bool after_extension = false;
   std::vector<Effect> effects;
@@ -82,7 +82,7 @@ struct Diagnosis {
   Gain gain;
   std::vector<std::string> on_bounds;  ///< of the model without causes
   Fit before, after;
-  std::vector<Scored> ranking;  ///< of the first search; odds widened as those of the effects
+  std::vector<Scored> ranking;     ///< of the first search; odds widened as those of the effects
   std::optional<FormReport> form;  ///< set if the model's form was a hypothesis
 };
 
@@ -90,8 +90,8 @@ struct Diagnosis {
 /// the verdict, the gain on held-out rows. Deterministic: `seed` sets the resampling of held-out blocks.
 [[nodiscard]] Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
-/// The same for a model whose form may be wrong. A form error that all conditions share competes with every cause. Its scales are
-/// summed over under each hypothesis, and the rules of decision 0013 give the verdict (form_diagnosis.cpp).
+/// The same for a model whose form may be wrong. A form error that all conditions share competes with every cause. Its scales
+/// are summed over under each hypothesis, and the rules of decision 0013 give the verdict (form_diagnosis.cpp).
 [[nodiscard]] Diagnosis diagnose_with_form(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
 /// Gain of `after` over `before` on the held-out rows, 90 % interval over resampled blocks (a mode or record of one condition
@@ -121,6 +121,7 @@ struct NullResult {
 };
 [[nodiscard]] NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter,
                                    const std::vector<Hypothesis>& catalogue, const SearchOptions& search, int count,
-                                   std::uint64_t seed, const std::function<void(int)>& progress, const std::map<std::string, int>& bound = {});
+                                   std::uint64_t seed, const std::function<void(int)>& progress,
+                                   const std::map<std::string, int>& bound = {});
 
 }  // namespace twindeck::diagnosis

@@ -20,7 +20,8 @@ namespace twindeck::diagnosis {
 /// The members of a cluster beside its first, with what the search that found them knows of their magnitudes.
 /// @param probability  (n_members)
 /// @param misfit       chi² per degree of freedom that the best account leaves, at least 1: it widens intervals (Birge 1932)
-[[nodiscard]] std::vector<Rival> rivals_of(const std::vector<const Scored*>& members, const std::vector<double>& probability, double misfit);
+[[nodiscard]] std::vector<Rival> rivals_of(const std::vector<const Scored*>& members, const std::vector<double>& probability,
+                                           double misfit);
 
 /// The hypothesis' sentence with its numbers.
 [[nodiscard]] std::string sentence_of(const Effect& effect);

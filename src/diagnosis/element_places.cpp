@@ -349,7 +349,7 @@ void ElementPlaces::add_groups(Places& places) const {
     if (element.group.empty()) continue;
     Group& group = group_of(element.group);
     group.stiffness.add(element.type == fe::ElementType::stay ? stay_stiffness(e, pull_of(e))
-                                                                     : element_stiffness(model_, e, straight_sides_));
+                                                              : element_stiffness(model_, e, straight_sides_));
     group.mass.add(fe::element_mass(model_, element));
     group.elements.push_back(static_cast<int>(e));
     for (const int node : element.nodes) group.sum += model_.nodes[static_cast<std::size_t>(node)].x_m;

@@ -14,11 +14,12 @@ namespace {
 
 using Eigen::Index;
 constexpr double kFree = std::numeric_limits<double>::infinity();
-/// Deviations beyond which no workmanship goes: a gain 140 of them off is a reversed sensor and must stay a misfit, or the fit hides it.
+/// Deviations beyond which no workmanship goes: a gain 140 of them off is a reversed sensor and must stay a misfit, or the fit
+/// hides it.
 constexpr double kWorst = 6.0;
 
-/// Of the largest value of a type in a condition, alike wherever a channel is read under the same load. Models after fitting are 0.4 to 1.8 %
-/// off in frequency, that is up to some 3 % in flexibility.
+/// Of the largest value of a type in a condition, alike wherever a channel is read under the same load. Models after fitting
+/// are 0.4 to 1.8 % off in frequency, that is up to some 3 % in flexibility.
 constexpr double kStaticForm = 0.03;
 
 }  // namespace
@@ -110,7 +111,8 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
   // Close modes: small changes turn their shapes into each other, so that only their plane is known well.
   for (const MeasuredMode& a : modes_) {
     for (const MeasuredMode& b : modes_) {
-      if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz) || a.real_rows.size() != b.real_rows.size()) continue;
+      if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz) || a.real_rows.size() != b.real_rows.size())
+        continue;
       const double gap = b.frequency_Hz / a.frequency_Hz - 1.0;
       if (gap > 0.06 || a.real_rows.empty()) continue;
       Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
@@ -139,7 +141,9 @@ void FeatureMap::add_static_form() {
     if (!is_static(one.type)) continue;
     for (std::size_t b = 0; b < features_.rows.size(); ++b) {
       const Row& other = features_.rows[b];
-      const auto load_of_row = [&](const Row& row) { return features_.conditions[static_cast<std::size_t>(row.condition)].load; };
+      const auto load_of_row = [&](const Row& row) {
+        return features_.conditions[static_cast<std::size_t>(row.condition)].load;
+      };
       if (one.type != other.type || one.channel != other.channel || load_of_row(one) != load_of_row(other)) continue;
       covariance_(static_cast<Index>(a), static_cast<Index>(b)) +=
           kStaticForm * kStaticForm * largest.at({one.condition, one.type}) * largest.at({other.condition, other.type});
@@ -148,8 +152,10 @@ void FeatureMap::add_static_form() {
 }
 
 void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
-  const auto add = [&](Nuisance::Kind kind, int index, const std::string& name, double mean, double deviation, double lower = -kWorst,
-                       double upper = kWorst) { nuisances_.push_back({kind, index, name, mean, deviation, lower, upper}); };
+  const auto add = [&](Nuisance::Kind kind, int index, const std::string& name, double mean, double deviation,
+                       double lower = -kWorst, double upper = kWorst) {
+    nuisances_.push_back({kind, index, name, mean, deviation, lower, upper});
+  };
   for (std::size_t p = 0; p < model_.parameters.size(); ++p) {
     const fe::Parameter& parameter = model_.parameters[p];
     const double deviation = 0.25 * (parameter.upper - parameter.lower), mean = model_.theta[static_cast<Index>(p)];
@@ -191,7 +197,8 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
         scatter.fine * scatter.gain);
   // Structural damping is not computed by any model: ln zeta about 0.5 %, a factor e wide.
   for (std::size_t i = 0; i < damping_modes_.size(); ++i)
-    add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5), 1.0, -kFree, kFree);
+    add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5),
+        1.0, -kFree, kFree);
   for (const auto& [level, used] : levels) {
     const Condition& condition = features_.conditions[static_cast<std::size_t>(level / 2)];
     add(Nuisance::Kind::level, level, condition.name + (level % 2 ? " noise level" : " load level"), 0.0, 10.0, -kFree, kFree);
@@ -247,13 +254,14 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     if (v.kind == Nuisance::Kind::stay) base.stiffness_parts.emplace_back(amount, &place("stays").stiffness);
   }
   const Index c = model_.common;
-  const auto sum = [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of so many matrices takes half the time
-    Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
-    for (const auto& [amount, matrix] : parts)
-      for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->col(j).head(j + 1);
-    total.triangularView<Eigen::StrictlyLower>() = total.transpose();
-    return total;
-  };
+  const auto sum =
+      [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of so many matrices takes half the time
+        Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
+        for (const auto& [amount, matrix] : parts)
+          for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->col(j).head(j + 1);
+        total.triangularView<Eigen::StrictlyLower>() = total.transpose();
+        return total;
+      };
   base.common_stiffness = sum(base.stiffness_parts);
   base.common_mass = sum(base.mass_parts);
   return base;
@@ -272,7 +280,8 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> FeatureMap::matrices(const Base& bas
       for (std::size_t j = 0; j < own.size(); ++j) {
         const Index column = c + static_cast<Index>(j);
         total.col(column).head(c) += amount * matrix->col(own[j]).head(c);
-        for (std::size_t i = 0; i < own.size(); ++i) total(c + static_cast<Index>(i), column) += amount * (*matrix)(own[i], own[j]);
+        for (std::size_t i = 0; i < own.size(); ++i)
+          total(c + static_cast<Index>(i), column) += amount * (*matrix)(own[i], own[j]);
       }
     total.bottomLeftCorner(n - c, c) = total.topRightCorner(c, n - c).transpose();
     return total;

@@ -20,28 +20,30 @@ struct ScatterOptions {
   double element_stiffness = 0.03, element_mass = 0.02, node_mass = 0.02, stay_stiffness = 0.03, stay_pull = 0.10, gain = 0.01;
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
   double load_model = 0.10;  ///< of RMS values, on ln: uncertainty of a simple load model
-  double model_form = 0.0;   ///< of a frequency, on ln, the same in all conditions of a mode: for a model that is known to be inaccurate
-  bool damping_by_dampers = false;  ///< a separate structural damping where dampers are on, because stuck dampers dissipate by friction
-  double fine = 1.0;         ///< common factor of the first line (estimated by marginal likelihood)
-  double noise = 1.0;        ///< common factor of identification errors (likewise)
+  double model_form =
+      0.0;  ///< of a frequency, on ln, the same in all conditions of a mode: for a model that is known to be inaccurate
+  bool damping_by_dampers =
+      false;           ///< a separate structural damping where dampers are on, because stuck dampers dissipate by friction
+  double fine = 1.0;   ///< common factor of the first line (estimated by marginal likelihood)
+  double noise = 1.0;  ///< common factor of identification errors (likewise)
 };
 
 /// A nuisance unknown in units of its prior: mean 0, deviation 1.
 struct Nuisance {
   enum class Kind { parameter, element_stiffness, element_mass, node_mass, stay, stay_pull, gain, mode_damping, level };
   Kind kind = Kind::parameter;
-  int index = 0;            ///< of the parameter, place, channel; of `damping_modes`; of the level
-  std::string name;         ///< "E_s", "element:17 stiffness", "mode 3 damping", for tables
+  int index = 0;     ///< of the parameter, place, channel; of `damping_modes`; of the level
+  std::string name;  ///< "E_s", "element:17 stiffness", "mode 3 damping", for tables
   double mean = 0.0, deviation = 1.0;
-  double lower, upper;      ///< hard bounds in prior units (parameters), ± infinity otherwise
+  double lower, upper;  ///< hard bounds in prior units (parameters), ± infinity otherwise
 };
 
 /// A measured mode of one condition.
 struct MeasuredMode {
   std::string label;
   int condition = 0;
-  int frequency = -1, damping = -1;          ///< rows
-  std::vector<int> real_rows, imag_rows;     ///< of the shape
+  int frequency = -1, damping = -1;       ///< rows
+  std::vector<int> real_rows, imag_rows;  ///< of the shape
   std::vector<int> real_channels, imag_channels;
   double frequency_Hz = 0.0;
 };
@@ -63,8 +65,8 @@ struct FormModes {
   std::vector<PairedMode> paired;  ///< (n_measured_modes), empty if the model predicts none of these rows
 };
 
-/// g(x, a): rows of the measurement as functions of the nuisance unknowns x and of causes. Frequencies, damping, RMS, floors and stay
-/// frequencies in ln; shapes scaled to the measured ones, the scale being free; rows of load tests in their own unit.
+/// g(x, a): rows of the measurement as functions of the nuisance unknowns x and of causes. Frequencies, damping, RMS, floors
+/// and stay frequencies in ln; shapes scaled to the measured ones, the scale being free; rows of load tests in their own unit.
 class FeatureMap {
  public:
   FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter);
@@ -72,8 +74,8 @@ class FeatureMap {
   /// Modes that measured labels are bound to where there is no shape: label -> position in the model as it stands (0-based).
   void bind_modes(const std::map<std::string, int>& positions) { bound_modes_ = positions; }
 
-  /// Projected structure at x: the data that all predictions at one x share, with the states solved so far. Each thread needs its
-  /// own base.
+  /// Projected structure at x: the data that all predictions at one x share, with the states solved so far. Each thread needs
+  /// its own base.
   struct Base {
     Eigen::VectorXd x, theta;
     using Part = std::pair<double, const Eigen::MatrixXd*>;  ///< amount, matrix (r × r) of the reduced model
@@ -88,8 +90,8 @@ class FeatureMap {
   [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> matrices(const Base& base, const std::vector<int>& columns) const;
   [[nodiscard]] Prediction predict(const Base& base, const std::vector<Cause>& causes, bool with_jacobian) const;
 
-  /// Motion of the nodes where a sensor could be, in each measured mode: "node:17 z" -> (n_measured_modes), the largest of a mode
-  /// scaled to 1.
+  /// Motion of the nodes where a sensor could be, in each measured mode: "node:17 z" -> (n_measured_modes), the largest of a
+  /// mode scaled to 1.
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> node_motion(const Base& base, const std::vector<Cause>& causes) const;
 
   /// Data for the errors of the model's form (model_modes.cpp).

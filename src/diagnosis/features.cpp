@@ -34,8 +34,8 @@ void hold_out_by_rule(FeatureSet& features) {
     for (const Row& row : features.rows)
       if (row.condition == static_cast<int>(c) && row.type == RowType::frequency) frequency[row.mode] = row.value;
     if (frequency.size() < 4) continue;
-    const auto highest = std::max_element(frequency.begin(), frequency.end(),
-                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto highest =
+        std::max_element(frequency.begin(), frequency.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     for (Row& row : features.rows) {
       const bool modal = row.type == RowType::frequency || row.type == RowType::damping || row.type == RowType::shape ||
                          row.type == RowType::shape_imag;
@@ -62,9 +62,9 @@ std::vector<std::string> states_of(const FeatureSet& features) {
 }
 
 const std::vector<std::string>& row_type_names() {
-  static const std::vector<std::string> names = {"frequency_Hz",      "damping_ratio_pct", "shape",           "shape_imag",
-                                                 "stay_frequency_Hz", "rms_m_s2",          "psd_floor_m2_s3", "static_m",
-                                                 "static_rotation_rad", "static_strain",   "static_force_N"};
+  static const std::vector<std::string> names = {"frequency_Hz",        "damping_ratio_pct", "shape",           "shape_imag",
+                                                 "stay_frequency_Hz",   "rms_m_s2",          "psd_floor_m2_s3", "static_m",
+                                                 "static_rotation_rad", "static_strain",     "static_force_N"};
   return names;
 }
 

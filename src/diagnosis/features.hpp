@@ -42,29 +42,29 @@ struct Condition {
   std::optional<double> amplitude_m;  ///< RMS displacement at `amplitude_channel`
   std::string amplitude_channel;
   std::optional<double> temperature_C, wind_m_s, direction_deg, people;
-  long line = 0;  ///< of conditions.toml: the order of the file
+  long line = 0;          ///< of conditions.toml: the order of the file
   std::string load = {};  ///< load case of a load test
 };
 
 /// A number of the measurement. Frequencies in Hz, damping ratios in per cent, the rest in SI units.
 struct Row {
   RowType type = RowType::frequency;
-  std::string mode;     ///< as in rows.csv; for a stay frequency its harmonic
-  int channel = -1;     ///< position in FeatureSet::channels
-  std::string stay;     ///< of a stay frequency
-  int condition = -1;   ///< position in FeatureSet::conditions
+  std::string mode;    ///< as in rows.csv; for a stay frequency its harmonic
+  int channel = -1;    ///< position in FeatureSet::channels
+  std::string stay;    ///< of a stay frequency
+  int condition = -1;  ///< position in FeatureSet::conditions
   double value = 0.0, std = 0.0;
   bool held_out = false;
-  long line = 0;        ///< of rows.csv, for messages
+  long line = 0;  ///< of rows.csv, for messages
 };
 
 struct FeatureSet {
   std::vector<Row> rows;
   std::vector<Condition> conditions;
-  std::vector<std::string> channels;            ///< names, in the order of channels.csv
-  std::vector<Eigen::Vector3d> direction;       ///< (n_channels) direction cosines, zero where unknown
-  Eigen::MatrixXd covariance;                   ///< (n_rows × n_rows) instead of std, or empty
-  std::map<std::string, double> clipped, drift; ///< of quality.csv by channel: fraction of samples, slope in rms; may be empty
+  std::vector<std::string> channels;             ///< names, in the order of channels.csv
+  std::vector<Eigen::Vector3d> direction;        ///< (n_channels) direction cosines, zero where unknown
+  Eigen::MatrixXd covariance;                    ///< (n_rows × n_rows) instead of std, or empty
+  std::map<std::string, double> clipped, drift;  ///< of quality.csv by channel: fraction of samples, slope in rms; may be empty
 };
 
 /// Training and held-out rows. Where no row is marked, the rule of the method applies: the largest of three or more amplitudes,

@@ -349,9 +349,8 @@ class Chain {
     if (number == 0 || verdict_ != Verdict::unknown) ruling_ = step.ruling;
     const bool stands_out = step.ruling.against_none > step.ruling.threshold;
     const bool accepted = step.ruling.verdict == Verdict::named || step.ruling.verdict == Verdict::ambiguous;
-    // Between two states several parts may have changed: the first of them leaves the others unexplained. It is judged when they
-    // are in the model.
-    // A wrong channel leaves what is wrong with the structure unexplained too.
+    // Between two states several parts may have changed: the first of them leaves the others unexplained. It is judged when
+    // they are in the model. A wrong channel leaves what is wrong with the structure unexplained too.
     const auto goes_beside = [](const Candidate& c) { return !c.state.empty() || c.hypothesis->measurement; };
     const bool of_a_change = stands_out && goes_beside(*step.search.entries.front().candidate);
     const bool goes_on = (accepted || of_a_change) && number < options_.most_causes;
@@ -444,7 +443,8 @@ Fit first_fit(const Inference& informed, const std::vector<std::unique_ptr<Candi
   MatrixXd aside = MatrixXd::Zero(n, n);
   for (Index r = 0; r < n; ++r) {
     const Row& row = map.features().rows[static_cast<std::size_t>(r)];
-    if (map.features().conditions[static_cast<std::size_t>(row.condition)].state != states.front()) aside(r, r) = kAside * kAside;
+    if (map.features().conditions[static_cast<std::size_t>(row.condition)].state != states.front())
+      aside(r, r) = kAside * kAside;
   }
   first_map.add_covariance(aside);
   const Inference first(first_map, candidates);
@@ -479,7 +479,8 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   out.form->shape = estimate(setting.grid.shape, chain.winner().shape);
   add_warnings(*out.form);
   finish(plain, chain.causes(), out.before.map.x.head(n),
-         chain.causes().empty() ? VectorXd() : VectorXd(chain.current().map.x.head(n)), chain.without_cause(), options, seed, out);
+         chain.causes().empty() ? VectorXd() : VectorXd(chain.current().map.x.head(n)), chain.without_cause(), options, seed,
+         out);
   out.message = message_of(out, chain.ruling(), *out.form, chain.search());
   return out;
 }

@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 const std::string kStateContrast = "state ";  // and its name
-constexpr double kFreeScale = 10.0;  // of a shape, relative: wide enough to cost nothing
+constexpr double kFreeScale = 10.0;           // of a shape, relative: wide enough to cost nothing
 
 const std::vector<std::string>& contrast_keys() {
   static const std::vector<std::string> keys = {"dampers", "amplitude_m", "temperature_C", "wind_m_s", "people"};

@@ -78,8 +78,8 @@ double leftover_effect(const FormEntry& entry, double own, const Leftover& lefto
   return entry.contrast == leftover.contrast ? std::max(own, leftover.effect) : own;
 }
 
-/// Whether an effect grows with the magnitude. What is tuned turns with its frequency, a support's place is no size, and what has no
-/// unknown is there or not.
+/// Whether an effect grows with the magnitude. What is tuned turns with its frequency, a support's place is no size, and what
+/// has no unknown is there or not.
 bool is_a_size(const Candidate& candidate) {
   const auto& actions = candidate.hypothesis->actions;
   return candidate.low.size() > 0 && candidate.tuned < 0 &&

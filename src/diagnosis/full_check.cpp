@@ -25,7 +25,9 @@ void add_outer(Symmetric& to, double amount, const VectorXd& u, const VectorXd& 
 void grow(MatrixXd& k) { k.conservativeResizeLike(MatrixXd::Zero(k.rows() + 1, k.cols() + 1)); }
 void grow(Symmetric& k) { k.conservativeResize(k.rows() + 1, k.cols() + 1); }
 
-void add_part(MatrixXd& to, double amount, const MatrixXd& part) { to.topLeftCorner(part.rows(), part.cols()) += amount * part; }
+void add_part(MatrixXd& to, double amount, const MatrixXd& part) {
+  to.topLeftCorner(part.rows(), part.cols()) += amount * part;
+}
 /// A place's entries are among the structure's: a hundred sums of whole sparse matrices would take seconds.
 void add_part(Symmetric& to, double amount, const Symmetric& part) {
   for (int c = 0; c < part.outerSize(); ++c)
@@ -121,8 +123,8 @@ struct Assembly {
   }
 };
 
-/// omega² of a small system, ascending. What answers loads has hardly any mass, so that M is singular to rounding: where K is not, the
-/// problem is solved for 1/omega².
+/// omega² of a small system, ascending. What answers loads has hardly any mass, so that M is singular to rounding: where K is
+/// not, the problem is solved for 1/omega².
 VectorXd lowest_squares(const MatrixXd& k, const MatrixXd& m) {
   if (Eigen::LLT<MatrixXd>(k).info() == Eigen::Success) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> inverse(m, k, Eigen::EigenvaluesOnly);
@@ -138,8 +140,8 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
                              int modes) {
   const fe::ParametricSystem& system = *structure.system;
   Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
-                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets, map.model().theta,
-                                  fit.base.theta};
+                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets,
+                                  map.model().theta, fit.base.theta};
   full.scatter(map, fit.base.x);
   // What the map assembles holds parameters and workmanship already.
   std::vector<int> all(static_cast<std::size_t>(map.model().size()));

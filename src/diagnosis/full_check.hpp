@@ -20,7 +20,7 @@ struct FullCheck {
 /// vectors of a prediction of this fit. Rayleigh-Ritz values lie above the full ones; the difference is the error of the basis.
 /// @param modes  number of lowest modes
 /// If the extended model cannot be solved, `message` says so. The check is then missing; the results are valid.
-[[nodiscard]] FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map, const Fit& fit,
-                                           int modes);
+[[nodiscard]] FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map,
+                                           const Fit& fit, int modes);
 
 }  // namespace twindeck::diagnosis

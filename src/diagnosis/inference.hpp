@@ -31,12 +31,12 @@ struct Scored {
   double screen = 0.0;    ///< 2 ln likelihood ratio of the screen
   double log_odds = 0.0;  ///< ln posterior odds against nothing missing; only where fitted
   double chi_squared = 0.0;
-  double remaining = 0.0;        ///< chi² that the best account with this cause leaves
-  int stage = 1;                 ///< 1 screened, 2 fitted on the linearised base or probed, 3 with the base fitted again
+  double remaining = 0.0;  ///< chi² that the best account with this cause leaves
+  int stage = 1;           ///< 1 screened, 2 fitted on the linearised base or probed, 3 with the base fitted again
   std::vector<Eigen::VectorXd> other_starts;  ///< the next best magnitudes of the screen
-  Eigen::VectorXd x;             ///< of the joint fit, where there was one
-  Eigen::VectorXd signature;     ///< L^-1 (g(x, a) - g(x)) (n_train)
-  Eigen::MatrixXd a_covariance;  ///< of the coordinates (stage 2 on)
+  Eigen::VectorXd x;                          ///< of the joint fit, where there was one
+  Eigen::VectorXd signature;                  ///< L^-1 (g(x, a) - g(x)) (n_train)
+  Eigen::MatrixXd a_covariance;               ///< of the coordinates (stage 2 on)
 };
 
 struct SearchOptions {
@@ -47,10 +47,10 @@ struct SearchOptions {
   double family_screen = 4.0;  ///< families whose best entry screens above this are fitted too
   double refine_within = 6.0;  ///< nats of the best: these are fitted with the base
   int most_refined = 3;
-  int most_rounds = 4;         ///< in which the leading ones are refitted, until one that was leads
-  int tabled_tuned = 6;    ///< entries of each family that is tuned to modes that are computed anew
-  int probes = 8;          ///< starts from which a few steps of the joint fit are made
-  int probes_again = 2;    ///< of these, such as are looked at once more
+  int most_rounds = 4;          ///< in which the leading ones are refitted, until one that was leads
+  int tabled_tuned = 6;         ///< entries of each family that is tuned to modes that are computed anew
+  int probes = 8;               ///< starts from which a few steps of the joint fit are made
+  int probes_again = 2;         ///< of these, such as are looked at once more
   double broken_promise = 3.0;  ///< nats more than the best found that these promised
   int probe_iterations = 5;
   double least_promise = -1.0;  ///< nats that an entry must promise to be probed
@@ -113,7 +113,8 @@ class Inference {
   /// What a candidate at coordinates a does to all rows; empty where it cannot be computed.
   [[nodiscard]] Eigen::VectorXd change(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
   /// The best magnitude of the screen at the promised starts. @param from_table  changes of the table instead of new ones
-  /// @param by_start  screens and starts, the best first; may be null @param record  takes the new changes, (n_starts); may be null
+  /// @param by_start  screens and starts, the best first; may be null @param record  takes the new changes, (n_starts); may be
+  /// null
   [[nodiscard]] Scored screen(const Fit& base, const Promise& promise, const std::vector<Eigen::VectorXd>* from_table,
                               std::vector<std::pair<double, std::size_t>>* by_start,
                               std::vector<Eigen::VectorXd>* record) const;

@@ -45,7 +45,8 @@ void Predictor::predict_load_tests(int c) {
       for (const ActionSpec& action : candidate.hypothesis->actions) {
         if (candidate.hypothesis->set == "supports") ground[g].factor += stiffness_change(cause, action, condition);
         if (action.kind == "support.settle") ground[g].settled_m += candidate.value(action.number.at("rise"), cause.a);
-        if (action.kind == "support.move") moved_away = moved_away || support_is_gauged(features, tests, c, static_cast<int>(g));
+        if (action.kind == "support.move")
+          moved_away = moved_away || support_is_gauged(features, tests, c, static_cast<int>(g));
       }
     }
   }

@@ -120,18 +120,20 @@ RowVectorXd strain_row(const Structure& structure, const Gauge& gauge, const twi
   const bool line = element->type == fe::ElementType::bar || element->type == fe::ElementType::stay ||
                     (element->type == fe::ElementType::beam && element->section2 < 0);
   if (!line)
-    throw InputError(at, fmt::format("element '{}' is no uniform beam, bar or stay: the strain of others is not computed", gauge.element),
-                     without);
+    throw InputError(
+        at, fmt::format("element '{}' is no uniform beam, bar or stay: the strain of others is not computed", gauge.element),
+        without);
   const RowVectorXd local = fibre_strain(*model, *element, gauge);
   const Eigen::SparseMatrix<double, Eigen::RowMajor> expansion = structure.system->expansion;
   RowVectorXd row = RowVectorXd::Zero(structure.system->size());
   for (Index i = 0; i < local.size(); ++i)
-    if (local[i] != 0.0) row += local[i] * RowVectorXd(expansion.row(6 * element->nodes[static_cast<std::size_t>(i / 6)] + i % 6));
+    if (local[i] != 0.0)
+      row += local[i] * RowVectorXd(expansion.row(6 * element->nodes[static_cast<std::size_t>(i / 6)] + i % 6));
   return row;
 }
 
-ForceGauge force_gauge(const Structure& structure, const LoadTests& tests, const std::vector<Place>& supports, const Gauge& gauge,
-                       const MatrixXd& case_moves, const twindeck::Place& at) {
+ForceGauge force_gauge(const Structure& structure, const LoadTests& tests, const std::vector<Place>& supports,
+                       const Gauge& gauge, const MatrixXd& case_moves, const twindeck::Place& at) {
   std::vector<std::string> known;
   ForceGauge out;
   for (std::size_t s = 0; s < supports.size(); ++s) {
@@ -140,13 +142,15 @@ ForceGauge force_gauge(const Structure& structure, const LoadTests& tests, const
   }
   if (out.ground < 0)
     throw InputError(at, fmt::format("'{}' is no support of the model{}", gauge.support, did_you_mean(gauge.support, known)),
-                     known.empty() ? "the model has none: leave the channel and its rows out" : fmt::format("name one of {}", fmt::join(known, ", ")));
+                     known.empty() ? "the model has none: leave the channel and its rows out"
+                                   : fmt::format("name one of {}", fmt::join(known, ", ")));
   if (!(gauge.direction.norm() > 0.0))
     throw InputError(at, "measures a force along no direction", "give dx, dy, dz: 0, 0, 1 for what a support carries upwards");
   const Place& support = supports[static_cast<std::size_t>(out.ground)];
   out.pull = support.stiffness * translation(*structure.system, gauge.direction);
   if (!(out.pull.norm() > 0.0))
-    throw InputError(at, fmt::format("support '{}' does not hold along the channel's direction", gauge.support), "correct dx, dy, dz");
+    throw InputError(at, fmt::format("support '{}' does not hold along the channel's direction", gauge.support),
+                     "correct dx, dy, dz");
   out.settle = out.pull.dot(translation(*structure.system, Eigen::Vector3d::UnitZ()));
   out.moved = case_moves.transpose() * out.pull;
   TWINDECK_ASSERT(out.moved.size() == static_cast<Index>(tests.cases.size()));
@@ -170,17 +174,22 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
     const auto c = static_cast<Index>(std::find(out.cases.begin(), out.cases.end(), load.load) - out.cases.begin());
     const twindeck::Place at{loads_file, load.line, "node"};
     const RowVectorXd motion = nodes.motion(load.node, load.direction);
-    if (motion.size() == 0) throw InputError(at, fmt::format("'{}' is no node of the model", load.node), "name a node of its nodes.csv");
+    if (motion.size() == 0)
+      throw InputError(at, fmt::format("'{}' is no node of the model", load.node), "name a node of its nodes.csv");
     if (!load.ground) {
       if (load.value != 0.0 && !(motion.norm() > 0.0))
-        throw InputError(at, fmt::format("node '{}' cannot move in direction {}, so that the load does nothing", load.node, kDirectionNames[load.direction]),
+        throw InputError(at,
+                         fmt::format("node '{}' cannot move in direction {}, so that the load does nothing", load.node,
+                                     kDirectionNames[load.direction]),
                          "load another node, or take the row out");
       out.force.col(c) += load.value * motion.transpose();
       continue;
     }
     const auto holds = [&](const Place& support) { return (support.stiffness * VectorXd(motion.transpose())).norm() > 0.0; };
     if (std::none_of(supports.begin(), supports.end(), holds))
-      throw InputError(at, fmt::format("no support holds node '{}' in direction {}, so that none can move it", load.node, kDirectionNames[load.direction]),
+      throw InputError(at,
+                       fmt::format("no support holds node '{}' in direction {}, so that none can move it", load.node,
+                                   kDirectionNames[load.direction]),
                        "move the node of a support, along a direction that it holds");
     moves.col(c) += load.value / motion.squaredNorm() * motion.transpose();  // a node on a rigid arm moves with several dofs
   }
@@ -192,10 +201,12 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
     const Gauge& gauge = gauges[g];
     const auto at = static_cast<Index>(g);
     if (!gauge.element.empty()) out.strain.row(at) = strain_row(structure, gauge, {channels_file, gauge.line, "element"});
-    out.forces.push_back(gauge.support.empty() ? ForceGauge{}
-                                               : force_gauge(structure, out, supports, gauge, moves, {channels_file, gauge.line, "support"}));
+    out.forces.push_back(gauge.support.empty()
+                             ? ForceGauge{}
+                             : force_gauge(structure, out, supports, gauge, moves, {channels_file, gauge.line, "support"}));
     for (int d = 0; d < 3 && !gauge.node.empty(); ++d)
-      if (const RowVectorXd turn = nodes.motion(gauge.node, 3 + d); turn.size() > 0) out.rotation.row(at) += gauge.direction[d] * turn;
+      if (const RowVectorXd turn = nodes.motion(gauge.node, 3 + d); turn.size() > 0)
+        out.rotation.row(at) += gauge.direction[d] * turn;
   }
   return out;
 }

@@ -21,11 +21,11 @@ struct NodalLoad {
 struct Gauge {
   std::string node;                                     ///< that rotates, "" where none is meant
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< axis of a rotation, direction of a force; zero where unknown
-  std::string element;                                  ///< of a strain gauge: name or number of a beam, bar or stay; "" for none
-  double xi = 0.5;                                      ///< part of the element's length from its first end
-  Eigen::Vector2d fibre_m = Eigen::Vector2d::Zero();    ///< local y and z of the gauge in the section
-  std::string support;                                  ///< of a force; "" for none
-  long line = 0;                                        ///< of channels.csv
+  std::string element;                                ///< of a strain gauge: name or number of a beam, bar or stay; "" for none
+  double xi = 0.5;                                    ///< part of the element's length from its first end
+  Eigen::Vector2d fibre_m = Eigen::Vector2d::Zero();  ///< local y and z of the gauge in the section
+  std::string support;                                ///< of a force; "" for none
+  long line = 0;                                      ///< of channels.csv
 };
 
 /// Strains are those of uniform beams, bars and stays: fibres along the axis, plane sections, no temperature.

@@ -11,7 +11,6 @@ namespace {
 
 using Eigen::Index;
 
-
 /// @param j  position among the nuisances
 ParameterEstimate estimate(const Inference& inference, const Fit& fit, std::size_t j) {
   const Nuisance& v = inference.map().nuisances()[j];

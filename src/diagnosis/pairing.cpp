@@ -4,7 +4,7 @@
 
 #include "diagnosis/predictor.hpp"
 #include "linalg/dense.hpp"
-#include "modal/assignment.hpp"
+#include "matching/assignment.hpp"
 
 /// Which mode of the model is which measured one.
 namespace twindeck::diagnosis {
@@ -18,13 +18,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is rounding (1e-12 of a
-/// girder's vertical motion in its axial modes), which may look like any shape.
+/// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is
+/// rounding (1e-12 of a girder's vertical motion in its axial modes), which may look like any shape.
 constexpr double kAtRest = 1e-6;
 constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distance of frequencies weighs
 
-/// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may have
-/// changed so much that frequencies double, where shapes tell more.
+/// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may
+/// have changed so much that frequencies double, where shapes tell more.
 constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
 
 }  // namespace
@@ -58,8 +58,10 @@ const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
       if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
     for (std::size_t k = 0; k + 1 < same.size(); ++k) {
       if (same[k]->label != c.mode) continue;
-      if (shaped == same[k]) shaped = same[k + 1];
-      else if (shaped == same[k + 1]) shaped = same[k];
+      if (shaped == same[k])
+        shaped = same[k + 1];
+      else if (shaped == same[k + 1])
+        shaped = same[k];
       break;
     }
   });
@@ -76,7 +78,8 @@ VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedStat
   }
   const MatrixXcd moved = motion(state)(shaped.real_channels, Eigen::all);
   VectorXd unlike = 1.0 - likeness(moved, y).array();
-  const VectorXd own = moved.colwise().squaredNorm();  // a shape was measured, so it was none of those at rest, however near in frequency
+  const VectorXd own =
+      moved.colwise().squaredNorm();  // a shape was measured, so it was none of those at rest, however near in frequency
   for (Index j = 0; j < own.size(); ++j)
     if (own[j] <= kAtRest * kAtRest * own.maxCoeff()) unlike[j] = kNever;
   return unlike;
@@ -144,7 +147,7 @@ void Predictor::pair(const std::vector<int>& conditions) {
   }
   Eigen::MatrixXd gain(static_cast<Index>(labels.size()), n);
   for (std::size_t i = 0; i < labels.size(); ++i) gain.row(static_cast<Index>(i)) = -cost.at(labels[i]);
-  const std::vector<int> chosen = modal::best_assignment(gain);
+  const std::vector<int> chosen = matching::best_assignment(gain);
   for (const std::size_t m : here) {
     const auto at = std::find(labels.begin(), labels.end(), map_.modes_[m].label) - labels.begin();
     out_.paired[m] = chosen[static_cast<std::size_t>(at)];

@@ -97,8 +97,10 @@ std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& 
     const fe::DofLabel& dof = system.dofs[i];
     if (!rows.contains(dof.node)) names.push_back(dof.node);
     where[dof.node] = dof.x_m;
-    if (dof.direction < 3) rows[dof.node].push_back(static_cast<int>(i));
-    else rows[dof.node];
+    if (dof.direction < 3)
+      rows[dof.node].push_back(static_cast<int>(i));
+    else
+      rows[dof.node];
   }
   std::vector<std::string> chosen;
   const std::set<std::string> measured(structure.sensor_nodes.begin(), structure.sensor_nodes.end());
@@ -162,21 +164,26 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
     global.mass = Symmetric(structure.system->mass(theta).selfadjointView<Eigen::Lower>());
   } else {
     ElementPlaces elements(structure);
-    if (options.zone_centres.empty()) elements.add_zones(spread(elements.centroids(), {}, options.max_zones), places);
-    else elements.add_zones(nearest_of(elements.centroids(), options.zone_centres), places, options.zone_centres);
+    if (options.zone_centres.empty())
+      elements.add_zones(spread(elements.centroids(), {}, options.max_zones), places);
+    else
+      elements.add_zones(nearest_of(elements.centroids(), options.zone_centres), places, options.zone_centres);
     elements.add_stays(places);
     elements.add_springs(places);
     elements.add_groups(places);
     elements.add_support_moves(places);
     elements.add_moves(options.moves, places);
-    elements.add_nodes(options.node_positions.empty() ? spread(elements.node_positions(), elements.measured_nodes(), options.max_nodes)
-                                                      : nearest_of(elements.node_positions(), options.node_positions),
+    elements.add_nodes(options.node_positions.empty()
+                           ? spread(elements.node_positions(), elements.measured_nodes(), options.max_nodes)
+                           : nearest_of(elements.node_positions(), options.node_positions),
                        places);
     elements.fill_global(global);
     Place stays{"global", kNowhere, {}, {}, {}, {}, {}};
     for (const Place& stay : places.sets["stays"]) {
-      if (stays.stiffness.size() == 0) stays.stiffness = stay.stiffness;
-      else stays.stiffness += stay.stiffness;
+      if (stays.stiffness.size() == 0)
+        stays.stiffness = stay.stiffness;
+      else
+        stays.stiffness += stay.stiffness;
     }
     if (stays.stiffness.size() > 0) places.sets["all_stays"] = {std::move(stays)};
   }

@@ -53,7 +53,8 @@ void Predictor::read_channels() {
   each_action("channel.gain", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     channel_factor_[c.channels[0]] *= c.value(action.number.at("factor"), a);
   });
-  each_action("channel.sign", [&](const Candidate& c, const VectorXd&, const ActionSpec&) { channel_factor_[c.channels[0]] *= -1.0; });
+  each_action("channel.sign",
+              [&](const Candidate& c, const VectorXd&, const ActionSpec&) { channel_factor_[c.channels[0]] *= -1.0; });
   each_action("channel.delay", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     channel_delay_s_[c.channels[0]] += c.value(action.number.at("delay"), a);
   });
@@ -161,7 +162,8 @@ void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, 
       if (v.kind != Nuisance::Kind::gain) continue;
       for (std::size_t k = 0; k < rows.size(); ++k)
         if (v.index == channels[k])
-          out_.jacobian(rows[k], static_cast<Index>(j)) = v.deviation * out_.g[rows[k]] / (1.0 + v.deviation * base_.x[static_cast<Index>(j)]);
+          out_.jacobian(rows[k], static_cast<Index>(j)) =
+              v.deviation * out_.g[rows[k]] / (1.0 + v.deviation * base_.x[static_cast<Index>(j)]);
     }
   }
 }
@@ -196,7 +198,8 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
     const Eigen::MatrixXd m = sliced(place.mass, state.columns, phi.size());
     const double ratio = people * c.value(action.number.at("mass"), a) / deck *
                          (phi.real().dot(m * phi.real()) + phi.imag().dot(m * phi.imag()));
-    const double wp = 2.0 * std::numbers::pi * c.value(action.number.at("frequency"), a), zp = c.value(action.number.at("damping"), a);
+    const double wp = 2.0 * std::numbers::pi * c.value(action.number.at("frequency"), a),
+                 zp = c.value(action.number.at("damping"), a);
     const Complex transfer = (2.0 * zp * wp * s + wp * wp) / (s * s + 2.0 * zp * wp * s + wp * wp);
     const Complex change = -0.5 * ratio * (transfer - 1.0);  // ds/s for a mass that follows by `transfer` instead of rigidly
     shift += change.real();
@@ -216,7 +219,8 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
       const double relative = (ds / s).real();
       if (measured.frequency >= 0) out_.jacobian(measured.frequency, position_of[j]) = relative;
       if (measured.damping >= 0)
-        out_.jacobian(measured.damping, position_of[j]) = 100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total;
+        out_.jacobian(measured.damping, position_of[j]) =
+            100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total;
     }
     if (measured.damping >= 0) {
       for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
@@ -234,8 +238,10 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
       if (map_.modes_[m].condition == measured.condition && map_.modes_[m].real_rows.size() >= 2) same.push_back(m);
     for (std::size_t k = 0; k + 1 < same.size(); ++k) {
       if (map_.modes_[same[k]].label != c.mode) continue;
-      if (position == same[k]) shape_of = out_.paired[same[k + 1]];
-      else if (position == same[k + 1]) shape_of = out_.paired[same[k]];
+      if (position == same[k])
+        shape_of = out_.paired[same[k + 1]];
+      else if (position == same[k + 1])
+        shape_of = out_.paired[same[k]];
       break;
     }
   });
@@ -248,7 +254,8 @@ void Predictor::predict_load(int c) {
   for (const Row& row : map_.features().rows) records = records || (row.condition == c && row.type == RowType::rms);
   const auto level_of = [&](bool floor) -> Index {
     for (std::size_t j = 0; j < map_.nuisances_.size(); ++j)
-      if (map_.nuisances_[j].kind == Nuisance::Kind::level && map_.nuisances_[j].index == 2 * c + (floor ? 1 : 0)) return static_cast<Index>(j);
+      if (map_.nuisances_[j].kind == Nuisance::Kind::level && map_.nuisances_[j].index == 2 * c + (floor ? 1 : 0))
+        return static_cast<Index>(j);
     return -1;
   };
   const auto level = [&](Index j) { return map_.nuisances_[static_cast<std::size_t>(j)].deviation * base_.x[j]; };
@@ -261,7 +268,8 @@ void Predictor::predict_load(int c) {
         if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) &&
             of_condition_.at(map_.modes_[m].condition) == state && map_.same_state(map_.modes_[m].condition, c))
           label = map_.modes_[m].label;
-      double zeta_pct = (label.empty() ? 0.5 : structural_damping(map_.damping_name(label, c))) + 100.0 * state->modes.damping(i);
+      double zeta_pct =
+          (label.empty() ? 0.5 : structural_damping(map_.damping_name(label, c))) + 100.0 * state->modes.damping(i);
       each_action("wind.damping", condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
         zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
       });

@@ -98,15 +98,16 @@ class Predictor {
     }
   }
   /// Weight of a mode in a record's variance under wind, beyond white excitation (wind_load.cpp).
-  [[nodiscard]] double wind_weight(const Condition& condition, const SolvedState& state, Eigen::Index mode, const std::string& label) const;
+  [[nodiscard]] double wind_weight(const Condition& condition, const SolvedState& state, Eigen::Index mode,
+                                   const std::string& label) const;
   [[nodiscard]] double structural_damping(const std::string& label) const;  ///< in per cent
 
   const FeatureMap& map_;
   const FeatureMap::Base& base_;
   const std::vector<Cause>& causes_;
   bool with_jacobian_;
-  mutable std::vector<int> columns_;       // of the state that is being built
-  Eigen::MatrixXd channel_rows_;           // (n_channels × r) as causes turn and exchange them
+  mutable std::vector<int> columns_;  // of the state that is being built
+  Eigen::MatrixXd channel_rows_;      // (n_channels × r) as causes turn and exchange them
   Eigen::VectorXd channel_factor_, channel_delay_s_;
   std::map<const SolvedState*, Eigen::MatrixXcd> motion_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> own_;

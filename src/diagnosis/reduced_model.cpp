@@ -47,7 +47,8 @@ MatrixXd project(const Symmetric& s, const MatrixXd& rows_of_v) {
   MatrixXd rows(rows_of_v.rows(), std::ssize(touched)), sum = MatrixXd::Zero(rows_of_v.rows(), std::ssize(touched));
   for (std::size_t i = 0; i < touched.size(); ++i) {
     rows.col(static_cast<Index>(i)) = rows_of_v.col(touched[i]);
-    for (Symmetric::InnerIterator e(s, touched[i]); e; ++e) sum.col(static_cast<Index>(i)) += e.value() * rows_of_v.col(e.row());
+    for (Symmetric::InnerIterator e(s, touched[i]); e; ++e)
+      sum.col(static_cast<Index>(i)) += e.value() * rows_of_v.col(e.row());
   }
   const MatrixXd right = sum.transpose();
   // The result is symmetric: by a few panels, each down to the diagonal alone.
@@ -66,7 +67,8 @@ class Basis {
  public:
   Basis(const Symmetric& stiffness, Index n) : stiffness_(stiffness), vectors_(n, 0), images_(n, 0) {}
 
-  /// The columns of `block`, orthonormalised against the basis and against each other; what is nearly in them already is dropped.
+  /// The columns of `block`, orthonormalised against the basis and against each other; what is nearly in them already is
+  /// dropped.
   [[nodiscard]] MatrixXd orthonormal(const MatrixXd& block) const {
     constexpr double tolerance = 1e-6;
     const Eigen::VectorXd before = block.cwiseProduct(stiffness_ * block).colwise().sum().cwiseMax(0.0).cwiseSqrt();
@@ -127,8 +129,8 @@ class Basis {
 
 /// What stands for causes at a place, beside the common vectors: K^-1 b for a force direction, K^-1 (dK Phi) for a factor.
 /// @param answers  to the loads of load tests, whose change by a factor is kept as well
-MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const Place& place, const MatrixXd& low, const MatrixXd& answers,
-                     int count) {
+MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const Place& place, const MatrixXd& low,
+                     const MatrixXd& answers, int count) {
   if (count == 0) return {};
   MatrixXd load;
   if (place.directions.size() > 0)
@@ -148,7 +150,8 @@ MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const P
   return basis.orthonormal(own);
 }
 
-/// What changes of K make of given vectors, K^-1 (change): of each change the strongest few beyond the basis, of these the strongest of all.
+/// What changes of K make of given vectors, K^-1 (change): of each change the strongest few beyond the basis, of these the
+/// strongest of all.
 /// @param scale  of each vector
 MatrixXd strongest_of(const Basis& basis, const linalg::Cholesky& factor, const std::vector<std::function<MatrixXd()>>& changes,
                       const Eigen::VectorXd& scale, const ReductionOptions& options) {
@@ -202,7 +205,8 @@ MatrixXd corrections(const Basis& basis, const linalg::Cholesky& factor, const f
 /// The same of what load tests do: K^-1 dK u for each parameter and group of elements.
 /// @param answers  u (n × m), of unit strain energy
 MatrixXd answer_corrections(const Basis& basis, const linalg::Cholesky& factor, const fe::ParametricSystem& system,
-                            const Eigen::VectorXd& theta, const MatrixXd& answers, const Places& places, const ReductionOptions& options) {
+                            const Eigen::VectorXd& theta, const MatrixXd& answers, const Places& places,
+                            const ReductionOptions& options) {
   std::vector<std::function<MatrixXd()>> changes;
   for (std::size_t p = 0; p < system.parameters.size(); ++p) {
     const double range = system.parameters[p].upper - system.parameters[p].lower;
@@ -213,13 +217,15 @@ MatrixXd answer_corrections(const Basis& basis, const linalg::Cholesky& factor, 
   }
   if (const auto elements = places.sets.find("elements"); elements != places.sets.end() && options.element_change > 0.0)
     for (const Place& place : elements->second)
-      if (place.stiffness.size() > 0) changes.emplace_back([&] { return MatrixXd(options.element_change * (place.stiffness * answers)); });
+      if (place.stiffness.size() > 0)
+        changes.emplace_back([&] { return MatrixXd(options.element_change * (place.stiffness * answers)); });
   return strongest_of(basis, factor, changes, Eigen::VectorXd::Ones(answers.cols()), options);
 }
 
 }  // namespace
 
-double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at, const Eigen::VectorXd& value) {
+double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
+                       const Eigen::VectorXd& value) {
   const auto parameter = attributes.find("parameter");
   if (parameter == attributes.end()) return 1.0;
   const auto p = static_cast<Index>(parameter->second);
@@ -275,7 +281,8 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     MatrixXd answers;
     if (!structure.load_tests.empty()) {
       answers = factor.solve(loads_to_answer(structure.load_tests));
-      for (Index c = 0; c < answers.cols(); ++c) answers.col(c) /= std::sqrt(answers.col(c).dot(stiffness_now * answers.col(c)));
+      for (Index c = 0; c < answers.cols(); ++c)
+        answers.col(c) /= std::sqrt(answers.col(c).dot(stiffness_now * answers.col(c)));
       basis.append(answers);
       basis.append(answer_corrections(basis, factor, system, theta, answers, places, options));
     }

@@ -21,7 +21,8 @@ struct ReducedPlace {
 
 /// What of a place's matrices there is at other values of the parameters: 1 but for a group that a parameter scales, which is
 /// `value` / `reduced_at` of what it was where the basis was made.
-[[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at, const Eigen::VectorXd& value);
+[[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
+                                     const Eigen::VectorXd& value);
 
 struct ReductionOptions {
   int modes = 30;                 ///< of the unchanged structure
@@ -35,10 +36,11 @@ struct ReductionOptions {
 };
 
 /// The structure projected once to a small basis, so that thousands of changed structures can be solved:
-///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by place].
-/// A change at a location uses the common vectors and those of the location: K^-1 (dK Phi) for a factor, K^-1 b for a force direction b
-/// (statically exact; Craig and Bampton 1968, MacNeal 1971). With load tests V also holds K^-1 f of each load, and its first-order
-/// change by parameters, element scatter and causes. V is orthonormal in K up to a common factor.
+///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by
+///   place].
+/// A change at a location uses the common vectors and those of the location: K^-1 (dK Phi) for a factor, K^-1 b for a force
+/// direction b (statically exact; Craig and Bampton 1968, MacNeal 1971). With load tests V also holds K^-1 f of each load, and
+/// its first-order change by parameters, element scatter and causes. V is orthonormal in K up to a common factor.
 class ReducedModel {
  public:
   struct Term {
@@ -50,15 +52,15 @@ class ReducedModel {
   ReducedModel(const Structure& structure, const Places& places, const ReductionOptions& options);
 
   std::vector<fe::Parameter> parameters;
-  Eigen::VectorXd theta;               ///< (n_parameters) where the basis was made
+  Eigen::VectorXd theta;  ///< (n_parameters) where the basis was made
   std::vector<Term> stiffness, mass;
   std::map<std::string, std::vector<ReducedPlace>> sets;
-  Eigen::MatrixXd sensors;             ///< (4 n_channels × r), see SensorValues
-  int common = 0;                      ///< basis vectors that every solve uses: 0 … common-1
+  Eigen::MatrixXd sensors;  ///< (4 n_channels × r), see SensorValues
+  int common = 0;           ///< basis vectors that every solve uses: 0 … common-1
   double total_mass_kg = 0.0;
-  Eigen::VectorXd frequency_Hz;        ///< of the computed modes of the unchanged full model
-  Eigen::MatrixXd mode_coordinates;    ///< (r × n_modes) the same modes in the basis
-  LoadTests load_tests;                ///< in the basis, which answers their loads exactly at `theta`
+  Eigen::VectorXd frequency_Hz;      ///< of the computed modes of the unchanged full model
+  Eigen::MatrixXd mode_coordinates;  ///< (r × n_modes) the same modes in the basis
+  LoadTests load_tests;              ///< in the basis, which answers their loads exactly at `theta`
 
   [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
   /// The location called `id` in any set; null if there is none.

@@ -8,7 +8,6 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-
 /// Magnitudes of an entry by the curvature of its likelihood; an end beyond its bounds is the bound.
 std::vector<EffectParameter> by_curvature(const Scored& scored, double misfit) {
   const Candidate& candidate = *scored.candidate;

@@ -5,7 +5,7 @@
 #include <complex>
 #include <map>
 
-#include "modal/assignment.hpp"
+#include "matching/assignment.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -69,7 +69,7 @@ std::vector<int> same_modes(const Eigen::VectorXd& reference_Hz, const Eigen::Ma
       mac(i, j) = alike(reference.col(j), other.col(i));
       gain(i, j) = mac(i, j) - std::abs(std::log(other_Hz[i] / reference_Hz[j]));
     }
-  std::vector<int> chosen = modal::best_assignment(gain);
+  std::vector<int> chosen = matching::best_assignment(gain);
   for (Index i = 0; i < m; ++i) {
     int& j = chosen[static_cast<std::size_t>(i)];
     if (j >= 0 && (mac(i, j) < kLeastMac || std::abs(std::log(other_Hz[i] / reference_Hz[j])) > std::log(kFarthest))) j = -1;

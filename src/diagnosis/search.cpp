@@ -93,7 +93,8 @@ Scored Inference::screen(const Fit& base, const Promise& promise, const std::vec
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   // Of what is tuned there are many, each near a mode of its own.
-  for (std::size_t k = 1; k < all.size() && (k < 2 || candidate.tuned < 0); ++k) best.other_starts.push_back(starts[all[k].second]);
+  for (std::size_t k = 1; k < all.size() && (k < 2 || candidate.tuned < 0); ++k)
+    best.other_starts.push_back(starts[all[k].second]);
   if (by_start != nullptr) *by_start = std::move(all);
   return best;
 }
@@ -250,11 +251,13 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
       std::vector<Scored*> leading;
       for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
         Scored& scored = found[static_cast<std::size_t>(i)];
-        if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best)) leading.push_back(&scored);
+        if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best))
+          leading.push_back(&scored);
       }
       refine_all(leading);
       std::stable_sort(found.begin(), found.end(), by_odds);
-      if (round == 0 && found.front().log_odds < best - options.refine_within) {  // others had looked not worth a probe beside it
+      if (round == 0 &&
+          found.front().log_odds < best - options.refine_within) {  // others had looked not worth a probe beside it
         probe(base, found, options);
         std::stable_sort(found.begin(), found.end(), by_odds);
       }
@@ -276,7 +279,7 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
       if (rivals_at_a_damper(scored)) {
         siblings.push_back(&scored);
       } else if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
-          scored.candidate->hypothesis == first.candidate->hypothesis) {
+                 scored.candidate->hypothesis == first.candidate->hypothesis) {
         siblings.push_back(&scored);
         ++deepened;
       }

@@ -264,7 +264,8 @@ class ModalRoots {
       if (with_shapes && sliders_) break;
       Found found;
       const Found all = starts(forces, 2.0 * std::numbers::pi * 1.1 * highest_Hz, with_shapes);
-      if (!std::all_of(all.begin(), all.end(), [&](const auto& start) { return add(start.first, start.second, forces, found, false); }))
+      if (!std::all_of(all.begin(), all.end(),
+                       [&](const auto& start) { return add(start.first, start.second, forces, found, false); }))
         continue;
       gather(found, out);
       return out.s.size() > 0;
@@ -407,7 +408,8 @@ class ModalRoots {
   }
 
   /// Residual inverse iteration from s, and from z where it is given, until s stands still.
-  /// @param relax  part of the way that sliders' forces go in a step: strokes and forces may answer each other in turn, and where
+  /// @param relax  part of the way that sliders' forces go in a step: strokes and forces may answer each other in turn, and
+  /// where
   ///               a damper begins to slide they do so for ever, by some 1e-5
   bool root(Complex& s, VectorXcd& z, const VectorXcd& held, double relax) const {
     const Index p = b_.cols();
@@ -437,8 +439,7 @@ class ModalRoots {
     }
     for (int iteration = 0; iteration < (sliders_ ? 60 / relax : 15); ++iteration) {
       motion();
-      if (sliders_ || iteration > 0)
-        forces(iteration == 0, iteration > 8 ? std::min(0.4, relax) : relax);
+      if (sliders_ || iteration > 0) forces(iteration == 0, iteration > 8 ? std::min(0.4, relax) : relax);
       const Complex mass = (z.array().square() * modes_.mu.array()).sum();
       const Complex value = (z.array().square()).sum() + (s * s - modes_.shift) * mass + (d.array() * q.array().square()).sum();
       const Complex slope = 2.0 * s * mass + (d_prime.array() * q.array().square()).sum();

@@ -28,9 +28,10 @@ struct Structure {
   const fe::PrestressState* state = nullptr;  ///< null for a matrix model
   Eigen::VectorXd theta;                      ///< (n_parameters) values as the model stands
   SensorValues sensors;
-  std::vector<std::string> sensor_nodes;      ///< (n_channels) name of each channel's node, "" where unknown
-  std::vector<std::string> rigid_supports;    ///< groups of springs that stand for a rigid support, far stiffer than what they hold
-  LoadTests load_tests;                       ///< over the free dofs (load_tests_of); empty where none was made
+  std::vector<std::string> sensor_nodes;  ///< (n_channels) name of each channel's node, "" where unknown
+  std::vector<std::string>
+      rigid_supports;    ///< groups of springs that stand for a rigid support, far stiffer than what they hold
+  LoadTests load_tests;  ///< over the free dofs (load_tests_of); empty where none was made
   std::string source;
 };
 
@@ -49,8 +50,8 @@ struct Place {
 
 /// The places of a structure by set: elements, nodes, stays, dampers, damper_types ("dampers:C1,C2", all of a make), supports,
 /// foundations, groups, global. An element stands for
-/// its neighbourhood where there are more than `max_zones` of them: the structure is cut into that many zones round elements that lie
-/// far from each other, so that every element belongs to the nearest one.
+/// its neighbourhood where there are more than `max_zones` of them: the structure is cut into that many zones round elements
+/// that lie far from each other, so that every element belongs to the nearest one.
 struct Places {
   std::map<std::string, std::vector<Place>> sets;
   double total_mass_kg = 0.0;
@@ -58,18 +59,18 @@ struct Places {
 
 /// Dampers of a model where they might stand instead.
 struct DamperMove {
-  std::string name;                   ///< of the alternative, "foot_57m"
-  std::vector<std::string> dampers;   ///< names as in springs.csv
-  std::vector<Eigen::Vector3d> x_m;   ///< (n_dampers) each goes to the nearest node
+  std::string name;                  ///< of the alternative, "foot_57m"
+  std::vector<std::string> dampers;  ///< names as in springs.csv
+  std::vector<Eigen::Vector3d> x_m;  ///< (n_dampers) each goes to the nearest node
 };
 
 /// Whether a spring may be such a damper: between a node and the ground, against a displacement.
 [[nodiscard]] inline bool can_be_moved(const fe::Spring& spring) { return !spring.rotation && spring.node2 < 0; }
 
 struct PlaceOptions {
-  int max_zones = 24;  ///< of elements
-  int max_nodes = 24;  ///< those of channels first, then nodes far from each other
-  std::vector<DamperMove> moves;  ///< set "damper_moves": "dampers:C1,C2@foot_57m"
+  int max_zones = 24;                                         ///< of elements
+  int max_nodes = 24;                                         ///< those of channels first, then nodes far from each other
+  std::vector<DamperMove> moves;                              ///< set "damper_moves": "dampers:C1,C2@foot_57m"
   std::vector<Eigen::Vector3d> zone_centres, node_positions;  ///< where they are laid down: zones and nodes of another mesh
 };
 

@@ -61,7 +61,8 @@ void move_support(const ReducedPlace& support, double position, const std::vecto
   own.conservativeResizeLike(MatrixXd::Zero(n, n));
   state.stiffness -= own;
   for (Index d = 0; d < per_node; ++d) {
-    VectorXd b = ((1.0 - t) * support.directions.col(i * per_node + d) + t * support.directions.col((i + 1) * per_node + d))(columns);
+    VectorXd b =
+        ((1.0 - t) * support.directions.col(i * per_node + d) + t * support.directions.col((i + 1) * per_node + d))(columns);
     b.conservativeResizeLike(VectorXd::Zero(n));
     state.stiffness += number("k_" + std::to_string(d)) * b * b.transpose();
   }
@@ -171,7 +172,8 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   if (const double change = stiffness_change(cause, action, condition); change != 0.0) {
     state.stiffness += change * sliced(place.stiffness, columns_, n);
   } else if (kind == "scale.mass") {
-    state.mass += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) * sliced(place.mass, columns_, n);
+    state.mass += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) *
+                  sliced(place.mass, columns_, n);
   } else if (kind == "support.move") {
     move_support(place, value("position"), columns_, state);
   } else if (kind == "mass.add") {

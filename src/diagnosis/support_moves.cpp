@@ -13,11 +13,12 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr double kStraight = 0.8;         // cosine of the turn from beam to beam beyond which a line goes no further
-constexpr std::size_t kMostNodes = 24;    // to either side of the support
+constexpr double kStraight = 0.8;       // cosine of the turn from beam to beam beyond which a line goes no further
+constexpr std::size_t kMostNodes = 24;  // to either side of the support
 
 /// The nodes that a line of beams passes on one side of a node, with the way to each.
-std::vector<std::pair<int, double>> walk(const fe::Model& model, const std::multimap<int, int>& beams, int from, Vector3d towards) {
+std::vector<std::pair<int, double>> walk(const fe::Model& model, const std::multimap<int, int>& beams, int from,
+                                         Vector3d towards) {
   std::vector<std::pair<int, double>> out;
   std::set<int> passed = {from};
   double way = 0.0;
@@ -26,7 +27,8 @@ std::vector<std::pair<int, double>> walk(const fe::Model& model, const std::mult
     double best = kStraight;
     const auto [first, last] = beams.equal_range(at);
     for (auto neighbour = first; neighbour != last; ++neighbour) {
-      const Vector3d step = model.nodes[static_cast<std::size_t>(neighbour->second)].x_m - model.nodes[static_cast<std::size_t>(at)].x_m;
+      const Vector3d step =
+          model.nodes[static_cast<std::size_t>(neighbour->second)].x_m - model.nodes[static_cast<std::size_t>(at)].x_m;
       const double along = step.norm() > 0.0 ? step.normalized().dot(towards) : 0.0;
       if (passed.contains(neighbour->second) || along <= best) continue;
       best = along;
@@ -82,7 +84,8 @@ void ElementPlaces::add_support_moves(Places& places) const {
     const std::string name = support.id.substr(support.id.find(':') + 1);
     bool clamped = false;  // a foot that holds against turning is built in: it does not stand elsewhere
     for (const fe::Spring& spring : model_.springs) {
-      if ((spring.group.empty() ? spring.name : spring.group) != name || spring.node2 >= 0 || !fe::carries_stiffness(spring)) continue;
+      if ((spring.group.empty() ? spring.name : spring.group) != name || spring.node2 >= 0 || !fe::carries_stiffness(spring))
+        continue;
       clamped = clamped || spring.rotation;
       if (!spring.rotation && spring.damping == 0.0 && spring.friction_N == 0.0) springs.push_back(&spring);
     }
@@ -96,7 +99,8 @@ void ElementPlaces::add_support_moves(Places& places) const {
     std::vector<Eigen::Triplet<double>> entries;
     const auto per_node = static_cast<Index>(springs.size());
     const Vector3d x = model_.nodes[static_cast<std::size_t>(node)].x_m;
-    const Vector3d chord = model_.nodes[static_cast<std::size_t>(line.back().first)].x_m - model_.nodes[static_cast<std::size_t>(line.front().first)].x_m;
+    const Vector3d chord = model_.nodes[static_cast<std::size_t>(line.back().first)].x_m -
+                           model_.nodes[static_cast<std::size_t>(line.front().first)].x_m;
     Index axis = 0;
     chord.cwiseAbs().maxCoeff(&axis);
     const auto set = [&](const std::string& key, double value) { place.attributes[key] = value; };
@@ -106,7 +110,8 @@ void ElementPlaces::add_support_moves(Places& places) const {
       for (Index d = 0; d < per_node; ++d)
         for (int k = 0; k < 3; ++k)
           if (const double part = springs[static_cast<std::size_t>(d)]->direction[k]; part != 0.0)
-            entries.emplace_back(6 * line[i].first + k, static_cast<int>(i) * static_cast<int>(per_node) + static_cast<int>(d), part);
+            entries.emplace_back(6 * line[i].first + k, static_cast<int>(i) * static_cast<int>(per_node) + static_cast<int>(d),
+                                 part);
     }
     for (Index d = 0; d < per_node; ++d) set("k_" + std::to_string(d), springs[static_cast<std::size_t>(d)]->stiffness);
     set("stations", static_cast<double>(line.size()));
@@ -114,7 +119,8 @@ void ElementPlaces::add_support_moves(Places& places) const {
     set("x_high", place.attributes.at("x_" + std::to_string(line.size() - 1)));
     constexpr int kStarts = 8;  // that the screen tries, evenly between the ends
     for (int s = 0; s < kStarts; ++s)
-      set("x_start_" + std::to_string(s), place.attributes["x_low"] + (s + 0.5) / kStarts * (place.attributes["x_high"] - place.attributes["x_low"]));
+      set("x_start_" + std::to_string(s),
+          place.attributes["x_low"] + (s + 0.5) / kStarts * (place.attributes["x_high"] - place.attributes["x_low"]));
     Eigen::SparseMatrix<double> directions(expansion_.rows(), static_cast<Index>(line.size()) * per_node);
     directions.setFromTriplets(entries.begin(), entries.end());
     place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);

@@ -33,11 +33,13 @@ Eigen::Vector2d normal_in_plan(const ReducedModel& model) {
 /// Quasi-steady buffeting on unit widths at the nodes (Davenport 1962), as far as it tells modes, speeds and directions apart:
 ///   S_F ~ V² |cos beta| (d² + l²) S(f L / V) J(f / V),  S(n) = 1 / (1 + 10.2 n)^(5/3),  J = 1 / (1 + c f B / V),
 /// d, l the mode's motion along the wind and upwards. The level of each record is free.
-double Predictor::wind_weight(const Condition& condition, const SolvedState& solved, Eigen::Index mode, const std::string& label) const {
+double Predictor::wind_weight(const Condition& condition, const SolvedState& solved, Eigen::Index mode,
+                              const std::string& label) const {
   if (!condition.wind_m_s || !(*condition.wind_m_s > 0.0)) return 1.0;
   const double v = *condition.wind_m_s;
   const double f = solved.modes.frequency_Hz(mode);
-  double power = 0.0, skew = 1.0, drag = 1.0, lift = 1.0, length = 60.0, intensity = 1.0, coherence = 8.0, resonance = 1.0, lee = 1.0;
+  double power = 0.0, skew = 1.0, drag = 1.0, lift = 1.0, length = 60.0, intensity = 1.0, coherence = 8.0, resonance = 1.0,
+         lee = 1.0;
   const auto number = [](const Candidate& c, const Eigen::VectorXd& a, const ActionSpec& action, const char* name) {
     return c.value(action.number.at(name), a);
   };

@@ -70,7 +70,8 @@ std::vector<TermPlan> plan_mass(const Model& model) {
     TermPlan& term = groups.add("point masses " + mass.group, i, mass_at_node);
     if (term.parts.size() == 1) add_factors(model, Target::point_mass, mass.group, 1.0, term.coefficient);
   }
-  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_element_mass);
+  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i)
+    groups.add("matrix elements", i, matrix_element_mass);
   return groups.take();
 }
 

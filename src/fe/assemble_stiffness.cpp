@@ -107,7 +107,8 @@ std::vector<TermPlan> plan_stiffness(const Model& model) {
     TermPlan& term = groups.add("springs " + s.group, i, spring);
     if (term.parts.size() == 1) add_factors(model, Target::spring_stiffness, s.group, 1.0, term.coefficient);
   }
-  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i) groups.add("matrix elements", i, matrix_element_stiffness);
+  for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i)
+    groups.add("matrix elements", i, matrix_element_stiffness);
   return groups.take();
 }
 

@@ -35,8 +35,8 @@ struct ElementMatrix {
 [[nodiscard]] TriangleGeometry triangle_geometry(const Model& model, const Element& element);
 [[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
 [[nodiscard]] SolidGeometry solid_geometry(const Model& model, const Element& element);
-/// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners where
-/// the rule is diagonal); bending part. Over its six degrees of freedom a node.
+/// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners
+/// where the rule is diagonal); bending part. Over its six degrees of freedom a node.
 /// @param straight_sides  of this element, from sides_beside_four_nodes (mixed_sides.hpp); used for triangles only
 [[nodiscard]] Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, std::uint8_t straight_sides);
 [[nodiscard]] Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element);

@@ -21,10 +21,10 @@
 namespace twindeck::fe::corotational {
 
 enum class Frame {
-  chord,  ///< 2 points: along the chord, turned about it by the mean twist of both ends
-  quad,   ///< 4 points: normal to both diagonals, first axis along their difference (as shell_frame.hpp)
+  chord,     ///< 2 points: along the chord, turned about it by the mean twist of both ends
+  quad,      ///< 4 points: normal to both diagonals, first axis along their difference (as shell_frame.hpp)
   triangle,  ///< 3 points: normal to the plane through them, first axis along 1-2
-  box     ///< 8 points: along the mean of the four edges 1-2, plane of the mean of the edges 1-4
+  box        ///< 8 points: along the mean of the four edges 1-2, plane of the mean of the edges 1-4
 };
 
 struct Element {

@@ -17,10 +17,11 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double mass_tolerance = 1e-6;        ///< [-] of the diagonal, see the header
-constexpr double stiffness_tolerance = 1e-11;  ///< [-] of the diagonal: numbers of twelve digits and rounding of the elimination
-constexpr double largest_entry = 1e40;         ///< [SI] and its inverse: beyond, quotients leave the range of doubles; none has 1e20
-constexpr double no_mass = 1e-14;              ///< [-] of the largest mass: rounding of nothing
+constexpr double mass_tolerance = 1e-6;  ///< [-] of the diagonal, see the header
+constexpr double stiffness_tolerance =
+    1e-11;                              ///< [-] of the diagonal: numbers of twelve digits and rounding of the elimination
+constexpr double largest_entry = 1e40;  ///< [SI] and its inverse: beyond, quotients leave the range of doubles; none has 1e20
+constexpr double no_mass = 1e-14;       ///< [-] of the largest mass: rounding of nothing
 
 std::string dof_name(const std::vector<DofLabel>& dofs, Index i) {
   VectorXd unit = VectorXd::Zero(std::ssize(dofs));
@@ -29,7 +30,8 @@ std::string dof_name(const std::vector<DofLabel>& dofs, Index i) {
   return fmt::format("{}, direction {} (degree of freedom {})", words.node, words.directions, i + 1);
 }
 
-[[noreturn]] void refuse(const std::string& source, const std::string& key, const std::string& problem, const std::string& mend) {
+[[noreturn]] void refuse(const std::string& source, const std::string& key, const std::string& problem,
+                         const std::string& mend) {
   throw InputError({source, 0, key}, problem, mend);
 }
 
@@ -48,10 +50,11 @@ bool check_mass_entries(const linalg::SparseMatrix& lower, const std::vector<Dof
       diagonal = false;
       const double most = std::sqrt(std::max(m[e.row()], 0.0) + floor) * std::sqrt(std::max(m[column], 0.0) + floor);
       if (std::abs(e.value()) <= (1.0 + mass_tolerance) * most) continue;
-      refuse(source, dof_name(dofs, e.row()),
-             fmt::format("the mass matrix couples it with {} by {:g}, but the two masses are {:g} and {:g}: no structure has that",
-                         dof_name(dofs, column), e.value(), m[e.row()], m[column]),
-             "a coupling is at most the root of the product of the two masses; mend the matrix");
+      refuse(
+          source, dof_name(dofs, e.row()),
+          fmt::format("the mass matrix couples it with {} by {:g}, but the two masses are {:g} and {:g}: no structure has that",
+                      dof_name(dofs, column), e.value(), m[e.row()], m[column]),
+          "a coupling is at most the root of the product of the two masses; mend the matrix");
     }
   }
   return diagonal;
@@ -101,16 +104,19 @@ void check_mass(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& 
   check_sizes(lower, dofs, source, "mass");
   const VectorXd m = lower.diagonal();
   if (m.size() == 0 || lower.coeffs().isZero(0.0))
-    refuse(source, "mass", "no degree of freedom carries mass, so that there are no modes", "give densities, point masses or M");
+    refuse(source, "mass", "no degree of freedom carries mass, so that there are no modes",
+           "give densities, point masses or M");
   if (sum_of_squares || check_mass_entries(lower, dofs, source)) return;
   linalg::SparseMatrix raised = lower;
   const double largest = m.maxCoeff();
-  for (Index i = 0; i < m.size(); ++i) raised.coeffRef(i, i) = m[i] > no_mass * largest ? (1.0 + mass_tolerance) * m[i] : largest;
+  for (Index i = 0; i < m.size(); ++i)
+    raised.coeffRef(i, i) = m[i] > no_mass * largest ? (1.0 + mass_tolerance) * m[i] : largest;
   raised.makeCompressed();
   linalg::Cholesky factor;
   if (factor.factorize(raised).converged) return;
   refuse(source, dof_name(dofs, factor.failed_column()),
-         "the mass matrix is indefinite: with the masses before it, this degree of freedom has a motion of negative kinetic energy",
+         "the mass matrix is indefinite: with the masses before it, this degree of freedom has a motion of negative kinetic "
+         "energy",
          "mend the couplings of the mass matrix there");
 }
 
@@ -119,8 +125,7 @@ void refuse_negative_stiffness(const linalg::SparseMatrix& lower, const std::vec
   check_sizes(lower, dofs, source, "stiffness");
   const VectorXd k = lower.diagonal();
   const double largest = k.cwiseAbs().maxCoeff();
-  if (largest == 0.0)
-    refuse(source, "stiffness", "no degree of freedom has stiffness", "give springs, elements or K");
+  if (largest == 0.0) refuse(source, "stiffness", "no degree of freedom has stiffness", "give springs, elements or K");
   for (Index i = 0; i < k.size(); ++i)
     if (k[i] < -stiffness_tolerance * largest)
       refuse(source, dof_name(dofs, i), fmt::format("its stiffness{} is {:g}, expected 0 or more", context, k[i]),
@@ -134,8 +139,8 @@ void refuse_negative_stiffness(const linalg::SparseMatrix& lower, const std::vec
     if (added == stiffness_tolerance) return;
     const MotionWords words = words_of(softest_motion(factor, raised.diagonal(), 8), dofs);
     refuse(source, words.node,
-           fmt::format("the structure{} is unstable: a motion of this node{} in {} has negative stiffness", context, words.place,
-                       words.directions),
+           fmt::format("the structure{} is unstable: a motion of this node{} in {} has negative stiffness", context,
+                       words.place, words.directions),
            "look for a spring or matrix of the wrong sign, or for members and stays that buckle under the forces in them");
   }
   refuse(source, dof_name(dofs, factor.failed_column()), fmt::format("the stiffness matrix{} is indefinite", context),

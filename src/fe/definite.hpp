@@ -33,7 +33,8 @@ void check_mass(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& 
 
 /// @param lower    lower triangle of K (n × n)
 /// @param context  ends the first words of the message (" under its prestress"), may be empty
-/// @throws InputError  naming a node and the directions in which it moves most: a size as above, a stiffness that is negative by
+/// @throws InputError  naming a node and the directions in which it moves most: a size as above, a stiffness that is negative
+/// by
 ///         more than 1e-11 of the diagonal
 void refuse_negative_stiffness(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& dofs, const std::string& source,
                                const std::string& context);

@@ -13,8 +13,8 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Two-node 3D beam. Local x from end 1 to end 2; local z the component of `orientation` normal to x (orientation zero: global
-/// Z, or global X when the beam is within 1e-6 rad of vertical); local y = z × x. Bit i of `releases` frees local end displacement i
-/// (0-5 = x y z rx ry rz of end 1, 6-11 of end 2).
+/// Z, or global X when the beam is within 1e-6 rad of vertical); local y = z × x. Bit i of `releases` frees local end
+/// displacement i (0-5 = x y z rx ry rz of end 1, 6-11 of end 2).
 struct BeamGeometry {
   std::array<Eigen::Vector3d, 2> node_m;
   std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< node -> end, global axes
@@ -23,7 +23,7 @@ struct BeamGeometry {
 };
 struct BeamStiffnessProperties {
   double youngs_modulus_Pa, shear_modulus_Pa, area_m2, inertia_y_m4, inertia_z_m4, inertia_yz_m4, torsion_m4, shear_area_y_m2,
-      shear_area_z_m2;   ///< shear area 0 = rigid in shear
+      shear_area_z_m2;  ///< shear area 0 = rigid in shear
 };
 /// Rows: local x, y, z in global axes (3 × 3, orthonormal).
 /// @throws InputError for a beam without length, or an orientation along its axis
@@ -55,12 +55,17 @@ struct BeamStiffnessProperties {
 /// Flat four-node shell: membrane with incompatible modes (QM6; Taylor, Beresford and Wilson 1976), drilling stiffness, and
 /// discrete-Kirchhoff plate bending (DKQ; Batoz and Ben Tahar 1982), which does not lock. Slightly warped quadrilaterals are
 /// projected to their mean plane, with the rigid-body correction for the distance of the nodes from it.
-struct ShellGeometry { std::array<Eigen::Vector3d, 4> node_m; };
-struct ShellProperties { double youngs_modulus_Pa, poisson_ratio, thickness_m, bending_inertia_ratio; };
+struct ShellGeometry {
+  std::array<Eigen::Vector3d, 4> node_m;
+};
+struct ShellProperties {
+  double youngs_modulus_Pa, poisson_ratio, thickness_m, bending_inertia_ratio;
+};
 enum class DrillingRule { penalty, diagonal };
 /// Membrane part, drilling included: linear in E t. penalty: Hughes and Brezzi (1989) with factor gamma/G (default 1 when
 /// factor is 0), incompatible modes included in the rotation; diagonal: factor·E·t·A on each corner's rotation about the normal
-/// (default 0.03), which acts against ground and so resists a rigid rotation in the plane too (kept for comparison with models that use it).
+/// (default 0.03), which acts against ground and so resists a rigid rotation in the plane too (kept for comparison with models
+/// that use it).
 /// @throws InputError (all shell functions but shell_area) for a quadrilateral without area or not convex
 [[nodiscard]] Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProperties& properties,
                                                 DrillingRule drilling, double drilling_factor);

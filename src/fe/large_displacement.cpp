@@ -62,7 +62,12 @@ Eigen::MatrixXd solid_stiffness_six(const Model& model, const Element& e) {
 class MovingStructure {
  public:
   MovingStructure(const Model& model, const Eigen::VectorXd& load, const Eigen::VectorXd& stay_pull_N)
-      : model_(model), straight_sides_(sides_beside_four_nodes(model)), map_(make_dof_map(model)), pattern_(make_pattern(model, map_)), scatter_(pattern_, map_), load_(load) {
+      : model_(model),
+        straight_sides_(sides_beside_four_nodes(model)),
+        map_(make_dof_map(model)),
+        pattern_(make_pattern(model, map_)),
+        scatter_(pattern_, map_),
+        load_(load) {
     for (int i = 0; i < std::ssize(model.elements); ++i) add_part(i, stay_pull_N);
   }
 
@@ -96,8 +101,8 @@ class MovingStructure {
   }
   [[nodiscard]] Motion motion_of(const Part& part, const Configuration& c) const;
   /// Adds forces (and the tangent) of points, carried to their roots over the arms as they now lie.
-  void add(const std::vector<RidingPoint>& points, const Configuration& c, const Eigen::VectorXd& force, const Eigen::MatrixXd& k,
-           Eigen::VectorXd& sum, bool with_tangent);
+  void add(const std::vector<RidingPoint>& points, const Configuration& c, const Eigen::VectorXd& force,
+           const Eigen::MatrixXd& k, Eigen::VectorXd& sum, bool with_tangent);
   void add_springs(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent);
   void add_matrix_elements(const Configuration& c, Eigen::VectorXd& sum, bool with_tangent);
 
@@ -156,7 +161,7 @@ Motion MovingStructure::motion_of(const Part& part, const Configuration& c) cons
 }
 
 void MovingStructure::add(const std::vector<RidingPoint>& points, const Configuration& c, const Eigen::VectorXd& force,
-                    const Eigen::MatrixXd& k, Eigen::VectorXd& sum, bool with_tangent) {
+                          const Eigen::MatrixXd& k, Eigen::VectorXd& sum, bool with_tangent) {
   const auto n = static_cast<Eigen::Index>(6 * points.size());
   Eigen::VectorXd f = force;
   Eigen::MatrixXd tangent = k;

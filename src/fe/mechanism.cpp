@@ -19,10 +19,10 @@ constexpr double no_stiffness = 1e-14;  // relative to the largest diagonal entr
 [[noreturn]] void refuse(const Eigen::VectorXd& motion, const std::vector<DofLabel>& dofs, const std::string& source,
                          const std::string& context) {
   const MotionWords words = words_of(motion, dofs);
-  throw InputError({source, 0, words.node},
-                   fmt::format("the structure{} is a mechanism: this node{} moves freely in {}", context, words.place,
-                               words.directions),
-                   "hold it by a support, a spring, a link, or an element with stiffness in that direction");
+  throw InputError(
+      {source, 0, words.node},
+      fmt::format("the structure{} is a mechanism: this node{} moves freely in {}", context, words.place, words.directions),
+      "hold it by a support, a spring, a link, or an element with stiffness in that direction");
 }
 
 /// Without a stiffness of its own: nothing at all is joined to the degree of freedom.

@@ -13,14 +13,14 @@ namespace twindeck::fe {
 /// References between parts are positions in the vectors below (0-based), -1 = none.
 
 struct Node {
-  long id = 0;            ///< as in nodes.csv
-  Eigen::Vector3d x_m;    ///< coordinates [m]
+  long id = 0;          ///< as in nodes.csv
+  Eigen::Vector3d x_m;  ///< coordinates [m]
 };
 
 struct Material {
   std::string name;
   double youngs_modulus_Pa = 0.0;
-  double shear_modulus_Pa = 0.0;    ///< follows E in proportion when E is a parameter
+  double shear_modulus_Pa = 0.0;  ///< follows E in proportion when E is a parameter
   double poisson_ratio = 0.0;
   double density_kg_m3 = 0.0;
 };
@@ -29,11 +29,11 @@ struct Section {
   std::string name;
   // beams and bars
   double area_m2 = 0.0;
-  double inertia_y_m4 = 0.0;        ///< bending in the local x-z plane
-  double inertia_z_m4 = 0.0;        ///< bending in the local x-y plane
-  double inertia_yz_m4 = 0.0;       ///< product of inertia (unsymmetric sections)
-  double torsion_m4 = 0.0;          ///< St Venant
-  double shear_area_y_m2 = 0.0;     ///< 0: rigid in shear (Euler)
+  double inertia_y_m4 = 0.0;     ///< bending in the local x-z plane
+  double inertia_z_m4 = 0.0;     ///< bending in the local x-y plane
+  double inertia_yz_m4 = 0.0;    ///< product of inertia (unsymmetric sections)
+  double torsion_m4 = 0.0;       ///< St Venant
+  double shear_area_y_m2 = 0.0;  ///< 0: rigid in shear (Euler)
   double shear_area_z_m2 = 0.0;
   // shells
   double thickness_m = 0.0;
@@ -54,43 +54,54 @@ enum class ElementType { beam, bar, stay, shell, solid };
 struct Element {
   long id = 0;
   ElementType type = ElementType::beam;
-  std::string name;                 ///< stays: "NE8"; else ""
-  std::string group;                ///< "foot_top_chord", "slab_foot_B", "stay_44": the unit of parameters and of diagnosis
+  std::string name;   ///< stays: "NE8"; else ""
+  std::string group;  ///< "foot_top_chord", "slab_foot_B", "stay_44": the unit of parameters and of diagnosis
   int material = -1;
-  int section = -1;                 ///< none (-1) for a solid
-  int section2 = -1;                ///< beams: section at the second end of a tapered one (see beam_tapered.hpp); -1 = uniform
-  std::vector<int> nodes;           ///< 2 (beam, bar, stay), 3 or 4 (shell, anticlockwise) or 8 (solid, see solid.hpp)
-  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near to it as can be; 0 = global Z (X for vertical beams)
-  std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< node -> beam end, global axes
-  std::uint16_t releases = 0;       ///< beams: bit i set = local end degree of freedom i (0-11) carries no force
-  double pull_N = 0.0;              ///< stays: pretension (given, or the site value that shape finding blends with; 0 = none); bars: tension in the geometry of nodes.csv
+  int section = -1;        ///< none (-1) for a solid
+  int section2 = -1;       ///< beams: section at the second end of a tapered one (see beam_tapered.hpp); -1 = uniform
+  std::vector<int> nodes;  ///< 2 (beam, bar, stay), 3 or 4 (shell, anticlockwise) or 8 (solid, see solid.hpp)
+  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near
+                                                          ///< to it as can be; 0 = global Z (X for vertical beams)
+  std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(),
+                                             Eigen::Vector3d::Zero()};  ///< node -> beam end, global axes
+  std::uint16_t releases = 0;  ///< beams: bit i set = local end degree of freedom i (0-11) carries no force
+  double pull_N = 0.0;         ///< stays: pretension (given, or the site value that shape finding blends with; 0 = none); bars:
+                               ///< tension in the geometry of nodes.csv
 };
 
 /// Spring, dashpot or friction element between a node and ground, or two nodes, along a direction.
 struct Spring {
   std::string name, group;
-  int node = -1, node2 = -1;        ///< node2 = -1: ground
+  int node = -1, node2 = -1;  ///< node2 = -1: ground
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  bool rotation = false;            ///< acts on rotations about `direction`
-  double stiffness = 0.0;           ///< [N/m] or [N m/rad]
-  double damping = 0.0;             ///< [N s/m] or [N m s/rad]
-  double friction_N = 0.0;          ///< Coulomb threshold; 0 = none
-  bool series = false;              ///< true: spring and dashpot in series (Maxwell); false: in parallel (Kelvin)
-  bool active = true;               ///< false: carried as data (a damper that is not fitted), not assembled
+  bool rotation = false;    ///< acts on rotations about `direction`
+  double stiffness = 0.0;   ///< [N/m] or [N m/rad]
+  double damping = 0.0;     ///< [N s/m] or [N m s/rad]
+  double friction_N = 0.0;  ///< Coulomb threshold; 0 = none
+  bool series = false;      ///< true: spring and dashpot in series (Maxwell); false: in parallel (Kelvin)
+  bool active = true;       ///< false: carried as data (a damper that is not fitted), not assembled
 };
 
 /// Element given by its matrices: force f = M a + C v + K u on its degrees of freedom and on unknowns of its own. The matrices
 /// may be unsymmetric (self-excited forces, the state space of a damper). The modes of the structure use the conservative part:
-/// own unknowns are condensed statically, then the symmetric part of K and M is taken. The dynamic system uses the whole element.
+/// own unknowns are condensed statically, then the symmetric part of K and M is taken. The dynamic system uses the whole
+/// element.
 struct MatrixElement {
-  struct Dof { int node = -1; int direction = 0; };  ///< direction 0-5 = x y z rx ry rz
+  struct Dof {
+    int node = -1;
+    int direction = 0;
+  };  ///< direction 0-5 = x y z rx ry rz
   std::string name, group;
   std::vector<Dof> dofs;
-  int internal = 0;                                  ///< unknowns of its own, which follow `dofs` in the matrices
-  Eigen::MatrixXd stiffness, damping, mass;          ///< (dofs + internal)²; empty = zero
+  int internal = 0;                          ///< unknowns of its own, which follow `dofs` in the matrices
+  Eigen::MatrixXd stiffness, damping, mass;  ///< (dofs + internal)²; empty = zero
 };
 
-struct RigidLink { std::string name; int master = -1; int slave = -1; };  ///< slave moves as a rigid body with master (6 dof)
+struct RigidLink {
+  std::string name;
+  int master = -1;
+  int slave = -1;
+};  ///< slave moves as a rigid body with master (6 dof)
 
 struct PointMass {
   std::string group;
@@ -99,59 +110,71 @@ struct PointMass {
   Eigen::Vector3d inertia_kg_m2 = Eigen::Vector3d::Zero();  ///< rotary, global axes
 };
 
-struct Support { std::string name; int node = -1; std::array<bool, 6> fixed{}; };  ///< x y z rx ry rz
+struct Support {
+  std::string name;
+  int node = -1;
+  std::array<bool, 6> fixed{};
+};  ///< x y z rx ry rz
 
 /// What a parameter scales.
 enum class Target {
-  youngs_modulus, density,                 ///< of a material
-  thickness, bending_inertia_ratio, area,  ///< of a section (area: axial stiffness and mass of bars, stays and beams)
-  spring_stiffness, point_mass,            ///< of a group of springs, of point masses (a factor, initial 1)
-  matrix_stiffness, matrix_mass            ///< of a matrix model: coefficient of K_i, M_i
+  youngs_modulus,
+  density,  ///< of a material
+  thickness,
+  bending_inertia_ratio,
+  area,  ///< of a section (area: axial stiffness and mass of bars, stays and beams)
+  spring_stiffness,
+  point_mass,  ///< of a group of springs, of point masses (a factor, initial 1)
+  matrix_stiffness,
+  matrix_mass  ///< of a matrix model: coefficient of K_i, M_i
 };
 
 struct Parameter {
-  std::string name;                 ///< "E_c1"
+  std::string name;  ///< "E_c1"
   Target target = Target::youngs_modulus;
-  std::vector<std::string> of;      ///< names of materials, sections or groups it applies to
-  std::string unit;                 ///< "Pa", "kg/m3", "-"
+  std::vector<std::string> of;  ///< names of materials, sections or groups it applies to
+  std::string unit;             ///< "Pa", "kg/m3", "-"
   double initial = 0.0;
-  double lower = 0.0;               ///< bounds; equal to `initial` on both sides means fixed
+  double lower = 0.0;  ///< bounds; equal to `initial` on both sides means fixed
   double upper = 0.0;
 };
 
 /// Displacements under dead load and cable forces.
 enum class Displacements {
-  linear,   ///< small: equilibrium in the geometry of nodes.csv
-  large     ///< co-rotational, equilibrium in the deformed geometry; the modes are those about it
+  linear,  ///< small: equilibrium in the geometry of nodes.csv
+  large    ///< co-rotational, equilibrium in the deformed geometry; the modes are those about it
 };
 
 enum class PullRule {
-  none,           ///< no prestress
-  given,          ///< Element::pull_N unchanged
-  shape_finding   ///< least cable forces for zero displacement at the conditions, blended with site values (Element::pull_N)
+  none,          ///< no prestress
+  given,         ///< Element::pull_N unchanged
+  shape_finding  ///< least cable forces for zero displacement at the conditions, blended with site values (Element::pull_N)
 };
 
 struct Prestress {
   PullRule rule = PullRule::none;
   bool geometric_stiffness = true;
-  double minimum_pull_N = 30e3;              ///< least cable force of shape finding, so that no stay is slack
-  double ridge = 1e-3;                       ///< weight of small cable forces against zero displacement (dimensionless)
-  double site_weight = 0.0;                  ///< weight of the site values against zero displacement (dimensionless), 0 = ignored
-  struct Condition { int node; int dof; };   ///< displacement that should be zero (dof 0-2)
+  double minimum_pull_N = 30e3;  ///< least cable force of shape finding, so that no stay is slack
+  double ridge = 1e-3;           ///< weight of small cable forces against zero displacement (dimensionless)
+  double site_weight = 0.0;      ///< weight of the site values against zero displacement (dimensionless), 0 = ignored
+  struct Condition {
+    int node;
+    int dof;
+  };  ///< displacement that should be zero (dof 0-2)
   std::vector<Condition> conditions;
   Displacements displacements = Displacements::linear;
-  int load_steps = 1;                        ///< large displacements: number of equal steps of dead load and cable forces
+  int load_steps = 1;  ///< large displacements: number of equal steps of dead load and cable forces
 };
 
 /// Options of the element formulation.
 struct Formulation {
-  bool shear_flexible = true;         ///< false: Euler-Bernoulli, shear areas are ignored
-  bool beam_rotary_inertia = true;    ///< false: translational and torsional mass of beams only
-  bool shell_rotary_inertia = true;   ///< false: translational mass only
+  bool shear_flexible = true;        ///< false: Euler-Bernoulli, shear areas are ignored
+  bool beam_rotary_inertia = true;   ///< false: translational and torsional mass of beams only
+  bool shell_rotary_inertia = true;  ///< false: translational mass only
   /// penalty: Hughes-Brezzi; diagonal: factor E t A on each corner, spread so that a rigid rotation meets no resistance
   enum class Drilling { penalty, diagonal } drilling = Drilling::penalty;
-  double drilling_factor = 0.0;       ///< 0 = the formulation's own default
-  bool lumped_mass = false;           ///< true: masses at the nodes (diagonal but for arms and releases); false: consistent
+  double drilling_factor = 0.0;  ///< 0 = the formulation's own default
+  bool lumped_mass = false;      ///< true: masses at the nodes (diagonal but for arms and releases); false: consistent
 };
 
 /// Index of node, element or degree of freedom `i` for a vector.

@@ -14,8 +14,7 @@ MotionWords words_of(const Eigen::VectorXd& motion, const std::vector<DofLabel>&
   const DofLabel& worst = dofs[static_cast<std::size_t>(largest)];
   MotionWords words;
   words.node = "node " + worst.node;
-  if (worst.x_m.allFinite())
-    words.place = fmt::format(" at ({:g}, {:g}, {:g}) m", worst.x_m.x(), worst.x_m.y(), worst.x_m.z());
+  if (worst.x_m.allFinite()) words.place = fmt::format(" at ({:g}, {:g}, {:g}) m", worst.x_m.x(), worst.x_m.y(), worst.x_m.z());
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const double part = std::abs(motion[static_cast<Eigen::Index>(i)] / motion[largest]);
     if (dofs[i].node != worst.node || part < 0.1) continue;

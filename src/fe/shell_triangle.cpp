@@ -25,8 +25,8 @@ TrianglePlane plane_of(const TriangleGeometry& geometry) {
   const Eigen::Vector3d normal = side.cross(other);
   if (!(normal.norm() > kLeastFlatness * (side.squaredNorm() + other.squaredNorm() + (x[2] - x[1]).squaredNorm())))
     throw InputError({},
-                     fmt::format("shell with first corner ({:.6g}, {:.6g}, {:.6g}) m has no area, expected a triangle", x[0].x(),
-                                 x[0].y(), x[0].z()),
+                     fmt::format("shell with first corner ({:.6g}, {:.6g}, {:.6g}) m has no area, expected a triangle",
+                                 x[0].x(), x[0].y(), x[0].z()),
                      "give three distinct corners that do not lie on one line");
   TrianglePlane plane;
   plane.axes.row(0) = side.normalized();

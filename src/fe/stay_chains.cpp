@@ -42,7 +42,8 @@ StayChains with_stay_chains(const Model& model, const PrestressState& state, int
     const Element& stay = model.elements[i];
     if (stay.type != ElementType::stay || std::find(names.begin(), names.end(), stay.name) == names.end()) continue;
     const double pull = state.stay_pull_N[static_cast<Eigen::Index>(i)];
-    if (pull <= 0.0) throw InputError({model.source, 0, stay.name}, "has no pull, a chain of it would not hang", "give the model a prestress");
+    if (pull <= 0.0)
+      throw InputError({model.source, 0, stay.name}, "has no pull, a chain of it would not hang", "give the model a prestress");
     const std::vector<int> nodes = hang(out.model, stay, pull, pieces, node_id);
     out.nodes[stay.name] = nodes;
     out.model.elements[i].nodes = {nodes[0], nodes[1]};
@@ -56,7 +57,8 @@ StayChains with_stay_chains(const Model& model, const PrestressState& state, int
     }
   }
   for (const std::string& name : names) {
-    if (!out.nodes.contains(name)) throw InputError({model.source, 0, "stays"}, "'" + name + "' is no stay of the model", "name stays such as NE8");
+    if (!out.nodes.contains(name))
+      throw InputError({model.source, 0, "stays"}, "'" + name + "' is no stay of the model", "name stays such as NE8");
   }
   const Eigen::Index n_before = state.stay_pull_N.size(), n_added = std::ssize(added);
   out.model.elements.insert(out.model.elements.end(), added.begin(), added.end());

@@ -21,9 +21,9 @@ struct StayChains {
 ///     drop(xi) = 4 d xi (1 - xi),   d = m g L² / (8 T),   xi = 0 … 1 along the chord,
 ///
 /// vertically below the chord of length L, cable force T, mass per length m. With the axial stiffness along its pieces and the
-/// string stiffness T/l across them, the chain has Irvine's modes, sag included, in and out of plane. Between its ends it has the
-/// static stiffness of Dischinger's modulus. Half of each piece's mass is at each of its ends. New nodes and pieces follow those
-/// of the model, so that its degrees of freedom keep their numbers.
+/// string stiffness T/l across them, the chain has Irvine's modes, sag included, in and out of plane. Between its ends it has
+/// the static stiffness of Dischinger's modulus. Half of each piece's mass is at each of its ends. New nodes and pieces follow
+/// those of the model, so that its degrees of freedom keep their numbers.
 /// @param state   cable forces of the undivided stays, axial forces of all other elements
 /// @param pieces  >= 2
 /// @param names   stays that are divided; the others stay as they are

@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
-/// What membrane, plate and mass of the three-node shell share: its corners in its own plane and the gradients of linear shapes.
+/// What membrane, plate and mass of the three-node shell share: its corners in its own plane and the gradients of linear
+/// shapes.
 namespace twindeck::fe::triangle {
 
 using Corners = std::array<Eigen::Vector2d, 3>;  ///< [m], anticlockwise

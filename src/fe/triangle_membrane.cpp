@@ -9,8 +9,8 @@ namespace twindeck::fe::triangle {
 
 namespace {
 
-constexpr double kAlpha = 1.5;          ///< [-] bending of a side by the rotations of its ends (OPT)
-constexpr double kLeastBetaZero = 0.01; ///< [-] so that the rank stays 6 as ν approaches ½ (Felippa 2003)
+constexpr double kAlpha = 1.5;           ///< [-] bending of a side by the rotations of its ends (OPT)
+constexpr double kLeastBetaZero = 0.01;  ///< [-] so that the rank stays 6 as ν approaches ½ (Felippa 2003)
 
 /// Forces of the corners (rows u, v, rz) that stand for unit constant stresses xx, yy, xy (9 × 3).
 Eigen::Matrix<double, 9, 3> corner_forces(const Corners& x, std::uint8_t straight_sides) {

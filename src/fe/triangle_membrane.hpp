@@ -13,13 +13,13 @@ namespace twindeck::fe::triangle {
 /// The first part carries constant stresses and alone decides the patch test. The second is of the deviation of the corner
 /// rotations from the mean rotation of the triangle (T), by assumed strains along the three sides (Q). It carries in-plane
 /// bending and is the drilling stiffness; no penalty is added. Its ten coefficients are Felippa's optimal ones, with which two
-/// triangles that make a rectangle have the exact energy of pure in-plane bending, whatever the sides' ratio. The triangle of constant
-/// strain has 3 times that energy and more; Allman's triangle needs a stabilisation against a mechanism of equal rotations. β₀ =
-/// ½ (1 - 4 ν²), at least 0.01.
+/// triangles that make a rectangle have the exact energy of pure in-plane bending, whatever the sides' ratio. The triangle of
+/// constant strain has 3 times that energy and more; Allman's triangle needs a stabilisation against a mechanism of equal
+/// rotations. β₀ = ½ (1 - 4 ν²), at least 0.01.
 ///
 /// Sides. The rotations of two corners bend the side between them (α = 3/2). A four-node shell's sides stay straight, so the
-/// moments of constant stress would not balance along a common side. A side named in `straight_sides` therefore has α = 0: the patch test
-/// then holds in meshes of both, side by side.
+/// moments of constant stress would not balance along a common side. A side named in `straight_sides` therefore has α = 0: the
+/// patch test then holds in meshes of both, side by side.
 ///
 /// Reference: Felippa (2003), A study of optimal membrane triangles with drilling freedoms, CMAME 192, 2125-2168 (section 4 and
 /// its coefficients of OPT); Alvin, de la Fuente, Haugen and Felippa (1992) for the part of constant stress.

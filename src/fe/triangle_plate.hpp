@@ -4,10 +4,10 @@
 
 namespace twindeck::fe::triangle {
 
-/// Discrete-Kirchhoff plate bending of a triangle (DKT). Rotations of the normal are quadratic in the triangle. At the middle of
-/// each side the part across the side is the mean of the corners' and the part along it is the slope of the side's cubic, so that
-/// shear strains vanish along the sides and a thin plate does not lock. The triangle shares the cubics of its sides with the
-/// four-node plate (DKQ), so that meshes of both fit together.
+/// Discrete-Kirchhoff plate bending of a triangle (DKT). Rotations of the normal are quadratic in the triangle. At the middle
+/// of each side the part across the side is the mean of the corners' and the part along it is the slope of the side's cubic, so
+/// that shear strains vanish along the sides and a thin plate does not lock. The triangle shares the cubics of its sides with
+/// the four-node plate (DKQ), so that meshes of both fit together.
 ///
 /// Reference: Batoz, Bathe and Ho (1980), A study of three-node triangular plate bending elements, IJNME 15, 1771-1812.
 /// @param poisson_ratio  [-]

@@ -15,8 +15,8 @@ namespace twindeck::fe {
 
 namespace {
 
-constexpr double farthest_m = 1e9;           ///< of a node from the origin, whatever the grid: beyond, differences are lost
-constexpr double least_across = 1e-9;        ///< [-] part of an orientation that lies across its beam, as in beam_axes
+constexpr double farthest_m = 1e9;     ///< of a node from the origin, whatever the grid: beyond, differences are lost
+constexpr double least_across = 1e-9;  ///< [-] part of an orientation that lies across its beam, as in beam_axes
 
 constexpr double flattest_triangle = 1e-10;  ///< [-] twice the area over the squares of its sides, as in shell_triangle.cpp
 

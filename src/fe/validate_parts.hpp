@@ -9,7 +9,8 @@
 namespace twindeck::fe {
 
 /// @param part  what of the model is wrong ("section 'girder'") @throws InputError  always
-[[noreturn]] inline void refuse(const Model& model, const std::string& part, const std::string& problem, const std::string& mend) {
+[[noreturn]] inline void refuse(const Model& model, const std::string& part, const std::string& problem,
+                                const std::string& mend) {
   throw InputError({model.source, 0, part}, problem, mend);
 }
 

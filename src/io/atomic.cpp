@@ -31,7 +31,8 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-/// What tells one machine's process numbers from another's: results may lie on a disk that several machines or containers share.
+/// What tells one machine's process numbers from another's: results may lie on a disk that several machines or containers
+/// share.
 std::string here() {
   char host[256] = {};
   ::gethostname(host, sizeof host - 1);
@@ -134,7 +135,8 @@ void FolderReplacement::publish() { publish(final_); }
 
 /// A folder can be renamed within one disk only: where `place` is on another, the partial folder is copied there first.
 void FolderReplacement::bring_beside(const fs::path& place) {
-  struct stat from {}, to {};
+  struct stat from {
+  }, to{};
   const fs::path folder = place.has_parent_path() ? place.parent_path() : fs::path(".");
   if (::stat(partial_.c_str(), &from) != 0 || ::stat(folder.c_str(), &to) != 0 || from.st_dev == to.st_dev) return;
   std::error_code error;

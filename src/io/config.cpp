@@ -125,8 +125,8 @@ FieldTable& FieldTable::text(const std::string& key, std::string& target, const 
   return *this;
 }
 
-FieldTable& FieldTable::path_name(const std::string& key, std::string& target, const std::string& what, const std::string& meaning,
-                                  bool required) {
+FieldTable& FieldTable::path_name(const std::string& key, std::string& target, const std::string& what,
+                                  const std::string& meaning, bool required) {
   text(key, target, meaning, required);
   Field& field = *fields_.back();
   field.allowed = "no slash";

@@ -11,13 +11,15 @@ namespace {
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }  // npos + 1 is 0
 
-/// The known key that was meant: its last part misspelt, else its table, else the right word in the wrong table; "" if none is near.
+/// The known key that was meant: its last part misspelt, else its table, else the right word in the wrong table; "" if none is
+/// near.
 std::string meant_by(const std::string& key, const std::vector<std::string>& known) {
   const std::string word = last_part(key);
   const std::string table = key.substr(0, key.size() - word.size());
   std::vector<std::string> siblings;
   for (const std::string& name : known) {
-    if (name.starts_with(table) && name.find('.', table.size()) == std::string::npos) siblings.push_back(name.substr(table.size()));
+    if (name.starts_with(table) && name.find('.', table.size()) == std::string::npos)
+      siblings.push_back(name.substr(table.size()));
   }
   if (const std::string nearest = nearest_name(word, siblings); !nearest.empty()) return table + nearest;
   if (std::string nearest = nearest_name(key, known); !nearest.empty()) return nearest;

@@ -20,13 +20,13 @@ struct FieldTable::Field {
   std::string default_value;  ///< as TOML, taken when the key is bound
   bool required = false;
   bool given = false;
-  Place place;              ///< where it was given last
+  Place place;                                               ///< where it was given last
   bool takes_text = false;                                   ///< a bare word of --set is the value itself
   std::function<void(const TomlValue&, const Place&)> read;  ///< checks and stores
   std::function<std::string()> write;                        ///< the present value as TOML
   std::function<FieldTable()> add;                           ///< of an array of tables only
   std::string named_by;  ///< of an array of tables: key whose value must differ between elements, or ""
-  std::vector<std::vector<std::string>> elements;            ///< of an array of tables: each element's lines as printed
+  std::vector<std::vector<std::string>> elements;  ///< of an array of tables: each element's lines as printed
 };
 
 /// Refuses an unknown key. The message names the nearest known key, or else all known keys.

@@ -50,7 +50,8 @@ struct Reader {
       } else if (const auto* group = node.as<TomlValue::Table>(); group != nullptr && is_group(key)) {
         table(*group, key + ".");
       } else if (is_group(key)) {
-        throw InputError({file, line, above + key}, "is " + shown(node) + ", expected a table", "write [" + key + "] and its keys below it");
+        throw InputError({file, line, above + key}, "is " + shown(node) + ", expected a table",
+                         "write [" + key + "] and its keys below it");
       } else {
         unknown(first_key_below(key, node), line);
       }
@@ -60,7 +61,8 @@ struct Reader {
   /// "doglegg.radius" of an unknown table [doglegg]: a key in it tells better than the table which one was meant.
   [[nodiscard]] static std::string first_key_below(std::string key, const TomlValue& value) {
     const TomlValue* node = &value;
-    for (const auto* inner = node->as<TomlValue::Table>(); inner != nullptr && !inner->empty(); inner = node->as<TomlValue::Table>()) {
+    for (const auto* inner = node->as<TomlValue::Table>(); inner != nullptr && !inner->empty();
+         inner = node->as<TomlValue::Table>()) {
       key += "." + inner->front().key;
       node = &inner->front().value;
     }

@@ -141,8 +141,9 @@ CsvTable CsvTable::read(const std::filesystem::path& file, const std::vector<std
     }
     if (!allow_other && !known_set.contains(column)) {
       const std::string nearest = nearest_name(column, known);
-      throw InputError({file.string(), line, ""}, "unknown column '" + column + "'",
-                       nearest.empty() ? fmt::format("known columns are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
+      throw InputError(
+          {file.string(), line, ""}, "unknown column '" + column + "'",
+          nearest.empty() ? fmt::format("known columns are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
     }
   }
   for (const std::string& column : required) {

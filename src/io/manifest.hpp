@@ -10,12 +10,12 @@ namespace twindeck::io {
 
 /// Inputs, outputs and configuration of a step. It is written last, as `manifest.json`, and is the step's Make target.
 struct Manifest {
-  std::string step;                  ///< "s6_updating"
-  std::string status = "converged";  ///< "converged" | "unconverged"
-  std::string message;               ///< one line
-  std::vector<std::string> warnings;  ///< doubtful inputs that the step used unchanged
+  std::string step;                      ///< "s6_updating"
+  std::string status = "converged";      ///< "converged" | "unconverged"
+  std::string message;                   ///< one line
+  std::vector<std::string> warnings;     ///< doubtful inputs that the step used unchanged
   std::vector<std::string> corrections;  ///< corrections applied to the measurement, in words; may be empty
-  std::string config_toml;           ///< resolved configuration
+  std::string config_toml;               ///< resolved configuration
   std::vector<std::string> command_line;
   std::uint64_t seed = 0;
   int threads = 1;

@@ -47,7 +47,8 @@ std::string header_text(std::ifstream& in, const fs::path& file) {
   const std::size_t length = digits[0] + 256UL * digits[1] + 65536UL * digits[2] + 16777216UL * digits[3];
   if (!in || length > kLongestHeader) refuse(file, "ends within its header, or has none", "write the file again");
   std::string text(length, ' ');
-  if (!in.read(text.data(), static_cast<std::streamsize>(length))) refuse(file, "ends within its header", "write the file again");
+  if (!in.read(text.data(), static_cast<std::streamsize>(length)))
+    refuse(file, "ends within its header", "write the file again");
   return text;
 }
 
@@ -91,7 +92,8 @@ Header parse(const std::string& text, const fs::path& file) {
     refuse(file, "has a header without 'descr'", "give a plain array");
   const std::string type(description.substr(1, quote - 1));
   if (type != "<f8" && type != "<f4" && type != "<i2" && type != "<i4") {
-    refuse(file, fmt::format("holds type '{}', expected '<f8', '<f4', '<i2' or '<i4'", type), "convert it with array.astype('<f8')");
+    refuse(file, fmt::format("holds type '{}', expected '<f8', '<f4', '<i2' or '<i4'", type),
+           "convert it with array.astype('<f8')");
   }
   header.type = type.substr(1);
   header.item_size = static_cast<std::size_t>(type.back() - '0');
@@ -190,7 +192,9 @@ std::pair<Index, Index> visit_npy(const fs::path& file, const BlockVisitor& visi
 Eigen::MatrixXd read_npy(const fs::path& file) {
   const Header header = open_array(file).header;
   Eigen::MatrixXd array(header.rows, header.columns);
-  visit_npy(file, [&](Index row, Index column, const Eigen::MatrixXd& block) { array.block(row, column, block.rows(), block.cols()) = block; });
+  visit_npy(file, [&](Index row, Index column, const Eigen::MatrixXd& block) {
+    array.block(row, column, block.rows(), block.cols()) = block;
+  });
   return array;
 }
 
@@ -199,7 +203,8 @@ namespace {
 /// @tparam T  double or float @param type  its NPY name
 template <typename T>
 void write_array(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file, const char* type) {
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", type, array.rows(), array.cols());
+  std::string header =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", type, array.rows(), array.cols());
   // Magic, version, two bytes of length: the data begin at a multiple of 64.
   header.append(63 - (10 + header.size()) % 64, ' ');
   header.push_back('\n');
@@ -215,8 +220,12 @@ void write_array(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path&
 
 }  // namespace
 
-void write_npy(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) { write_array<double>(array, file, "<f8"); }
+void write_npy(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) {
+  write_array<double>(array, file, "<f8");
+}
 
-void write_npy_single(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) { write_array<float>(array, file, "<f4"); }
+void write_npy_single(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) {
+  write_array<float>(array, file, "<f4");
+}
 
 }  // namespace twindeck::io

@@ -9,13 +9,14 @@ namespace twindeck::io {
 /// A part of an array: its first row and column, and its values.
 using BlockVisitor = std::function<void(Eigen::Index first_row, Eigen::Index first_column, const Eigen::MatrixXd& block)>;
 
-/// Walks through an NPY file in parts of about one megabyte: whole rows in C order, pieces of columns in Fortran order. Types as in
-/// read_npy. @return rows and columns
+/// Walks through an NPY file in parts of about one megabyte: whole rows in C order, pieces of columns in Fortran order. Types
+/// as in read_npy. @return rows and columns
 /// @throws InputError  as read_npy
 std::pair<Eigen::Index, Eigen::Index> visit_npy(const std::filesystem::path& file, const BlockVisitor& visit);
 
-/// Reads an array of NumPy's NPY format, versions 1 to 3: float64, float32, int16 or int32, little-endian, one or two dimensions, C or
-/// Fortran order. A one-dimensional array becomes a single column. Values may be NaN. Memory: the matrix and one megabyte.
+/// Reads an array of NumPy's NPY format, versions 1 to 3: float64, float32, int16 or int32, little-endian, one or two
+/// dimensions, C or Fortran order. A one-dimensional array becomes a single column. Values may be NaN. Memory: the matrix and
+/// one megabyte.
 /// @return (rows × columns) as NumPy's shape has them
 /// @throws InputError  for a missing or truncated file, another type, endianness or number of dimensions
 /// Reference: NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays".

@@ -17,11 +17,14 @@ void check_path_name(const std::string& name, const std::string& what, const Pla
   const auto forbidden = [](char letter) { return letter == '/' || letter == '\\' || is_control(letter); };
   std::string problem;
   if (name.empty()) problem = "is empty";
-  if (name.size() > longest) problem = "has " + std::to_string(name.size()) + " bytes, at most " + std::to_string(longest) + " are allowed";
+  if (name.size() > longest)
+    problem = "has " + std::to_string(name.size()) + " bytes, at most " + std::to_string(longest) + " are allowed";
   if (name.starts_with('.')) problem = "is '" + name + "', which begins with a point";
-  if (std::any_of(name.begin(), name.end(), forbidden)) problem = "is '" + name + "', which holds a slash or a control character";
+  if (std::any_of(name.begin(), name.end(), forbidden))
+    problem = "is '" + name + "', which holds a slash or a control character";
   if (problem.empty()) return;
-  throw InputError(place, problem, "files are written under this name: choose another " + what + " name, such as low_with_dampers");
+  throw InputError(place, problem,
+                   "files are written under this name: choose another " + what + " name, such as low_with_dampers");
 }
 
 void check_inner_name(const std::string& name, const std::string& what, const Place& place) {

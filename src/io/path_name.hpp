@@ -8,11 +8,12 @@ struct Place;
 
 namespace twindeck::io {
 
-/// Checks a name of the input (a condition, setup, stay, matrix …) that becomes part of a path below a step's folder. A name with a
-/// slash, or "..", would let a step write elsewhere.
+/// Checks a name of the input (a condition, setup, stay, matrix …) that becomes part of a path below a step's folder. A name
+/// with a slash, or "..", would let a step write elsewhere.
 /// @param what   "condition", for the message
 /// @param place  where the name stands
-/// @throws InputError  unless the name has 1 to 100 bytes, none of them /, \ or a control character, and does not begin with a point
+/// @throws InputError  unless the name has 1 to 100 bytes, none of them /, \ or a control character, and does not begin with a
+/// point
 void check_path_name(const std::string& name, const std::string& what, const Place& place);
 
 /// Checks a name of the input that no path is made of here, but that a script may make one of: a channel. It may hold slashes,

@@ -52,7 +52,8 @@ std::vector<Eigen::Index> measured_rows(const Eigen::Ref<const Eigen::VectorXcd>
   return rows;
 }
 
-Eigen::MatrixXd mac_where_measured(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n, const Eigen::Ref<const Eigen::MatrixXcd>& phi_x) {
+Eigen::MatrixXd mac_where_measured(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n,
+                                   const Eigen::Ref<const Eigen::MatrixXcd>& phi_x) {
   if (phi_x.allFinite()) return mac_of(phi_n, phi_x);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(phi_n.cols(), phi_x.cols());
   for (Eigen::Index i = 0; i < phi_x.cols(); ++i) {
@@ -60,7 +61,8 @@ Eigen::MatrixXd mac_where_measured(const Eigen::Ref<const Eigen::MatrixXcd>& phi
     const Eigen::MatrixXcd x = phi_x(rows, Eigen::seqN(i, 1));
     const double norm = x.squaredNorm();
     if (!(norm > 0.0))
-      throw InputError({}, fmt::format("experimental shape {} is zero or not measured at any channel", i + 1), "leave the mode out");
+      throw InputError({}, fmt::format("experimental shape {} is zero or not measured at any channel", i + 1),
+                       "leave the mode out");
     for (Eigen::Index j = 0; j < phi_n.cols(); ++j) {
       const Eigen::MatrixXcd n = phi_n(rows, Eigen::seqN(j, 1));
       const double own = n.squaredNorm();

@@ -17,7 +17,8 @@ namespace twindeck::modal {
                                   const Eigen::Ref<const Eigen::MatrixXd>& phi_x);
 
 /// The same for experimental modes that were measured at different channels. NaN in a column of phi_x means that the mode was
-/// not measured at that channel; the shapes are compared over the other channels. A numerical mode that is zero there has MAC 0.
+/// not measured at that channel; the shapes are compared over the other channels. A numerical mode that is zero there has MAC
+/// 0.
 /// @throws InputError  if a mode was measured at no channel
 [[nodiscard]] Eigen::MatrixXd mac_where_measured(const Eigen::Ref<const Eigen::MatrixXcd>& phi_n,
                                                  const Eigen::Ref<const Eigen::MatrixXcd>& phi_x);

@@ -24,8 +24,8 @@ void write_dofs(const fe::ParametricSystem& system, const std::filesystem::path&
 void write_vtu(const fe::Model& model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes,
                const std::filesystem::path& file);
 
-/// modes.csv and shapes.csv (docs/my_records.md) in a folder: standard deviations and damping that are NaN stay empty, damping in
-/// per cent; each shape is scaled so that its component of largest magnitude is +1; a column value_imag is written where a
+/// modes.csv and shapes.csv (docs/my_records.md) in a folder: standard deviations and damping that are NaN stay empty, damping
+/// in per cent; each shape is scaled so that its component of largest magnitude is +1; a column value_imag is written where a
 /// shape is complex; no shapes.csv where no shape is known.
 void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folder);
 /// Reads the same files, further columns are allowed; shapes.csv may be missing. Modes with 1 in a column `partial` (of several

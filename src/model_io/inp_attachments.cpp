@@ -147,7 +147,8 @@ void attach_inp_boundary(InpParts& parts, const InpCard& card) {
       const int first = dof_of(parts, card, line, 1);
       const int last = line.fields.size() > 2 && !line.fields[2].empty() ? dof_of(parts, card, line, 2) : first;
       if (last < first)
-        parts.file.fail(card, line.line, fmt::format("holds degrees of freedom from {} to {}, which are none", first + 1, last + 1),
+        parts.file.fail(card, line.line,
+                        fmt::format("holds degrees of freedom from {} to {}, which are none", first + 1, last + 1),
                         "write node or set, first, last degree of freedom");
       for (int dof = first; dof <= last; ++dof) fixed[static_cast<std::size_t>(dof)] = true;
       if (parts.file.number_or(card, line, 3, 0.0) != 0.0) {

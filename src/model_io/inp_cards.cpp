@@ -47,8 +47,8 @@ InpCard to_card(const std::string& text, long line) {
   return card;
 }
 
-/// Whether a line goes on with the card above it, which ends with a comma: with a further parameter. CalculiX' users end cards with a
-/// comma that means nothing; what follows is a card of its own or data then.
+/// Whether a line goes on with the card above it, which ends with a comma: with a further parameter. CalculiX' users end cards
+/// with a comma that means nothing; what follows is a card of its own or data then.
 bool continues_a_card(const std::string& line) { return std::isalpha(static_cast<unsigned char>(line.front())) != 0; }
 
 }  // namespace

@@ -18,10 +18,11 @@ const std::map<std::string, Type>& types() {
       {"B33", {InpKind::beam, 2}},         {"B32", {InpKind::beam, 3}},         {"B32R", {InpKind::beam, 3}},
       {"B32H", {InpKind::beam, 3}},        {"T3D2", {InpKind::truss, 2}},       {"S4", {InpKind::shell, 4}},
       {"S4R", {InpKind::shell, 4}},        {"S3", {InpKind::shell, 3}},         {"S3R", {InpKind::shell, 3}},
-      {"STRI3", {InpKind::shell, 3}},      {"US3", {InpKind::shell, 3}},        {"C3D8", {InpKind::solid, 8}},       {"C3D8I", {InpKind::solid, 8}},
-      {"C3D8R", {InpKind::solid, 8}},      {"SPRINGA", {InpKind::spring, 2}},   {"SPRING1", {InpKind::spring, 1}},
-      {"SPRING2", {InpKind::spring, 2}},   {"DASHPOTA", {InpKind::dashpot, 2}}, {"DASHPOT1", {InpKind::dashpot, 1}},
-      {"DASHPOT2", {InpKind::dashpot, 2}}, {"MASS", {InpKind::mass, 1}},        {"ROTARYI", {InpKind::mass, 1}}};
+      {"STRI3", {InpKind::shell, 3}},      {"US3", {InpKind::shell, 3}},        {"C3D8", {InpKind::solid, 8}},
+      {"C3D8I", {InpKind::solid, 8}},      {"C3D8R", {InpKind::solid, 8}},      {"SPRINGA", {InpKind::spring, 2}},
+      {"SPRING1", {InpKind::spring, 1}},   {"SPRING2", {InpKind::spring, 2}},   {"DASHPOTA", {InpKind::dashpot, 2}},
+      {"DASHPOT1", {InpKind::dashpot, 1}}, {"DASHPOT2", {InpKind::dashpot, 2}}, {"MASS", {InpKind::mass, 1}},
+      {"ROTARYI", {InpKind::mass, 1}}};
   return known;
 }
 

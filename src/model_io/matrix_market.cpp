@@ -103,7 +103,8 @@ std::vector<Entry> read_entries(MarketReader& reader, int n, long count) {
   while (reader.fields(words)) {
     if (words.size() != 3)
       reader.fail(fmt::format("has {} words, expected row, column and value", words.size()), "mend the line");
-    const Entry entry{reader.number<int>(words[0]), reader.number<int>(words[1]), reader.number<double>(words[2]), reader.line()};
+    const Entry entry{reader.number<int>(words[0]), reader.number<int>(words[1]), reader.number<double>(words[2]),
+                      reader.line()};
     if (entry.row < 1 || entry.row > n || entry.column < 1 || entry.column > n) {
       reader.fail(fmt::format("entry ({}, {}) lies outside the {} x {} matrix", entry.row, entry.column, n, n),
                   "indices count from 1");
@@ -175,7 +176,8 @@ SizeLine read_size(MarketReader& reader) {
   const long count = reader.number<long>(words[2]);
   const std::uintmax_t left = reader.bytes_left();
   if (count < 0 || static_cast<std::uintmax_t>(count) > left) {
-    reader.fail(fmt::format("its size line says {} entries, but {} bytes follow", count, left), "the file was cut off or edited");
+    reader.fail(fmt::format("its size line says {} entries, but {} bytes follow", count, left),
+                "the file was cut off or edited");
   }
   return {n, count};
 }

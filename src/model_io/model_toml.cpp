@@ -123,19 +123,21 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
                   entry.initial, entry.lower,
                   entry.upper};
   if (p.of.empty()) {
-    throw key_error(file, anchor, key, "'of' is missing or empty", fmt::format("name the {} that it applies to", kind_of(p.target)));
+    throw key_error(file, anchor, key, "'of' is missing or empty",
+                    fmt::format("name the {} that it applies to", kind_of(p.target)));
   }
   const auto known = known_names(model, p.target);
   for (const auto& name : p.of) {
     if (position_of(name, known) >= 0) continue;
-    throw key_error(file, anchor, key, fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
-             "'of' lists names of the model's own files");
+    throw key_error(file, anchor, key,
+                    fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
+                    "'of' lists names of the model's own files");
   }
   if (!(p.lower <= p.initial && p.initial <= p.upper)) {
     throw key_error(file, anchor, key,
-             fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper", io::format_number(p.lower),
-                         io::format_number(p.initial), io::format_number(p.upper)),
-             "put the bounds around the initial value");
+                    fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
+                                io::format_number(p.lower), io::format_number(p.initial), io::format_number(p.upper)),
+                    "put the bounds around the initial value");
   }
   for (const auto& other : model.parameters) {
     if (other.name == p.name) throw key_error(file, anchor, key, "appears twice", "give each parameter a name of its own");
@@ -150,10 +152,11 @@ fe::Prestress::Condition to_condition(const std::filesystem::path& file, const N
   const bool number = !node.empty() && node.size() < 18 && node.find_first_not_of("0123456789") == std::string::npos;
   const auto found = number ? index.nodes.find(std::stol(node)) : index.nodes.end();
   if (found == index.nodes.end() || dof < 0 || dof > 2) {
-    throw key_error(file, "\"" + text + "\"", "prestress.conditions",
-             fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z",
-                         text),
-             "write for example \"17:z\"");
+    throw key_error(
+        file, "\"" + text + "\"", "prestress.conditions",
+        fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z",
+                    text),
+        "write for example \"17:z\"");
   }
   return {found->second, dof};
 }
@@ -168,7 +171,8 @@ std::string text_list(const std::vector<std::string>& texts) {
 
 std::string describe_model_toml() { return ModelEntry{}.fields().describe(); }
 
-void read_model_toml(const std::filesystem::path& file, fe::Model& model, const std::function<void(io::FieldTable&)>& add_keys) {
+void read_model_toml(const std::filesystem::path& file, fe::Model& model,
+                     const std::function<void(io::FieldTable&)>& add_keys) {
   NameIndex index;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.nodes.emplace(model.nodes[i].id, static_cast<int>(i));
   ModelEntry entry;

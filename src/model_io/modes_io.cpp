@@ -6,15 +6,15 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
-#include "modal/mode_name.hpp"
-#include "model_io/export.hpp"
 #include "linalg/canonical_basis.hpp"
+#include "matching/mode_name.hpp"
+#include "model_io/export.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
-constexpr double kLargest = 1e15;            ///< of a component in any norm; squares of sums stay within doubles
+constexpr double kLargest = 1e15;             ///< of a component in any norm; squares of sums stay within doubles
 constexpr double kHighestFrequency_Hz = 1e6;  ///< far above what any structure is tested at
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -127,7 +127,7 @@ modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>
     const std::string name = table.text(row, "mode");
     if (left_out.contains(name)) continue;
     if (name.empty()) table.fail(row, "mode", "is empty", "name the mode");
-    if (!modal::is_mode_name(name))
+    if (!matching::is_mode_name(name))
       table.fail(row, "mode", fmt::format("is '{}', expected a whole number from 1 on, or a name that is no number", name),
                  "number or name the mode");
     if (position_of(name, modes.names) >= 0)
@@ -148,7 +148,8 @@ modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>
                  "state it in Hz");
     modes.damping_ratio[i] = table.number_or(row, "damping_ratio_pct", kUnknown) / 100.0;
     if (modes.damping_ratio[i] < 0.0 || modes.damping_ratio[i] >= 1.0)
-      table.fail(row, "damping_ratio_pct", fmt::format("is {}, expected a value from 0 to below 100", table.text(row, "damping_ratio_pct")),
+      table.fail(row, "damping_ratio_pct",
+                 fmt::format("is {}, expected a value from 0 to below 100", table.text(row, "damping_ratio_pct")),
                  "a mode that vibrates is damped less than critically; give the ratio in per cent");
     modes.damping_ratio_std[i] = table.number_or(row, "damping_ratio_std_pct", kUnknown) / 100.0;
   }

@@ -173,9 +173,10 @@ void add_prestress(fe::Model& model, const BridgeDefinition& definition, const s
   }
 }
 
-// Nodes on the decks' axes where wind acts: the middles of equal lengths between the end stays, aero_foot_01 … from south to north,
-// each on the nearest row of slab nodes.
-void add_aerodynamic_nodes(fe::Model& model, const BridgeDefinition& definition, const std::map<std::string, DeckNodes>& decks) {
+// Nodes on the decks' axes where wind acts: the middles of equal lengths between the end stays, aero_foot_01 … from south to
+// north, each on the nearest row of slab nodes.
+void add_aerodynamic_nodes(fe::Model& model, const BridgeDefinition& definition,
+                           const std::map<std::string, DeckNodes>& decks) {
   for (const DeckDefinition& deck : definition.decks) {
     const double last = stay_positions(deck.stay).back();
     for (int i = 0; i < definition.aerodynamic_nodes; ++i) {
@@ -215,10 +216,10 @@ fe::Model build(const BridgeDefinition& definition, const std::string& title) {
 
 std::string part_of(const std::string& group) {
   static const std::vector<std::pair<std::string, std::string>> parts = {
-      {"foot_north", "bearings"},  {"foot_south", "bearings"}, {"cycle_north", "bearings"}, {"cycle_south", "bearings"},
-      {"damper", "dampers"},       {"foot", "decks"},          {"cycle", "decks"},          {"slab", "decks"},
-      {"mast", "mast"},            {"stay", "stays"},          {"end_block", "end_blocks"}, {"rigid_connection", "end_blocks"},
-      {"ramp", "ramps"},           {"pier", "piers"}};  // the first that fits
+      {"foot_north", "bearings"}, {"foot_south", "bearings"}, {"cycle_north", "bearings"}, {"cycle_south", "bearings"},
+      {"damper", "dampers"},      {"foot", "decks"},          {"cycle", "decks"},          {"slab", "decks"},
+      {"mast", "mast"},           {"stay", "stays"},          {"end_block", "end_blocks"}, {"rigid_connection", "end_blocks"},
+      {"ramp", "ramps"},          {"pier", "piers"}};  // the first that fits
   const auto found = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return group.starts_with(part.first); });
   return found == parts.end() ? "other" : found->second;
 }
@@ -263,7 +264,8 @@ fe::Model generate_with_values(const std::filesystem::path& bridge_toml, const s
   return build(read_definition(std::move(file), variant), variant);
 }
 
-void write_values(const std::filesystem::path& bridge_toml, const Values& values, const std::map<std::string, std::string>& unit) {
+void write_values(const std::filesystem::path& bridge_toml, const Values& values,
+                  const std::map<std::string, std::string>& unit) {
   DefinitionFile file = open(bridge_toml);
   std::ifstream in(bridge_toml);
   std::vector<std::string> lines;

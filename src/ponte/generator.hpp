@@ -27,8 +27,8 @@ struct Change {
 [[nodiscard]] fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant,
                                  const std::string& mesh = "");
 /// The preliminary variant with the named changes switched on.
-[[nodiscard]] fe::Model generate_with_changes(const std::filesystem::path& bridge_toml,
-                                              const std::vector<std::string>& changes, const std::string& mesh = "");
+[[nodiscard]] fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes,
+                                              const std::string& mesh = "");
 /// Values [SI] by path of bridge.toml; "change.NAME.KEY" is what an as-built change sets.
 using Values = std::map<std::string, double>;
 /// A variant with some values replaced, the file left as it is.
@@ -37,8 +37,10 @@ using Values = std::map<std::string, double>;
                                              const std::string& mesh, const Values& values);
 /// Writes values into the file, each in its own line, with its unit, the rest of the line kept.
 /// @param unit  of each path ("m", "N/m"; "-": none)
-void write_values(const std::filesystem::path& bridge_toml, const Values& values, const std::map<std::string, std::string>& unit);
-/// The part of the bridge that a group of elements or springs belongs to: decks, mast, stays, end_blocks, piers, ramps, bearings.
+void write_values(const std::filesystem::path& bridge_toml, const Values& values,
+                  const std::map<std::string, std::string>& unit);
+/// The part of the bridge that a group of elements or springs belongs to: decks, mast, stays, end_blocks, piers, ramps,
+/// bearings.
 [[nodiscard]] std::string part_of(const std::string& group);
 /// For the verification against the prototype alone: Euler beams, listed pulls, its drilling and mass rules.
 [[nodiscard]] fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant);

@@ -71,7 +71,8 @@ struct DeckAxis {
 
 /// Truss, slab, brackets and non-structural mass of a deck.
 [[nodiscard]] DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh);
-/// Nodes of the two ends that the decks' bearings lean on: the middle of the end blocks' front faces; -1: they stand on the ground.
+/// Nodes of the two ends that the decks' bearings lean on: the middle of the end blocks' front faces; -1: they stand on the
+/// ground.
 struct EndNodes {
   int north = -1, south = -1;
 };

@@ -25,7 +25,8 @@ int zone_of(double x_m, double reach_m, int zones) {
   return 1 + std::min(zones - 1, static_cast<int>(std::abs(x_m) / reach_m * zones));
 }
 
-void add_parameter(fe::Model& model, const std::string& name, fe::Target target, const std::string& of, const std::string& unit, double value) {
+void add_parameter(fe::Model& model, const std::string& name, fe::Target target, const std::string& of, const std::string& unit,
+                   double value) {
   model.parameters.push_back({name, target, {of}, unit, value, value * (1.0 - kBound), value * (1.0 + kBound)});
 }
 

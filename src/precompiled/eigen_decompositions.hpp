@@ -11,23 +11,13 @@ namespace Eigen {
 
 TWINDECK_INSTANCE template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute(
     const EigenBase<MatrixXd>&, int);
-TWINDECK_INSTANCE template SelfAdjointEigenSolver<Matrix2d>& SelfAdjointEigenSolver<Matrix2d>::compute(
-    const EigenBase<Matrix2d>&, int);
 TWINDECK_INSTANCE template GeneralizedSelfAdjointEigenSolver<MatrixXd>& GeneralizedSelfAdjointEigenSolver<MatrixXd>::compute(
     const MatrixXd&, const MatrixXd&, int);
-TWINDECK_INSTANCE template RealSchur<MatrixXd>& RealSchur<MatrixXd>::compute(const EigenBase<MatrixXd>&, bool);
-TWINDECK_INSTANCE template EigenSolver<MatrixXd>& EigenSolver<MatrixXd>::compute(const EigenBase<MatrixXd>&, bool);
-TWINDECK_INSTANCE template MatrixXcd EigenSolver<MatrixXd>::eigenvectors() const;
 TWINDECK_INSTANCE template void PartialPivLU<MatrixXd>::compute();
-TWINDECK_INSTANCE template void PartialPivLU<MatrixXcd>::compute();
 TWINDECK_INSTANCE template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 TWINDECK_INSTANCE template void LLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
-TWINDECK_INSTANCE template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
-TWINDECK_INSTANCE template void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
-TWINDECK_INSTANCE template void HouseholderQR<MatrixXd>::computeInPlace();
 TWINDECK_INSTANCE template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
 TWINDECK_INSTANCE template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
-TWINDECK_INSTANCE template JacobiSVD<MatrixXd>& JacobiSVD<MatrixXd>::compute(const MatrixXd&, unsigned int);
 
 namespace internal {
 

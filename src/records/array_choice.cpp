@@ -74,7 +74,8 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::stri
     }
   }
   if (largest < 16) {
-    throw InputError({file, 0, ""}, "holds no array of numbers of sixteen values or more", "store the samples as a two-dimensional array of real numbers");
+    throw InputError({file, 0, ""}, "holds no array of numbers of sixteen values or more",
+                     "store the samples as a two-dimensional array of real numbers");
   }
   const Index samples = arrays[best].longer();
   if (arrays[best].shorter() > 1) {

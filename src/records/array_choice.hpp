@@ -18,15 +18,15 @@ struct NamedArray {
 
 /// Which arrays are the record.
 struct ArrayChoice {
-  std::vector<std::size_t> data;     ///< one matrix, or several vectors of one length
-  bool transposed = false;           ///< channels × samples
-  int time = -1;                     ///< vector of times
-  std::vector<std::size_t> scalars;  ///< single numbers, that may say the rate
+  std::vector<std::size_t> data;      ///< one matrix, or several vectors of one length
+  bool transposed = false;            ///< channels × samples
+  int time = -1;                      ///< vector of times
+  std::vector<std::size_t> scalars;   ///< single numbers, that may say the rate
   std::vector<std::size_t> left_out;  ///< further matrices of as many samples
 };
 
-/// The largest matrix is the record, its longer side the samples; vectors of one length are channels of their own. A vector of that
-/// length that is named t or time is the time.
+/// The largest matrix is the record, its longer side the samples; vectors of one length are channels of their own. A vector of
+/// that length that is named t or time is the time.
 /// @throws InputError  if no array has sixteen values or more
 [[nodiscard]] ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::string& file);
 

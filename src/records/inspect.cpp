@@ -110,13 +110,14 @@ std::vector<std::string> describe(const Inspection& inspection) {
   std::vector<std::string> lines = {printable(fmt::format("format    {}", info.format))};
   Index samples = 0;
   for (const ChannelSummary& channel : inspection.channels) samples = std::max(samples, channel.samples);
-  lines.push_back(fmt::format("channels  {}, {} samples{}", info.channels.size(), samples,
-                              info.rate_Hz > 0.0 ? fmt::format(", {:.6g} s", static_cast<double>(samples) / info.rate_Hz) : ""));
+  lines.push_back(
+      fmt::format("channels  {}, {} samples{}", info.channels.size(), samples,
+                  info.rate_Hz > 0.0 ? fmt::format(", {:.6g} s", static_cast<double>(samples) / info.rate_Hz) : ""));
   lines.push_back(info.rate_Hz > 0.0
                       ? fmt::format("rate      {:.9g} Hz, from the {}", info.rate_Hz, printable(info.rate_source))
                       : "rate      unknown");
-  lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12} {:>12}", "channel", "unit", "samples", "missing", "longest", "clipped", "mean",
-                              "rms"));
+  lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12} {:>12}", "channel", "unit", "samples", "missing",
+                              "longest", "clipped", "mean", "rms"));
   std::vector<std::string> missing;
   bool unknown_unit = false;
   for (std::size_t c = 0; c < info.channels.size(); ++c) {

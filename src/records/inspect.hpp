@@ -11,9 +11,9 @@ namespace twindeck::records {
 /// What a channel's samples look like.
 struct ChannelSummary {
   Eigen::Index samples = 0, missing = 0, longest_gap = 0;
-  Eigen::Index clipped = 0;   ///< samples in runs of three or more at the largest or smallest value
+  Eigen::Index clipped = 0;  ///< samples in runs of three or more at the largest or smallest value
   double mean = 0.0, rms = 0.0, lowest = 0.0, highest = 0.0;  ///< rms about the mean
-  bool dead = false;          ///< constant
+  bool dead = false;                                          ///< constant
 };
 
 /// Sums over one channel as its samples come, in bounded memory.
@@ -26,8 +26,8 @@ class ChannelStatistics {
  private:
   Eigen::Index there_ = 0, seen_ = 0, gap_ = 0, longest_gap_ = 0;
   double mean_ = 0.0, squares_ = 0.0, lowest_ = 0.0, highest_ = 0.0, last_ = 0.0;
-  Eigen::Index run_ = 0;                          ///< of equal values, the last one's
-  Eigen::Index at_lowest_ = 0, at_highest_ = 0;   ///< samples in runs of three or more there
+  Eigen::Index run_ = 0;                         ///< of equal values, the last one's
+  Eigen::Index at_lowest_ = 0, at_highest_ = 0;  ///< samples in runs of three or more there
   void close_run();
 };
 
@@ -38,8 +38,8 @@ struct Inspection {
 /// One pass through the file.
 [[nodiscard]] Inspection inspect(const std::filesystem::path& file);
 
-/// The inspection for people: format, rate and where it comes from, channels with unit (or a guess from the size of the numbers), gaps,
-/// clipping, dead channels, what is missing for an identification.
+/// The inspection for people: format, rate and where it comes from, channels with unit (or a guess from the size of the
+/// numbers), gaps, clipping, dead channels, what is missing for an identification.
 [[nodiscard]] std::vector<std::string> describe(const Inspection& inspection);
 
 }  // namespace twindeck::records

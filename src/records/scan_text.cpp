@@ -55,9 +55,12 @@ class RowParts {
 };
 
 std::string describe(const TextLayout& layout) {
-  const std::string separator = layout.separator == ' ' ? "blanks" : layout.separator == '\t' ? "tabs" : fmt::format("'{}'", layout.separator);
-  return fmt::format("text, separated by {}, decimal {}{}, {} header line{}", separator, layout.decimal_comma ? "comma" : "point",
-                     layout.latin1 ? ", latin-1" : "", layout.first_data_line - 1, layout.first_data_line == 2 ? "" : "s");
+  const std::string separator = layout.separator == ' '    ? "blanks"
+                                : layout.separator == '\t' ? "tabs"
+                                                           : fmt::format("'{}'", layout.separator);
+  return fmt::format("text, separated by {}, decimal {}{}, {} header line{}", separator,
+                     layout.decimal_comma ? "comma" : "point", layout.latin1 ? ", latin-1" : "", layout.first_data_line - 1,
+                     layout.first_data_line == 2 ? "" : "s");
 }
 
 /// Time of each row, and the step between rows from the first that differ.
@@ -193,7 +196,7 @@ class Rows {
 
 /// What the clock did from row to row.
 struct ClockHistory {
-  double step = 0.0, lost = 0.0;  ///< [s], [samples]
+  double step = 0.0, lost = 0.0;                      ///< [s], [samples]
   long gaps = 0, backwards = 0, first_backwards = 0;  ///< the last is a line
   std::optional<double> first, last;
 

@@ -110,7 +110,9 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   series.channel.direction = direction_name(integer_or(field(identity, 51, 4), 0));
   const std::string form = need_inside(in, what);
   const auto numbers = form_of(form);
-  if (numbers.size() < 5) in.fail(fmt::format("holds '{}', expected type, number of values, spacing, start and step", field(form, 0, 80)), "write the set again");
+  if (numbers.size() < 5)
+    in.fail(fmt::format("holds '{}', expected type, number of values, spacing, start and step", field(form, 0, 80)),
+            "write the set again");
   series.data_type = static_cast<int>(integer_or(field(form, 0, 10), static_cast<long>(numbers[0])));
   const auto values = count_in(numbers[1], in.size());  // a value takes one byte at least
   if (!values || *values == 0) {
@@ -123,7 +125,8 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   series.start = numbers[3];
   series.step = numbers[4];
   if (series.data_type != 2 && series.data_type != 4 && !series.is_complex()) {
-    in.fail(fmt::format("has data of type {}, expected 2, 4 (real), 5 or 6 (complex)", series.data_type), "write the set again");
+    in.fail(fmt::format("has data of type {}, expected 2, 4 (real), 5 or 6 (complex)", series.data_type),
+            "write the set again");
   }
   const std::string axis = need_inside(in, what);
   series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
@@ -197,7 +200,8 @@ void read_text_values(UniversalLines& in, const Series& series, const std::strin
   double first = 0.0;
   for (Index k = 0; k < wanted;) {
     const std::string line = in.need(fmt::format("{} after {} of {} values", what, k / each, series.values));
-    if (is_delimiter(line)) in.fail(fmt::format("{} ends after {} of {} values", what, k / each, series.values), "write the set again");
+    if (is_delimiter(line))
+      in.fail(fmt::format("{} ends after {} of {} values", what, k / each, series.values), "write the set again");
     for (const double value : series_numbers(in, line)) {
       if (k >= wanted) break;
       const Index within = k % each, sample = k / each;
@@ -209,7 +213,8 @@ void read_text_values(UniversalLines& in, const Series& series, const std::strin
   }
 }
 
-void read_binary_values(UniversalLines& in, const Series& series, const std::string& what, Parts& parts, double& step, RecordInfo& info) {
+void read_binary_values(UniversalLines& in, const Series& series, const std::string& what, Parts& parts, double& step,
+                        RecordInfo& info) {
   const std::size_t size = series.is_double() ? 8 : 4;
   // An uneven abscissa is single in set 58, whatever the ordinate is.
   const std::size_t abscissa = series.even ? 0 : 4, ordinate = size * (series.is_complex() ? 2 : 1);
@@ -244,7 +249,9 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
       parts.add(binary_value(at + abscissa, series.is_double(), series.swapped));
     }
     done += complete;
-    if (complete < n) in.fail(fmt::format("breaks off in {} after {} of {} values", what, done, series.values), "the file was cut off; copy it again");
+    if (complete < n)
+      in.fail(fmt::format("breaks off in {} after {} of {} values", what, done, series.values),
+              "the file was cut off; copy it again");
   }
 }
 
@@ -368,7 +375,8 @@ void read_result(UniversalLines& in, UniversalData& data) {
       if (more.empty()) break;
       values.insert(values.end(), more.begin(), more.end());
     }
-    if (values.size() < wanted) in.fail(fmt::format("has {} values at node {}, expected {}", values.size(), node, wanted), "write set 55 again");
+    if (values.size() < wanted)
+      in.fail(fmt::format("has {} values at node {}, expected {}", values.size(), node, wanted), "write set 55 again");
     Eigen::VectorXcd vector(per_node);
     for (Index k = 0; k < per_node; ++k) {
       const auto at = static_cast<std::size_t>(k);
@@ -468,23 +476,24 @@ RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
   RecordInfo info;
   const UniversalData data = scan_universal_sets(file, visit, info);
   info.names_channels = true;
-  info.format = fmt::format("universal file, {} time series, {} nodes, {} lines, {} shapes", info.channels.size(), data.nodes.size(), data.lines.size(),
-                            data.results.size());
+  info.format = fmt::format("universal file, {} time series, {} nodes, {} lines, {} shapes", info.channels.size(),
+                            data.nodes.size(), data.lines.size(), data.results.size());
   for (const ChannelInfo& channel : info.channels) {
     if (channel.rate_Hz > 0.0 && info.rate_Hz == 0.0) {
       info.rate_Hz = channel.rate_Hz;
       info.rate_source = "step of the abscissa";
     }
     if (std::abs(channel.rate_Hz - info.rate_Hz) > 1e-6 * info.rate_Hz) {
-      info.notes.push_back(fmt::format("channels have different rates: {} {} Hz, {} {} Hz", info.channels.front().name, info.channels.front().rate_Hz,
-                                       channel.name, channel.rate_Hz));
+      info.notes.push_back(fmt::format("channels have different rates: {} {} Hz, {} {} Hz", info.channels.front().name,
+                                       info.channels.front().rate_Hz, channel.name, channel.rate_Hz));
       info.rate_Hz = 0.0;
       break;
     }
   }
   if (!data.has_header) info.notes.push_back("no set 151 (header)");
   if (!data.has_units) info.notes.push_back("no set 164 (units): coordinates are taken as metres");
-  for (const auto& [set, count] : data.others) info.notes.push_back(fmt::format("{} set{} {} left out", count, count == 1 ? "" : "s", set));
+  for (const auto& [set, count] : data.others)
+    info.notes.push_back(fmt::format("{} set{} {} left out", count, count == 1 ? "" : "s", set));
   return info;
 }
 

@@ -124,8 +124,9 @@ bool looks_like_unit(std::string_view cell) {
 }
 
 bool is_known_unit(std::string_view cell) {
-  static const std::array<std::string_view, 22> known = {"s",  "sec", "ms",   "g",   "mg",  "m/s2", "m/s^2", "m/s\xC2\xB2", "m/s/s", "v",  "mv",
-                                                         "m/s", "mm/s", "mm", "m", "um", "\xC2\xB5m", "hz", "kn", "n", "gal", "cm/s2"};
+  static const std::array<std::string_view, 22> known = {
+      "s",   "sec",  "ms", "g", "mg", "m/s2",      "m/s^2", "m/s\xC2\xB2", "m/s/s", "v",   "mv",
+      "m/s", "mm/s", "mm", "m", "um", "\xC2\xB5m", "hz",    "kn",          "n",     "gal", "cm/s2"};
   std::string text = lower(trimmed(cell));
   if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
   return std::find(known.begin(), known.end(), text) != known.end();
@@ -217,7 +218,8 @@ void find_time(const std::vector<std::string>& lines, std::size_t first, TextLay
     const bool named = !layout.names.empty() && is_time_name(layout.names[c]);
     if (c > 0 && !named) continue;
     std::vector<double> values;
-    for (const auto& row : rows) values.push_back(number_in(row[c], layout.decimal_comma).value_or(std::numeric_limits<double>::quiet_NaN()));
+    for (const auto& row : rows)
+      values.push_back(number_in(row[c], layout.decimal_comma).value_or(std::numeric_limits<double>::quiet_NaN()));
     // A first column that runs evenly is time, unless it has a name that says otherwise or only counts the samples.
     const bool counts = values.size() > 2 && values[1] - values[0] == 1.0 && values[2] - values[1] == 1.0 && !named;
     if (!runs_evenly(values) || counts || (!named && !layout.names.empty())) continue;
@@ -298,8 +300,9 @@ TextLayout find_layout(const fs::path& file) {
     }
   }
   if (longest.length < 2) {
-    throw InputError({file.string(), 0, ""}, "has no two lines of numbers that follow one another",
-                     "a record is a table of numbers, one line a sample, after any header; known are also NPY, MAT, HDF5, universal files");
+    throw InputError(
+        {file.string(), 0, ""}, "has no two lines of numbers that follow one another",
+        "a record is a table of numbers, one line a sample, after any header; known are also NPY, MAT, HDF5, universal files");
   }
   std::size_t first = first_of_data(lines, runs, layout).first;
   layout.columns = longest.columns;

@@ -9,22 +9,22 @@ namespace twindeck::records {
 
 /// How a text file holds its numbers.
 struct TextLayout {
-  bool latin1 = false;                 ///< bytes that are no UTF-8: µ, °, ² of an old logger
-  char separator = ',';                ///< ' ' for any run of blanks
+  bool latin1 = false;   ///< bytes that are no UTF-8: µ, °, ² of an old logger
+  char separator = ',';  ///< ' ' for any run of blanks
   bool decimal_comma = false;
-  long first_data_line = 1;            ///< from 1
+  long first_data_line = 1;  ///< from 1
   std::size_t columns = 0;
-  std::vector<std::string> names;      ///< one a column, empty where the file has none
-  std::vector<std::string> units;      ///< one a column, empty where it has none
+  std::vector<std::string> names;  ///< one a column, empty where the file has none
+  std::vector<std::string> units;  ///< one a column, empty where it has none
   std::vector<std::string>
       unaligned;  ///< cells of the line above the numbers if it has another number of them than there are columns
   long unaligned_line = 0;
   int time_column = -1;
-  bool date_and_time = false;          ///< date in time_column, time of day in the next
-  bool stamps = false;                 ///< time stamps, not seconds
-  double time_unit_s = 1.0;            ///< 0.001 for milliseconds
+  bool date_and_time = false;  ///< date in time_column, time of day in the next
+  bool stamps = false;         ///< time stamps, not seconds
+  double time_unit_s = 1.0;    ///< 0.001 for milliseconds
   std::optional<double> header_rate_Hz;
-  std::string header_rate_text;        ///< the line that says so
+  std::string header_rate_text;  ///< the line that says so
 };
 
 /// Reads the layout from the beginning of a file: header lines of any number and kind, a line `sep=;`, names and units.

@@ -6,7 +6,8 @@
 namespace twindeck::records {
 namespace {
 
-/// Days since 1970-01-01 of the proleptic Gregorian calendar. Reference: Hinnant, "chrono-compatible low-level date algorithms".
+/// Days since 1970-01-01 of the proleptic Gregorian calendar. Reference: Hinnant, "chrono-compatible low-level date
+/// algorithms".
 long days_of(long year, long month, long day) {
   year -= month <= 2 ? 1 : 0;
   const long era = (year >= 0 ? year : year - 399) / 400;
@@ -84,7 +85,8 @@ std::vector<double> time_stamp_meanings(std::string_view text) {
   Scanner in(text);
   long a = 0, b = 0, c = 0;
   int a_digits = 0, digits = 0, c_digits = 0;
-  if (!in.number(a, a_digits) || !in.one_of("-./") || !in.number(b, digits) || !in.one_of("-./") || !in.number(c, c_digits)) return {};
+  if (!in.number(a, a_digits) || !in.one_of("-./") || !in.number(b, digits) || !in.one_of("-./") || !in.number(c, c_digits))
+    return {};
   in.one_of("Tt_");
   in.skip_blanks();
   const auto time = time_of_day(in);
@@ -92,7 +94,8 @@ std::vector<double> time_stamp_meanings(std::string_view text) {
   std::vector<double> meanings;
   const auto add = [&](long year, long month, long day) {
     if (year < 100) year += year < 70 ? 2000 : 1900;
-    if (month >= 1 && month <= 12 && day >= 1 && day <= 31) meanings.push_back(86400.0 * static_cast<double>(days_of(year, month, day)) + *time);
+    if (month >= 1 && month <= 12 && day >= 1 && day <= 31)
+      meanings.push_back(86400.0 * static_cast<double>(days_of(year, month, day)) + *time);
   };
   if (a_digits == 4) {
     add(a, b, c);

@@ -6,13 +6,13 @@
 
 namespace twindeck::records {
 
-/// Seconds that a time stamp may mean, since 1970-01-01 (a time of day alone: since midnight). Several where day and month can be
-/// exchanged: "03/04/2021 10:00:00" is 3 April or 4 March, the former first. Empty where the text is no time stamp.
-/// Read: 2021-04-03T10:00:00.25Z, 03.04.2021 10:00:00,25, 4/3/2021 10:00:00 PM, 10:00:00.25, with blanks, 'T' or '_' between.
+/// Seconds that a time stamp may mean, since 1970-01-01 (a time of day alone: since midnight). Several where day and month can
+/// be exchanged: "03/04/2021 10:00:00" is 3 April or 4 March, the former first. Empty where the text is no time stamp. Read:
+/// 2021-04-03T10:00:00.25Z, 03.04.2021 10:00:00,25, 4/3/2021 10:00:00 PM, 10:00:00.25, with blanks, 'T' or '_' between.
 [[nodiscard]] std::vector<double> time_stamp_meanings(std::string_view text);
 
-/// Turns a column of time stamps into seconds, row by row: of the meanings of a stamp, the one that follows the last by the least. A logger
-/// that exchanges day and month on the first twelve days of a month is so put right.
+/// Turns a column of time stamps into seconds, row by row: of the meanings of a stamp, the one that follows the last by the
+/// least. A logger that exchanges day and month on the first twelve days of a month is so put right.
 class TimeStampReader {
  public:
   /// @return seconds, empty for no time stamp

@@ -113,8 +113,9 @@ std::vector<double> numbers_in(const std::string& line) {
         text += exponent;
         i = k;
       }
-    } else if (i + 1 < line.size() && (line[i] == '-' || line[i] == '+') && is_digit(i + 1) && text.find('.') != std::string::npos &&
-               i + 4 >= line.size() && line.find_first_of(" \t", i) == std::string::npos) {
+    } else if (i + 1 < line.size() && (line[i] == '-' || line[i] == '+') && is_digit(i + 1) &&
+               text.find('.') != std::string::npos && i + 4 >= line.size() &&
+               line.find_first_of(" \t", i) == std::string::npos) {
       // "1.0-100": an exponent of three digits that left no room for its letter.
       text += "e" + line.substr(line[i] == '+' ? i + 1 : i);
       i = line.size();

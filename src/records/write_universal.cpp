@@ -40,7 +40,8 @@ long direction_code(const std::string& direction) {
 
 void write_universal(const UniversalData& data, const fs::path& file) {
   std::string text = kDelimiter;
-  text += "   151\n" + text_line(data.title) + text_line("") + text_line("twindeck") + text_line("") + text_line("") + text_line("") + text_line("") + kDelimiter;
+  text += "   151\n" + text_line(data.title) + text_line("") + text_line("twindeck") + text_line("") + text_line("") +
+          text_line("") + text_line("") + kDelimiter;
   text += kDelimiter;
   text += fmt::format("   164\n{:>10}{:<20}{:>10}\n", 1, "SI: Meter (newton)", 2);
   text += fmt::format("{:>25.17E}{:>25.17E}{:>25.17E}\n{:>25.17E}\n", 1.0, 1.0, 1.0, 273.15);
@@ -49,7 +50,8 @@ void write_universal(const UniversalData& data, const fs::path& file) {
     text += kDelimiter;
     text += "  2411\n";
     for (const auto& [label, position] : data.nodes) {
-      text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n{:>25.16E}{:>25.16E}{:>25.16E}\n", label, 1, 1, 11, position[0], position[1], position[2]);
+      text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n{:>25.16E}{:>25.16E}{:>25.16E}\n", label, 1, 1, 11, position[0],
+                          position[1], position[2]);
     }
     text += kDelimiter;
   }
@@ -66,9 +68,11 @@ void write_universal(const UniversalData& data, const fs::path& file) {
     TWINDECK_ASSERT(!result.values.empty());
     const Index n = result.values.begin()->second.size();
     text += kDelimiter;
-    text += "    55\n" + text_line(result.title) + text_line("NONE") + text_line("NONE") + text_line("NONE") + text_line("NONE");
+    text +=
+        "    55\n" + text_line(result.title) + text_line("NONE") + text_line("NONE") + text_line("NONE") + text_line("NONE");
     // Structural; normal or complex mode; three or six directions; displacement; real or complex; values a node.
-    text += fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", 1, result.analysis, n == 6 ? 3 : 2, 8, result.complex ? 5 : 2, n);
+    text +=
+        fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", 1, result.analysis, n == 6 ? 3 : 2, 8, result.complex ? 5 : 2, n);
     if (result.analysis == 3) {
       text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n", 2, 6, 1, result.mode);
       text += value_lines({result.eigenvalue.real(), result.eigenvalue.imag(), 1.0, 0.0, 0.0, 0.0}, 6, 13, 5);
@@ -96,15 +100,18 @@ void write_universal_series(const RecordInfo& info, const Eigen::MatrixXd& sampl
   for (Index c = 0; c < samples.cols(); ++c) {
     const ChannelInfo& channel = info.channels[static_cast<std::size_t>(c)];
     text += kDelimiter;
-    text += binary ? fmt::format("    58b{:>6}{:>6}{:>12}{:>12}{:>6}{:>6}{:>12}{:>12}\n", 1, 2, 11, 8 * samples.rows(), 0, 0, 0, 0) : std::string("    58\n");
+    text += binary
+                ? fmt::format("    58b{:>6}{:>6}{:>12}{:>12}{:>6}{:>6}{:>12}{:>12}\n", 1, 2, 11, 8 * samples.rows(), 0, 0, 0, 0)
+                : std::string("    58\n");
     text += text_line(channel.name) + text_line("NONE") + text_line("NONE") + text_line("NONE") + text_line("NONE");
-    text += fmt::format("{:>5}{:>10}{:>5}{:>10} {:<10}{:>10}{:>4} {:<10}{:>10}{:>4}\n", 1, c + 1, 0, 0, "NONE", channel.point.empty() ? "0" : channel.point,
-                        direction_code(channel.direction), "NONE", 0, 0);
+    text += fmt::format("{:>5}{:>10}{:>5}{:>10} {:<10}{:>10}{:>4} {:<10}{:>10}{:>4}\n", 1, c + 1, 0, 0, "NONE",
+                        channel.point.empty() ? "0" : channel.point, direction_code(channel.direction), "NONE", 0, 0);
     text += fmt::format("{:>10}{:>10}{:>10}{:>13.5E}{:>13.5E}{:>13.5E}\n", 4, samples.rows(), 1, 0.0, 1.0 / info.rate_Hz, 0.0);
     const auto axis = [](int type, const std::string& label, const std::string& unit) {
       return fmt::format("{:>10}{:>5}{:>5}{:>5} {:<20} {:<20}\n", type, 0, 0, 0, label, unit);
     };
-    text += axis(17, "Time", "s") + axis(12, "Response", channel.unit.empty() ? "NONE" : channel.unit) + axis(0, "NONE", "NONE") + axis(0, "NONE", "NONE");
+    text += axis(17, "Time", "s") + axis(12, "Response", channel.unit.empty() ? "NONE" : channel.unit) +
+            axis(0, "NONE", "NONE") + axis(0, "NONE", "NONE");
     if (binary) {
       const Eigen::VectorXd column = samples.col(c);
       text.append(reinterpret_cast<const char*>(column.data()), static_cast<std::size_t>(column.size()) * sizeof(double));

@@ -8,7 +8,8 @@
 
 namespace twindeck::sensors {
 
-Eigen::VectorXd logged(const Eigen::Ref<const Eigen::VectorXd>& motion, const LoggerErrors& errors, std::uint64_t seed, std::uint64_t stream) {
+Eigen::VectorXd logged(const Eigen::Ref<const Eigen::VectorXd>& motion, const LoggerErrors& errors, std::uint64_t seed,
+                       std::uint64_t stream) {
   // Two streams a channel: places 0 and 1 of the second one are the drift's.
   const std::uint64_t noise_stream = 2 * stream, drift_stream = 2 * stream + 1;
   const double line = errors.drift * (2.0 * uniform_number(seed, drift_stream, 0) - 1.0);

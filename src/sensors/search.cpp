@@ -14,12 +14,16 @@ using Eigen::VectorXd;
 
 namespace {
 
-bool chosen(const std::vector<Index>& rows, Index candidate) { return std::find(rows.begin(), rows.end(), candidate) != rows.end(); }
+bool chosen(const std::vector<Index>& rows, Index candidate) {
+  return std::find(rows.begin(), rows.end(), candidate) != rows.end();
+}
 
-double worth_of(const MatrixXd& phi, const std::vector<Index>& rows, const Worth& worth) { return worth(MatrixXd(phi(rows, Eigen::all))); }
+double worth_of(const MatrixXd& phi, const std::vector<Index>& rows, const Worth& worth) {
+  return worth(MatrixXd(phi(rows, Eigen::all)));
+}
 
-/// A choice must gain more than rounding: mirror images on a symmetric structure are worth the same, and two layouts of the same worth
-/// could change places for ever. Of equals the first stays.
+/// A choice must gain more than rounding: mirror images on a symmetric structure are worth the same, and two layouts of the
+/// same worth could change places for ever. Of equals the first stays.
 constexpr double kGain = 1e-12;
 /// The same for leverages, which are between 0 and 1.
 constexpr double kSameLeverage = 1e-9;
@@ -79,7 +83,8 @@ Layout effective_independence(const Eigen::Ref<const MatrixXd>& phi, Index count
   }
 }
 
-Layout greedy_exchange(const Eigen::Ref<const MatrixXd>& phi, Index count, const Worth& worth, const std::vector<Index>& start) {
+Layout greedy_exchange(const Eigen::Ref<const MatrixXd>& phi, Index count, const Worth& worth,
+                       const std::vector<Index>& start) {
   TWINDECK_ASSERT(count > 0 && count <= phi.rows() && std::ssize(start) <= count);
   const MatrixXd all = phi;
   Layout layout;

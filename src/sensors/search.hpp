@@ -12,11 +12,11 @@ using Worth = std::function<double(const Eigen::MatrixXd& phi)>;
 struct Layout {
   std::vector<Eigen::Index> rows;  ///< candidates, ascending
   double worth = 0.0;
-  int exchanges = 0;               ///< made by the search after its start
+  int exchanges = 0;  ///< made by the search after its start
 };
 
-/// Effective independence: of all candidates the one that adds least to det(Phi' Phi) is dropped, until `count` are left. Its contribution is
-/// the diagonal of Phi (Phi' Phi)^-1 Phi', which gives the relative fall of the determinant without it.
+/// Effective independence: of all candidates the one that adds least to det(Phi' Phi) is dropped, until `count` are left. Its
+/// contribution is the diagonal of Phi (Phi' Phi)^-1 Phi', which gives the relative fall of the determinant without it.
 /// @param phi  (n_candidates × n_modes), of full column rank @param count  >= n_modes
 /// @throws InputError  if fewer sensors than modes are requested, or the candidates cannot distinguish the modes
 /// Reference: Kammer (1991), Journal of Guidance, Control, and Dynamics 14, 251-259.

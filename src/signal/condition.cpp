@@ -62,7 +62,8 @@ Eigen::MatrixXd decimated(const Eigen::Ref<const Eigen::MatrixXd>& data, Index f
   const Eigen::VectorXd half = half_low_pass(factor);
   const Index pad = half.size() - 1;
   if (data.rows() <= pad) {
-    throw InputError({"", 0, "decimation"}, fmt::format("is {}, whose filter needs more than the {} samples of the record", factor, data.rows()),
+    throw InputError({"", 0, "decimation"},
+                     fmt::format("is {}, whose filter needs more than the {} samples of the record", factor, data.rows()),
                      "take a smaller factor or a longer record");
   }
   Eigen::VectorXd filter(2 * pad + 1);

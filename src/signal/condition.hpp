@@ -8,8 +8,8 @@ namespace twindeck::signal {
 [[nodiscard]] Eigen::MatrixXd detrended(const Eigen::Ref<const Eigen::MatrixXd>& data);
 
 /// Keeps every `factor`-th sample after a linear-phase low-pass (Kaiser-windowed sinc, centred: no phase shift). Passband to
-/// 0.8 of the new Nyquist frequency within 1e-4, at least 80 dB down from the new Nyquist frequency on. The record is continued at its
-/// ends by its point reflection, so that a straight line passes unchanged.
+/// 0.8 of the new Nyquist frequency within 1e-4, at least 80 dB down from the new Nyquist frequency on. The record is continued
+/// at its ends by its point reflection, so that a straight line passes unchanged.
 /// @param data (n_samples × n_channels) @param factor >= 1; 1 returns the data as they are
 /// @return (ceil(n_samples / factor) × n_channels), first sample at the time of the first sample
 /// @throws InputError  if the record is shorter than the filter (about 51 factor samples)

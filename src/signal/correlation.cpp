@@ -13,14 +13,15 @@ using Eigen::Index;
 
 namespace {
 
-/// Sums of products of t in [begin, end), piece by piece: references over L samples, outputs over L + n_lags - 1, both padded to the
-/// transform's length, so that lags 0 … n_lags - 1 see no wrap-around.
-Eigen::VectorXd sums_of_block(const Eigen::Ref<const Eigen::MatrixXd>& data, const std::vector<Index>& references, Index n_lags, Index begin,
-                              Index end, RealFft& fft) {
+/// Sums of products of t in [begin, end), piece by piece: references over L samples, outputs over L + n_lags - 1, both padded
+/// to the transform's length, so that lags 0 … n_lags - 1 see no wrap-around.
+Eigen::VectorXd sums_of_block(const Eigen::Ref<const Eigen::MatrixXd>& data, const std::vector<Index>& references, Index n_lags,
+                              Index begin, Index end, RealFft& fft) {
   const Index length = fft.size() - n_lags + 1;
   const Index n_frequencies = fft.size() / 2 + 1, n_outputs = data.cols();
   const auto n_references = static_cast<Index>(references.size());
-  // One row a pair of channels and one column a frequency: each frequency's update is a small outer product of adjacent numbers.
+  // One row a pair of channels and one column a frequency: each frequency's update is a small outer product of adjacent
+  // numbers.
   Eigen::MatrixXcd spectrum = Eigen::MatrixXcd::Zero(n_outputs * n_references, n_frequencies);
   Eigen::MatrixXcd outputs(n_outputs, n_frequencies), inputs(n_references, n_frequencies);
   for (Index at = begin; at < end; at += length) {
@@ -32,7 +33,8 @@ Eigen::VectorXd sums_of_block(const Eigen::Ref<const Eigen::MatrixXd>& data, con
       inputs.row(r) = fft.forward(data.col(references[static_cast<std::size_t>(r)]).segment(at, n)).adjoint();
     }
     for (Index f = 0; f < n_frequencies; ++f) {
-      Eigen::Map<Eigen::MatrixXcd>(spectrum.col(f).data(), n_outputs, n_references).noalias() += outputs.col(f) * inputs.col(f).transpose();
+      Eigen::Map<Eigen::MatrixXcd>(spectrum.col(f).data(), n_outputs, n_references).noalias() +=
+          outputs.col(f) * inputs.col(f).transpose();
     }
   }
   Eigen::VectorXd sums(n_outputs * n_references * n_lags);
@@ -55,7 +57,8 @@ std::vector<Eigen::MatrixXd> BlockCorrelations::mean(Index without) const {
   }
   std::vector<Eigen::MatrixXd> lags;
   for (Index k = 0; k < n_lags; ++k) {
-    lags.emplace_back(Eigen::Map<const Eigen::MatrixXd>(total.data() + k * n_outputs * n_references, n_outputs, n_references) / count[k]);
+    lags.emplace_back(Eigen::Map<const Eigen::MatrixXd>(total.data() + k * n_outputs * n_references, n_outputs, n_references) /
+                      count[k]);
   }
   return lags;
 }
@@ -73,14 +76,14 @@ void BlockCorrelations::append(const BlockCorrelations& other) {
   counts.rightCols(other.n_blocks()) = other.counts;
 }
 
-BlockCorrelations correlations(const Eigen::Ref<const Eigen::MatrixXd>& data, const std::vector<Index>& references, Index n_lags,
-                               Index n_blocks) {
+BlockCorrelations correlations(const Eigen::Ref<const Eigen::MatrixXd>& data, const std::vector<Index>& references,
+                               Index n_lags, Index n_blocks) {
   TWINDECK_ASSERT(n_lags >= 1 && n_blocks >= 1 && !references.empty());
   const Index length = data.rows() / n_blocks;
   if (length < 2 * n_lags) {
     throw InputError({"", 0, "blocks"},
-                     fmt::format("cut the record of {} samples into {} blocks of {}, expected at least {}, twice the {} lags", data.rows(), n_blocks,
-                                 length, 2 * n_lags, n_lags),
+                     fmt::format("cut the record of {} samples into {} blocks of {}, expected at least {}, twice the {} lags",
+                                 data.rows(), n_blocks, length, 2 * n_lags, n_lags),
                      "ask for fewer blocks or block rows, a smaller decimation, or give a longer record");
   }
   BlockCorrelations result;

@@ -19,13 +19,15 @@ namespace {
 Eigen::VectorXd hann(Index n) {
   // The periodic window, whose shifted squares add up evenly.
   Eigen::VectorXd window(n);
-  for (Index t = 0; t < n; ++t) window[t] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(t) / static_cast<double>(n));
+  for (Index t = 0; t < n; ++t)
+    window[t] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(t) / static_cast<double>(n));
   return window;
 }
 
 void check(Index n_samples, const WelchOptions& options) {
   if (options.segment < 8 || options.segment > n_samples) {
-    throw InputError({"", 0, "segment"}, fmt::format("is {} samples, expected 8 to {}, the length of the record", options.segment, n_samples),
+    throw InputError({"", 0, "segment"},
+                     fmt::format("is {} samples, expected 8 to {}, the length of the record", options.segment, n_samples),
                      "give a shorter segment of the Welch average");
   }
   if (!(options.overlap >= 0.0 && options.overlap <= 0.95)) {
@@ -83,7 +85,8 @@ CrossSpectra cross_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double
   CrossSpectra result;
   result.density.assign(static_cast<std::size_t>(options.segment / 2 + 1), Eigen::MatrixXcd::Zero(data.cols(), data.cols()));
   result.n_segments = for_each_segment(data, options, [&](const Eigen::MatrixXcd& x) {
-    for (Index m = 0; m < x.rows(); ++m) result.density[static_cast<std::size_t>(m)].noalias() += x.row(m).transpose() * x.row(m).conjugate();
+    for (Index m = 0; m < x.rows(); ++m)
+      result.density[static_cast<std::size_t>(m)].noalias() += x.row(m).transpose() * x.row(m).conjugate();
   });
   const Eigen::VectorXd scale = scaling(options.segment, rate_Hz, result.n_segments);
   for (Index m = 0; m < scale.size(); ++m) result.density[static_cast<std::size_t>(m)] *= scale[m];

@@ -29,7 +29,9 @@ struct CrossSpectra {
 /// @param data     [unit] (n_samples × n_channels) @param rate_Hz  sampling rate
 /// @throws InputError  if the segment is longer than the record or shorter than 8, or the overlap lies outside [0, 0.95]
 /// Reference: Welch (1967), IEEE Trans. Audio Electroacoust. 15, 70-73.
-[[nodiscard]] PowerSpectra power_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz, const WelchOptions& options);
-[[nodiscard]] CrossSpectra cross_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz, const WelchOptions& options);
+[[nodiscard]] PowerSpectra power_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz,
+                                         const WelchOptions& options);
+[[nodiscard]] CrossSpectra cross_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz,
+                                         const WelchOptions& options);
 
 }  // namespace twindeck::signal

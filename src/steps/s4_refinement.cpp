@@ -1,5 +1,5 @@
+#include "steps/measured/measured_choice.hpp"
 #include "steps/refinement/refinement.hpp"
-#include "steps/shared/measured_choice.hpp"
 #include "steps/shared/run_step.hpp"
 
 /// Step 4: as-built changes, comparison with the measured modes, pairing (paper section 4.1, Tables 6 and 7).

@@ -32,8 +32,8 @@ Status run(const steps::SensitivityConfig& config, steps::StepContext& context) 
   // 3. Which parameters to update: the rule of selection.hpp on the compared modes, beside the paper's choice.
   const Eigen::MatrixXd scaled = steps::scaled_sensitivity(config, loaded.system.parameters, found);
   const std::vector<std::string> names = steps::parameter_names(loaded.system.parameters);
-  const auto selection = steps::select_parameters(scaled, names, config.selection_threshold);
-  const steps::Identifiability identified = steps::identifiability(scaled, config.singular_value_cutoff);
+  const auto selection = sensitivity::select_parameters(scaled, names, config.selection_threshold);
+  const sensitivity::Identifiability identified = sensitivity::identifiability(scaled, config.singular_value_cutoff);
 
   // 4. Tables, and the outcome in words.
   steps::write_sensitivity(loaded.system.parameters, found, context.out / "sensitivity.csv");

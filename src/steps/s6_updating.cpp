@@ -1,6 +1,6 @@
 /// Step 6 (paper section 4.2, Tables 8 to 10): parameters updated within their bounds to the measured frequencies.
 #include "model_io/export.hpp"
-#include "steps/shared/measured_choice.hpp"
+#include "steps/measured/measured_choice.hpp"
 #include "steps/shared/model_outputs.hpp"
 #include "steps/shared/unit_slips.hpp"
 #include "steps/updating/outputs.hpp"
@@ -71,7 +71,8 @@ int main(int argc, char** argv) {
   step.token = "s6_updating";
   step.summary = "Updates parameters within their bounds to the measured frequencies (dogleg, several starts).";
   step.examples = {"s6_updating --study workflows/ponte_del_mare --out results/ponte_del_mare/s6_updating",
-                   "s6_updating --model my_bridge/model --features my_bridge/features --correct my_bridge/diagnosis/corrections.toml --out my_bridge/updated"};
+                   "s6_updating --model my_bridge/model --features my_bridge/features --correct "
+                   "my_bridge/diagnosis/corrections.toml --out my_bridge/updated"};
   step.fields = config.fields();
   step.flags = steps::measured_flags();
   step.configured_inputs = {"model"};

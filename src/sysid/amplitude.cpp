@@ -40,8 +40,8 @@ FittedLine fitted_line(const Eigen::VectorXd& y, double step, double memory) {
 
 }  // namespace
 
-Eigen::VectorXcd modal_coordinate(const Eigen::MatrixXd& data, double rate_Hz, const Eigen::VectorXcd& shape, double frequency_Hz,
-                                  double half_width_Hz) {
+Eigen::VectorXcd modal_coordinate(const Eigen::MatrixXd& data, double rate_Hz, const Eigen::VectorXcd& shape,
+                                  double frequency_Hz, double half_width_Hz) {
   TWINDECK_ASSERT(shape.size() == data.cols() && data.rows() >= 8);
   Eigen::VectorXd weights = shape.real();
   weights /= weights.cwiseAbs().maxCoeff();
@@ -51,7 +51,8 @@ Eigen::VectorXcd modal_coordinate(const Eigen::MatrixXd& data, double rate_Hz, c
   signal::RealFft fft(size);
   Eigen::VectorXcd spectrum = fft.forward(q);
   const double line_Hz = rate_Hz / static_cast<double>(size);
-  for (Index m = 0; m < spectrum.size(); ++m) spectrum[m] *= window(static_cast<double>(m) * line_Hz - frequency_Hz, half_width_Hz);
+  for (Index m = 0; m < spectrum.size(); ++m)
+    spectrum[m] *= window(static_cast<double>(m) * line_Hz - frequency_Hz, half_width_Hz);
   // Real part by the inverse; the imaginary part (Hilbert transform) from the spectrum turned by -90 degrees.
   const Eigen::VectorXd real = fft.inverse(spectrum);
   spectrum *= std::complex<double>(0.0, -1.0);
@@ -61,7 +62,8 @@ Eigen::VectorXcd modal_coordinate(const Eigen::MatrixXd& data, double rate_Hz, c
   return analytic;
 }
 
-std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinate, double rate_Hz, double memory_s, int n_bands, double noise) {
+std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinate, double rate_Hz, double memory_s, int n_bands,
+                                               double noise) {
   TWINDECK_ASSERT(n_bands >= 1 && coordinate.size() >= 8);
   const Index n = coordinate.size();
   Eigen::VectorXd envelope = coordinate.cwiseAbs(), phase(n);
@@ -99,7 +101,8 @@ std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinat
     }
     if (to - from < std::max<Index>(memory, 8)) continue;
     const FittedLine turning = fitted_line(phase.segment(from, to - from), 1.0 / rate_Hz, static_cast<double>(memory));
-    const FittedLine decay = fitted_line(envelope.segment(from, to - from).array().log().matrix(), 1.0 / rate_Hz, static_cast<double>(memory));
+    const FittedLine decay =
+        fitted_line(envelope.segment(from, to - from).array().log().matrix(), 1.0 / rate_Hz, static_cast<double>(memory));
     const double omega = std::hypot(turning.slope, decay.slope);
     AmplitudePoint point;
     point.amplitude = envelope.segment(from, to - from).mean();

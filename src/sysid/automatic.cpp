@@ -166,8 +166,8 @@ bool goes_on(const std::vector<DiagramPole>& diagram, const std::vector<int>& or
   return to_last(first) < cut;
 }
 
-/// Without the clusters that go on as another: one mode, which at the smaller orders still holds a share of a neighbour that these
-/// orders have no pole for. The higher orders speak for it.
+/// Without the clusters that go on as another: one mode, which at the smaller orders still holds a share of a neighbour that
+/// these orders have no pole for. The higher orders speak for it.
 std::vector<Cluster> whole_chains(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
                                   const std::vector<Cluster>& clusters, double cut) {
   std::vector<Cluster> whole;

@@ -10,12 +10,12 @@ struct AutomaticRule {
   double collinearity = 0.5;  ///< least modal phase collinearity of a pole
   double share = 0.4;         ///< least share of the orders from its first one on at which a mode is found,
   double share_of_all = 0.3;  ///< least share of all orders, and at least four orders
-  /// For each channel how often displacement is differentiated (2 for acceleration). A velocity channel beside accelerations then
-  /// does not count as a phase shift of 90 degrees. Empty: all channels are equal.
+  /// For each channel how often displacement is differentiated (2 for acceleration). A velocity channel beside accelerations
+  /// then does not count as a phase shift of 90 degrees. Empty: all channels are equal.
   std::vector<int> derivatives;
   /// Bounds of the cut, which the data give, as a distance between poles. Lower bound: the tolerance of a stable shape in paper
-  /// section 3.1 (MAC 0.95). Upper bound: plus its tolerance of the frequency (2 %). Orders far above the number of modes repeat a
-  /// strong mode to 1e-4; a cut from its distances alone would split a weaker mode.
+  /// section 3.1 (MAC 0.95). Upper bound: plus its tolerance of the frequency (2 %). Orders far above the number of modes
+  /// repeat a strong mode to 1e-4; a cut from its distances alone would split a weaker mode.
   double smallest_cut = 0.05, largest_cut = 0.07;
 };
 
@@ -30,10 +30,10 @@ struct AutomaticRule {
 ///
 /// Each pole's distance to its nearest pole of the next smaller order falls into two populations, physical and spurious, split
 /// by 2-means of ln d; the cut of the agglomerative clustering (average linkage, never two poles of one order) is the 95 %
-/// quantile of the physical ones' distances. Each order without a pole in a cluster then adds its nearest pole, if it is within twice
-/// the cut of the cluster's centre. Clusters at too few orders are dropped. Of two clusters nearer than half a bandwidth with a
-/// MAC above 0.8 the smaller is dropped. A cluster is also dropped if the nearest pole of the next order, within the cut, is the
-/// first pole of another cluster: it is the same mode at orders that do not yet separate it from a neighbour.
+/// quantile of the physical ones' distances. Each order without a pole in a cluster then adds its nearest pole, if it is within
+/// twice the cut of the cluster's centre. Clusters at too few orders are dropped. Of two clusters nearer than half a bandwidth
+/// with a MAC above 0.8 the smaller is dropped. A cluster is also dropped if the nearest pole of the next order, within the
+/// cut, is the first pole of another cluster: it is the same mode at orders that do not yet separate it from a neighbour.
 /// @param orders  ascending @return ascending in frequency; marks `mode` in the diagram
 /// Reference: Reynders, Houbrechts and De Roeck (2012), Mechanical Systems and Signal Processing 29, 228-250.
 [[nodiscard]] std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,

@@ -22,7 +22,8 @@ std::vector<std::size_t> stable_poles(const std::vector<DiagramPole>& diagram) {
 }
 
 /// Eq. (3) (n × n), with the frequencies' agreement.
-Eigen::MatrixXd affinity(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& stable, const CleaningRule& rule) {
+Eigen::MatrixXd affinity(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& stable,
+                         const CleaningRule& rule) {
   const auto n = static_cast<Index>(stable.size());
   if (n == 0) return {};
   Eigen::MatrixXcd shapes(diagram[stable.front()].pole.shape.size(), n);
@@ -34,7 +35,8 @@ Eigen::MatrixXd affinity(const std::vector<DiagramPole>& diagram, const std::vec
   Eigen::MatrixXd a = modal::mac(shapes, shapes);
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < n; ++i) {
-      const bool same = a(i, j) >= rule.mac && std::abs(frequency[i] - frequency[j]) < rule.frequency * std::max(frequency[i], frequency[j]);
+      const bool same =
+          a(i, j) >= rule.mac && std::abs(frequency[i] - frequency[j]) < rule.frequency * std::max(frequency[i], frequency[j]);
       a(i, j) = same ? 1.0 : 0.0;
     }
   }
@@ -67,8 +69,9 @@ Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size
   cluster.frequency_scatter_Hz = deviation(frequency);
   cluster.damping_ratio_scatter = deviation(damping);
   const auto distance = [&](std::size_t k) {
-    return std::hypot((frequency[k] - cluster.frequency_Hz) / std::max(cluster.frequency_scatter_Hz, 1e-12 * cluster.frequency_Hz),
-                      (damping[k] - cluster.damping_ratio) / std::max(cluster.damping_ratio_scatter, 1e-12));
+    return std::hypot(
+        (frequency[k] - cluster.frequency_Hz) / std::max(cluster.frequency_scatter_Hz, 1e-12 * cluster.frequency_Hz),
+        (damping[k] - cluster.damping_ratio) / std::max(cluster.damping_ratio_scatter, 1e-12));
   };
   // Two members lie at the same distance from their median: of equals the first represents, whatever rounding says.
   constexpr double kNearer = 1.0 - 1e-9;
@@ -96,32 +99,37 @@ Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size
   return cluster;
 }
 
-std::vector<std::size_t> one_an_order(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, std::size_t seed) {
+std::vector<std::size_t> one_an_order(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members,
+                                      std::size_t seed) {
   const Eigen::VectorXcd& reference = diagram[seed].pole.shape;
   std::map<int, std::size_t> best;
   for (const std::size_t i : members) {
     const auto [at, is_new] = best.try_emplace(diagram[i].pole.order, i);
-    if (!is_new && std::norm(reference.dot(diagram[i].pole.shape)) > std::norm(reference.dot(diagram[at->second].pole.shape))) at->second = i;
+    if (!is_new && std::norm(reference.dot(diagram[i].pole.shape)) > std::norm(reference.dot(diagram[at->second].pole.shape)))
+      at->second = i;
   }
   std::vector<std::size_t> kept;
   for (const auto& entry : best) kept.push_back(entry.second);
   return kept;
 }
 
-std::size_t possible_orders(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members, const std::vector<int>& orders) {
+std::size_t possible_orders(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members,
+                            const std::vector<int>& orders) {
   int first = orders.back();
   for (const std::size_t i : members) first = std::min(first, diagram[i].pole.order);
   return static_cast<std::size_t>(std::count_if(orders.begin(), orders.end(), [&](int order) { return order >= first; }));
 }
 
 void number_clusters(std::vector<DiagramPole>& diagram, std::vector<Cluster>& clusters) {
-  std::sort(clusters.begin(), clusters.end(), [](const Cluster& p, const Cluster& q) { return p.frequency_Hz < q.frequency_Hz; });
+  std::sort(clusters.begin(), clusters.end(),
+            [](const Cluster& p, const Cluster& q) { return p.frequency_Hz < q.frequency_Hz; });
   for (std::size_t m = 0; m < clusters.size(); ++m) {
     for (const std::size_t i : clusters[m].members) diagram[i].mode = static_cast<int>(m);
   }
 }
 
-std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const CleaningRule& rule) {
+std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
+                                       const CleaningRule& rule) {
   const std::vector<std::size_t> stable = stable_poles(diagram);
   Eigen::MatrixXd a = affinity(diagram, stable, rule);
   std::vector<Cluster> clusters;

@@ -67,7 +67,8 @@ EfddMode efdd(const SingularSpectra& spectra, double frequency_Hz, double search
     phase.push_back(turns);
   }
   if (time.size() < 5) return mode;
-  const double damped = 2.0 * pi * f[peak] + slope(time, phase), decay = slope(time, log_envelope), omega = std::hypot(damped, decay);
+  const double damped = 2.0 * pi * f[peak] + slope(time, phase), decay = slope(time, log_envelope),
+               omega = std::hypot(damped, decay);
   mode.found = decay < 0.0;
   mode.frequency_Hz = omega / (2.0 * pi);
   mode.damping_ratio = -decay / omega;

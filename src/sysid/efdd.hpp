@@ -16,13 +16,13 @@ struct SingularSpectra {
 [[nodiscard]] SingularSpectra singular_spectra(const signal::CrossSpectra& spectra, Eigen::Index n_values);
 
 struct EfddMode {
-  bool found = false;              ///< false if the mode has too few lines or periods
+  bool found = false;  ///< false if the mode has too few lines or periods
   double frequency_Hz = 0.0, damping_ratio = 0.0;
-  Eigen::VectorXcd shape;          ///< (n_channels) at the peak
+  Eigen::VectorXcd shape;  ///< (n_channels) at the peak
 };
 
-/// Enhanced frequency domain decomposition near a frequency. It finds the peak of the first singular value within ±`search`. The
-/// lines around the peak whose first singular vector has a MAC of at least `mac` with that of the peak form the bell. The
+/// Enhanced frequency domain decomposition near a frequency. It finds the peak of the first singular value within ±`search`.
+/// The lines around the peak whose first singular vector has a MAC of at least `mac` with that of the peak form the bell. The
 /// inverse Fourier transform of the bell is the free decay of one oscillator. Straight lines are fitted to its phase and its
 /// logarithmic envelope between 0.9 and 0.3 of the start.
 /// Use it as a cross-check: the Welch window biases the damping upwards by about 1.5/(pi T f) for segments of T seconds.

@@ -43,12 +43,14 @@ Observability observability_of(const Eigen::MatrixXd& lower_gram, const Sizes& s
   gram = Eigen::MatrixXd(gram(order, order));
   // Channels of different size: brought to one scale by the diagonal, which L takes up again.
   const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
-  if (!(scale.minCoeff() > 0.0)) throw InputError({"", 0, "role"}, "one of the inputs or outputs is zero throughout", "leave that channel out");
+  if (!(scale.minCoeff() > 0.0))
+    throw InputError({"", 0, "role"}, "one of the inputs or outputs is zero throughout", "leave that channel out");
   gram = scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
   gram.diagonal().array() += 1e-10;
   const Eigen::MatrixXd l = linalg::cholesky_factor(gram);
   TWINDECK_ASSERT(l.size() > 0);
-  const Index first = size.inputs * size.block_rows, past = size.all() * size.block_rows, future = size.outputs * size.block_rows;
+  const Index first = size.inputs * size.block_rows, past = size.all() * size.block_rows,
+              future = size.outputs * size.block_rows;
   const Eigen::MatrixXd l32 = scale.tail(future).asDiagonal() * l.block(first + past, first, future, past);
   const LeadingSvd svd = leading_svd(l32, n_max);
   return {svd.u, svd.values, svd.v, size.outputs};
@@ -62,7 +64,8 @@ const Pole* nearest(const std::vector<Pole>& candidates, const Pole& reference) 
 }
 
 /// A replicate of a mode: medians over its members' orders, mean shape.
-Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<int>& orders, const std::vector<std::vector<Pole>>& found) {
+Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<int>& orders,
+                          const std::vector<std::vector<Pole>>& found) {
   std::vector<double> frequency, damping;
   Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(members.front().shape.size());
   for (const Pole& member : members) {
@@ -82,21 +85,23 @@ Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<in
 
 }  // namespace
 
-Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double rate_Hz, const IdentifyOptions& options,
-                                     int n_blocks) {
+Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double rate_Hz,
+                                     const IdentifyOptions& options, int n_blocks) {
   TWINDECK_ASSERT(inputs.rows() == outputs.rows() && inputs.cols() > 0 && outputs.cols() > 0 && n_blocks >= 2);
   const Sizes size{inputs.cols(), outputs.cols(), options.block_rows};
   const Index columns = inputs.rows() - 2 * size.block_rows + 1, rows = 2 * size.all() * size.block_rows;
   if (columns < 2 * rows) {
-    throw InputError({"", 0, "block_rows"}, fmt::format("is {}, but a record of {} samples with {} inputs and {} outputs carries at most {}",
-                                                        size.block_rows, inputs.rows(), size.inputs, size.outputs,
-                                                        inputs.rows() / (4 * size.all() + 2)),
-                     "ask for fewer block rows, or give a longer record");
+    throw InputError(
+        {"", 0, "block_rows"},
+        fmt::format("is {}, but a record of {} samples with {} inputs and {} outputs carries at most {}", size.block_rows,
+                    inputs.rows(), size.inputs, size.outputs, inputs.rows() / (4 * size.all() + 2)),
+        "ask for fewer block rows, or give a longer record");
   }
   const std::vector<int> orders = options.orders();
   if (orders.back() > (size.block_rows - 1) * size.outputs) {
-    throw InputError({"", 0, "maximum_order"}, fmt::format("is {}, but {} block rows of {} outputs carry at most {}", orders.back(), size.block_rows,
-                                                           size.outputs, (size.block_rows - 1) * size.outputs),
+    throw InputError({"", 0, "maximum_order"},
+                     fmt::format("is {}, but {} block rows of {} outputs carry at most {}", orders.back(), size.block_rows,
+                                 size.outputs, (size.block_rows - 1) * size.outputs),
                      "raise block_rows or lower maximum_order");
   }
   Eigen::MatrixXd data(inputs.rows(), size.all());
@@ -120,7 +125,8 @@ Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen:
 
   std::vector<Eigen::MatrixXd> replicates(result.modes.size(), Eigen::MatrixXd(2 + 2 * size.outputs, n_blocks));
   for (int b = 0; b < n_blocks; ++b) {
-    const auto found = poles_of_orders(observability_of(total - grams[static_cast<std::size_t>(b)], size, orders.back()), orders, rate_Hz);
+    const auto found =
+        poles_of_orders(observability_of(total - grams[static_cast<std::size_t>(b)], size, orders.back()), orders, rate_Hz);
     for (std::size_t m = 0; m < result.modes.size(); ++m) {
       std::vector<Pole> members;
       for (const std::size_t i : result.modes[m].members) members.push_back(result.diagram[i].pole);

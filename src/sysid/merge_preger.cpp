@@ -27,7 +27,7 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& block_matrix, Index n_outputs, co
 }
 
 struct Scaled {
-  Eigen::MatrixXd moving, states;       ///< T_moving, V_s' S^(1/2) (filled later)
+  Eigen::MatrixXd moving, states;        ///< T_moving, V_s' S^(1/2) (filled later)
   std::vector<Index> channels, outputs;  ///< of the moving rows
 };
 
@@ -39,14 +39,17 @@ std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>
   const Index r = static_cast<Index>(setups.front().references.size()), n_max = orders.back();
   const Index columns = r * block_rows;
   if (n_max > std::min((block_rows - 1) * r, columns)) {
-    throw InputError({"", 0, "maximum_order"}, fmt::format("is {}, but {} block rows of {} references carry at most {} when setups are merged before "
-                                                           "identification", n_max, block_rows, r, (block_rows - 1) * r),
+    throw InputError({"", 0, "maximum_order"},
+                     fmt::format("is {}, but {} block rows of {} references carry at most {} when setups are merged before "
+                                 "identification",
+                                 n_max, block_rows, r, (block_rows - 1) * r),
                      "raise block_rows or lower maximum_order");
   }
   Eigen::MatrixXd joint(columns, columns * static_cast<Index>(setups.size()));
   std::vector<Scaled> scaled;
   std::vector<Index> row_channel;  // channel of each row of a block of the merged observability matrix
-  for (const Index reference : setups.front().references) row_channel.push_back(setups.front().channels[static_cast<std::size_t>(reference)]);
+  for (const Index reference : setups.front().references)
+    row_channel.push_back(setups.front().channels[static_cast<std::size_t>(reference)]);
   for (std::size_t s = 0; s < setups.size(); ++s) {
     const SetupCorrelations& setup = setups[s];
     const Index l = setup.lags.front().rows();
@@ -67,7 +70,8 @@ std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>
   const LeadingSvd svd = leading_svd(joint, n_max);
   const Eigen::MatrixXd o_ref = svd.u * svd.values.cwiseSqrt().asDiagonal();
   for (std::size_t s = 0; s < setups.size(); ++s) {
-    scaled[s].states = svd.values.cwiseSqrt().asDiagonal() * svd.v.middleRows(static_cast<Index>(s) * columns, columns).transpose();
+    scaled[s].states =
+        svd.values.cwiseSqrt().asDiagonal() * svd.v.middleRows(static_cast<Index>(s) * columns, columns).transpose();
   }
 
   const auto l_all = static_cast<Index>(row_channel.size());

@@ -18,7 +18,8 @@ SubspaceChange subspace_change(const Observability& observability, const ShiftMo
   const Eigen::MatrixXd up = outer.topRows(rows);
   change.up = linalg::product(models.q, up, true);
   change.down = linalg::product(models.q, outer.bottomRows(rows), true);
-  change.cross = observability.singular_values.cwiseSqrt().asDiagonal() * linalg::product(observability.left.bottomRows(rows), up, true);
+  change.cross =
+      observability.singular_values.cwiseSqrt().asDiagonal() * linalg::product(observability.left.bottomRows(rows), up, true);
   change.top = outer.topRows(l);
   return change;
 }
@@ -27,8 +28,8 @@ namespace {
 
 /// dO in coordinates: of the columns of O beyond n (already divided by their scale), and of W_perp.
 struct ObservabilityChange {
-  Eigen::MatrixXd beyond;      ///< (n_max - n × n)
-  Eigen::VectorXd outer_scale; ///< (n) factor of each column of W_perp
+  Eigen::MatrixXd beyond;       ///< (n_max - n × n)
+  Eigen::VectorXd outer_scale;  ///< (n) factor of each column of W_perp
 };
 
 ObservabilityChange observability_change(const Eigen::VectorXd& sigma, const Eigen::MatrixXd& m, Index n) {
@@ -45,8 +46,8 @@ ObservabilityChange observability_change(const Eigen::VectorXd& sigma, const Eig
   return change;
 }
 
-PoleChange changed_pole(std::complex<double> mu, std::complex<double> d_mu, double rate_Hz, const Eigen::VectorXcd& psi, const Eigen::VectorXcd& d_psi,
-                        const Eigen::VectorXcd& shape) {
+PoleChange changed_pole(std::complex<double> mu, std::complex<double> d_mu, double rate_Hz, const Eigen::VectorXcd& psi,
+                        const Eigen::VectorXcd& d_psi, const Eigen::VectorXcd& shape) {
   PoleChange result;
   const std::complex<double> lambda = std::log(mu) * rate_Hz, d_lambda = d_mu / mu * rate_Hz;
   const double size = std::abs(lambda), d_size = (std::conj(lambda) * d_lambda).real() / size;

@@ -17,7 +17,8 @@ Eigen::MatrixXd block_toeplitz(const std::vector<Eigen::MatrixXd>& lags, Index b
   const Index l = lags.front().rows(), r = lags.front().cols();
   Eigen::MatrixXd toeplitz(l * block_rows, r * block_rows);
   for (Index i = 0; i < block_rows; ++i) {
-    for (Index j = 0; j < block_rows; ++j) toeplitz.block(i * l, j * r, l, r) = lags[static_cast<std::size_t>(block_rows + i - j)];
+    for (Index j = 0; j < block_rows; ++j)
+      toeplitz.block(i * l, j * r, l, r) = lags[static_cast<std::size_t>(block_rows + i - j)];
   }
   return toeplitz;
 }
@@ -27,8 +28,8 @@ Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Index block_rows
   const Index most = std::min(toeplitz.rows() - n_outputs, toeplitz.cols());
   if (n_max > most) {
     throw InputError({"", 0, "maximum_order"},
-                     fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max, block_rows, n_outputs,
-                                 lags.front().cols(), most),
+                     fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max,
+                                 block_rows, n_outputs, lags.front().cols(), most),
                      "raise block_rows or lower maximum_order");
   }
   LeadingSvd svd = leading_svd(toeplitz, n_max);

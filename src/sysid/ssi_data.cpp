@@ -24,7 +24,8 @@ std::vector<Eigen::MatrixXd> lagged_products(const Eigen::MatrixXd& x, const Eig
     const Index length = std::min(piece, n - at);
     const Eigen::MatrixXd rows = y.middleRows(at, length);
     const Eigen::MatrixXd window = x.middleRows(at, length + n_lags - 1);
-    for (Index k = 0; k < n_lags; ++k) products[static_cast<std::size_t>(k)] += linalg::product(window.middleRows(k, length), rows, true);
+    for (Index k = 0; k < n_lags; ++k)
+      products[static_cast<std::size_t>(k)] += linalg::product(window.middleRows(k, length), rows, true);
   }
   return products;
 }
@@ -36,7 +37,8 @@ struct Side {
   Index sample;
 };
 
-void set_first_column(Eigen::MatrixXd& gram, Index row, Index column, const std::vector<Eigen::MatrixXd>& lags, Index first_lag) {
+void set_first_column(Eigen::MatrixXd& gram, Index row, Index column, const std::vector<Eigen::MatrixXd>& lags,
+                      Index first_lag) {
   for (std::size_t k = static_cast<std::size_t>(first_lag), i = 0; k < lags.size(); ++k, ++i) {
     gram.block(row + static_cast<Index>(i) * lags[k].rows(), column, lags[k].rows(), lags[k].cols()) = lags[k];
   }
@@ -60,7 +62,8 @@ void continue_diagonals(Eigen::MatrixXd& gram, const Side& x, const Side& y, Ind
 Eigen::MatrixXd hankel_gram(const Eigen::MatrixXd& data, const std::vector<Index>& references, Index block_rows) {
   const Index p = block_rows, n = data.rows() - 2 * p + 1, l = data.cols(), r = static_cast<Index>(references.size());
   if (data.rows() < 4 * p) {
-    throw InputError({"", 0, "block_rows"}, fmt::format("is {}, but the record has {} samples, expected at least {}", p, data.rows(), 4 * p),
+    throw InputError({"", 0, "block_rows"},
+                     fmt::format("is {}, but the record has {} samples, expected at least {}", p, data.rows(), 4 * p),
                      "ask for fewer block rows, or give a longer record");
   }
   const Eigen::MatrixXd refs = data(Eigen::all, references);
@@ -74,28 +77,31 @@ Eigen::MatrixXd hankel_gram(const Eigen::MatrixXd& data, const std::vector<Index
   set_first_column(gram, future, future, lagged_products(later, later, n, p), 0);
   continue_diagonals(gram, {future, later, 0}, {future, later, 0}, p, n, true);
 
-  // Future with past: lags p … 2p - 1 in the first column, p - 1 … 1 in the first row; there the sum over t of y_{t+p} r_{t+j}' is that
-  // of y_{t+p-j} r_t' with its ends exchanged.
+  // Future with past: lags p … 2p - 1 in the first column, p - 1 … 1 in the first row; there the sum over t of y_{t+p} r_{t+j}'
+  // is that of y_{t+p-j} r_t' with its ends exchanged.
   const auto lags = lagged_products(data, refs, n, 2 * p);
   set_first_column(gram, future, 0, lags, p);
   for (Index j = 1; j < p; ++j) {
     Eigen::MatrixXd block = lags[static_cast<std::size_t>(p - j)];
-    block += data.middleRows(n + p - j, j).transpose() * refs.middleRows(n, j) - data.middleRows(p - j, j).transpose() * refs.topRows(j);
+    block += data.middleRows(n + p - j, j).transpose() * refs.middleRows(n, j) -
+             data.middleRows(p - j, j).transpose() * refs.topRows(j);
     gram.block(future, j * r, l, r) = block;
   }
   continue_diagonals(gram, {future, data, p}, {0, refs, 0}, p, n, false);
   return gram;
 }
 
-DataDriven ssi_data(const std::vector<Eigen::MatrixXd>& grams, double samples, Index n_references, Index n_outputs, Index block_rows, Index n_max) {
+DataDriven ssi_data(const std::vector<Eigen::MatrixXd>& grams, double samples, Index n_references, Index n_outputs,
+                    Index block_rows, Index n_max) {
   TWINDECK_ASSERT(!grams.empty());
   Eigen::MatrixXd gram = grams.front();
   for (std::size_t i = 1; i < grams.size(); ++i) gram += grams[i];
   gram /= samples;
   const Index past = n_references * block_rows, future = n_outputs * block_rows, most = std::min(future - n_outputs, past);
   if (n_max > most) {
-    throw InputError({"", 0, "maximum_order"}, fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max,
-                                                           block_rows, n_outputs, n_references, most),
+    throw InputError({"", 0, "maximum_order"},
+                     fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max,
+                                 block_rows, n_outputs, n_references, most),
                      "raise block_rows or lower maximum_order");
   }
   DataDriven found;
@@ -105,7 +111,8 @@ DataDriven ssi_data(const std::vector<Eigen::MatrixXd>& grams, double samples, I
   gram.diagonal().head(past).array() += floor;
   found.past_factor = linalg::cholesky_factor(gram.topLeftCorner(past, past));
   if (found.past_factor.size() == 0) {
-    throw InputError({"", 0, "references"}, "are linearly dependent: one repeats others", "leave that channel out, or take fewer references");
+    throw InputError({"", 0, "references"}, "are linearly dependent: one repeats others",
+                     "leave that channel out, or take fewer references");
   }
   const Eigen::MatrixXd cross = gram.bottomLeftCorner(future, past);
   found.projection = found.past_factor.triangularView<Eigen::Lower>().solve(cross.transpose()).transpose();
@@ -114,8 +121,8 @@ DataDriven ssi_data(const std::vector<Eigen::MatrixXd>& grams, double samples, I
   return found;
 }
 
-Changes data_changes(const signal::BlockCorrelations& blocks, const std::vector<Index>& references, Index block_rows, const DataDriven& found,
-                     const ShiftModels& models) {
+Changes data_changes(const signal::BlockCorrelations& blocks, const std::vector<Index>& references, Index block_rows,
+                     const DataDriven& found, const ShiftModels& models) {
   const Index p = block_rows, r = static_cast<Index>(references.size());
   const std::vector<Eigen::MatrixXd> mean = blocks.mean();
   const Eigen::MatrixXd right = found.observability.right.leftCols(models.r.cols());

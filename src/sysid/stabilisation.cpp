@@ -28,8 +28,8 @@ void judge(DiagramPole& candidate, const std::vector<Pole>& before, const Stabil
 
 }  // namespace
 
-std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles, const StabilisationCriteria& criteria,
-                                               const PoleLimits& limits) {
+std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles,
+                                               const StabilisationCriteria& criteria, const PoleLimits& limits) {
   std::vector<DiagramPole> diagram;
   std::vector<Pole> before;
   for (const std::vector<Pole>& of_order : poles) {

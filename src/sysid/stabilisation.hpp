@@ -8,9 +8,9 @@ namespace twindeck::sysid {
 
 /// The criteria of paper section 3.1, each against the model of the next smaller order.
 struct StabilisationCriteria {
-  double frequency = 0.02;       ///< relative change below which a frequency is stable
-  double damping = 0.01;         ///< change of the damping ratio [-], one percentage point, below which it is stable
-  double mac = 0.95;             ///< MAC from which a shape is stable
+  double frequency = 0.02;  ///< relative change below which a frequency is stable
+  double damping = 0.01;    ///< change of the damping ratio [-], one percentage point, below which it is stable
+  double mac = 0.95;        ///< MAC from which a shape is stable
 };
 
 /// Hard limits that every mode of a structure meets.
@@ -27,10 +27,11 @@ struct DiagramPole {
   [[nodiscard]] bool stable() const { return stable_frequency && stable_damping && stable_shape; }
 };
 
-/// The stabilisation diagram: poles of all orders within the limits, each compared with the pole of the next smaller order that has
-/// the highest MAC with it among those within the frequency criterion (close modes may change their order in frequency, not their shapes).
+/// The stabilisation diagram: poles of all orders within the limits, each compared with the pole of the next smaller order that
+/// has the highest MAC with it among those within the frequency criterion (close modes may change their order in frequency, not
+/// their shapes).
 /// @param poles  one list an order, orders ascending
-[[nodiscard]] std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles, const StabilisationCriteria& criteria,
-                                                             const PoleLimits& limits);
+[[nodiscard]] std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles,
+                                                             const StabilisationCriteria& criteria, const PoleLimits& limits);
 
 }  // namespace twindeck::sysid

@@ -60,7 +60,8 @@ ShiftModels shift_models(const Observability& observability, const std::vector<i
   const Index rows = observability.left.rows() - observability.n_outputs;
   const Index n_max = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
   TWINDECK_ASSERT(n_max <= observability.left.cols() && n_max <= rows);
-  const Eigen::MatrixXd o = observability.left.leftCols(n_max) * observability.singular_values.head(n_max).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd o =
+      observability.left.leftCols(n_max) * observability.singular_values.head(n_max).cwiseSqrt().asDiagonal();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(o.topRows(rows));
   ShiftModels models;
   models.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, n_max);
@@ -71,7 +72,8 @@ ShiftModels shift_models(const Observability& observability, const std::vector<i
   for (const int order : orders) {
     OrderModel model;
     model.order = order;
-    model.a = models.r.topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(models.rotated.topLeftCorner(order, order));
+    model.a =
+        models.r.topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(models.rotated.topLeftCorner(order, order));
     model.c = o.topLeftCorner(observability.n_outputs, order);
     find_poles(model, rate_Hz);
     models.orders.push_back(std::move(model));
@@ -85,7 +87,8 @@ std::vector<std::vector<Pole>> poles_of(const ShiftModels& models) {
   return poles;
 }
 
-std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders, double rate_Hz) {
+std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders,
+                                               double rate_Hz) {
   return poles_of(shift_models(observability, orders, rate_Hz));
 }
 

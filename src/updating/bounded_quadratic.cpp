@@ -40,8 +40,8 @@ Eigen::Index wrongly_held(const Eigen::VectorXd& gradient, const std::vector<int
 
 }  // namespace
 
-Eigen::VectorXd bounded_gauss_newton_step(const Eigen::VectorXd& residual, const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& x,
-                                          const Box& box, double ridge) {
+Eigen::VectorXd bounded_gauss_newton_step(const Eigen::VectorXd& residual, const Eigen::MatrixXd& jacobian,
+                                          const Eigen::VectorXd& x, const Box& box, double ridge) {
   TWINDECK_ASSERT(ridge > 0.0);
   const Eigen::Index n = x.size();
   const Eigen::VectorXd lower = box.lower - x, upper = box.upper - x, slope = jacobian.transpose() * residual;

@@ -6,9 +6,9 @@
 
 namespace twindeck::updating {
 
-/// Step s that minimises the linearised problem 1/2 ‖r + J s‖² + 1/2 ridge ‖s‖² with x + s inside the box: the Gauss-Newton step
-/// within the bounds. Primal active-set method. It is exact up to rounding and ends in finitely many steps, because the ridge
-/// makes the problem strictly convex. It suits tens of parameters, not thousands.
+/// Step s that minimises the linearised problem 1/2 ‖r + J s‖² + 1/2 ridge ‖s‖² with x + s inside the box: the Gauss-Newton
+/// step within the bounds. Primal active-set method. It is exact up to rounding and ends in finitely many steps, because the
+/// ridge makes the problem strictly convex. It suits tens of parameters, not thousands.
 /// @param residual (n_residuals) r at x @param jacobian (n_residuals × n) J at x
 /// @param x (n) inside the box @param ridge  above 0, in units of J'J
 /// @return (n)

@@ -18,8 +18,8 @@ namespace twindeck::updating {
 
 /// An end point of a search, with the data that are needed to tell optima apart.
 struct EndPoint {
-  Eigen::VectorXd x;         ///< (n)
-  double cost = 0.0;         ///< F(x)
+  Eigen::VectorXd x;  ///< (n)
+  double cost = 0.0;  ///< F(x)
   bool converged = false;
   Eigen::MatrixXd jacobian;  ///< (n_residuals × n) at x
 };

@@ -8,8 +8,10 @@ std::vector<int> on_bound(const Eigen::VectorXd& x, const Box& box, double toler
   std::vector<int> side(static_cast<std::size_t>(x.size()), 0);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double reach = tolerance * (box.upper(i) - box.lower(i));
-    if (x(i) <= box.lower(i) + reach) side[static_cast<std::size_t>(i)] = -1;
-    else if (x(i) >= box.upper(i) - reach) side[static_cast<std::size_t>(i)] = 1;
+    if (x(i) <= box.lower(i) + reach)
+      side[static_cast<std::size_t>(i)] = -1;
+    else if (x(i) >= box.upper(i) - reach)
+      side[static_cast<std::size_t>(i)] = 1;
   }
   return side;
 }
@@ -23,7 +25,8 @@ std::vector<bool> held(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient
   return is_held;
 }
 
-Eigen::VectorXd projected_gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient, const Box& box, double tolerance) {
+Eigen::VectorXd projected_gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient, const Box& box,
+                                   double tolerance) {
   const std::vector<bool> is_held = held(x, gradient, box, tolerance);
   Eigen::VectorXd projected = gradient;
   for (Eigen::Index i = 0; i < x.size(); ++i) {

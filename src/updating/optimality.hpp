@@ -16,7 +16,8 @@ struct Box {
 
 /// Active components: on a bound with the descent direction -g pointing out of the box (the Lagrange multiplier
 /// has the right sign). These stay on the bound; the others are free.
-[[nodiscard]] std::vector<bool> held(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient, const Box& box, double tolerance);
+[[nodiscard]] std::vector<bool> held(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient, const Box& box,
+                                     double tolerance);
 
 /// Gradient without the active components. It is zero exactly at a first-order (KKT) point of min F on the box.
 /// @param gradient (n) of F at x

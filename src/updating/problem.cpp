@@ -56,8 +56,13 @@ class RoundWatcher : public ceres::IterationCallback {
  public:
   RoundWatcher(const Eigen::VectorXd& x, std::function<double(const Eigen::VectorXd&)> projected, const Box& box,
                double bound_tolerance, int first_iteration, const std::function<void(const AcceptedStep&)>& accepted)
-      : x_(x), projected_(std::move(projected)), box_(box), bound_tolerance_(bound_tolerance), first_iteration_(first_iteration),
-        accepted_(accepted), side_(on_bound(x, box, bound_tolerance)) {}
+      : x_(x),
+        projected_(std::move(projected)),
+        box_(box),
+        bound_tolerance_(bound_tolerance),
+        first_iteration_(first_iteration),
+        accepted_(accepted),
+        side_(on_bound(x, box, bound_tolerance)) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     tried = summary.iteration;
@@ -109,8 +114,8 @@ ceres::Solver::Options solver_options(const BoundedOptions& options, int iterati
 }
 
 // One Ceres solve with the held components constant; `x` moves. Returns accepted and tried steps.
-std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals, Eigen::VectorXd& x, const std::vector<bool>& is_held,
-                              const Box& box, const BoundedOptions& options, int used,
+std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals, Eigen::VectorXd& x,
+                              const std::vector<bool>& is_held, const Box& box, const BoundedOptions& options, int used,
                               const std::function<void(const AcceptedStep&)>& accepted) {
   const auto n = static_cast<int>(x.size());
   ceres::Problem problem;
@@ -136,9 +141,9 @@ std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals,
   return {watcher.accepted_steps, std::max(watcher.tried, 1)};
 }
 
-// Who stays on a bound during the next round: those that are on it and that the linearised problem leaves there. The sign of the
-// gradient alone releases too many: a component with a small inward gradient whose bounded Gauss-Newton step keeps it in place
-// spoils each projected dogleg step, and the trust region collapses.
+// Who stays on a bound during the next round: those that are on it and that the linearised problem leaves there. The sign of
+// the gradient alone releases too many: a component with a small inward gradient whose bounded Gauss-Newton step keeps it in
+// place spoils each projected dogleg step, and the trust region collapses.
 std::vector<bool> stay_on_bound(const Point& point, const Box& box, double tolerance) {
   constexpr double ridge = 1e-8;  // as Ceres' own smallest damping
   const std::vector<int> now = on_bound(point.x, box, tolerance);
@@ -190,15 +195,14 @@ BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals,
       return result;
     }
     predict = last_accepted > 0;
-    const std::vector<bool> is_held = predict ? stay_on_bound(point, box, options.bound_tolerance)
-                                              : held(result.x, gradient, box, options.bound_tolerance);
+    const std::vector<bool> is_held =
+        predict ? stay_on_bound(point, box, options.bound_tolerance) : held(result.x, gradient, box, options.bound_tolerance);
     if (std::all_of(is_held.begin(), is_held.end(), [](bool h) { return h; })) {
       last_accepted = 0;
       continue;
     }
     snap_to_bounds(result.x, is_held, box);
-    const auto [steps, tried] =
-        run_round(function, n_residuals, result.x, is_held, box, options, result.iterations, accepted);
+    const auto [steps, tried] = run_round(function, n_residuals, result.x, is_held, box, options, result.iterations, accepted);
     last_accepted = steps;
     result.iterations += tried;
   }

@@ -8,15 +8,16 @@
 
 namespace twindeck::updating {
 
-/// Residuals r(x) and, if the pointer is not null, their Jacobian. Returns false if they do not exist; the step is then refused.
+/// Residuals r(x) and, if the pointer is not null, their Jacobian. Returns false if they do not exist; the step is then
+/// refused.
 /// @param x (n) @param residual (n_residuals) @param jacobian (n_residuals × n)
 using ResidualFunction = std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian)>;
 
 struct BoundedOptions {
   double trust_radius = 2.0;
-  int max_iterations = 100;           ///< accepted and refused steps together, over all rounds
-  double gradient_tolerance = 1e-6;   ///< absolute norm of the projected gradient at which the search ends
-  double bound_tolerance = 1e-6;      ///< see `on_bound`
+  int max_iterations = 100;          ///< accepted and refused steps together, over all rounds
+  double gradient_tolerance = 1e-6;  ///< absolute norm of the projected gradient at which the search ends
+  double bound_tolerance = 1e-6;     ///< see `on_bound`
 };
 
 /// One accepted step (number 0: the starting point).
@@ -27,23 +28,23 @@ struct AcceptedStep {
 };
 
 struct BoundedResult {
-  Eigen::VectorXd x;                  ///< (n) inside the box
-  double cost = 0.0;                  ///< 1/2 ‖r‖²
+  Eigen::VectorXd x;  ///< (n) inside the box
+  double cost = 0.0;  ///< 1/2 ‖r‖²
   double projected_gradient = 0.0;
   int iterations = 0;
   bool converged = false;
   std::string message;
 };
 
-/// min 1/2 ‖r(x)‖² on a box by Powell's dogleg (Ceres, TRADITIONAL_DOGLEG), spherical trust region in x as in Madsen, Nielsen and
-/// Tingleff (2004), algorithm 3.21.
+/// min 1/2 ‖r(x)‖² on a box by Powell's dogleg (Ceres, TRADITIONAL_DOGLEG), spherical trust region in x as in Madsen, Nielsen
+/// and Tingleff (2004), algorithm 3.21.
 ///
 /// Ceres projects each dogleg step onto the box. With several active bounds such a step may not descend, and the trust region
 /// then collapses before the optimum is reached. The search therefore runs in rounds. Components that stay on their bound are
-/// constants of the round (SubsetManifold); the bounded linearised problem predicts them (bounded_quadratic.hpp). A round ends as
-/// soon as a component meets a bound. The next round predicts the constants anew and releases those whose multiplier will change
-/// sign. The norm of the projected gradient alone decides convergence, not the verdict of Ceres. The cost never rises from one
-/// accepted step to the next.
+/// constants of the round (SubsetManifold); the bounded linearised problem predicts them (bounded_quadratic.hpp). A round ends
+/// as soon as a component meets a bound. The next round predicts the constants anew and releases those whose multiplier will
+/// change sign. The norm of the projected gradient alone decides convergence, not the verdict of Ceres. The cost never rises
+/// from one accepted step to the next.
 /// @param accepted  called for each accepted step, may be empty
 [[nodiscard]] BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start,
                                             const Box& box, const BoundedOptions& options,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dynamics/eigen_sensitivity.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
 
 namespace twindeck::updating {
 
@@ -38,7 +38,7 @@ void FrequencyResiduals::solve(Evaluation& evaluation) {
   modes_x_ = evaluation.x;
   ++solves_;
   if (!modes_.status.converged) return;
-  const FollowedModes followed = definition_.follower->follow(modes_.shapes);
+  const matching::FollowedModes followed = definition_.follower->follow(modes_.shapes);
   const auto n = static_cast<Eigen::Index>(definition_.targets.size());
   evaluation.residual.resize(n);
   evaluation.frequency_Hz.resize(n);
@@ -62,7 +62,7 @@ void FrequencyResiduals::differentiate(Evaluation& evaluation) {
     modes_x_ = evaluation.x;
     ++solves_;
   }
-  const Eigen::MatrixXd all = dynamics::frequency_jacobian(*system_, definition_.theta(evaluation.x), modes_);
+  const Eigen::MatrixXd all = sensitivity::frequency_jacobian(*system_, definition_.theta(evaluation.x), modes_);
   const auto n = static_cast<Eigen::Index>(definition_.targets.size());
   evaluation.jacobian.setZero(n, static_cast<Eigen::Index>(definition_.active.size()));
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -7,7 +7,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "fe/parametric_system.hpp"
-#include "updating/mode_following.hpp"
+#include "matching/mode_following.hpp"
 #include "updating/updating.hpp"
 
 namespace twindeck::updating {
@@ -15,11 +15,11 @@ namespace twindeck::updating {
 /// Definition of the updating problem, the same for every start and every prestress: targets, parameters, reference modes.
 struct ResidualDefinition {
   std::vector<FrequencyTarget> targets;
-  std::vector<int> active;        ///< positions of the updated parameters
-  Eigen::VectorXd initial;        ///< (n_parameters) values of the parameters that are not updated
-  Eigen::VectorXd scale;          ///< (n_active) parameter = scale · x: the initial value's size, or the range where it is 0
-  int n_modes = 0;                ///< modes solved for
-  std::shared_ptr<const ModeFollower> follower;
+  std::vector<int> active;  ///< positions of the updated parameters
+  Eigen::VectorXd initial;  ///< (n_parameters) values of the parameters that are not updated
+  Eigen::VectorXd scale;    ///< (n_active) parameter = scale · x: the initial value's size, or the range where it is 0
+  int n_modes = 0;          ///< modes solved for
+  std::shared_ptr<const matching::ModeFollower> follower;
 
   /// All parameters at normalised values of the active ones.
   [[nodiscard]] Eigen::VectorXd theta(const Eigen::VectorXd& x) const;
@@ -27,13 +27,13 @@ struct ResidualDefinition {
 
 /// Residuals at one point.
 struct Evaluation {
-  bool valid = false;             ///< false: modes not found here (mechanism, lost mode); the step must be refused
-  Eigen::VectorXd x;              ///< (n_active)
-  Eigen::VectorXd residual;       ///< (n_targets) (f_N - f_X)/f_X [-]; 0 for a target that is not fitted
-  Eigen::MatrixXd jacobian;       ///< (n_targets × n_active) per normalised parameter; empty until asked for
-  Eigen::VectorXd frequency_Hz;   ///< (n_targets) of the followed modes
-  std::vector<int> mode;          ///< (n_targets) positions of the followed modes
-  Eigen::VectorXd mac;            ///< (n_targets) with the reference modes
+  bool valid = false;            ///< false: modes not found here (mechanism, lost mode); the step must be refused
+  Eigen::VectorXd x;             ///< (n_active)
+  Eigen::VectorXd residual;      ///< (n_targets) (f_N - f_X)/f_X [-]; 0 for a target that is not fitted
+  Eigen::MatrixXd jacobian;      ///< (n_targets × n_active) per normalised parameter; empty until asked for
+  Eigen::VectorXd frequency_Hz;  ///< (n_targets) of the followed modes
+  std::vector<int> mode;         ///< (n_targets) positions of the followed modes
+  Eigen::VectorXd mac;           ///< (n_targets) with the reference modes
   [[nodiscard]] double cost() const { return 0.5 * residual.squaredNorm(); }
   [[nodiscard]] Eigen::VectorXd gradient() const { return jacobian.transpose() * residual; }
 };
@@ -57,8 +57,8 @@ class FrequencyResiduals {
   std::shared_ptr<const fe::ParametricSystem> system_;
   const ResidualDefinition& definition_;
   dynamics::ModalSolver solver_;
-  std::deque<Evaluation> cache_;   // newest first
-  Eigen::VectorXd modes_x_;        // point that modes_ belongs to
+  std::deque<Evaluation> cache_;  // newest first
+  Eigen::VectorXd modes_x_;       // point that modes_ belongs to
   dynamics::EigenModes modes_;
   int solves_ = 0;
 };

@@ -98,7 +98,7 @@ bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, Matri
   MatrixXd scaled = z;
   const MatrixXd mass_z = mass_ * z;
   for (Index j = 0; j < n_modes; ++j) scaled.col(j) /= std::sqrt(z.col(j).dot(mass_z.col(j)));
-  const FollowedModes followed = follow_normalised(mass_reference_, scaled);
+  const matching::FollowedModes followed = matching::follow_normalised(mass_reference_, scaled);
 
   const auto n = static_cast<Index>(definition_.targets.size());
   std::vector<Index> mode(definition_.targets.size());

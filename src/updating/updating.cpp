@@ -17,7 +17,8 @@
 namespace twindeck::updating {
 namespace {
 
-void check_input(const fe::ParametricSystem& system, const std::vector<int>& active, const std::vector<FrequencyTarget>& targets) {
+void check_input(const fe::ParametricSystem& system, const std::vector<int>& active,
+                 const std::vector<FrequencyTarget>& targets) {
   if (active.empty()) throw InputError({}, "no parameter to update", "name at least one parameter of the model");
   if (targets.empty()) throw InputError({}, "no frequency to update against", "give at least one pair of modes");
   for (const int p : active) {
@@ -25,14 +26,15 @@ void check_input(const fe::ParametricSystem& system, const std::vector<int>& act
     const fe::Parameter& parameter = system.parameters[static_cast<std::size_t>(p)];
     if (!(std::isfinite(parameter.lower) && std::isfinite(parameter.upper) && parameter.lower < parameter.upper)) {
       throw InputError({"", 0, parameter.name},
-                       fmt::format("has the bounds [{}, {}], expected a finite lower bound below the upper one", parameter.lower,
-                                   parameter.upper),
+                       fmt::format("has the bounds [{}, {}], expected a finite lower bound below the upper one",
+                                   parameter.lower, parameter.upper),
                        "give it a range in the model, or leave it out of the update");
     }
     if (parameter.initial < parameter.lower || parameter.initial > parameter.upper) {
-      throw InputError({"", 0, parameter.name},
-                       fmt::format("starts at {}, outside its bounds [{}, {}]", parameter.initial, parameter.lower, parameter.upper),
-                       "move the initial value or the bounds");
+      throw InputError(
+          {"", 0, parameter.name},
+          fmt::format("starts at {}, outside its bounds [{}, {}]", parameter.initial, parameter.lower, parameter.upper),
+          "move the initial value or the bounds");
     }
   }
   for (const FrequencyTarget& target : targets) {
@@ -40,8 +42,8 @@ void check_input(const fe::ParametricSystem& system, const std::vector<int>& act
       throw InputError({"", 0, target.label}, fmt::format("is {} Hz, expected a frequency above 0", target.measured_Hz));
     }
     if (target.reference_mode < 0 || target.reference_mode >= system.size()) {
-      throw InputError({"", 0, target.label},
-                       fmt::format("asks for mode {} of a model with {} degrees of freedom", target.reference_mode + 1, system.size()));
+      throw InputError({"", 0, target.label}, fmt::format("asks for mode {} of a model with {} degrees of freedom",
+                                                          target.reference_mode + 1, system.size()));
     }
   }
 }
@@ -69,7 +71,8 @@ ResidualDefinition define_residuals(const fe::ParametricSystem& system, const st
 }
 
 // (n_active) of a bound or the initial value, in normalised parameters.
-Eigen::VectorXd normalised(const fe::ParametricSystem& system, const ResidualDefinition& definition, double fe::Parameter::*member) {
+Eigen::VectorXd normalised(const fe::ParametricSystem& system, const ResidualDefinition& definition,
+                           double fe::Parameter::*member) {
   Eigen::VectorXd x(definition.scale.size());
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const int p = definition.active[static_cast<std::size_t>(j)];
@@ -123,9 +126,10 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, UpdatingResult&
   result.followed_mac = best.evaluation.mac;
   if (best.result.converged) result.smooth = check_by_smooth_map(search, best);
   if (!best.result.converged) {
-    result.status = {false, fmt::format("none of {} starts converged; the best (start {}) stopped with a relative projected gradient of "
-                                        "{:.1e}: {}",
-                                        ends.size(), result.best, best.result.relative_projected_gradient, best.result.message)};
+    result.status = {
+        false, fmt::format("none of {} starts converged; the best (start {}) stopped with a relative projected gradient of "
+                           "{:.1e}: {}",
+                           ends.size(), result.best, best.result.relative_projected_gradient, best.result.message)};
   }
 }
 
@@ -136,8 +140,12 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
                       const std::function<void(int done, int of)>& progress) {
   TWINDECK_ASSERT(options.starts >= 1 && options.outer_iterations >= 1 && options.max_iterations >= 1);
   check_input(start, active, targets);
-  Search search{refresh, options, define_residuals(start, active, targets, options), {},
-                std::make_shared<const fe::ParametricSystem>(start), {}};
+  Search search{refresh,
+                options,
+                define_residuals(start, active, targets, options),
+                {},
+                std::make_shared<const fe::ParametricSystem>(start),
+                {}};
   ResidualDefinition& definition = search.definition;
   search.box = {normalised(start, definition, &fe::Parameter::lower), normalised(start, definition, &fe::Parameter::upper)};
   const Eigen::VectorXd x0 = normalised(start, definition, &fe::Parameter::initial);
@@ -156,7 +164,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
     result.status = {false, "modes of the start model: " + reference.status.message};
     return result;
   }
-  definition.follower = std::make_shared<const ModeFollower>(solver.mass(), reference);
+  definition.follower = std::make_shared<const matching::ModeFollower>(solver.mass(), reference);
   result.frequency_before_Hz.resize(static_cast<Eigen::Index>(targets.size()));
   for (std::size_t i = 0; i < targets.size(); ++i) {
     result.mode_before.push_back(targets[i].reference_mode);

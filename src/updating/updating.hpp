@@ -13,22 +13,22 @@ namespace twindeck::updating {
 
 /// A measured frequency and the reference mode that it is paired with.
 struct FrequencyTarget {
-  std::string label;            ///< "7X-8N"
-  int reference_mode = 0;       ///< 0-based position in the modes of the start model
+  std::string label;       ///< "7X-8N"
+  int reference_mode = 0;  ///< 0-based position in the modes of the start model
   double measured_Hz = 0.0;
   double std_Hz = 0.0;
   bool fitted = true;  ///< false: tracked and reported, but not fitted
 };
 
 struct UpdatingOptions {
-  double trust_radius = 2.0;            ///< initial radius in normalised parameters (paper section 4.2)
-  int starts = 8;                       ///< the initial values first, then seeded points inside the bounds
+  double trust_radius = 2.0;  ///< initial radius in normalised parameters (paper section 4.2)
+  int starts = 8;             ///< the initial values first, then seeded points inside the bounds
   int max_iterations = 100;
-  int n_modes = 20;                     ///< number of computed modes; the tracked modes must be among them
-  int outer_iterations = 12;            ///< most prestress states per start; cable forces are fixed inside a solve
-  double outer_tolerance = 1e-6;        ///< change of normalised parameters between prestress states below which they agree
-  double optimality_tolerance = 1e-6;   ///< relative norm of the projected gradient
-  double bound_tolerance = 1e-6;        ///< of the range, within which a parameter counts as on its bound
+  int n_modes = 20;                         ///< number of computed modes; the tracked modes must be among them
+  int outer_iterations = 12;                ///< most prestress states per start; cable forces are fixed inside a solve
+  double outer_tolerance = 1e-6;            ///< change of normalised parameters between prestress states below which they agree
+  double optimality_tolerance = 1e-6;       ///< relative norm of the projected gradient
+  double bound_tolerance = 1e-6;            ///< of the range, within which a parameter counts as on its bound
   Eigen::Index surrogate_from_size = 1000;  ///< least degrees of freedom for a search on a reduced system (see `update`)
   std::uint64_t seed = 1;
   bool leave_one_out = false;              ///< afterwards each target is left out in turn and predicted (leave_one_out.hpp)
@@ -37,24 +37,28 @@ struct UpdatingOptions {
 
 /// One accepted step of a search. `theta` are the active parameters divided by their initial values (by their range where the
 /// initial value is 0), `gradient` the norm of the projected gradient with respect to them.
-struct IterationRecord { int start, outer, iteration; double cost, gradient, step, radius; Eigen::VectorXd theta; };
+struct IterationRecord {
+  int start, outer, iteration;
+  double cost, gradient, step, radius;
+  Eigen::VectorXd theta;
+};
 
 struct StartResult {
-  Eigen::VectorXd initial, theta;       ///< (n_active) in the parameters' units
+  Eigen::VectorXd initial, theta;  ///< (n_active) in the parameters' units
   double cost = 0.0, projected_gradient = 0.0, relative_projected_gradient = 0.0;
   int iterations = 0;
-  int solves = 0;                       ///< eigen-solves spent
-  int outer = 0;                        ///< prestress states used
-  int optimum = -1;                     ///< start that represents the optimum it ended in, -1 if it did not converge
+  int solves = 0;    ///< eigen-solves spent
+  int outer = 0;     ///< prestress states used
+  int optimum = -1;  ///< start that represents the optimum it ended in, -1 if it did not converge
   bool converged = false;
   std::string message;
 };
 
 /// The best start's problem solved again by a smooth map of the bounds (smooth_bounds.hpp), at the prestress of its end.
 struct SmoothCheck {
-  Eigen::VectorXd theta;                ///< (n_active) in the parameters' units; empty where it could not be made
+  Eigen::VectorXd theta;  ///< (n_active) in the parameters' units; empty where it could not be made
   double cost = 0.0;
-  double largest_difference = 0.0;      ///< from the bounded search, as a fraction of the range
+  double largest_difference = 0.0;  ///< from the bounded search, as a fraction of the range
   int iterations = 0;
 };
 
@@ -76,11 +80,11 @@ struct CostElsewhere {
 };
 
 struct UpdatingResult {
-  Eigen::VectorXd theta;                ///< (n_parameters) all parameters, the inactive at their initial values
+  Eigen::VectorXd theta;  ///< (n_parameters) all parameters, the inactive at their initial values
   std::vector<StartResult> starts;
   int best = 0;
-  std::vector<int> optima;              ///< starts that represent distinct optima, best first
-  std::vector<int> on_bound;            ///< (n_active) -1 lower, +1 upper, 0 inside
+  std::vector<int> optima;                                  ///< starts that represent distinct optima, best first
+  std::vector<int> on_bound;                                ///< (n_active) -1 lower, +1 upper, 0 inside
   Eigen::VectorXd frequency_before_Hz, frequency_after_Hz;  ///< (n_targets) of the followed modes
   std::vector<int> mode_before, mode_after;                 ///< (n_targets) positions
   Eigen::VectorXd followed_mac;                             ///< (n_targets) MAC of the followed mode with the start model's
@@ -102,13 +106,12 @@ using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)
 ///
 /// Each start is a complete search. All searches begin with the prestress of the initial values. When a solve has ended, the
 /// prestress is computed anew at its end point and the search continues from there, until no parameter changes by more than
-/// options.outer_tolerance. The costs of the starts are therefore comparable: each is that of a structure in equilibrium. At the
-/// result the gradient at frozen prestress vanishes (inside the bounds): within a solve, modulus and density do not change the
-/// cable forces.
-/// Large systems (options.surrogate_from_size) are searched on a reduced system. At each prestress state the full system is
-/// solved once. Its frequencies and Jacobian correct a projection on snapshots of its modes, which gives the next point. The
-/// returned cost, gradient and frequencies are always those of the full system.
-/// The starts run in parallel; results do not depend on the number of threads.
+/// options.outer_tolerance. The costs of the starts are therefore comparable: each is that of a structure in equilibrium. At
+/// the result the gradient at frozen prestress vanishes (inside the bounds): within a solve, modulus and density do not change
+/// the cable forces. Large systems (options.surrogate_from_size) are searched on a reduced system. At each prestress state the
+/// full system is solved once. Its frequencies and Jacobian correct a projection on snapshots of its modes, which gives the
+/// next point. The returned cost, gradient and frequencies are always those of the full system. The starts run in parallel;
+/// results do not depend on the number of threads.
 ///
 /// @param start    the model as it is before the updating, with the prestress of its initial parameter values
 /// @param refresh  see `Refresh`; empty for a system whose prestress does not depend on parameters

@@ -3,8 +3,8 @@
 ///     bench_sysid write FILE.npy                     the record of sysid_record.hpp
 ///     bench_sysid covariance|data|deviations|clustering FILE.npy
 ///
-/// prints `cpu_s peak_MB modes_found spurious`. Peak memory is that of the whole process with the record in it, up to the end of the task;
-/// modes are judged afterwards, as the product reports them, with what the standard deviations drop.
+/// prints `cpu_s peak_MB modes_found spurious`. Peak memory is that of the whole process with the record in it, up to the end
+/// of the task; modes are judged afterwards, as the product reports them, with what the standard deviations drop.
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -80,7 +80,8 @@ int main(int argc, char** argv) {
   const double start = cpu_seconds();
   if (task == "data") {
     const auto samples = static_cast<double>(data.rows() - 2 * kBlockRows + 1);
-    const auto subspace = sysid::ssi_data({sysid::hankel_gram(data, references, kBlockRows)}, samples, data.cols(), data.cols(), kBlockRows, orders.back());
+    const auto subspace = sysid::ssi_data({sysid::hankel_gram(data, references, kBlockRows)}, samples, data.cols(), data.cols(),
+                                          kBlockRows, orders.back());
     const auto models = sysid::shift_models(subspace.observability, orders, bench::kRecordRate_Hz);
     seconds = cpu_seconds() - start;
   } else {
@@ -91,7 +92,8 @@ int main(int argc, char** argv) {
     const double after = cpu_seconds();
     if (task == "deviations") {
       // Standard deviations of every pole of every order, beyond the identification itself.
-      const auto factors = sysid::pole_factors(observability, models, sysid::covariance_changes(blocks, kBlockRows, observability, models));
+      const auto factors =
+          sysid::pole_factors(observability, models, sysid::covariance_changes(blocks, kBlockRows, observability, models));
       seconds = cpu_seconds() - after;
       if (factors.of.empty()) return 3;
     }

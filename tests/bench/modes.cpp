@@ -16,7 +16,6 @@
 #include <string>
 
 #include "core/parallel.hpp"
-#include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
 #include "linalg/cholesky.hpp"
@@ -26,6 +25,7 @@
 #include "linalg/symmetric_product.hpp"
 #include "model_io/matrix_market.hpp"
 #include "ponte/generator.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
 
 namespace {
 
@@ -120,7 +120,7 @@ int bridge(const std::string& file) {
   std::printf("resolve_again_s %.6f\n", seconds([&] { modes = solver.solve(theta, kModes); }));
 
   Eigen::MatrixXd exact, differences(kModes, theta.size());
-  std::printf("jacobian_s %.6f\n", seconds([&] { exact = dynamics::frequency_jacobian(system, theta, modes); }));
+  std::printf("jacobian_s %.6f\n", seconds([&] { exact = sensitivity::frequency_jacobian(system, theta, modes); }));
   std::printf("jacobian_by_differences_s %.6f\n", seconds([&] {
                 for (Eigen::Index p = 0; p < theta.size(); ++p) {
                   Eigen::VectorXd moved = theta;
@@ -137,9 +137,9 @@ int bridge(const std::string& file) {
   for (Eigen::Index c = 0; c < n_channels; ++c) channels((2 * c + 1) * system.size() / (2 * n_channels), c) = 1.0;
   std::vector<Eigen::MatrixXd> measured;
   std::printf("channel_jacobian_s %.6f\n",
-              seconds([&] { measured = dynamics::channel_shape_derivatives(system, theta, modes, channels); }));
+              seconds([&] { measured = sensitivity::channel_shape_derivatives(system, theta, modes, channels); }));
   double apart = 0.0;
-  const dynamics::ShapeSensitivity whole(system, theta, modes);
+  const sensitivity::ShapeSensitivity whole(system, theta, modes);
   for (int p = 0; p < std::ssize(measured); ++p) {
     const Eigen::MatrixXd& found = measured[static_cast<std::size_t>(p)];
     const Eigen::MatrixXd expected = channels.transpose() * whole.derivative(p);
@@ -148,7 +148,7 @@ int bridge(const std::string& file) {
   }
   std::printf("channel_jacobian_deviation %.3e\n", apart);
   const auto shape_jacobian = [&] {
-    const auto all = dynamics::ShapeSensitivity(system, theta, modes).derivatives();
+    const auto all = sensitivity::ShapeSensitivity(system, theta, modes).derivatives();
     if (std::ssize(all) != theta.size()) std::printf("shape_jacobian_is_missing 1\n");
   };
   std::printf("shape_jacobian_s %.6f\n", seconds(shape_jacobian));

@@ -125,7 +125,8 @@ FeatureSet campaign(const Bench& bench) {
   // The first frequency of every stay, by a sensor that is carried from one to the next.
   for (const diagnosis::ReducedPlace& stay : model.sets.at("stays"))
     if (const auto f_cable = stay.attributes.find("f_cable"); f_cable != stay.attributes.end())
-      f.rows.push_back({RowType::stay_frequency, "1", -1, stay.id.substr(5), off, f_cable->second, 0.01 * f_cable->second, false});
+      f.rows.push_back(
+          {RowType::stay_frequency, "1", -1, stay.id.substr(5), off, f_cable->second, 0.01 * f_cable->second, false});
   modal(add("on_small", true, 0.0003, 15.0, 0.0), modes, 0.004, true, 5, 0, false);
   modal(add("on_medium", true, 0.002, 15.0, 0.0), 4, 0.004, true, 0, 0, false);
   modal(add("on_large", true, 0.010, 15.0, 0.0), 4, 0.004, true, 0, 0, true);

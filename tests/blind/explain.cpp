@@ -29,7 +29,8 @@ void explain(const diagnosis::Inference& inference, const Sealed& seal, int entr
   (void)inference.map().predict(inference.map().base(base.map.x * 1.011), {}, true);
   const auto t3 = std::chrono::steady_clock::now();
   const auto ms = [](auto a, auto b) { return 1e3 * std::chrono::duration<double>(b - a).count(); };
-  fmt::print("base fit {:.1f} ms {} it, predict {:.1f} ms, with jacobian {:.1f} ms\n", ms(t0, t1), base.map.iterations, ms(t1, t2), ms(t2, t3));
+  fmt::print("base fit {:.1f} ms {} it, predict {:.1f} ms, with jacobian {:.1f} ms\n", ms(t0, t1), base.map.iterations,
+             ms(t1, t2), ms(t2, t3));
   fmt::print("{}\nwithout a cause: chi2 {:.1f} of {} dof\n", seal.text(), base.chi_squared, inference.dof());
   const diagnosis::ResidualTest test = diagnosis::residual_test(inference, base);
   for (std::size_t i = 0; i < std::min<std::size_t>(test.blocks.size(), 4); ++i)
@@ -51,9 +52,11 @@ void explain(const diagnosis::Inference& inference, const Sealed& seal, int entr
     if (scored.stage > 1) {  // what a fit of everything from here leaves, refined or not
       const auto begin = std::chrono::steady_clock::now();
       const diagnosis::Fit with = inference.fit({{scored.candidate, scored.a}}, base.map.x);
-      fmt::print("[{} it {:.3f} s] ", with.map.iterations, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-      after = fmt::format("joint fit chi2 {:.1f} at ({}){}", with.chi_squared, magnitudes_of(*scored.candidate, with.causes[0].a),
-                          with.map.status.converged ? "" : " NOT CONVERGED");
+      fmt::print("[{} it {:.3f} s] ", with.map.iterations,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      after =
+          fmt::format("joint fit chi2 {:.1f} at ({}){}", with.chi_squared, magnitudes_of(*scored.candidate, with.causes[0].a),
+                      with.map.status.converged ? "" : " NOT CONVERGED");
     }
     fmt::print("{}{:>4} {:<28} stage {} screen {:>7.1f} odds {:>7.1f} chi2 {:>7.1f} at ({}); {}\n", truth ? "*" : " ", place,
                scored.candidate->id(), scored.stage, scored.screen, std::max(scored.log_odds, -999.0), scored.chi_squared,

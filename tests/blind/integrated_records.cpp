@@ -6,8 +6,8 @@
 
 #include "blind/records.hpp"
 #include "core/random.hpp"
-#include "dynamics/trapezoidal.hpp"
 #include "signal/condition.hpp"
+#include "transient/trapezoidal.hpp"
 
 namespace twindeck::blind {
 
@@ -30,7 +30,7 @@ struct State {
   std::vector<int> columns;
   MatrixXd stiffness, mass;
   MatrixXd at_dampers;  ///< (n_dampers × r)
-  std::vector<dynamics::SlidingDamper> dampers;
+  std::vector<transient::SlidingDamper> dampers;
 };
 
 std::vector<int> columns_of(const diagnosis::ReducedModel& model, const std::vector<Cause>& causes) {
@@ -69,7 +69,7 @@ void add_damper(const ReducedPlace& damper, const std::vector<Cause>& causes, St
     const auto at = damper.attributes.find(name);
     return at == damper.attributes.end() ? 0.0 : at->second;
   };
-  dynamics::SlidingDamper one{number("stiffness"), 0.0, number("damping"), number("friction")};
+  transient::SlidingDamper one{number("stiffness"), 0.0, number("damping"), number("friction")};
   bool series = number("series") != 0.0 || one.friction_N > 0.0;
   for (const Cause& cause : causes) {
     if (cause.candidate->places.empty() || cause.candidate->places[0] != &damper) continue;
@@ -123,7 +123,7 @@ struct Run {
 
 Run integrate(const Modes& modes, const VectorXd& damping, const State& state, const MatrixXd& channels,
               Index amplitude_channel, double force, double seconds, std::uint64_t seed, std::uint64_t stream) {
-  dynamics::TrapezoidalStepper stepper(modes.omega, damping, kStep);
+  transient::TrapezoidalStepper stepper(modes.omega, damping, kStep);
   if (!state.dampers.empty()) stepper.set_dampers(state.at_dampers * modes.shapes, state.dampers);
   const Index r = modes.omega.size();
   stepper.start(VectorXd::Zero(r), VectorXd::Zero(r));

@@ -1,10 +1,10 @@
 /// blind_trials N [first seed]: runs sealed cases, scores them, prints the table with 95 % intervals. From 400 trials on the
-/// targets are judged: exit code 1 when an interval lies wholly on the wrong side of one. Fewer trials are held against the method's own
-/// rates: exit code 1 for what these give once in a thousand runs. 0 otherwise. A signal, or the seconds of TWINDECK_BLIND_SECONDS, ends the run with the table of what was done.
-/// blind_trials --nulls N: calibration of the residual test.
-/// blind_trials --count N: what N trials hide, by family, without a diagnosis.
-/// blind_trials --explain SEED …: the evidence of single cases.
-/// blind_trials --coverage N SEED …: how often intervals hold the size when the cause is given, each case in N campaigns.
+/// targets are judged: exit code 1 when an interval lies wholly on the wrong side of one. Fewer trials are held against the
+/// method's own rates: exit code 1 for what these give once in a thousand runs. 0 otherwise. A signal, or the seconds of
+/// TWINDECK_BLIND_SECONDS, ends the run with the table of what was done. blind_trials --nulls N: calibration of the residual
+/// test. blind_trials --count N: what N trials hide, by family, without a diagnosis. blind_trials --explain SEED …: the
+/// evidence of single cases. blind_trials --coverage N SEED …: how often intervals hold the size when the cause is given, each
+/// case in N campaigns.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -186,7 +186,8 @@ int main(int argc, char** argv) {
     for (int i = 2; i < argc; ++i) twindeck::blind::explain_case(bench, static_cast<std::uint64_t>(std::atoll(argv[i])));
     return 0;
   }
-  if (argc > 3 && std::string(argv[1]) == "--coverage") return print_coverage(bench, std::atoi(argv[2]), {argv + 3, argv + argc});
+  if (argc > 3 && std::string(argv[1]) == "--coverage")
+    return print_coverage(bench, std::atoi(argv[2]), {argv + 3, argv + argc});
   if (argc > 2 && std::string(argv[1]) == "--count") return dry_run(bench, catalogue, std::atoi(argv[2]), 1);
   if (nulls) return null_calibration(bench, count, first);
   const auto run = [&](std::uint64_t seed) {
@@ -241,8 +242,9 @@ int main(int argc, char** argv) {
     fmt::print("  mean size of the reported set {:.2f} [{:.2f}, {:.2f}], target <= 1.5  {}\n", mean, mean - half, mean + half,
                wrong ? "MISSED" : "held");
     const double ratio = median(ratios);
-    fmt::print("  held-out RMS, after over before, median of {} accepted causes {:.2f}, target <= 0.8; with the truth known {:.2f}\n",
-               ratios.size(), ratio, median(with_truth));
+    fmt::print(
+        "  held-out RMS, after over before, median of {} accepted causes {:.2f}, target <= 0.8; with the truth known {:.2f}\n",
+        ratios.size(), ratio, median(with_truth));
   }
   fmt::print("  CPU seconds a trial: mean {:.2f}, largest {:.2f}, target <= 5\n", seconds, slowest);
   fmt::print("median relative error of the magnitude, where the entry is exact:");
@@ -252,7 +254,9 @@ int main(int argc, char** argv) {
     const std::uint64_t seed = std::random_device{}();
     fmt::print("\none trial with a fresh seed, {}:\n{}\n", seed, line_of(seed, run(seed)));
   }
-  const char* what = judge == twindeck::blind::Judge::targets ? "target is missed" : "count is worse than the method's own rate gives in a thousand runs";
+  const char* what = judge == twindeck::blind::Judge::targets
+                         ? "target is missed"
+                         : "count is worse than the method's own rate gives in a thousand runs";
   fmt::print("{} {}\n", held ? "no" : "a", what);
   return held ? 0 : 1;
 }

@@ -103,9 +103,8 @@ diagnosis::FeatureSet identified_rows(const Bench& bench, const Campaign& campai
           f.rows.push_back({RowType::shape, name, static_cast<int>(ch), "", condition, found.shapes(ch, m).real(),
                             std::max(found.real_std[k][ch], 1e-6), false});
         if (turned[c].contains(name))
-          f.rows.push_back(
-              {RowType::shape_imag, name, static_cast<int>(ch), "", condition, found.shapes(ch, m).imag(),
-               std::max(found.imag_std[k][ch], 1e-6), false});
+          f.rows.push_back({RowType::shape_imag, name, static_cast<int>(ch), "", condition, found.shapes(ch, m).imag(),
+                            std::max(found.imag_std[k][ch], 1e-6), false});
       }
     }
   }

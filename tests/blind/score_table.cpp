@@ -46,14 +46,17 @@ std::vector<ScoreLine> score_lines(double eased) {
       {"truth in the reported set, given detected", found, [](const Score& s) { return s.in_set; }, 0.97, true, 0.981},
       {"90 % interval covers the magnitude", [](const Score& s) { return s.sized; }, [](const Score& s) { return s.covered; },
        0.85, true, 0.89},
-      {"both of two causes named", [](const Score& s) { return s.kind == "two"; }, [](const Score& s) { return s.both; }, 0.75, true, 0.8},
+      {"both of two causes named", [](const Score& s) { return s.kind == "two"; }, [](const Score& s) { return s.both; }, 0.75,
+       true, 0.8},
       {"outside the catalogue: no passing wrong name", [](const Score& s) { return s.kind == "outside"; },
        [](const Score& s) { return s.unknown; }, 0.90, true, 0.855}};
   for (ScoreLine& line : lines) line.target += line.at_least ? -eased : eased;
   return lines;
 }
 
-double worse_or_equal(int k, int n, double rate, bool at_least) { return at_least ? 1.0 - upper_tail(k + 1, n, rate) : upper_tail(k, n, rate); }
+double worse_or_equal(int k, int n, double rate, bool at_least) {
+  return at_least ? 1.0 - upper_tail(k + 1, n, rate) : upper_tail(k, n, rate);
+}
 
 bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>& scores, Judge judge) {
   constexpr double kOnceInAThousand = 1e-3;  // of all lines together
@@ -66,9 +69,10 @@ bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>&
         k += line.hit(s) ? 1 : 0;
       }
     const auto [low, high] = exact_interval(k, n);
-    const bool wrong = n > 0 && (judge == Judge::targets ? (line.at_least ? high < line.target : low > line.target)
-                                                         : line.rate >= 0.0 && worse_or_equal(k, n, line.rate, line.at_least) <
-                                                                                   kOnceInAThousand / static_cast<double>(lines.size()));
+    const bool wrong =
+        n > 0 && (judge == Judge::targets ? (line.at_least ? high < line.target : low > line.target)
+                                          : line.rate >= 0.0 && worse_or_equal(k, n, line.rate, line.at_least) <
+                                                                    kOnceInAThousand / static_cast<double>(lines.size()));
     held = held && !wrong;
     fmt::print("  {:<58} {:>4}/{:<4} {:>5.1f} %  [{:>5.1f}, {:>5.1f}]  target {} {:>3.0f} %{}  {}\n", line.what, k, n,
                n ? 100.0 * k / n : 0.0, 100.0 * low, 100.0 * high, line.at_least ? ">=" : "<=", 100.0 * line.target,

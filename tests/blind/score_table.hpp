@@ -27,12 +27,13 @@ struct ScoreLine {
 /// What a run is held against.
 enum class Judge {
   targets,    ///< fails when an interval lies wholly on the wrong side of a target: for long runs
-  own_rates,  ///< fails at a count that the method's own rate gives once in a thousand runs or less: for the few trials of a test, which
-              ///< other processors' last digits turn too
+  own_rates,  ///< fails at a count that the method's own rate gives once in a thousand runs or less: for the few trials of a
+              ///< test, which other processors' last digits turn too
 };
 
 /// Prints the lines with intervals. @return false when a line fails
-[[nodiscard]] bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>& scores, Judge judge = Judge::targets);
+[[nodiscard]] bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>& scores,
+                                Judge judge = Judge::targets);
 
 /// Probability of `k` hits or a worse count out of `n` at this rate.
 [[nodiscard]] double worse_or_equal(int k, int n, double rate, bool at_least);

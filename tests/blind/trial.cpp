@@ -154,8 +154,8 @@ VectorXd signature_of_size(const Shared& shared, const Candidate& candidate, Vec
   return s;
 }
 
-/// Whether another family says the same in other words: a signature that runs along this one, at the magnitudes of its starts or
-/// where it shows as much (thirty tonnes on the deck are another shape than three).
+/// Whether another family says the same in other words: a signature that runs along this one, at the magnitudes of its starts
+/// or where it shows as much (thirty tonnes on the deck are another shape than three).
 bool said_by_others(const Shared& shared, const Candidate& truth, const VectorXd& a) {
   constexpr double same = 0.9, similar = 0.8;
   const VectorXd s = shared.inference->signature(shared.base, truth, a);
@@ -357,9 +357,8 @@ Coverage coverage(const Bench& bench, std::uint64_t seed, int campaigns) {
     const Case hidden = make_case(bench, seed, 1.0, false, static_cast<std::uint64_t>(i) + 1);
     covered[static_cast<std::size_t>(i)] = on_inference(bench, hidden, [&](auto& inference) {
       const auto& all = inference.candidates();
-      const auto truth = std::find_if(all.begin(), all.end(), [&](const auto& entry) {
-        return entry->id() == seal.families[0] + "@" + seal.locations[0];
-      });
+      const auto truth = std::find_if(
+          all.begin(), all.end(), [&](const auto& entry) { return entry->id() == seal.families[0] + "@" + seal.locations[0]; });
       TWINDECK_ASSERT(truth != all.end());
       const diagnosis::Fit with = inference.fit({cause_of(**truth, seal)}, inference.fit({}, {}).map.x);
       const diagnosis::EffectParameter size = diagnosis::effect_parameters(inference, with, 0).front();
@@ -379,8 +378,9 @@ Score run_case(const Bench& bench, const Case& hidden) {
     const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
     timespec end{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
-    Score score = score_of(
-        hidden.seal, result, static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec));
+    Score score =
+        score_of(hidden.seal, result,
+                 static_cast<double>(end.tv_sec - begin.tv_sec) + 1e-9 * static_cast<double>(end.tv_nsec - begin.tv_nsec));
     if (score.kind == "effect" && !result.effects.empty())
       score.ratio_with_truth = ratio_with_truth(inference, hidden.seal, result.before);
     return score;

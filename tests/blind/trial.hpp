@@ -41,8 +41,8 @@ struct Sealed {
   [[nodiscard]] std::string text() const;
 };
 
-/// A hidden truth before anything is measured on it: causes on the truth's side of the bench, and the family that the diagnosing
-/// catalogue lacks ("" for none).
+/// A hidden truth before anything is measured on it: causes on the truth's side of the bench, and the family that the
+/// diagnosing catalogue lacks ("" for none).
 struct Hidden {
   Sealed seal;
   std::vector<diagnosis::Cause> causes;
@@ -100,7 +100,8 @@ struct Score {
        gain_claimed = false;
   bool covered = false, sized = false, one_sided = false;  ///< the magnitude: within its interval, given, only a limit of it
   int set_size = 0;
-  double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, block_p_value = 1.0, held_out_ratio = 1.0, magnitude_error = 0.0;
+  double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, block_p_value = 1.0, held_out_ratio = 1.0,
+         magnitude_error = 0.0;
   double ratio_with_truth = 1.0;  ///< held-out RMS over that without a cause, for who knows the truth and fits its size
   std::string verdict, found, seal;
 };

@@ -30,8 +30,8 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-/// Cases that the product does not answer rightly yet, by name: open.txt. They run like the others, and one that has become right fails
-/// here until its line is taken out, so that the list only shrinks.
+/// Cases that the product does not answer rightly yet, by name: open.txt. They run like the others, and one that has become
+/// right fails here until its line is taken out, so that the list only shrinks.
 const std::set<std::string>& open_cases() {
   static const std::set<std::string> all = [] {
     std::set<std::string> names;
@@ -131,7 +131,8 @@ TEST(Table, IsAsLargeAsPromised) {
   }
   EXPECT_EQ(steps.size(), 10U);
   for (const std::string& name : open_cases())
-    EXPECT_TRUE(std::any_of(cases().begin(), cases().end(), [&](const Case& c) { return c.name == name; })) << "open.txt: no case " << name;
+    EXPECT_TRUE(std::any_of(cases().begin(), cases().end(), [&](const Case& c) { return c.name == name; }))
+        << "open.txt: no case " << name;
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include "fuzz/target.hpp"
 #include "steps/diagnosis/catalogue.hpp"
-#include "steps/shared/measured.hpp"
-#include "steps/shared/measured_choice.hpp"
+#include "steps/measured/measured.hpp"
+#include "steps/measured/measured_choice.hpp"
 
 namespace twindeck::fuzz {
 

@@ -1,6 +1,6 @@
 /// Corrections of channels.
 #include "fuzz/target.hpp"
-#include "steps/shared/corrections.hpp"
+#include "steps/measured/corrections.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace twindeck;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <tuple>
 
-#include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "linalg/generalized_eigen.hpp"
 #include "random_system.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
 
 /// Properties that modes and their derivatives have whatever the structure; each holds over random systems, small (solved
 /// densely) and large (by Lanczos).
@@ -69,7 +69,7 @@ TEST_P(ModesLaw, FrequenciesScaleWithTheRootOfStiffness) {
 TEST_P(ModesLaw, DerivativesObeyTheSumRule) {
   const auto s = system();
   const EigenModes modes = ModalSolver(s).solve(s.initial(), kModes);
-  const Eigen::MatrixXd jacobian = twindeck::dynamics::frequency_jacobian(s, s.initial(), modes);
+  const Eigen::MatrixXd jacobian = twindeck::sensitivity::frequency_jacobian(s, s.initial(), modes);
   const Eigen::VectorXd theta = s.initial();
   const Eigen::VectorXd stiffness = jacobian.leftCols(3) * theta.head(3), mass = jacobian.rightCols(2) * theta.tail(2);
   EXPECT_LT((stiffness - 0.5 * modes.frequency_Hz).norm(), 1e-8 * modes.frequency_Hz.norm());
@@ -80,7 +80,7 @@ TEST_P(ModesLaw, DerivativesObeyTheSumRule) {
 TEST_P(ModesLaw, StiffnessRaisesMassLowers) {
   const auto s = system();
   const EigenModes modes = ModalSolver(s).solve(s.initial(), kModes);
-  const Eigen::MatrixXd jacobian = twindeck::dynamics::frequency_jacobian(s, s.initial(), modes);
+  const Eigen::MatrixXd jacobian = twindeck::sensitivity::frequency_jacobian(s, s.initial(), modes);
   EXPECT_GE(jacobian.leftCols(3).minCoeff(), 0.0);
   EXPECT_LE(jacobian.rightCols(2).maxCoeff(), 0.0);
 }

@@ -4,15 +4,15 @@
 #include <complex>
 #include <cstdlib>
 
+#include "matching/pairing.hpp"
 #include "modal/mac.hpp"
-#include "modal/pairing.hpp"
 
 /// Properties of MAC and pairing over random complex shapes.
 namespace {
 
+using twindeck::matching::ModePair;
+using twindeck::matching::pair_by_mac;
 using twindeck::modal::mac;
-using twindeck::modal::ModePair;
-using twindeck::modal::pair_by_mac;
 
 struct Shapes {
   Eigen::MatrixXcd n, x;

@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "ponte/generator.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
 #include "test_places.hpp"
 
 namespace {
@@ -27,10 +27,10 @@ Result with_threads(int threads) {
   const auto system = twindeck::fe::assemble(model, state);
   twindeck::dynamics::ModalSolver solver(system);
   Result result{state.stay_pull_N, solver.solve(theta, 10), {}, {}};
-  result.jacobian = twindeck::dynamics::frequency_jacobian(system, theta, result.modes);
+  result.jacobian = twindeck::sensitivity::frequency_jacobian(system, theta, result.modes);
   Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(system.size(), 3);
   for (Eigen::Index c = 0; c < 3; ++c) channels((c + 1) * system.size() / 4, c) = 1.0;
-  result.at_channels = twindeck::dynamics::channel_shape_derivatives(system, theta, result.modes, channels);
+  result.at_channels = twindeck::sensitivity::channel_shape_derivatives(system, theta, result.modes, channels);
   return result;
 }
 

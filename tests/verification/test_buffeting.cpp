@@ -136,7 +136,7 @@ TEST(BuffetingBeam, TimeHistoriesMeetJointAcceptance) {
   const aero::AeroelasticSystem system = beam.system(points);
   const MatrixXd load = load_matrix(system, beam.speed, aero::Equations::consistent).rightCols(points);
   const wind::Simulator simulator(beam.field(points, wind::Component::vertical), {.rate_Hz = 64.0, .cutoff_Hz = 8.0});
-  const dynamics::Newmark newmark(equations_of_motion(system, beam.speed, 1.0), step);
+  const transient::Newmark newmark(equations_of_motion(system, beam.speed, 1.0), step);
   VectorXd rms(20);
   for (Index s = 0; s < 20; ++s) {
     const Response response = respond(newmark, load, simulator.sample(static_cast<std::uint64_t>(s)), step, beam.sensor());

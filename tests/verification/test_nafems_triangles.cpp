@@ -36,8 +36,9 @@ const char* mesh_words(std::size_t each) { return each == 1 ? "triangles" : "mix
 
 TEST(NafemsTriangles, FV12FreeThinSquarePlate) {
   for (const std::size_t each : {1U, 2U})
-    compare_triangles(fmt::format("NAFEMS FV12 free plate ({})", mesh_words(each)), frequencies_Hz(triangle_plate({16, each}), 10), 4,
-                      {1.622, 2.360, 2.922, 4.233, 4.233, 7.416, 7.416}, 0.02);
+    compare_triangles(fmt::format("NAFEMS FV12 free plate ({})", mesh_words(each)),
+                      frequencies_Hz(triangle_plate({16, each}), 10), 4, {1.622, 2.360, 2.922, 4.233, 4.233, 7.416, 7.416},
+                      0.02);
 }
 
 TEST(NafemsTriangles, FV16CantileveredThinSquarePlate) {
@@ -61,7 +62,8 @@ TEST(NafemsTriangles, FV13SimplySupportedPlateConverges) {
   };
   for (const std::size_t each : {1U, 2U}) {
     const Eigen::VectorXd coarse = modes(12, each), fine = modes(24, each);
-    compare_triangles(fmt::format("NAFEMS FV13 supported plate ({})", mesh_words(each)), fine, 1, {2.377, 5.942, 5.942, 9.507}, 0.01);
+    compare_triangles(fmt::format("NAFEMS FV13 supported plate ({})", mesh_words(each)), fine, 1, {2.377, 5.942, 5.942, 9.507},
+                      0.01);
     EXPECT_GT(std::abs(coarse[3] / 9.5066 - 1.0), 2.5 * std::abs(fine[3] / 9.5066 - 1.0));
   }
 }
@@ -80,10 +82,11 @@ TEST(NafemsTriangles, FV32CantileveredTaperedMembrane) {
   }
 }
 
-// 45 x 25 x 1 m in 10 x 6 rectangles of two triangles each, clamped on one side. The deck lies beside the repository. Two per cent
-// is what two shell elements differ by on so coarse a mesh; the higher modes differ by more.
+// 45 x 25 x 1 m in 10 x 6 rectangles of two triangles each, clamped on one side. The deck lies beside the repository. Two per
+// cent is what two shell elements differ by on so coarse a mesh; the higher modes differ by more.
 TEST(NafemsTriangles, CalculixDeckOfTriangles) {
-  const auto deck = std::filesystem::path(TWINDECK_SOURCE_DIR).parent_path() / "shared/data/fe_decks/calculix/plate_tri_us3/freq_test.inp";
+  const auto deck =
+      std::filesystem::path(TWINDECK_SOURCE_DIR).parent_path() / "shared/data/fe_decks/calculix/plate_tri_us3/freq_test.inp";
   if (!std::filesystem::exists(deck)) GTEST_SKIP() << deck << " is not there";
   compare_triangles("CalculiX deck of triangles", frequencies_Hz(model_io::read_inp(deck).model, 4), 1,
                     {0.3971608, 1.575568, 2.516759, 5.304120}, 0.02);

@@ -9,8 +9,8 @@
 #include <array>
 #include <memory>
 
+#include "aero_io/aero_data.hpp"
 #include "io/csv.hpp"
-#include "model_io/aero_data.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
 
@@ -99,7 +99,7 @@ TEST(WindPublished, IabseFlatPlate) {
 TEST(WindPublished, StorebaeltSectionWith18Derivatives) {
   const double m = 22740, J = 2.47e6;
   const auto derivatives = std::make_shared<aero::DerivativeTable>(
-      model_io::read_flutter_derivatives(data("storebaelt_zasso.csv"), aero::OutOfRange::hold, aero::OutOfRange::hold));
+      aero_io::read_flutter_derivatives(data("storebaelt_zasso.csv"), aero::OutOfRange::hold, aero::OutOfRange::hold));
   const auto system = section_model(structure({0.052, 0.1, 0.278}, 0.003), 31, 1.22, derivatives,
                                     {{1 / std::sqrt(m), 0, 0}, {0, 1 / std::sqrt(m), 0}, {0, 0, 1 / std::sqrt(J)}});
   const auto branches = follow_all(system, speeds(1, 76, 1));

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "aero_io/aero_data.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
-#include "model_io/aero_data.hpp"
 #include "test_places.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
@@ -55,7 +55,7 @@ aero::AeroelasticSystem yawed_strips(const std::vector<double>& yaw_rad, const a
 }
 
 TEST(WindYaw, CosineRuleOnAStraightDeckIsExact) {
-  const auto table = std::make_shared<aero::DerivativeTable>(model_io::read_flutter_derivatives(
+  const auto table = std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
       std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/aero/foot_flutter.csv"));
   const auto v = speeds(8, 40, 1);
   const double normal = critical_speed(yawed_strips({0, 0, 0}, aero::published_yaw_rule("A"), table), v);
@@ -128,9 +128,9 @@ aero::AeroelasticSystem stand_in(const aero::YawRule& rule) {
   std::vector<aero::SectionAero> sections;
   for (const std::string deck : {"foot", "cycle"}) {
     const std::filesystem::path folder = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/aero";
-    sections.push_back({deck, deck == "foot" ? 4.5 : 5.0, model_io::read_polar(folder / (deck + "_polar.csv")),
+    sections.push_back({deck, deck == "foot" ? 4.5 : 5.0, aero_io::read_polar(folder / (deck + "_polar.csv")),
                         std::make_shared<aero::DerivativeTable>(
-                            model_io::read_flutter_derivatives(folder / (deck + "_flutter.csv"), aero::OutOfRange::hold))});
+                            aero_io::read_flutter_derivatives(folder / (deck + "_flutter.csv"), aero::OutOfRange::hold))});
   }
   std::vector<aero::Strip> strips;
   std::vector<aero::StripMotion> motions;

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "modal/assignment.hpp"
+#include "matching/assignment.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -85,7 +85,7 @@ ExplainedModes explain(const std::vector<MeasuredShape>& measured, const Visible
         gain(static_cast<Index>(k), j) = (explains(here[k], j) ? explained_first : 0.0) -
                                          std::min(distance(here[k], j), farthest) -
                                          whole_mac * (1.0 - mac(static_cast<Index>(here[k]), j));
-    const std::vector<int> chosen = modal::best_assignment(gain);
+    const std::vector<int> chosen = matching::best_assignment(gain);
     for (std::size_t k = 0; k < here.size(); ++k) {
       out.mode[here[k]] = chosen[k];
       out.explained[here[k]] = chosen[k] >= 0 && explains(here[k], chosen[k]);

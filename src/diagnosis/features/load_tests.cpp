@@ -49,7 +49,8 @@ VectorXd load_of(const LoadTests& tests, Index load_case, const std::vector<Grou
   return load;
 }
 
-double force_of(const LoadTests& tests, Index channel, Index load_case, const std::vector<GroundState>& states, const VectorXd& q) {
+double force_of(const LoadTests& tests, Index channel, Index load_case, const std::vector<GroundState>& states,
+                const VectorXd& q) {
   const ForceGauge& gauge = tests.forces[static_cast<std::size_t>(channel)];
   const GroundState& state = states[static_cast<std::size_t>(gauge.ground)];
   return state.factor * (gauge.moved[load_case] + state.settled_m * gauge.settle - gauge.pull.dot(q));

@@ -26,8 +26,8 @@ struct ForceGauge {
 };
 
 struct LoadTests {
-  std::vector<std::string> cases;    ///< names, as in loads.csv
-  Eigen::MatrixXd force;             ///< (n × n_cases) [N, N m]
+  std::vector<std::string> cases;  ///< names, as in loads.csv
+  Eigen::MatrixXd force;           ///< (n × n_cases) [N, N m]
   std::vector<Ground> grounds;
   Eigen::MatrixXd rotation, strain;  ///< (n_channels × n) [rad, -] of unit coordinates; rows of zeros where a channel has none
   std::vector<ForceGauge> forces;    ///< (n_channels)
@@ -36,15 +36,15 @@ struct LoadTests {
 
 /// How a support differs from the model in one condition.
 struct GroundState {
-  double factor = 1.0;    ///< of its stiffness
-  double settled_m = 0.0; ///< upwards
+  double factor = 1.0;     ///< of its stiffness
+  double settled_m = 0.0;  ///< upwards
 };
 
 /// The same load tests in coordinates q of u = V q.  @param v  (n × r)
 [[nodiscard]] LoadTests projected(const LoadTests& tests, const Eigen::MatrixXd& v);
 
-/// Every load whose response a reduced basis has to hold: forces and movements of the cases, settlements of all supports, and the
-/// pull of each force gauge, whose response makes its force exact to second order. (n × m)
+/// Every load whose response a reduced basis has to hold: forces and movements of the cases, settlements of all supports, and
+/// the pull of each force gauge, whose response makes its force exact to second order. (n × m)
 [[nodiscard]] Eigen::MatrixXd loads_to_answer(const LoadTests& tests);
 
 /// Forces of a load case, with what the ground does.  @param states  (n_grounds)  @return (n)

@@ -102,7 +102,8 @@ struct Reduction {
   Eigen::MatrixXd patterns;        ///< (n × k) loads, scaled by their size; may be empty
   Eigen::Index static_shapes = 0;  ///< that hold most of what the modes leave of the answer to the patterns
   /// (n × k) unit forces where motions are asked for; may be empty. A basis that has a point's own static shape gives that
-  /// point's slow motion under any load exactly, wherever the load acts (reciprocity), near supports too, where modes say least.
+  /// point's slow motion under any load exactly, wherever the load acts (reciprocity), near supports too, where modes say
+  /// least.
   Eigen::MatrixXd points;
   Eigen::Index point_generations = 0;  ///< shapes a point: static (1), of its inertia (2), of the inertia of that (3), …
 };

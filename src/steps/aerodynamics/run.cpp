@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/angle.hpp"
-#include "dynamics/reduced_basis.hpp"
 #include "io/csv.hpp"
 #include "steps/aerodynamics/aerodynamics.hpp"
 #include "steps/aerodynamics/outputs.hpp"
+#include "transient/reduced_basis.hpp"
 
 namespace twindeck::steps {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "aero/laws.hpp"
 #include "aero/stability.hpp"
+#include "aero_io/aero_data.hpp"
 #include "core/angle.hpp"
-#include "dynamics/reduced_basis.hpp"
 #include "linalg/cholesky.hpp"
-#include "model_io/aero_data.hpp"
 #include "steps/aerodynamics/aerodynamics.hpp"
+#include "transient/reduced_basis.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -79,8 +79,8 @@ std::vector<DeckAerodynamics> read_deck_aerodynamics(const AerodynamicsConfig& c
     throw InputError({"", 0, "deck"}, "no deck is given", "add a [[deck]] with name, chord, polar and flutter");
   std::vector<DeckAerodynamics> data;
   for (const DeckWind& deck : config.decks) {
-    data.push_back({model_io::read_polar(context.input(deck.polar)),
-                    std::make_shared<aero::DerivativeTable>(model_io::read_flutter_derivatives(
+    data.push_back({aero_io::read_polar(context.input(deck.polar)),
+                    std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
                         context.input(deck.flutter), choice(config.below_range), choice(config.above_range)))});
     check_laws(deck, data.back());
   }
@@ -148,13 +148,13 @@ DampedModel reduce(const WindModel& model, const LoadedModel& loaded, double dam
   TWINDECK_ASSERT(factored.converged);  // the modes were found with the same matrix
   // Dampers are strong against modes: between their ends the structure must be able to yield as it really does.
   const Eigen::MatrixXd& modes = model.modes.shapes;
-  const Eigen::MatrixXd of_dampers = dynamics::static_corrections(factor, mass, modes, patterns, patterns.cols());
+  const Eigen::MatrixXd of_dampers = transient::static_corrections(factor, mass, modes, patterns, patterns.cols());
   const Eigen::MatrixXd of_loads =
-      dynamics::static_corrections(factor, mass, modes, reduction.patterns, reduction.static_shapes);
-  const Eigen::MatrixXd of_points = dynamics::krylov_shapes(factor, mass, reduction.points, reduction.point_generations);
+      transient::static_corrections(factor, mass, modes, reduction.patterns, reduction.static_shapes);
+  const Eigen::MatrixXd of_points = transient::krylov_shapes(factor, mass, reduction.points, reduction.point_generations);
   Eigen::MatrixXd shapes(modes.rows(), of_dampers.cols() + of_loads.cols() + of_points.cols());
   shapes << of_dampers, of_loads, of_points;
-  const dynamics::ReducedBasis basis = dynamics::reduced_basis(stiffness, mass, modes, shapes);
+  const transient::ReducedBasis basis = transient::reduced_basis(stiffness, mass, modes, shapes);
 
   DampedModel out;
   out.dampers = static_cast<int>(dampers.size());

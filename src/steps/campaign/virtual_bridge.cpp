@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "fe/uneven_shells.hpp"
 #include "io/csv.hpp"
-#include "modal/pairing.hpp"
+#include "matching/pairing.hpp"
 #include "ponte/generator.hpp"
 #include "ponte/zoned_members.hpp"
 
@@ -30,9 +30,10 @@ void check_damper_types(const CampaignSettings& settings, const fe::Model& model
   const std::vector<std::string> known(types.begin(), types.end());
   for (const DamperSettings& damper : settings.dampers) {
     if (!types.contains(damper.type))
-      throw InputError({"", 0, "damper"},
-                       fmt::format("'{}' is no type of damper of {}{}", damper.type, settings.bridge, did_you_mean(damper.type, known)),
-                       known.empty() ? "the bridge has no dampers" : fmt::format("use {}", fmt::join(known, ", ")));
+      throw InputError(
+          {"", 0, "damper"},
+          fmt::format("'{}' is no type of damper of {}{}", damper.type, settings.bridge, did_you_mean(damper.type, known)),
+          known.empty() ? "the bridge has no dampers" : fmt::format("use {}", fmt::join(known, ", ")));
     if (!seen.insert(damper.type).second)
       throw InputError({"", 0, "damper"}, fmt::format("type '{}' stands twice", damper.type), "give each type one table");
   }
@@ -87,7 +88,7 @@ VectorXd at_temperature(const VirtualBridge& bridge, const CampaignSettings& set
 
 std::vector<Index> follow_named(const BridgeState& before, const BridgeState& state) {
   const std::vector<int> followed =
-      modal::follow_modes((before.modes.shapes(Eigen::all, before.named).transpose() * state.mass_shapes).cwiseAbs2());
+      matching::follow_modes((before.modes.shapes(Eigen::all, before.named).transpose() * state.mass_shapes).cwiseAbs2());
   return {followed.begin(), followed.end()};
 }
 

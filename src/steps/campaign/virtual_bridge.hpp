@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
-#include "dynamics/reduced_basis.hpp"
-#include "dynamics/sliding_damper.hpp"
 #include "fe/assembly.hpp"
 #include "fe/stay_chains.hpp"
 #include "steps/campaign/campaign_settings.hpp"
 #include "steps/shared/layout.hpp"
 #include "steps/shared/run_step.hpp"
+#include "transient/reduced_basis.hpp"
+#include "transient/sliding_damper.hpp"
 
 /// The as-built truth on which the test campaign is simulated.
 namespace twindeck::steps {

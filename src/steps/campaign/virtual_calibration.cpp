@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "dynamics/eigen_sensitivity.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
 #include "steps/campaign/virtual_bridge.hpp"
 
 namespace twindeck::steps {
@@ -45,7 +45,7 @@ BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings,
   for (int step = 0; step < kSteps; ++step) {
     BridgeState state = solve_bridge(bridge, settings, found.theta, settings.modes);
     state.named = before ? follow_named(*before, state) : starting_modes(state, settings);
-    const MatrixXd slope = dynamics::frequency_jacobian(state.system, found.theta, state.modes);
+    const MatrixXd slope = sensitivity::frequency_jacobian(state.system, found.theta, state.modes);
     MatrixXd jacobian(n, p);  // d ln f / d ln theta
     for (Index i = 0; i < n; ++i) {
       const Index at = state.named[static_cast<std::size_t>(i)];

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "modal/pairing.hpp"
+#include "matching/pairing.hpp"
 
 namespace twindeck::steps {
 using Eigen::Index;
@@ -40,7 +40,8 @@ int head_of_mast(const fe::Model& model) {
 }
 
 /// Decks in the order of the layout, head of the mast, inner nodes of the hanging stays by name.
-std::vector<LoadedNode> loaded_nodes(const ConditionSettings& condition, const BridgeState& state, const std::vector<LayoutPoint>& points) {
+std::vector<LoadedNode> loaded_nodes(const ConditionSettings& condition, const BridgeState& state,
+                                     const std::vector<LayoutPoint>& points) {
   std::vector<LoadedNode> loaded;
   for (const int node : nodes_of(state, points)) loaded.push_back({node, condition.force_deck});
   loaded.push_back({head_of_mast(state.chains.model), condition.force_mast});
@@ -55,7 +56,11 @@ class AmbientLoads {
  public:
   /// @param intensity  standard deviation of a load of density 1 [sqrt(Hz)]
   AmbientLoads(const MatrixXd& loads, double intensity, std::uint64_t seed, std::uint64_t stream)
-      : loads_(intensity * loads), seed_(seed), stream_(stream), drawn_(loads.cols(), kStretch), modal_(loads.rows(), kStretch) {}
+      : loads_(intensity * loads),
+        seed_(seed),
+        stream_(stream),
+        drawn_(loads.cols(), kStretch),
+        modal_(loads.rows(), kStretch) {}
   /// @param step  from 0, one after the other
   auto at(Index step) {
     if (step % kStretch == 0) draw(step);
@@ -66,7 +71,8 @@ class AmbientLoads {
   static constexpr Index kStretch = 128;
   void draw(Index first) {
     const auto begin = static_cast<std::uint64_t>(first * drawn_.rows());
-    for (Index i = 0; i < drawn_.size(); ++i) drawn_.data()[i] = white_number(seed_, stream_, begin + static_cast<std::uint64_t>(i));
+    for (Index i = 0; i < drawn_.size(); ++i)
+      drawn_.data()[i] = white_number(seed_, stream_, begin + static_cast<std::uint64_t>(i));
     modal_.noalias() = loads_ * drawn_;
   }
   MatrixXd loads_;
@@ -85,7 +91,7 @@ void fit_dampers(const CampaignSettings& settings, ConditionModel& out, MatrixXd
       throw InputError({"", 0, "damper"}, "has no table for type " + spring.group.substr(7),
                        "add [[damper]] with its mount and friction");
     }
-    dynamics::SlidingDamper damper;
+    transient::SlidingDamper damper;
     damper.stiffness_N_m = kind->mount_stiffness_N_m > 0.0 ? kind->mount_stiffness_N_m : spring.stiffness;
     damper.mount_damping_N_s_m = kind->mount_loss_factor * damper.stiffness_N_m / (2.0 * std::numbers::pi);
     damper.damping_N_s_m = spring.damping;
@@ -115,10 +121,10 @@ ConditionModel condition_model(const CampaignSettings& settings, const Condition
     linalg::Cholesky factor;
     const Status status = factor.factorize(stiffness);
     if (!status.converged) throw InputError({settings.bridge, 0, ""}, "has a singular stiffness matrix: " + status.message);
-    corrections = dynamics::static_corrections(factor, mass, state.modes.shapes, loads, loads.cols());
+    corrections = transient::static_corrections(factor, mass, state.modes.shapes, loads, loads.cols());
   }
   // Corrections are orthogonal to the modes in K and M, so that they come after them, above the last one's frequency.
-  out.basis = dynamics::reduced_basis(stiffness, mass, state.modes.shapes, corrections);
+  out.basis = transient::reduced_basis(stiffness, mass, state.modes.shapes, corrections);
   out.n_modes = state.modes.shapes.cols();
   const Index r = out.basis.omega_rad_s.size(), n = out.n_modes;
   out.at_dampers = loads.transpose() * out.basis.vectors;
@@ -147,7 +153,7 @@ MotionRecorder::MotionRecorder(const ConditionModel& model, const CampaignSettin
   motion_.damper_force_N.resize(model.dampers.empty() ? 0 : n_samples * substeps_, std::ssize(model.dampers));
 }
 
-void MotionRecorder::take(Index sample, long substep, const dynamics::TrapezoidalStepper& stepper) {
+void MotionRecorder::take(Index sample, long substep, const transient::TrapezoidalStepper& stepper) {
   if (sample < 0) return;
   const Index n_late = seen_.rows() - first_late_;
   if (substep == 0)
@@ -171,8 +177,8 @@ Motion simulate(const ConditionModel& model, const CampaignSettings& settings, c
   const Index r = model.basis.omega_rad_s.size(), n = model.n_modes;
   const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
   const auto n_samples = static_cast<Index>(std::lround(record.duration_s * settings.rate_Hz));
-  dynamics::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
-                                       1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
+  transient::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
+                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
   if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
 
   Index warm_up = static_cast<Index>(std::lround(kWarmUp_s * settings.rate_Hz));
@@ -209,9 +215,9 @@ TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settin
   TrueModes out;
   out.slip.resize(static_cast<Index>(d));
   for (std::size_t j = 0; j < d; ++j)
-    out.slip[static_cast<Index>(j)] = dynamics::equivalent_slip(model.dampers[j], damper_force_N.col(static_cast<Index>(j)));
-  const dynamics::LinearisedModes modes =
-      dynamics::linearised_modes(model.basis.omega_rad_s, model.damping, model.at_dampers, model.dampers, out.slip, highest_Hz);
+    out.slip[static_cast<Index>(j)] = transient::equivalent_slip(model.dampers[j], damper_force_N.col(static_cast<Index>(j)));
+  const transient::LinearisedModes modes = transient::linearised_modes(model.basis.omega_rad_s, model.damping, model.at_dampers,
+                                                                       model.dampers, out.slip, highest_Hz);
   out.frequency_Hz = modes.frequency_Hz;
   out.damping_ratio = modes.damping_ratio;
   out.shapes = modes.shapes.colwise().normalized();
@@ -223,7 +229,7 @@ TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settin
   constexpr double kLeastShare = 0.2;
   const Eigen::RowVectorXd moves_decks = (out.stay_share.transpose().array() < 0.5).cast<double>();
   const MatrixXd named = share(model.state->named, Eigen::all).array().rowwise() * moves_decks.array();
-  const std::vector<int> followed = modal::follow_modes(named);
+  const std::vector<int> followed = matching::follow_modes(named);
   for (std::size_t i = 0; i < followed.size(); ++i) {
     if (followed[i] < 0 || named(static_cast<Index>(i), followed[i]) < kLeastShare) continue;
     out.name[static_cast<std::size_t>(followed[i])] = settings.named[i].name;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/trapezoidal.hpp"
 #include "steps/campaign/virtual_bridge.hpp"
+#include "transient/trapezoidal.hpp"
 
 /// Time histories of the virtual bridge, and what is true about them.
 namespace twindeck::steps {
@@ -15,15 +15,15 @@ namespace twindeck::steps {
 struct ConditionModel {
   const ConditionSettings* settings = nullptr;
   const BridgeState* state = nullptr;
-  dynamics::ReducedBasis basis;  ///< modes, and after them static corrections for the dampers
+  transient::ReducedBasis basis;  ///< modes, and after them static corrections for the dampers
   Eigen::Index n_modes = 0;
   Eigen::VectorXd damping;  ///< (r) imposed ratios
   std::vector<std::string> damper_names;
-  std::vector<dynamics::SlidingDamper> dampers;  ///< empty where none are fitted
-  Eigen::MatrixXd at_dampers;                    ///< (n_dampers × r)
-  /// (n_modes × n_loads) modal loads of loads of 1 where they act: nodes of decks, mast and stays, three directions each, in the order
-  /// of the layout and of the stays' names; times their density [N/sqrt(Hz)]. Drawn there, a record hangs neither on signs of modes nor
-  /// on how modes of one frequency are turned.
+  std::vector<transient::SlidingDamper> dampers;  ///< empty where none are fitted
+  Eigen::MatrixXd at_dampers;                     ///< (n_dampers × r)
+  /// (n_modes × n_loads) modal loads of loads of 1 where they act: nodes of decks, mast and stays, three directions each, in
+  /// the order of the layout and of the stays' names; times their density [N/sqrt(Hz)]. Drawn there, a record hangs neither on
+  /// signs of modes nor on how modes of one frequency are turned.
   Eigen::MatrixXd loads;
   Eigen::MatrixXd load_covariance;  ///< (r × r) of the modal loads per Hz, one-sided [N²/Hz over kg]
 };
@@ -43,7 +43,7 @@ class MotionRecorder {
   /// @param seen  (n_channels × r) accelerations of the channels from those of the coordinates
   MotionRecorder(const ConditionModel& model, const CampaignSettings& settings, Eigen::MatrixXd seen, Eigen::Index n_samples);
   /// After each substep of a sample; negative samples are the warm-up, of which nothing is kept.
-  void take(Eigen::Index sample, long substep, const dynamics::TrapezoidalStepper& stepper);
+  void take(Eigen::Index sample, long substep, const transient::TrapezoidalStepper& stepper);
   [[nodiscard]] Motion motion();
 
  private:

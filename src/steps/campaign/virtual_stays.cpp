@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "dynamics/trapezoidal.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/elements.hpp"
+#include "transient/trapezoidal.hpp"
 
 namespace twindeck::steps {
 using Eigen::Index;
@@ -52,8 +52,8 @@ Chain hang(const fe::Model& model, const fe::Element& stay, const StayTest& test
   return chain;
 }
 
-/// In-plane modes: omega, and shapes across the chord at the inner nodes, mass-normalised. Motion out of the plane is left out: it has
-/// modes of nearly the same frequencies, with which those of the plane would mix by rounding.
+/// In-plane modes: omega, and shapes across the chord at the inner nodes, mass-normalised. Motion out of the plane is left out:
+/// it has modes of nearly the same frequencies, with which those of the plane would mix by rounding.
 void solve(const Chain& chain, double pull_N, VectorXd& omega, MatrixXd& shapes) {
   const Index n = kPieces - 1;
   MatrixXd k = MatrixXd::Zero(3 * (kPieces + 1), 3 * (kPieces + 1)), mass = k;
@@ -115,7 +115,7 @@ StayRecord stay_record(const fe::Model& model, const StayTest& test, const Campa
   constexpr long kSubsteps = 8;
   const double step_s = 1.0 / (settings.rate_Hz * static_cast<double>(kSubsteps));
   const VectorXd shortened = (0.5 * step_s * omega.array()).tan() * (2.0 / step_s);
-  dynamics::TrapezoidalStepper stepper(shortened, VectorXd::Constant(kModes, test.damping_ratio), step_s);
+  transient::TrapezoidalStepper stepper(shortened, VectorXd::Constant(kModes, test.damping_ratio), step_s);
   const auto warm_up = static_cast<Index>(10.0 / (test.damping_ratio * omega[0]) * settings.rate_Hz);
   const auto n_samples = static_cast<Index>(std::lround(settings.stay_duration_s * settings.rate_Hz));
   const double intensity = settings.stay_force * std::sqrt(0.5 * settings.rate_Hz);

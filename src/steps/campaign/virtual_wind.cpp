@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "buffeting/loads.hpp"
-#include "steps/shared/turbulence_sets.hpp"
+#include "steps/aerodynamics/turbulence_sets.hpp"
 #include "wind/simulation.hpp"
 
 namespace twindeck::steps {
@@ -87,8 +87,8 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
   // 3. The motion.
   const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
   const Index n_samples = force.cols();
-  dynamics::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
-                                       1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
+  transient::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
+                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
   if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
   MotionRecorder recorder(model, settings, seen, n_samples);
   VectorXd before = VectorXd::Zero(force.rows()), after = before;

@@ -61,16 +61,19 @@ class Reader {
   }
   const Table& table(const io::TomlEntry& entry) const {
     const auto* found = entry.value.as<Table>();
-    if (found == nullptr) fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a table", "write [" + entry.key + "]");
+    if (found == nullptr)
+      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a table", "write [" + entry.key + "]");
     return *found;
   }
   template <typename Use>
   void each(const io::TomlEntry& entry, Use use) const {
     const auto* list = entry.value.as<io::TomlValue::Array>();
-    if (list == nullptr) fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected tables", "write [[" + entry.key + "]]");
+    if (list == nullptr)
+      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected tables", "write [[" + entry.key + "]]");
     for (const io::TomlValue& value : *list) {
       const auto* entries = value.as<Table>();
-      if (entries == nullptr) fail(entry.line, entry.key, "holds " + io::shown(value) + ", expected tables", "write [[" + entry.key + "]]");
+      if (entries == nullptr)
+        fail(entry.line, entry.key, "holds " + io::shown(value) + ", expected tables", "write [[" + entry.key + "]]");
       use(*entries);
     }
   }
@@ -98,14 +101,16 @@ class Reader {
     } else {
       fail(line, key, "is " + io::shown(value) + ", expected a number or a text", "write 1.5, a name, or \"1.5*name\"");
     }
-    if (!(std::abs(e.factor) <= largest_number)) fail(line, key, "is " + io::shown(value) + ", expected a finite number", "correct the value");
+    if (!(std::abs(e.factor) <= largest_number))
+      fail(line, key, "is " + io::shown(value) + ", expected a finite number", "correct the value");
     return e;
   }
   /// A number that must be above 0.
   double positive(const io::TomlEntry& entry) const {
     const Expression e = expression(entry);
     if (!e.name.empty() || !(e.factor > 0.0))
-      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a number above 0", "1 is the weight of most causes");
+      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a number above 0",
+           "1 is the weight of most causes");
     return e.factor;
   }
 
@@ -184,9 +189,10 @@ class Reader {
         a.text[e.key] = condition_key(text(e), e.line, "action.variable");
       else if (e.key == "direction") {
         a.text[e.key] = text(e);
-        if (a.text[e.key] != "vertical") fail(e.line, "direction", fmt::format("is '{}', expected \"vertical\"", a.text[e.key]), "leave it out for all directions");
-      }
-      else if (e.key != "at")
+        if (a.text[e.key] != "vertical")
+          fail(e.line, "direction", fmt::format("is '{}', expected \"vertical\"", a.text[e.key]),
+               "leave it out for all directions");
+      } else if (e.key != "at")
         a.number[e.key] = expression(e);
     }
     h_.actions.push_back(a);

@@ -6,7 +6,7 @@
 #include "diagnosis/catalogue.hpp"
 #include "diagnosis/features.hpp"
 #include "diagnosis/structure.hpp"
-#include "steps/shared/measured_choice.hpp"
+#include "steps/measured/measured_choice.hpp"
 
 /// What s9_diagnosis reads.
 namespace twindeck::steps {

@@ -5,7 +5,8 @@ namespace twindeck::steps {
 io::FieldTable DiagnosisConfig::fields() {
   io::FieldTable t;
   t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
-      .text("damper_places", damper_places, "CSV of places where dampers might stand instead: alternative, damper, x_m, y_m, z_m")
+      .text("damper_places", damper_places,
+            "CSV of places where dampers might stand instead: alternative, damper, x_m, y_m, z_m")
       .text("further_causes", further_causes,
             "folder of causes beside the catalogue: a study's own, or a family at other places")
       .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
@@ -24,7 +25,8 @@ io::FieldTable DiagnosisConfig::fields() {
       .number("least_log_odds", least_log_odds, "", io::non_negative(), "log odds below which nothing is named")
       .integer("nulls", nulls, {0, 100000}, "null data sets run for the threshold where none is cached; 0: the analytic tail")
       .integer("most_refined", most_refined, {1, 50}, "entries of a search that are fitted together with all other unknowns")
-      .number("refine_within", search.refine_within, "", io::positive(), "nats of the best, as weighed before, within which they are")
+      .number("refine_within", search.refine_within, "", io::positive(),
+              "nats of the best, as weighed before, within which they are")
       .integer("most_causes", most_causes, {0, 8}, "causes put into the model one after another")
       .integer("modes", modes, {4, 200}, "modes in the reduced basis")
       .integer("zones", zones, {2, 200}, "zones that the elements are gathered in")
@@ -32,11 +34,14 @@ io::FieldTable DiagnosisConfig::fields() {
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
       .choice("form", form, {"auto", "on", "off"},
-              "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is exact but for scatter; "
+              "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is "
+              "exact but for scatter; "
               "auto: on where two states are compared")
       .choice("stays", stays, {"auto", "as_modelled"},
-              "auto: stays that the model has as bars become cables in several elements where that explains measured modes which the model "
-              "resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the fit, not from here), else "
+              "auto: stays that the model has as bars become cables in several elements where that explains measured modes "
+              "which the model "
+              "resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the fit, not from "
+              "here), else "
               "from the model; as_modelled: they stay bars")
       .text("threshold_cache", threshold_cache, "folder of thresholds by hash (default: <results>/thresholds, or beside --out)")
       .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),

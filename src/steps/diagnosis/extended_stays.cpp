@@ -73,8 +73,9 @@ BarStaysEffect::BarStaysEffect(std::vector<diagnosis::FoundStay> stays, double l
   effect_.remedy = "Model these stays in several elements, as the extended model does, and measure their frequencies.";
   effect_.parameters = {count(kMeasured, after.measured), count(kBefore, before.explained), count(kAfter, after.explained)};
   for (const diagnosis::FoundStay& stay : stays_)
-    effect_.parameters.push_back(
-        {"force_" + as_key(stay.name) + "_N", "N", stay.force_N, stay.force_N * std::exp(-kReachOfNinety * stay.relative_std), stay.force_N * std::exp(kReachOfNinety * stay.relative_std), false, false});
+    effect_.parameters.push_back({"force_" + as_key(stay.name) + "_N", "N", stay.force_N,
+                                  stay.force_N * std::exp(-kReachOfNinety * stay.relative_std),
+                                  stay.force_N * std::exp(kReachOfNinety * stay.relative_std), false, false});
 }
 
 void BarStaysEffect::put_first(diagnosis::Diagnosis& result) const {

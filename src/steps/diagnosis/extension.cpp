@@ -78,8 +78,8 @@ void scale_group(fe::Model& model, const std::string& name, double stiffness, do
     if (spring.group == name && spring.node2 >= 0) spring.stiffness *= stiffness;
 }
 
-/// Whether a spring is of the support that a place names: "pier", or "pier fixed" for what is rigid of it where springs have the
-/// name too.
+/// Whether a spring is of the support that a place names: "pier", or "pier fixed" for what is rigid of it where springs have
+/// the name too.
 bool of_support(const fe::Model& model, const fe::Spring& spring, std::string name) {
   const auto group = [](const fe::Spring& s) { return s.group.empty() ? s.name : s.group; };
   const auto rigid = [](const fe::Spring& s) { return s.name.find(diagnosis::kRigidSpring) != std::string::npos; };
@@ -161,7 +161,8 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
     }
     if (c.hypothesis->set == "supports" || c.hypothesis->set == "foundations") {
       for (fe::Spring& spring : model.springs)
-        if (of_support(model, spring, name) && spring.rotation == (c.hypothesis->set == "foundations")) spring.stiffness *= factor;
+        if (of_support(model, spring, name) && spring.rotation == (c.hypothesis->set == "foundations"))
+          spring.stiffness *= factor;
       return true;
     }
     return false;
@@ -206,7 +207,8 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
       TWINDECK_ASSERT(place != nullptr);
       for (std::size_t i = 0; i + 1 < c.places.size(); ++i)
         for (fe::Spring& spring : model.springs)
-          if ("damper:" + spring.name == c.places[i]->id) spring.node = static_cast<int>(place->attributes.at("node_" + std::to_string(i)));
+          if ("damper:" + spring.name == c.places[i]->id)
+            spring.node = static_cast<int>(place->attributes.at("node_" + std::to_string(i)));
       return true;
     }
     if (action.kind == "damper.absent") {

@@ -7,8 +7,8 @@
 #include "io/csv.hpp"
 #include "model_io/load_cases.hpp"
 #include "steps/diagnosis/catalogue.hpp"
-#include "steps/shared/feature_rows.hpp"
-#include "steps/shared/measured_tables.hpp"
+#include "steps/measured/feature_rows.hpp"
+#include "steps/measured/measured_tables.hpp"
 
 namespace twindeck::steps {
 
@@ -22,8 +22,8 @@ using diagnosis::RowType;
 std::vector<Condition> all_of(const std::vector<MeasuredCondition>& measured) {
   std::vector<Condition> conditions;
   for (const MeasuredCondition& c : measured)
-    conditions.push_back({c.name, c.state, c.dampers_on, c.amplitude_m, c.amplitude_channel, c.temperature_C, c.wind_m_s, c.direction_deg,
-                          c.people, c.line, c.load});
+    conditions.push_back({c.name, c.state, c.dampers_on, c.amplitude_m, c.amplitude_channel, c.temperature_C, c.wind_m_s,
+                          c.direction_deg, c.people, c.line, c.load});
   return conditions;
 }
 
@@ -118,7 +118,8 @@ void refuse_unknown_stays(const FeatureSet& features, const diagnosis::Places& p
                        names.empty() ? "the model has no stays; leave the row out, or stay_frequency_Hz as a whole (left_out)"
                                      : "name a stay of the model's elements.csv");
     if (!found->second)
-      throw InputError(place, fmt::format("stay '{}' has no pull in the model, so that its frequency is not computed", row.stay),
+      throw InputError(place,
+                       fmt::format("stay '{}' has no pull in the model, so that its frequency is not computed", row.stay),
                        "give its pull in elements.csv and a rule of prestress in model.toml, or leave the row out");
   }
 }

@@ -14,9 +14,10 @@ struct LoadTestFiles {
   std::filesystem::path channels;  ///< channels.csv
 };
 
-/// The load cases that rows were measured under and the gauges of the channels, over the structure's free dofs; nothing where no row is of
-/// a load test.
-/// @throws InputError  naming the line: see diagnosis/load_test_vectors.hpp and model_io/load_cases.hpp; a row whose channel shows nothing
+/// The load cases that rows were measured under and the gauges of the channels, over the structure's free dofs; nothing where
+/// no row is of a load test.
+/// @throws InputError  naming the line: see diagnosis/load_test_vectors.hpp and model_io/load_cases.hpp; a row whose channel
+/// shows nothing
 ///         of the model's motion
 [[nodiscard]] diagnosis::LoadTests load_tests_in_use(const DiagnosedModel& model, const diagnosis::Structure& structure,
                                                      const diagnosis::Places& places, const diagnosis::FeatureSet& features,

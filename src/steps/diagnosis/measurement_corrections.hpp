@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
-#include "steps/shared/corrections.hpp"
+#include "steps/measured/corrections.hpp"
 
 /// What the diagnosis found wrong with single channels, as corrections that the steps can make (`--correct FILE`).
 namespace twindeck::steps {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "steps/shared/measured_shapes.hpp"
+#include "steps/measured/measured_shapes.hpp"
 
 namespace twindeck::steps {
 
@@ -93,7 +93,8 @@ std::vector<std::string> nodes_of_channels(const DiagnosedModel& model) {
         }
       }
     }
-    if (channel.is_at_a_point() && name.empty() && std::find(known.begin(), known.end(), channel.point) != known.end()) name = channel.point;
+    if (channel.is_at_a_point() && name.empty() && std::find(known.begin(), known.end(), channel.point) != known.end())
+      name = channel.point;
     names.push_back(name);
   }
   return names;

@@ -20,9 +20,7 @@ using diagnosis::Row;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-double own_unit(const Row& row, double transformed) {
-  return is_logarithmic(row.type) ? std::exp(transformed) : transformed;
-}
+double own_unit(const Row& row, double transformed) { return is_logarithmic(row.type) ? std::exp(transformed) : transformed; }
 
 std::string channel_of(const Inference& inference, const Row& row) {
   return row.channel >= 0 ? inference.map().features().channels[static_cast<std::size_t>(row.channel)] : row.stay;
@@ -63,10 +61,11 @@ void add_place_and_rivals(const diagnosis::Effect& effect, const Told& told, nlo
   json["place"] = {{"words", place.words}, {"x_m", place.x_m.x()}, {"y_m", place.x_m.y()}, {"z_m", place.x_m.z()}};
   json["rivals"] = nlohmann::ordered_json::array();
   for (const diagnosis::Rival& rival : effect.rivals)
-    json["rivals"].push_back({{"id", rival.id},
-                              {"words", rival.candidate == nullptr ? "something else that changed" : told.ids.in_text(rival.id)},
-                              {"probability", rival.probability},
-                              {"parameters", listed_parameters(rival.parameters)}});
+    json["rivals"].push_back(
+        {{"id", rival.id},
+         {"words", rival.candidate == nullptr ? "something else that changed" : told.ids.in_text(rival.id)},
+         {"probability", rival.probability},
+         {"parameters", listed_parameters(rival.parameters)}});
 }
 
 nlohmann::ordered_json listed_model_parameters(const std::vector<diagnosis::ModelParameter>& parameters) {
@@ -75,19 +74,24 @@ nlohmann::ordered_json listed_model_parameters(const std::vector<diagnosis::Mode
   };
   auto out = nlohmann::ordered_json::array();
   for (const auto& p : parameters)
-    out.push_back({{"name", p.name}, {"unit", p.unit}, {"before", numbers(p.before)}, {"after", numbers(p.after)}, {"level", 0.90}});
+    out.push_back(
+        {{"name", p.name}, {"unit", p.unit}, {"before", numbers(p.before)}, {"after", numbers(p.after)}, {"level", 0.90}});
   return out;
 }
 
 nlohmann::ordered_json listed_sentences(const Sentences& sentences) {
-  return {{"what", sentences.what}, {"why", sentences.why}, {"how_sure", sentences.how_sure}, {"how_much_better", sentences.how_much_better},
+  return {{"what", sentences.what},
+          {"why", sentences.why},
+          {"how_sure", sentences.how_sure},
+          {"how_much_better", sentences.how_much_better},
           {"next", sentences.next}};
 }
 
 }  // namespace
 
-void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const Told& told, const diagnosis::FullCheck& check,
-                     double residual_alpha, double seconds, const std::string& threshold_from, const std::filesystem::path& file) {
+void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const Told& told,
+                     const diagnosis::FullCheck& check, double residual_alpha, double seconds,
+                     const std::string& threshold_from, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
   json["verdict"] = result.verdict;
@@ -114,7 +118,8 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
   }
   json["scatter"] = nlohmann::ordered_json::array();
   for (const auto& s : result.scatter)
-    json["scatter"].push_back({{"of", s.of}, {"rows", s.rows}, {"times_stated", s.scale}, {"low", s.low}, {"high", s.high}, {"level", 0.90}});
+    json["scatter"].push_back(
+        {{"of", s.of}, {"rows", s.rows}, {"times_stated", s.scale}, {"low", s.low}, {"high", s.high}, {"level", 0.90}});
   json["account"] = nlohmann::ordered_json::array();
   for (const Finding& finding : account)
     json["account"].push_back({{"kind", finding.kind},
@@ -142,8 +147,9 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
     json["measurement_corrections"].push_back(
         {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}});
   json["localisation"] = nlohmann::ordered_json::array();
-  for (const auto& at : result.localisation) 
-    json["localisation"].push_back({{"location", at.location}, {"score", at.score}, {"words", told.places.at(at.location).words}});
+  for (const auto& at : result.localisation)
+    json["localisation"].push_back(
+        {{"location", at.location}, {"score", at.score}, {"words", told.places.at(at.location).words}});
   const diagnosis::Gain gain = told_gain(result);
   json["gain"] = {{"held_out", gain.held_out},
                   {"rows", gain.rows},
@@ -245,7 +251,8 @@ void write_pairs(const Inference& inference, const Diagnosis& result, const std:
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
     csv.row({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz,
-             result.before.all.frequency_Hz[m], result.after.all.frequency_Hz[m], known(result.before.all.mac[m]), known(result.after.all.mac[m])});
+             result.before.all.frequency_Hz[m], result.after.all.frequency_Hz[m], known(result.before.all.mac[m]),
+             known(result.after.all.mac[m])});
   }
   csv.save(file);
 }

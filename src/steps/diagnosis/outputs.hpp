@@ -8,7 +8,7 @@
 #include "diagnosis/model_parameters.hpp"
 #include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/sentences.hpp"
-#include "steps/shared/corrections.hpp"
+#include "steps/measured/corrections.hpp"
 
 namespace twindeck::steps {
 
@@ -25,8 +25,8 @@ struct Told {
 /// diagnosis.json, as docs/ describes it.
 /// @param check  of the winner against the full model
 void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<Finding>& account, const Told& told,
-                     const diagnosis::FullCheck& check, double residual_alpha, double seconds, const std::string& threshold_from,
-                     const std::filesystem::path& file);
+                     const diagnosis::FullCheck& check, double residual_alpha, double seconds,
+                     const std::string& threshold_from, const std::filesystem::path& file);
 /// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
 /// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
 /// it lies outside the limit that all rows together keep with 99 % (Sidak).
@@ -41,8 +41,8 @@ void write_gain(const diagnosis::Inference& inference, const diagnosis::Diagnosi
 /// parameters.csv: `unknown,before,after,shrinkage,bound`: in units of the prior deviation; shrinkage 1 - posterior variance.
 void write_unknowns(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
                     const std::filesystem::path& file);
-/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after`: each measured mode with the model's that it is
-/// compared with, without and with the causes; MAC over the channels of that mode.
+/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after`: each measured mode with the model's that it
+/// is compared with, without and with the causes; MAC over the channels of that mode.
 void write_pairs(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);
 /// misfit.csv: `by,name,rows,mean_square_before,mean_square_after`: of standardised residuals by type, condition, mode,
 /// channel.

@@ -55,8 +55,8 @@ void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features)
   keep(features, kept);
 }
 
-std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model, std::size_t swinging,
-                                          diagnosis::FeatureSet& features) {
+std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model,
+                                          std::size_t swinging, diagnosis::FeatureSet& features) {
   if (!(config.least_mac > 0.0)) return std::nullopt;
   const diagnosis::FeatureMap map(model, features, config.scatter);
   const auto base = map.base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(map.nuisances().size())));
@@ -88,24 +88,26 @@ std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const d
     throw InputError({"", 0, "least_mac"}, fmt::format("no measured mode has a MAC of {} with the model's", config.least_mac),
                      "");
   keep(features, kept);
-  found.text = fmt::format(
-      "{} of {} measured modes are like no mode of the model (MAC below {}) and are left out: {}", unpaired.size(),
-      map.measured_modes().size(), config.least_mac, fmt::join(found.names, "; "));
+  found.text = fmt::format("{} of {} measured modes are like no mode of the model (MAC below {}) and are left out: {}",
+                           unpaired.size(), map.measured_modes().size(), config.least_mac, fmt::join(found.names, "; "));
   if (stays != model.sets.end() && !stays->second.empty())
-    found.text += swinging > 0 ? fmt::format(". Stays whose own frequency this is are named; {} of the model's stays vibrate", swinging)
-                               : ". Stays whose own frequency this is are named; the model's stays do not vibrate";
+    found.text += swinging > 0
+                      ? fmt::format(". Stays whose own frequency this is are named; {} of the model's stays vibrate", swinging)
+                      : ". Stays whose own frequency this is are named; the model's stays do not vibrate";
   return found;
 }
 
 bool with_form(const DiagnosisConfig& config, const diagnosis::FeatureSet& features) {
   // The form error is one of modes: load tests alone have none, and a part of the covariance instead.
-  const bool modes = std::any_of(features.rows.begin(), features.rows.end(), [](const diagnosis::Row& row) { return !is_static(row.type); });
+  const bool modes =
+      std::any_of(features.rows.begin(), features.rows.end(), [](const diagnosis::Row& row) { return !is_static(row.type); });
   return modes && (config.form == "on" || (config.form == "auto" && diagnosis::states_of(features).size() > 1));
 }
 
 void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {
   if (config.hold_out.empty()) {
-    if (!with_form(config, features)) diagnosis::hold_out_by_rule(features);  // with "on" whole modes are left out one after another
+    if (!with_form(config, features))
+      diagnosis::hold_out_by_rule(features);  // with "on" whole modes are left out one after another
     return;
   }
   for (diagnosis::Row& row : features.rows) row.held_out = false;

@@ -14,8 +14,8 @@ void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features)
 /// Leaves out the modes of which the model has none with a MAC of `least_mac`: what it has no mode for, such as a stay that
 /// swings by itself where stays are bars, cannot be a residual of it.
 /// @param swinging  how many stays the model has as cables @return what was left out; nothing where all modes have one
-[[nodiscard]] std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model, std::size_t swinging,
-                                          diagnosis::FeatureSet& features);
+[[nodiscard]] std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model,
+                                                        std::size_t swinging, diagnosis::FeatureSet& features);
 
 /// Whether the model's form competes: asked for, or two states are compared, whose common error it takes out.
 [[nodiscard]] bool with_form(const DiagnosisConfig& config, const diagnosis::FeatureSet& features);

@@ -15,9 +15,10 @@ namespace twindeck::steps {
 namespace {
 
 void say_form(const diagnosis::FormReport& form, StepContext& context) {
-  context.say(fmt::format("  form error of the model: {:.2f} % in frequency ({:.2f} to {:.2f}), {:.2f} % in shape ({:.2f} to {:.2f})",
-                          100.0 * form.frequency.level, 100.0 * form.frequency.low, 100.0 * form.frequency.high, 100.0 * form.shape.level,
-                          100.0 * form.shape.low, 100.0 * form.shape.high));
+  context.say(
+      fmt::format("  form error of the model: {:.2f} % in frequency ({:.2f} to {:.2f}), {:.2f} % in shape ({:.2f} to {:.2f})",
+                  100.0 * form.frequency.level, 100.0 * form.frequency.low, 100.0 * form.frequency.high,
+                  100.0 * form.shape.level, 100.0 * form.shape.low, 100.0 * form.shape.high));
   if (!form.gain.blocks.empty())
     context.say(fmt::format("  left out mode by mode ({} modes): gain {:.1f} nats ({:.1f} to {:.1f})", form.gain.blocks.size(),
                             form.gain.log_gain, form.gain.low, form.gain.high));
@@ -65,8 +66,8 @@ void write_tables(const diagnosis::Inference& inference, const DiagnosisInputs& 
 }
 
 /// The winner against the full model, as many of the lowest modes as were measured.
-diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::FeatureMap& map, const diagnosis::Diagnosis& result,
-                             StepContext& context) {
+diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::FeatureMap& map,
+                             const diagnosis::Diagnosis& result, StepContext& context) {
   std::set<std::string> labels;
   for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
   diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
@@ -88,8 +89,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
   std::vector<std::string> unmeasured;
   map.bind_modes(bound_modes(config, inputs, &unmeasured));
-  if (!unmeasured.empty())
-    context.warn(fmt::format("pairs: no row in use has the mode of {}", fmt::join(unmeasured, ", ")));
+  if (!unmeasured.empty()) context.warn(fmt::format("pairs: no row in use has the mode of {}", fmt::join(unmeasured, ", ")));
   diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
   if (inputs.bar_stays) inputs.bar_stays->take_out_entries(entries);
   const diagnosis::Inference inference(map, entries.candidates);
@@ -102,13 +102,15 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
     return {};
   }
   const bool form = with_form(config, inputs.features);  // its rules have thresholds of their own
-  const Threshold threshold = form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
+  const Threshold threshold =
+      form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
   const diagnosis::DiagnoseOptions options = options_of(config, threshold);
   diagnosis::Diagnosis result = form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
                                      : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
-  const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels, inputs.places);
+  const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,
+                          inputs.places);
   const IdsInWords ids = ids_in_words(places, inference);
   put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
@@ -117,7 +119,9 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
   const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
-  const Told told{places, ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result), corrections};
+  const Told told{
+      places,     ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result),
+      corrections};
   std::vector<Finding> account = inputs.account;
   for (Finding& finding : account) finding.text = ids.in_text(finding.text);
   write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");

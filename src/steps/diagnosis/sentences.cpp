@@ -130,7 +130,8 @@ std::string block_words(const Block& block, const Inference& inference, const Di
                        block.rows.size());
   } else {
     const auto r = static_cast<Index>(block.rows.front());
-    const double transformed = result.before.all.g[r], computed = is_logarithmic(row.type) ? std::exp(transformed) : transformed;
+    const double transformed = result.before.all.g[r],
+                 computed = is_logarithmic(row.type) ? std::exp(transformed) : transformed;
     text = fmt::format("{} is measured as {} {}, the best admissible model has {} {}: {:.1f} standard deviations", block.words,
                        number_in_words(row.value, kMeasuredDigits), unit_of(row.type),
                        number_in_words(computed, kMeasuredDigits), unit_of(row.type), std::abs(before[r]));

@@ -10,11 +10,11 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
-#include "modal/mode_name.hpp"
+#include "matching/mode_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
-#include "steps/shared/measured_tables.hpp"
+#include "steps/measured/measured_tables.hpp"
 #include "steps/shared/study.hpp"
 #include "steps/shared/unit_slips.hpp"
 
@@ -99,12 +99,13 @@ void reduce(const diagnosis::PlaceOptions& place_options, const BasisSize& size,
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
 }
 
-/// Where measured modes are those of stays that swing, the model gets these stays as cables. It stays as it was where no more modes
-/// are explained then, dampers and all conditions included.
+/// Where measured modes are those of stays that swing, the model gets these stays as cables. It stays as it was where no more
+/// modes are explained then, dampers and all conditions included.
 void swing_stays(const DiagnosisConfig& config, const diagnosis::PlaceOptions& place_options,
                  const std::vector<diagnosis::Row>& stay_rows, DiagnosisInputs& inputs) {
   constexpr double alike = 0.6;  // MAC where least_mac says nothing: below it two shapes share less than they do not
-  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : alike, 2 * static_cast<int>(config.modes)};
+  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : alike,
+                                           2 * static_cast<int>(config.modes)};
   auto found = diagnosis::find_bar_stays(inputs.model->structure(), inputs.features, stay_rows, options);
   if (!found) return;
   const ModesExplained before = modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
@@ -170,18 +171,20 @@ DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext
   inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
   warn_of_unit_slips(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
   const std::size_t swinging = inputs.bar_stays ? inputs.bar_stays->stays() : 0;
-  if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, swinging, inputs.features)) inputs.account.push_back(*unpaired);
+  if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, swinging, inputs.features))
+    inputs.account.push_back(*unpaired);
   hold_out(config, inputs.features);
   return inputs;
 }
 
-std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs, std::vector<std::string>* unmeasured) {
+std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
+                                       std::vector<std::string>* unmeasured) {
   std::map<std::string, int> bound;
-  for (const modal::NamedPair& pair :
-       modal::read_pairs(config.pairs, inputs.reduced->mode_coordinates.cols(), {"", 0, "pairs"}, "raise modes")) {
+  for (const matching::NamedPair& pair :
+       matching::read_pairs(config.pairs, inputs.reduced->mode_coordinates.cols(), {"", 0, "pairs"}, "raise modes")) {
     const std::size_t before = bound.size();
     for (const diagnosis::Row& row : inputs.features.rows)
-      if (modal::experimental_label(row.mode) == pair.experimental) bound[row.mode] = static_cast<int>(pair.numerical);
+      if (matching::experimental_label(row.mode) == pair.experimental) bound[row.mode] = static_cast<int>(pair.numerical);
     if (bound.size() == before && unmeasured != nullptr) unmeasured->push_back(pair.experimental);
   }
   return bound;
@@ -203,8 +206,8 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   diagnosis::SearchOptions search = config.search;
   search.most_refined = static_cast<int>(config.most_refined);
   const auto nulls = diagnosis::run_nulls(
-      *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, search, static_cast<int>(config.nulls), context.seed + 17,
-      [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); },
+      *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, search, static_cast<int>(config.nulls),
+      context.seed + 17, [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); },
       bound_modes(config, inputs));
   std::vector<double> sorted = nulls.log_odds;
   std::sort(sorted.begin(), sorted.end());

@@ -12,7 +12,7 @@
 #include "steps/diagnosis/extended_stays.hpp"
 #include "steps/diagnosis/load_tests.hpp"
 #include "steps/diagnosis/model.hpp"
-#include "steps/shared/corrections.hpp"
+#include "steps/measured/corrections.hpp"
 #include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
@@ -33,9 +33,10 @@ struct DiagnosisConfig {
   long most_refined = search.most_refined;
   long nulls = 0, most_causes = 4, modes = 24, zones = 24, nodes = 24;
   double sensor_tolerance_m = 0.5;
-  std::string form = "auto";    ///< "on": the model's form may be wrong, and competes with every cause (decision 0013); "auto": where states are compared
-  std::string stays = "as_modelled";   ///< "as_modelled": stays stay the bars that they are in the model
-  std::string threshold_cache;  ///< folder of thresholds by hash
+  std::string form = "auto";  ///< "on": the model's form may be wrong, and competes with every cause (decision 0013); "auto":
+                              ///< where states are compared
+  std::string stays = "as_modelled";  ///< "as_modelled": stays stay the bars that they are in the model
+  std::string threshold_cache;        ///< folder of thresholds by hash
   diagnosis::ScatterOptions scatter;
 
   [[nodiscard]] io::FieldTable fields();

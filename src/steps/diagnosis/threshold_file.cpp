@@ -29,8 +29,8 @@ void put_rules(std::ostream& key, const DiagnosisConfig& config) {
   const diagnosis::ScatterOptions& s = config.scatter;
   key << "rules " << config.alpha << ',' << config.nulls << ',' << config.modes << ',' << config.most_refined << ','
       << config.search.refine_within << ",scatter ";
-  for (const double v : {s.element_stiffness, s.element_mass, s.node_mass, s.stay_stiffness, s.stay_pull, s.gain, s.frequency_floor,
-                         s.damping_floor, s.shape_floor, s.load_model, s.model_form, s.fine, s.noise})
+  for (const double v : {s.element_stiffness, s.element_mass, s.node_mass, s.stay_stiffness, s.stay_pull, s.gain,
+                         s.frequency_floor, s.damping_floor, s.shape_floor, s.load_model, s.model_form, s.fine, s.noise})
     key << v << ',';
   key << s.damping_by_dampers << ",pairs ";
   for (const std::string& pair : config.pairs) key << pair << ',';
@@ -131,8 +131,8 @@ std::optional<double> read_threshold(const std::filesystem::path& file, const st
 void write_threshold(double threshold, long nulls, double quantile, const std::filesystem::path& file, const std::string& key) {
   TWINDECK_ASSERT(std::isfinite(threshold));
   const std::string body = body_of(fmt::format("{:.6f}", threshold), std::to_string(nulls), io::sha256_of_text(key));
-  io::write_file_atomically(file, fmt::format("# {} null data sets, quantile {} of the largest log odds\n{}check = \"{}\"\n", nulls,
-                                              quantile, body, io::sha256_of_text(body)));
+  io::write_file_atomically(file, fmt::format("# {} null data sets, quantile {} of the largest log odds\n{}check = \"{}\"\n",
+                                              nulls, quantile, body, io::sha256_of_text(body)));
 }
 
 }  // namespace twindeck::steps

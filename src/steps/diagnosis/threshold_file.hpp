@@ -7,8 +7,8 @@
 
 #include "steps/diagnosis/setup.hpp"
 
-/// Thresholds of null data sets, kept in a folder: they take minutes to make and depend on the model, the rows (without their values), the
-/// catalogue and the rules alone. One file each, named by the hash of all that.
+/// Thresholds of null data sets, kept in a folder: they take minutes to make and depend on the model, the rows (without their
+/// values), the catalogue and the rules alone. One file each, named by the hash of all that.
 namespace twindeck::steps {
 
 /// What a threshold depends on, in words. Numbers that were computed have six digits, so that rounding changes no name.

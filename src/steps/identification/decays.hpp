@@ -15,7 +15,7 @@ struct DecayResult {
   std::vector<CampaignChannel> channels;
   std::vector<ChannelQuality> quality;
   std::vector<std::string> notes;  ///< of how its records were read
-  sysid::Identification found;  ///< ERA
+  sysid::Identification found;     ///< ERA
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {
     std::string mode;  ///< of the condition's modes.csv, empty where it has none

@@ -11,9 +11,10 @@ namespace twindeck::steps {
 
 /// Of one condition, in a folder:
 /// modes.csv   as docs/my_records.md has it, and `frequency_scatter_Hz,damping_ratio_scatter_pct` (standard deviation of the
-///             poles over the model orders, of setups where there are several), `orders` (at how many orders the mode was found, the most of its
-///             setups), `setups`, `partial` (1: some channels did not see it), `efdd_frequency_Hz,efdd_damping_ratio_pct`
-///             (cross-check of the first setup that has it, empty where its bell is too short)
+///             poles over the model orders, of setups where there are several), `orders` (at how many orders the mode was
+///             found, the most of its setups), `setups`, `partial` (1: some channels did not see it),
+///             `efdd_frequency_Hz,efdd_damping_ratio_pct` (cross-check of the first setup that has it, empty where its bell is
+///             too short)
 /// shapes.csv  direction = channel
 /// poles.csv   `setup,order,frequency_Hz,damping_ratio_pct,stable_frequency,stable_damping,stable_shape,mode,condition` (mode
 /// empty where

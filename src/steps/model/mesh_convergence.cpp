@@ -5,7 +5,7 @@
 
 #include "io/csv.hpp"
 #include "ponte/generator.hpp"
-#include "steps/refinement/refinement.hpp"
+#include "steps/shared/solved_model.hpp"
 
 namespace twindeck::steps {
 

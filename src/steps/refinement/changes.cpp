@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,90 +8,9 @@
 
 #include "core/parallel.hpp"
 #include "io/csv.hpp"
-#include "modal/mac.hpp"
-#include "modal/pairing.hpp"
 #include "steps/refinement/refinement.hpp"
-#include "steps/shared/measured.hpp"
 
 namespace twindeck::steps {
-
-namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-
-bool same_dofs(const fe::ParametricSystem& a, const fe::ParametricSystem& b) {
-  if (a.dofs.size() != b.dofs.size()) return false;
-  for (std::size_t i = 0; i < a.dofs.size(); ++i) {
-    if (a.dofs[i].node != b.dofs[i].node || a.dofs[i].direction != b.dofs[i].direction || a.dofs[i].x_m != b.dofs[i].x_m)
-      return false;
-  }
-  return true;
-}
-
-/// Nodes by position to the nearest 0.1 mm; of several at one place the first counts.
-std::map<std::array<long, 3>, Index> nodes_by_place(const fe::Model& model) {
-  std::map<std::array<long, 3>, Index> at;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const Eigen::Vector3d x = model.nodes[i].x_m * 1e4;
-    at.try_emplace({std::lround(x[0]), std::lround(x[1]), std::lround(x[2])}, static_cast<Index>(i));
-  }
-  return at;
-}
-
-}  // namespace
-
-SolvedModel solve_modes(LoadedModel loaded, int n_modes) {
-  SolvedModel solved;
-  solved.loaded = std::move(loaded);
-  dynamics::ModalSolver solver(solved.loaded.system);
-  solved.modes = solver.solve_available(solved.loaded.theta, n_modes);
-  solved.mass = solver.mass();
-  solved.mass_shapes = solved.mass.selfadjointView<Eigen::Lower>() * solved.modes.shapes;
-  if (!solved.loaded.state.status.converged && solved.modes.status.converged) solved.modes.status = solved.loaded.state.status;
-  return solved;
-}
-
-MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
-  if (same_dofs(a.loaded.system, b.loaded.system)) {
-    // b is normalised with its own mass; divided by its norm in a's, the entries are squared cosines.
-    const Eigen::VectorXd norm =
-        b.modes.shapes.cwiseProduct(a.mass.selfadjointView<Eigen::Lower>() * b.modes.shapes).colwise().sum();
-    return modal::mass_weighted_mac(a.mass_shapes, b.modes.shapes) * norm.cwiseInverse().asDiagonal();
-  }
-  if (!a.loaded.model || !b.loaded.model) {
-    throw InputError({b.loaded.source, 0, ""}, "has other degrees of freedom than " + a.loaded.source,
-                     "compare models of the same degrees of freedom");
-  }
-  const MatrixXd full_a = a.loaded.system.expand(a.modes.shapes), full_b = b.loaded.system.expand(b.modes.shapes);
-  const auto places_b = nodes_by_place(*b.loaded.model);
-  std::vector<Index> rows_a, rows_b;
-  for (const auto& [place, node_a] : nodes_by_place(*a.loaded.model)) {
-    const auto at = places_b.find(place);
-    if (at == places_b.end()) continue;
-    for (Index d = 0; d < 3; ++d) {
-      rows_a.push_back(6 * node_a + d);
-      rows_b.push_back(6 * at->second + d);
-    }
-  }
-  const MatrixXd common_a = full_a(rows_a, Eigen::all), common_b = full_b(rows_b, Eigen::all);
-  return modal::mac(common_a, common_b);
-}
-
-FollowedModes follow(const SolvedModel& reference, const SolvedModel& changed, Index count) {
-  const MatrixXd likeness = mac_between(reference, changed);
-  // Every mode of the reference takes part in the assignment, so that a partner is not given to one and claimed by another.
-  const std::vector<int> position = modal::follow_modes(likeness);
-  FollowedModes followed{Eigen::VectorXd::Constant(count, kUnknown), Eigen::VectorXd::Constant(count, kUnknown), {}};
-  for (Index i = 0; i < count; ++i) {
-    const int at = position[static_cast<std::size_t>(i)];
-    followed.position.push_back(at);
-    if (at < 0) continue;
-    followed.frequency_Hz[i] = changed.modes.frequency_Hz[at];
-    followed.mac[i] = likeness(i, at);
-  }
-  return followed;
-}
 
 ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::string& mesh, int n_modes, int extra_modes,
                           const std::function<void(int done, int of)>& progress) {
@@ -157,7 +74,7 @@ void write_changes(const ChangeStudy& study, const std::filesystem::path& folder
                      "effect_cumulative_pct", "mac_alone", "mac_cumulative"});
   const auto known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); };
   for (const ChangeEffect& effect : study.effects) {
-    for (Index i = 0; i < study.before_Hz.size(); ++i) {
+    for (Eigen::Index i = 0; i < study.before_Hz.size(); ++i) {
       const double before = study.before_Hz[i], alone = effect.alone.frequency_Hz[i];
       csv.row({effect.change.name, effect.change.paper_item, effect.change.meaning, static_cast<long>(i + 1), before,
                known(alone), known(100.0 * (alone / before - 1.0)),

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "modal/mac.hpp"
-#include "steps/shared/measured_shapes.hpp"
+#include "steps/measured/measured_shapes.hpp"
 
 namespace twindeck::steps {
 
@@ -35,7 +35,7 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
                           const Place& place) {
   Pairing pairing;
   pairing.method = "published";
-  for (const modal::NamedPair& pair : modal::read_pairs(published, n_numerical, place, "raise n_modes")) {
+  for (const matching::NamedPair& pair : matching::read_pairs(published, n_numerical, place, "raise n_modes")) {
     const auto at = std::find(measured.labels.begin(), measured.labels.end(), pair.experimental);
     if (at != measured.labels.end())
       pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), pair.numerical, kUnknown, false});
@@ -54,7 +54,7 @@ void warn_of_unmeasured(StepContext& context, const Pairing& pairing) {
 }
 
 Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
-                        const modal::PairingOptions& options, double sensor_tolerance_m) {
+                        const matching::PairingOptions& options, double sensor_tolerance_m) {
   if (!measured.modes.has_shapes()) {
     throw InputError({measured.source, 0, "shape"}, "holds no measured shape, so that modes can't be paired by MAC",
                      "give shapes, or pairs");
@@ -71,15 +71,16 @@ Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, cons
   const Eigen::MatrixXcd phi_moving = phi_n(Eigen::all, moving);
   const Eigen::VectorXd frequency_moving = modes.frequency_Hz(moving);
   pairing.mac(moving, Eigen::all) = modal::mac_where_measured(phi_moving, measured.modes.shapes);
-  pairing.pairs = modal::pair_by_mac(measured.modes.frequency_Hz, measured.modes.shapes, frequency_moving, phi_moving, options);
-  for (modal::ModePair& pair : pairing.pairs) pair.numerical = moving[static_cast<std::size_t>(pair.numerical)];
+  pairing.pairs =
+      matching::pair_by_mac(measured.modes.frequency_Hz, measured.modes.shapes, frequency_moving, phi_moving, options);
+  for (matching::ModePair& pair : pairing.pairs) pair.numerical = moving[static_cast<std::size_t>(pair.numerical)];
   return pairing;
 }
 
 std::vector<ComparisonRow> compare(const std::string& stage, const Measured& measured, const Eigen::VectorXd& computed_Hz,
                                    const Pairing& pairing) {
   std::vector<ComparisonRow> rows;
-  for (const modal::ModePair& pair : pairing.pairs) {
+  for (const matching::ModePair& pair : pairing.pairs) {
     rows.push_back({stage, label(measured, pair.experimental), numerical_label(pair.numerical),
                     measured.modes.frequency_Hz[pair.experimental], computed_Hz[pair.numerical], known(pair.mac),
                     pairing.method});
@@ -118,7 +119,7 @@ void write_mac(const Measured& measured, const Pairing& pairing, const std::file
 
 void write_pairs(const Measured& measured, const Pairing& pairing, const std::filesystem::path& folder) {
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "mac", "clustered"});
-  for (const modal::ModePair& pair : pairing.pairs) {
+  for (const matching::ModePair& pair : pairing.pairs) {
     csv.row({label(measured, pair.experimental), numerical_label(pair.numerical), known(pair.mac), pair.clustered ? 1 : 0});
   }
   csv.save(folder / "pairs.csv");

@@ -7,22 +7,22 @@
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
-#include "modal/mode_name.hpp"
-#include "modal/pairing.hpp"
-#include "steps/shared/measured.hpp"
+#include "matching/mode_name.hpp"
+#include "matching/pairing.hpp"
+#include "steps/measured/measured.hpp"
 #include "steps/shared/model_source.hpp"
 
 /// Measured against computed modes: shared by s4_refinement and s6_updating.
 namespace twindeck::steps {
 
-using modal::numerical_label;
+using matching::numerical_label;
 
 /// How measured modes were given their numerical partners.
 struct Pairing {
-  std::vector<modal::ModePair> pairs;  ///< in the order of the measured modes
-  std::string method;                  ///< "order" | "published" | "mac"
-  Eigen::MatrixXd mac;                 ///< (n_N × n_X) at the sensors; empty where no shape was measured
-  std::vector<std::string> unmeasured;  ///< measured modes of a published list that are not among the measured ones
+  std::vector<matching::ModePair> pairs;  ///< in the order of the measured modes
+  std::string method;                     ///< "order" | "published" | "mac"
+  Eigen::MatrixXd mac;                    ///< (n_N × n_X) at the sensors; empty where no shape was measured
+  std::vector<std::string> unmeasured;    ///< measured modes of a published list that are not among the measured ones
 };
 
 /// First measured with first computed mode, and so on; only the measured modes for which `keep` is true (all if it is empty).
@@ -41,7 +41,7 @@ void warn_of_unmeasured(StepContext& context, const Pairing& pairing);
 /// By MAC at the sensors, one-to-one.
 /// @throws InputError  if no shape was measured, or a sensor can't be placed on the model
 [[nodiscard]] Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
-                                      const modal::PairingOptions& options, double sensor_tolerance_m);
+                                      const matching::PairingOptions& options, double sensor_tolerance_m);
 
 /// A row of comparison.csv; error = (f_N - f_X)/f_X as in Tables 6, 7 and 9.
 struct ComparisonRow {

@@ -46,7 +46,7 @@ std::string guess_of(double ratio) {
 /// Each measured mode's computed one by shape alone, one-to-one; -1 where none is the same.
 std::vector<int> same_shapes(const Eigen::MatrixXd& mac) {
   const Eigen::MatrixXd alike = (mac.array() >= same_shape_mac).select(mac.array(), 0.0).matrix().transpose();
-  std::vector<int> at = modal::follow_modes(alike);
+  std::vector<int> at = matching::follow_modes(alike);
   for (std::size_t i = 0; i < at.size(); ++i)
     if (at[i] >= 0 && !(alike(static_cast<Index>(i), at[i]) > 0.0)) at[i] = -1;
   return at;

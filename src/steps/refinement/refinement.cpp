@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "model_io/export.hpp"
+#include "steps/measured/measured.hpp"
 #include "steps/refinement/comparison.hpp"
-#include "steps/shared/measured.hpp"
 #include "steps/shared/model_outputs.hpp"
 #include "steps/shared/study.hpp"
 #include "steps/shared/unit_slips.hpp"
@@ -25,7 +25,8 @@ io::FieldTable RefinementConfig::fields() {
       .texts("pairs", pairs,
              "published assignment, measured-numerical (\"7X-8N\"), used where no shape was measured; empty: by order")
       .text("condition", condition,
-            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where dampers were "
+            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where "
+            "dampers were "
             "switched the only one without")
       .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairs by MAC below it are none; the modes stay unpaired")
       .number("least_paired", least_paired, "", {0.0, 1.0},
@@ -52,12 +53,12 @@ LoadedModel refined_model(StepContext& context, const RefinementConfig& config, 
 /// Measured modes that take part: those of the published pairs where such a list is used, otherwise all.
 std::vector<bool> compared_modes(const Measured& measured, const Pairing& refined) {
   std::vector<bool> keep(measured.labels.size(), refined.method != "published");
-  for (const modal::ModePair& pair : refined.pairs) keep[static_cast<std::size_t>(pair.experimental)] = true;
+  for (const matching::ModePair& pair : refined.pairs) keep[static_cast<std::size_t>(pair.experimental)] = true;
   return keep;
 }
 
 Pairing pair_refined(const StepContext& context, const RefinementConfig& config, const Measured& measured,
-                     const SolvedModel& refined, const modal::PairingOptions& options) {
+                     const SolvedModel& refined, const matching::PairingOptions& options) {
   if (measured.modes.has_shapes())
     return pair_at_sensors(measured, refined.loaded, refined.modes, options, config.sensor_tolerance_m);
   if (config.pairs.empty()) return pair_by_order(measured, refined.modes.frequency_Hz.size());
@@ -71,7 +72,7 @@ PairingAccount compare_with_measurement(StepContext& context, const RefinementCo
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
   const Measured some = measured.value_or(Measured{});
   warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
-  const modal::PairingOptions options{config.minimum_mac, config.maximum_frequency_error, config.cluster_gap};
+  const matching::PairingOptions options{config.minimum_mac, config.maximum_frequency_error, config.cluster_gap};
   Pairing after, before;
   PairingAccount account;
   if (measured) {
@@ -91,7 +92,8 @@ PairingAccount compare_with_measurement(StepContext& context, const RefinementCo
   write_pairs(some, after, context.out);
   if (!rows.empty()) {
     context.say(fmt::format("mean |error| of {} pairs: initial {:.2f} %, refined {:.2f} % (pairs by {}){}", after.pairs.size(),
-                            mean_abs_error_pct(rows, "initial"), mean_abs_error_pct(rows, "refined"), after.method, pairing_words(account)));
+                            mean_abs_error_pct(rows, "initial"), mean_abs_error_pct(rows, "refined"), after.method,
+                            pairing_words(account)));
   }
   return account;
 }

@@ -8,10 +8,9 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "io/config.hpp"
-#include "linalg/types.hpp"
 #include "ponte/generator.hpp"
 #include "steps/refinement/pairing_account.hpp"
-#include "steps/shared/model_source.hpp"
+#include "steps/shared/solved_model.hpp"
 
 /// As-built changes and comparison with the measurement: paper section 4.1, Tables 6 and 7.
 namespace twindeck::steps {
@@ -29,28 +28,6 @@ struct RefinementConfig {
   double sensor_tolerance_m = 0.5;  ///< largest distance of a sensor from its node
   [[nodiscard]] io::FieldTable fields();
 };
-
-/// What the changes do to one state of the structure: frequencies of the preliminary modes, followed into it.
-struct FollowedModes {
-  Eigen::VectorXd frequency_Hz;  ///< (n_modes) in the order of the reference; NaN where a mode was lost
-  Eigen::VectorXd mac;           ///< (n_modes) of each with its reference mode
-  std::vector<int> position;     ///< (n_modes) in the changed model's own order, -1 where lost
-};
-
-/// A model with its modes, kept for following.
-struct SolvedModel {
-  LoadedModel loaded;
-  dynamics::EigenModes modes;
-  linalg::SparseMatrix mass;    ///< lower triangle (n × n)
-  Eigen::MatrixXd mass_shapes;  ///< M Phi (n × n_modes)
-};
-[[nodiscard]] SolvedModel solve_modes(LoadedModel loaded, int n_modes);
-
-/// MAC of two models' modes (n_a × n_b): weighted by the mass of `a` where both have the same degrees of freedom; where their
-/// meshes differ, at the translations of the nodes that they have in common (the same coordinates).
-[[nodiscard]] Eigen::MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b);
-/// Follows the first `count` modes of `reference` into `changed`, one-to-one.
-[[nodiscard]] FollowedModes follow(const SolvedModel& reference, const SolvedModel& changed, Eigen::Index count);
 
 /// One as-built change: alone on the preliminary model, and on top of those before it.
 struct ChangeEffect {

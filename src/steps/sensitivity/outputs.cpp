@@ -16,7 +16,7 @@ bool is_published(const SensitivityConfig& config, const std::string& name) {
          config.published_selection.end();
 }
 
-bool is_resolved(const Identifiability& identified, const SensitivityConfig& config, Eigen::Index p) {
+bool is_resolved(const sensitivity::Identifiability& identified, const SensitivityConfig& config, Eigen::Index p) {
   return identified.resolution(p) >= config.resolution_cutoff;
 }
 
@@ -87,11 +87,12 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
 void refuse_rigid_bodies(const Sensitivities& found, const std::string& source) {
   const auto rigid = (found.frequency_Hz.array() == 0.0).count();
   if (rigid == 0) return;
-  throw InputError({source, 0, "frequency_Hz"},
-                   fmt::format("{} of {} modes are computed at 0 Hz, so that no parameter changes their frequency by a share", rigid,
-                               found.frequency_Hz.size()),
-                   "hold the structure by supports or springs; if it is held, look for an absurd mass or stiffness, beside which "
-                   "the others are lost in rounding");
+  throw InputError(
+      {source, 0, "frequency_Hz"},
+      fmt::format("{} of {} modes are computed at 0 Hz, so that no parameter changes their frequency by a share", rigid,
+                  found.frequency_Hz.size()),
+      "hold the structure by supports or springs; if it is held, look for an absurd mass or stiffness, beside which "
+      "the others are lost in rounding");
 }
 
 Eigen::MatrixXd scaled_sensitivity(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
@@ -127,7 +128,7 @@ void write_sensitivity(const std::vector<fe::Parameter>& parameters, const Sensi
   csv.save(file);
 }
 
-void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<SelectedParameter>& selection,
+void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
                      const SensitivityConfig& config, const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "unit", "score", "rank", "selected", "published", "reason"});
   for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -137,7 +138,7 @@ void write_selection(const std::vector<fe::Parameter>& parameters, const std::ve
   csv.save(file);
 }
 
-void write_singular_values(const Identifiability& identified, const SensitivityConfig& config,
+void write_singular_values(const sensitivity::Identifiability& identified, const SensitivityConfig& config,
                            const std::filesystem::path& file) {
   io::CsvWriter csv({"index", "value", "relative", "identifiable"});
   const Eigen::VectorXd& values = identified.singular_values;
@@ -148,7 +149,7 @@ void write_singular_values(const Identifiability& identified, const SensitivityC
   csv.save(file);
 }
 
-void write_identifiability(const std::vector<fe::Parameter>& parameters, const Identifiability& identified,
+void write_identifiability(const std::vector<fe::Parameter>& parameters, const sensitivity::Identifiability& identified,
                            const SensitivityConfig& config, const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "identifiable", "resolution"});
   for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -159,8 +160,8 @@ void write_identifiability(const std::vector<fe::Parameter>& parameters, const I
 }
 
 std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters, const Sensitivities& found,
-                                            const std::vector<SelectedParameter>& selection, const Identifiability& identified,
-                                            const SensitivityConfig& config) {
+                                            const std::vector<sensitivity::SelectedParameter>& selection,
+                                            const sensitivity::Identifiability& identified, const SensitivityConfig& config) {
   std::vector<std::string> kept, only_here, only_there, resolved, lines;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const std::string& name = parameters[p].name;

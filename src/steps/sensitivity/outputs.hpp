@@ -6,7 +6,7 @@
 
 #include "fe/model.hpp"
 #include "io/config.hpp"
-#include "steps/sensitivity/selection.hpp"
+#include "sensitivity/selection.hpp"
 #include "steps/sensitivity/sensitivity.hpp"
 
 namespace twindeck::steps {
@@ -32,7 +32,8 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
 [[nodiscard]] std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters);
 
 /// @param source  the model, for the message
-/// @throws InputError  if a mode has no frequency to change: a free structure, or one beside whose largest mass or stiffness the
+/// @throws InputError  if a mode has no frequency to change: a free structure, or one beside whose largest mass or stiffness
+/// the
 ///         rest is rounding
 void refuse_rigid_bodies(const Sensitivities& found, const std::string& source);
 
@@ -46,19 +47,20 @@ void refuse_rigid_bodies(const Sensitivities& found, const std::string& source);
 void write_sensitivity(const std::vector<fe::Parameter>& parameters, const Sensitivities& found,
                        const std::filesystem::path& file);
 /// `selection.csv`: parameter,unit,score,rank,selected,published,reason
-void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<SelectedParameter>& selection,
+void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
                      const SensitivityConfig& config, const std::filesystem::path& file);
 /// `singular_values.csv`: index,value,relative,identifiable
-void write_singular_values(const Identifiability& identified, const SensitivityConfig& config,
+void write_singular_values(const sensitivity::Identifiability& identified, const SensitivityConfig& config,
                            const std::filesystem::path& file);
 /// `identifiability.csv`: parameter,identifiable,resolution
-void write_identifiability(const std::vector<fe::Parameter>& parameters, const Identifiability& identified,
+void write_identifiability(const std::vector<fe::Parameter>& parameters, const sensitivity::Identifiability& identified,
                            const SensitivityConfig& config, const std::filesystem::path& file);
 
 /// For people: agreement of the three ways, selection beside the paper's, directions that the frequencies see.
 [[nodiscard]] std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,
                                                           const Sensitivities& found,
-                                                          const std::vector<SelectedParameter>& selection,
-                                                          const Identifiability& identified, const SensitivityConfig& config);
+                                                          const std::vector<sensitivity::SelectedParameter>& selection,
+                                                          const sensitivity::Identifiability& identified,
+                                                          const SensitivityConfig& config);
 
 }  // namespace twindeck::steps

@@ -5,9 +5,9 @@
 #include <mutex>
 
 #include "core/parallel.hpp"
-#include "dynamics/eigen_sensitivity.hpp"
 #include "dynamics/eigenmodes.hpp"
-#include "updating/mode_following.hpp"
+#include "matching/mode_following.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 // Frequencies of the reference modes in a perturbed system.
 class PerturbedFrequencies {
  public:
-  PerturbedFrequencies(const fe::ParametricSystem& system, const updating::ModeFollower& follower, const Eigen::VectorXd& theta,
+  PerturbedFrequencies(const fe::ParametricSystem& system, const matching::ModeFollower& follower, const Eigen::VectorXd& theta,
                        int n_modes)
       : solver_(system), follower_(follower), theta_(theta), n_modes_(n_modes) {}
 
@@ -27,7 +27,7 @@ class PerturbedFrequencies {
       if (status.converged) status = modes.status;
       return Eigen::VectorXd::Constant(n_modes_, std::nan(""));
     }
-    const updating::FollowedModes followed = follower_.follow(modes.shapes);
+    const matching::FollowedModes followed = follower_.follow(modes.shapes);
     Eigen::VectorXd frequency(n_modes_);
     for (int i = 0; i < n_modes_; ++i) frequency(i) = modes.frequency_Hz(followed.position[static_cast<std::size_t>(i)]);
     return frequency;
@@ -37,7 +37,7 @@ class PerturbedFrequencies {
 
  private:
   dynamics::ModalSolver solver_;
-  const updating::ModeFollower& follower_;
+  const matching::ModeFollower& follower_;
   const Eigen::VectorXd& theta_;
   int n_modes_;
 };
@@ -51,7 +51,7 @@ double central_step(const Sensitivities& known, const Eigen::MatrixXd& relative,
   return std::min(step, options.largest_central_step) * known.scale(parameter);
 }
 
-Status differentiate(const fe::ParametricSystem& system, const updating::ModeFollower& follower, int n_solved, int parameter,
+Status differentiate(const fe::ParametricSystem& system, const matching::ModeFollower& follower, int n_solved, int parameter,
                      double central, const SensitivityOptions& options, Sensitivities& out) {
   PerturbedFrequencies frequencies(system, follower, out.theta, n_solved);
   const auto n = out.frequency_Hz.size();
@@ -95,9 +95,9 @@ Sensitivities frequency_sensitivities(const fe::ParametricSystem& system, const 
   if (!modes.status.converged) return out;
   const int n_modes = std::min(options.n_modes, n_solved);
   out.frequency_Hz = modes.frequency_Hz.head(n_modes);
-  out.exact = dynamics::frequency_jacobian(system, theta, modes).topRows(n_modes);
+  out.exact = sensitivity::frequency_jacobian(system, theta, modes).topRows(n_modes);
   out.richardson = out.forward = Eigen::MatrixXd::Zero(n_modes, n_parameters);
-  const updating::ModeFollower follower(solver.mass(), modes);
+  const matching::ModeFollower follower(solver.mass(), modes);
   const Eigen::MatrixXd relative = out.relative();
 
   std::vector<Status> of_parameter(static_cast<std::size_t>(n_parameters));

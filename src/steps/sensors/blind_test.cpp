@@ -5,13 +5,13 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
-#include "dynamics/trapezoidal.hpp"
 #include "signal/condition.hpp"
 #include "signal/correlation.hpp"
 #include "signal/welch.hpp"
 #include "steps/sensors/sensor_layout.hpp"
 #include "sysid/ssi_cov.hpp"
 #include "sysid/stabilisation.hpp"
+#include "transient/trapezoidal.hpp"
 
 namespace twindeck::steps {
 using Eigen::Index;
@@ -22,16 +22,17 @@ namespace {
 
 constexpr int kFrameStride = 1000;  // keeps the orders of different frames apart in one list
 
-/// Modal accelerations under white loads at all candidates, alike and independent, drawn there and projected; their density gives the
-/// modes 1 (N²/kg)/Hz in the mean. One row a sample.
-MatrixXd modal_accelerations(const SensorsConfig& config, const VectorXd& frequency_Hz, const MatrixXd& phi, std::uint64_t seed) {
+/// Modal accelerations under white loads at all candidates, alike and independent, drawn there and projected; their density
+/// gives the modes 1 (N²/kg)/Hz in the mean. One row a sample.
+MatrixXd modal_accelerations(const SensorsConfig& config, const VectorXd& frequency_Hz, const MatrixXd& phi,
+                             std::uint64_t seed) {
   constexpr std::uint64_t kStream = 1000000;  // beyond those of the draws of setups
   const Index n = frequency_Hz.size(), samples = std::lround(config.duration_s * config.rate_Hz);
   const Index warm_up = std::lround(config.warm_up_s * config.rate_Hz);
   const double density = std::sqrt(static_cast<double>(n)) / phi.norm();
   const MatrixXd load = std::sqrt(0.5 * config.rate_Hz) * density * phi.transpose();
-  dynamics::TrapezoidalStepper stepper(2.0 * std::numbers::pi * frequency_Hz, VectorXd::Constant(n, config.damping_ratio),
-                                       1.0 / config.rate_Hz);
+  transient::TrapezoidalStepper stepper(2.0 * std::numbers::pi * frequency_Hz, VectorXd::Constant(n, config.damping_ratio),
+                                        1.0 / config.rate_Hz);
   MatrixXd out(samples, n);
   VectorXd white(phi.rows());
   for (Index t = -warm_up; t < samples; ++t) {

@@ -64,7 +64,8 @@ struct BlindTestResult {
 };
 
 /// Section 3.1: white noise all over the bridge, independent from candidate to candidate; the model's modes by the trapezoidal
-/// rule, every `downsample`-th sample, frames, SSI of each frame at all orders, criteria of stabilisation, cleaning over all frames.
+/// rule, every `downsample`-th sample, frames, SSI of each frame at all orders, criteria of stabilisation, cleaning over all
+/// frames.
 /// @param frequency_Hz (n_modes)
 [[nodiscard]] BlindTestResult blind_test(const SensorsConfig& config, const Eigen::VectorXd& frequency_Hz,
                                          const std::vector<ScoredSetup>& setups, const Eigen::MatrixXd& phi,

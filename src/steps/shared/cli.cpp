@@ -72,7 +72,8 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
       ->type_name("DIR");
   app.add_option("--results", results, "root that results of earlier steps are read from (default: the folder above --out)")
       ->type_name("DIR");
-  app.add_option("--model", model, "model folder, or .inp, Nastran or ANSYS file, to use instead of the study's")->type_name("DIR");
+  app.add_option("--model", model, "model folder, or .inp, Nastran or ANSYS file, to use instead of the study's")
+      ->type_name("DIR");
   app.add_option("--campaign", campaign, "campaign folder (raw records) to use instead of the study's")->type_name("DIR");
   app.add_option("--modes", modes, "folder with measured modes.csv to use instead of the study's")->type_name("DIR");
   app.add_option("--features", features, "features folder to use instead of the study's")->type_name("DIR");

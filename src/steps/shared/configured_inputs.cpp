@@ -18,7 +18,8 @@ void ConfiguredInputs::apply(const Step& step, StepContext& context) const {
     if (folder || configured.empty()) return;
     const fs::path path = context.resolved(configured);
     if (!fs::exists(path)) {
-      throw InputError(step.fields.place_of(name).value_or(Place{"", 0, name}), "is '" + path.string() + "', which is not there",
+      throw InputError(step.fields.place_of(name).value_or(Place{"", 0, name}),
+                       "is '" + path.string() + "', which is not there",
                        std::string("run the step or the script that writes it, or give --") + name + " DIR");
     }
     folder = path;

@@ -43,8 +43,8 @@ modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSyste
 }
 
 void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder) {
-  io::CsvWriter stays({"stay", "group", "length_m", "pull_N", "site_pull_N", "stress_Pa", "equivalent_modulus_Pa",
-                       "deviation_from_site_pct"});
+  io::CsvWriter stays(
+      {"stay", "group", "length_m", "pull_N", "site_pull_N", "stress_Pa", "equivalent_modulus_Pa", "deviation_from_site_pct"});
   for (std::size_t i = 0; model != nullptr && i < model->elements.size(); ++i) {
     const fe::Element& e = model->elements[i];
     if (e.type != fe::ElementType::stay) continue;

@@ -95,8 +95,8 @@ std::string describe(const Step& step, const std::string& key) {
   return step.fields.describe(key);
 }
 
-/// The line of an InputError that names no file: a key of the configuration stands where it was given, anything else concerns the
-/// study or the model that the step was run on.
+/// The line of an InputError that names no file: a key of the configuration stands where it was given, anything else concerns
+/// the study or the model that the step was run on.
 std::string located(const InputError& error, const Step& step, const StepContext& context) {
   if (!error.place().file.empty()) return error.what();
   const std::optional<Place> given = error.place().key.empty() ? std::nullopt : step.fields.place_of(error.place().key);
@@ -107,7 +107,8 @@ std::string located(const InputError& error, const Step& step, const StepContext
   return (source.empty() ? "command line" : source) + ": " + error.what();
 }
 
-int compute(int argc, char** argv, const CommandLine& line, Step& step, const ConfiguredInputs& configured, StepContext& context) {
+int compute(int argc, char** argv, const CommandLine& line, Step& step, const ConfiguredInputs& configured,
+            StepContext& context) {
   const auto start = std::chrono::steady_clock::now();
   const fs::path out = io::without_trailing_slash(line.out);
   const fs::path unconverged = unconverged_place(out);

@@ -25,11 +25,11 @@ constexpr Band usual_speed_m_s{2500.0, 6500.0};      ///< concrete, timber, alum
 constexpr double heavy_kg_m3 = 2200.0;               ///< concrete and metals; soil and rubber, which are slow, lie below
 constexpr double longest_structure_m = 10000.0;      ///< one model; the longest bridges have spans of 2 km
 constexpr double long_structure_m = 500.0;           ///< from here on members are looked at
-constexpr double slenderest_member = 2000.0;         ///< [-] median of element length over depth; a cable in few pieces has 1000
-constexpr Band structure_Hz{0.01, 10000.0};          ///< first mode: the longest suspension bridges have 0.03 to 0.05 Hz
-constexpr double rigid_body = 1e-5;                  ///< [-] of the highest computed frequency: rounding of zero
-constexpr double stands_off = 50.0;                  ///< [-] from one measured frequency to the next; bands are not that far apart
-constexpr double most_model_error = 5.0;             ///< [-] between measured and computed frequencies
+constexpr double slenderest_member = 2000.0;  ///< [-] median of element length over depth; a cable in few pieces has 1000
+constexpr Band structure_Hz{0.01, 10000.0};   ///< first mode: the longest suspension bridges have 0.03 to 0.05 Hz
+constexpr double rigid_body = 1e-5;           ///< [-] of the highest computed frequency: rounding of zero
+constexpr double stands_off = 50.0;           ///< [-] from one measured frequency to the next; bands are not that far apart
+constexpr double most_model_error = 5.0;      ///< [-] between measured and computed frequencies
 
 /// Another unit for a number, with what it multiplies the number by.
 struct OtherUnit {
@@ -42,9 +42,10 @@ std::optional<std::string> modulus_slip(const fe::Material& m, double speed) {
     const Band& band = unit.factor == 1e3 ? usual_speed_m_s : material_speed_m_s;  // soft soil is near metals in kPa
     if (unit.factor == 1e3 && m.density_kg_m3 < heavy_kg_m3) continue;
     if (!band.holds(speed * std::sqrt(unit.factor))) continue;
-    return fmt::format("material '{}' has E = {:g} Pa, so that waves run at {:.3g} m/s in it; steel has 5200, concrete 3500: is E "
-                       "in {}? Give pascals",
-                       m.name, m.youngs_modulus_Pa, speed, unit.name);
+    return fmt::format(
+        "material '{}' has E = {:g} Pa, so that waves run at {:.3g} m/s in it; steel has 5200, concrete 3500: is E "
+        "in {}? Give pascals",
+        m.name, m.youngs_modulus_Pa, speed, unit.name);
   }
   return std::nullopt;
 }
@@ -56,9 +57,10 @@ std::optional<std::string> density_slip(const fe::Material& m, double speed) {
     const double modulus = unit.factor >= 1e9 && m.youngs_modulus_Pa < 1e7 ? 1e6 : 1.0;  // N, mm and t go together
     if (!Band{300.0, 23000.0}.holds(density)) continue;
     if (!usual_speed_m_s.holds(speed * std::sqrt(modulus / unit.factor))) continue;
-    return fmt::format("material '{}' has a density of {:g} kg/m3, so that waves run at {:.3g} m/s in it; steel has 5200, concrete "
-                       "3500: is the density in {}? Give kg/m3",
-                       m.name, m.density_kg_m3, speed, unit.name);
+    return fmt::format(
+        "material '{}' has a density of {:g} kg/m3, so that waves run at {:.3g} m/s in it; steel has 5200, concrete "
+        "3500: is the density in {}? Give kg/m3",
+        m.name, m.density_kg_m3, speed, unit.name);
   }
   return std::nullopt;
 }
@@ -98,8 +100,9 @@ std::optional<std::string> length_slip(const fe::Model& model) {
   }
   if (span > longest_structure_m || (span > long_structure_m && middle > slenderest_member))
     return fmt::format("the structure spans {:.4g} m{}: are the coordinates in mm? Give metres", span,
-                       middle > 0.0 ? fmt::format(", and half of its elements are {:.3g} and more times as long as deep", middle)
-                                    : std::string());
+                       middle > 0.0
+                           ? fmt::format(", and half of its elements are {:.3g} and more times as long as deep", middle)
+                           : std::string());
   return std::nullopt;
 }
 
@@ -110,9 +113,10 @@ std::optional<std::string> section_slip(const fe::Model& model) {
     const fe::Section& s = model.sections[static_cast<std::size_t>(e.section)];
     const double size = e.type == fe::ElementType::shell ? s.thickness_m : std::sqrt(s.area_m2);
     if (!(size > span)) continue;
-    return fmt::format("section '{}' is {:.3g} m across, more than the whole structure ({:.3g} m): is it in mm or cm? Give "
-                       "m, m2 and m4",
-                       s.name, size, span);
+    return fmt::format(
+        "section '{}' is {:.3g} m across, more than the whole structure ({:.3g} m): is it in mm or cm? Give "
+        "m, m2 and m4",
+        s.name, size, span);
   }
   return std::nullopt;
 }
@@ -153,11 +157,11 @@ std::vector<std::string> outliers(const MeasuredFrequencies& measured) {
     for (std::size_t i = from; i < to; ++i) {
       const double value = measured_Hz[order[i]], scaled = upper ? value / 1000.0 : value * 1000.0;
       const bool fits = scaled >= low / 3.0 && scaled <= 3.0 * high;
-      slips.push_back(fmt::format(
-          "mode {} is measured at {:g} Hz, but the others lie between {:g} and {:g} Hz{}", measured.names[static_cast<std::size_t>(order[i])],
-          value, low, high,
-          fits ? fmt::format(": is it in {}, or is the decimal point lost? {:g} Hz would be among them", upper ? "mHz" : "kHz", scaled)
-               : std::string(": check its unit")));
+      slips.push_back(fmt::format("mode {} is measured at {:g} Hz, but the others lie between {:g} and {:g} Hz{}",
+                                  measured.names[static_cast<std::size_t>(order[i])], value, low, high,
+                                  fits ? fmt::format(": is it in {}, or is the decimal point lost? {:g} Hz would be among them",
+                                                     upper ? "mHz" : "kHz", scaled)
+                                       : std::string(": check its unit")));
     }
     return slips;
   }
@@ -189,8 +193,9 @@ std::vector<std::string> frequency_slips(const Eigen::VectorXd& computed_Hz, dou
   const Index at = first_elastic(computed_Hz);
   if (at == computed_Hz.size() || structure_Hz.holds(computed_Hz[at])) return {};
   const bool slow = computed_Hz[at] < structure_Hz.low;
-  return {fmt::format("the first mode is computed at {:.3g} Hz ({:.4g} kg move{}), {} than any structure: {}", computed_Hz[at], mass_kg,
-                      span_m > 0.0 ? fmt::format(", span {:.4g} m", span_m) : std::string(), slow ? "slower" : "faster",
+  return {fmt::format("the first mode is computed at {:.3g} Hz ({:.4g} kg move{}), {} than any structure: {}", computed_Hz[at],
+                      mass_kg, span_m > 0.0 ? fmt::format(", span {:.4g} m", span_m) : std::string(),
+                      slow ? "slower" : "faster",
                       slow ? "look for a modulus in MPa, coordinates in mm, a stiffness in kN/m or a mass in grams"
                            : "look for a mass in tonnes, a density in t/m3, or sections in mm")};
 }
@@ -219,24 +224,18 @@ std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, con
   std::string guess = "check the units of both";
   for (const Likely& likely : known)
     if (std::abs(std::log(ratio / likely.ratio)) < std::log(1.3)) guess = likely.words;
-  slips.push_back(fmt::format("the measured frequencies ({:g} to {:g} Hz) are {:.3g} times the computed ones ({:.3g} to {:.3g} Hz) in "
-                              "the order of both: {}",
-                              sorted[0], sorted[sorted.size() - 1], ratio, computed_Hz[first], computed_Hz[computed_Hz.size() - 1],
-                              guess));
+  slips.push_back(
+      fmt::format("the measured frequencies ({:g} to {:g} Hz) are {:.3g} times the computed ones ({:.3g} to {:.3g} Hz) in "
+                  "the order of both: {}",
+                  sorted[0], sorted[sorted.size() - 1], ratio, computed_Hz[first], computed_Hz[computed_Hz.size() - 1], guess));
   return slips;
-}
-
-std::vector<MeasuredFrequencies> frequencies_of(const std::optional<Measured>& measured) {
-  if (!measured) return {};
-  return {{measured->modes.names, measured->modes.frequency_Hz}};
 }
 
 void warn_of_unit_slips(StepContext& context, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                         const std::vector<MeasuredFrequencies>& measured) {
   std::vector<std::string> slips;
   if (loaded.model) slips = unit_slips(*loaded.model);
-  for (const std::string& slip :
-       frequency_slips(computed_Hz, moving_mass(loaded), loaded.model ? span_of(*loaded.model) : 0.0))
+  for (const std::string& slip : frequency_slips(computed_Hz, moving_mass(loaded), loaded.model ? span_of(*loaded.model) : 0.0))
     slips.push_back(slip);
   const Eigen::VectorXd compared_Hz = slips.empty() ? computed_Hz : Eigen::VectorXd();
   for (const MeasuredFrequencies& condition : measured)

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "fe/model.hpp"
-#include "steps/shared/measured.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
 
@@ -34,9 +32,6 @@ struct MeasuredFrequencies {
 /// in their order (a factor that is 2 pi, 60 or a thousand rather than a model's error).
 /// @param computed_Hz  ascending; empty to leave the comparison out
 [[nodiscard]] std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz);
-
-/// Input for a step that compares with one condition.
-[[nodiscard]] std::vector<MeasuredFrequencies> frequencies_of(const std::optional<Measured>& measured);
 
 /// Runs all checks and warns. If the model itself shows an error, the comparison with the measurement is left out, because it
 /// would show the same error.

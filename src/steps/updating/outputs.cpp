@@ -119,8 +119,8 @@ void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size
                          const updating::UpdatingResult& result, const std::filesystem::path& file) {
   if (result.left_out.empty()) return;
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "measured_Hz", "before_Hz", "fitted_Hz", "predicted_Hz",
-                     "error_before_pct", "error_fitted_pct", "error_predicted_pct", "parameters_on_bounds",
-                     "followed_mac", "converged"});
+                     "error_before_pct", "error_fitted_pct", "error_predicted_pct", "parameters_on_bounds", "followed_mac",
+                     "converged"});
   for (std::size_t i = 0; i < pairs; ++i) {
     const ComparisonRow &before = comparison.at(i), &after = comparison.at(pairs + i);
     const updating::LeftOut& left = result.left_out.at(i);
@@ -194,8 +194,9 @@ std::vector<std::string> report_lines(const std::vector<fe::Parameter>& paramete
                                 start.converged ? (static_cast<int>(k) == result.best ? "best" : "") : start.message));
   }
   if (result.smooth.theta.size() > 0) {
-    lines.push_back(fmt::format("by a smooth map of the bounds from start {}: cost {:.6e}, parameters within {:.2g} of their range after {} steps",
-                                result.best, result.smooth.cost, result.smooth.largest_difference, result.smooth.iterations));
+    lines.push_back(fmt::format(
+        "by a smooth map of the bounds from start {}: cost {:.6e}, parameters within {:.2g} of their range after {} steps",
+        result.best, result.smooth.cost, result.smooth.largest_difference, result.smooth.iterations));
   }
   return lines;
 }

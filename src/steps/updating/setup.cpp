@@ -28,8 +28,8 @@ std::vector<std::string> selected_by_sensitivity(StepContext& context) {
 
 bool has_range(const fe::Parameter& parameter) { return parameter.lower < parameter.upper; }
 
-modal::PairingOptions pairing_options(const UpdatingConfig& config) {
-  modal::PairingOptions options;
+matching::PairingOptions pairing_options(const UpdatingConfig& config) {
+  matching::PairingOptions options;
   options.minimum_mac = config.minimum_mac;
   options.maximum_frequency_error = config.maximum_frequency_error;
   options.cluster_gap = config.cluster_gap;
@@ -48,7 +48,8 @@ io::FieldTable UpdatingConfig::fields() {
       .texts("common_pairs", common_pairs,
              "measured modes (\"7X\") of a second mean error, over pairs that an earlier table has too")
       .text("condition", condition,
-            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where dampers were "
+            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where "
+            "dampers were "
             "switched the only one without")
       .number("trust_radius", trust_radius, "", io::positive(), "initial trust radius of the dogleg, in normalised parameters")
       .integer("starts", starts, {1.0, 1000.0}, "searches: from the initial values, and from seeded points inside the bounds")
@@ -185,7 +186,7 @@ Pairing pair_for_updating(StepContext& context, const UpdatingConfig& config, co
 
 std::vector<updating::FrequencyTarget> frequency_targets(const Measured& measured, const Pairing& pairing) {
   std::vector<updating::FrequencyTarget> targets;
-  for (const modal::ModePair& pair : pairing.pairs) {
+  for (const matching::ModePair& pair : pairing.pairs) {
     targets.push_back({measured.labels[static_cast<std::size_t>(pair.experimental)] + "-" + numerical_label(pair.numerical),
                        static_cast<int>(pair.numerical), measured.modes.frequency_Hz(pair.experimental),
                        measured.modes.frequency_std_Hz(pair.experimental)});
@@ -206,21 +207,22 @@ Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before, co
     pairing.mac = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m).mac;
   }
   for (std::size_t i = 0; i < pairing.pairs.size(); ++i) {
-    modal::ModePair& pair = pairing.pairs[i];
+    matching::ModePair& pair = pairing.pairs[i];
     pair.numerical = result.mode_after.at(i);
     if (pairing.mac.size() > 0) pair.mac = pairing.mac(pair.numerical, pair.experimental);
   }
   return pairing;
 }
 
-PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& followed, const LoadedModel& after,
-                             const dynamics::EigenModes& modes, const Measured& measured) {
+PairingAccount account_after(StepContext& context, const UpdatingConfig& config, const Pairing& followed,
+                             const LoadedModel& after, const dynamics::EigenModes& modes, const Measured& measured) {
   Pairing judged = followed;
   if (measured.modes.has_shapes()) {
     const Pairing anew = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
-    for (modal::ModePair& pair : judged.pairs)
-      for (const modal::ModePair& other : anew.pairs)
-        if (other.clustered && other.experimental == pair.experimental && other.numerical == pair.numerical) pair.mac = other.mac;
+    for (matching::ModePair& pair : judged.pairs)
+      for (const matching::ModePair& other : anew.pairs)
+        if (other.clustered && other.experimental == pair.experimental && other.numerical == pair.numerical)
+          pair.mac = other.mac;
   }
   const PairingAccount account = account_of(measured, judged, modes.frequency_Hz);
   warn_of_pairing(context, account, std::nullopt, "after the updating");

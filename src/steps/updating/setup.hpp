@@ -5,9 +5,9 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "io/config.hpp"
+#include "steps/measured/measured.hpp"
 #include "steps/refinement/comparison.hpp"
 #include "steps/refinement/pairing_account.hpp"
-#include "steps/shared/measured.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
 #include "updating/updating.hpp"

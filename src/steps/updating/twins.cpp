@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "dynamics/eigen_sensitivity.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
 
 namespace twindeck::steps {
 
@@ -17,10 +17,10 @@ constexpr double seen_from = 1.0;  ///< [standard deviations] of all frequencies
 /// Shift of each paired frequency, in its standard deviations, over half the range of each active parameter.
 Eigen::MatrixXd scaled_shifts(const LoadedModel& loaded, const dynamics::EigenModes& modes, const std::vector<int>& active,
                               const Measured& measured, const Pairing& pairing) {
-  const Eigen::MatrixXd exact = dynamics::frequency_jacobian(loaded.system, loaded.theta, modes);
+  const Eigen::MatrixXd exact = sensitivity::frequency_jacobian(loaded.system, loaded.theta, modes);
   Eigen::MatrixXd shifts(static_cast<Index>(pairing.pairs.size()), static_cast<Index>(active.size()));
   for (Index i = 0; i < shifts.rows(); ++i) {
-    const modal::ModePair& pair = pairing.pairs[static_cast<std::size_t>(i)];
+    const matching::ModePair& pair = pairing.pairs[static_cast<std::size_t>(i)];
     for (Index j = 0; j < shifts.cols(); ++j) {
       const int p = active[static_cast<std::size_t>(j)];
       const fe::Parameter& parameter = loaded.system.parameters[static_cast<std::size_t>(p)];

@@ -13,8 +13,8 @@ namespace twindeck::steps {
 /// Parameters that the paired frequencies cannot tell apart at the model's initial values, in sets: what one of a set does to
 /// the frequencies over half its allowed range, another does as well (or undoes) to within one standard deviation of all of
 /// them together. The two halves of a symmetric structure are the plainest case. A parameter that moves the frequencies by less
-/// than one deviation is in no set: it is not seen at all. Exact derivatives (dynamics::frequency_jacobian), in the scaling of
-/// step 5's selection.
+/// than one deviation is in no set: it is not seen at all. Exact derivatives (sensitivity::frequency_jacobian), in the scaling
+/// of step 5's selection.
 /// @param active  positions of the updated parameters
 /// @return names, each set in the order of the model; empty where all can be told apart
 [[nodiscard]] std::vector<std::vector<std::string>> indistinct_parameters(const LoadedModel& loaded,

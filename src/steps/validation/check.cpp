@@ -77,7 +77,7 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
 
   // The same waves sampled twice as often.
   const auto at_step = [&](double step_s) {
-    const dynamics::Newmark newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), step_s);
+    const transient::Newmark newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), step_s);
     const MatrixXd gusts = gusts_of_first_seed(bridge, set, config, event, step_s, context.seed);
     return vertical_rms(bridge, buffeting::respond(newmark, load, gusts, step_s, points, {config.lead_in_s}).acceleration_m_s2);
   };
@@ -109,15 +109,15 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
   const MatrixXd full = full_model_history(bridge.loaded, dampers, rayleigh, patterns, amplitude, observed, config.step_s);
 
   const aero::ReducedStructure& structure = bridge.reduced.structure;
-  dynamics::LinearSystem reduced;
+  transient::LinearSystem reduced;
   reduced.mass = MatrixXd::Identity(structure.size(), structure.size());
   reduced.stiffness = structure.omega_rad_s.cwiseAbs2().asDiagonal();
   reduced.damping = structure.viscous + rayleigh.mass_part * reduced.mass + rayleigh.stiffness_part * reduced.stiffness;
   for (const aero::MaxwellUnit& unit : structure.maxwell) {
-    dynamics::add_maxwell(reduced, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);
+    transient::add_maxwell(reduced, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);
   }
   const MatrixXd force = load * amplitude;
-  const dynamics::History history = dynamics::Newmark(reduced, config.step_s).run(force);
+  const transient::History history = transient::Newmark(reduced, config.step_s).run(force);
   const MatrixXd short_record = points * history.acceleration.topRows(points.cols());
   append(checks, "full_model", bridge, vertical_rms(bridge, full.transpose()), vertical_rms(bridge, short_record.transpose()));
   return checks;

@@ -1,6 +1,5 @@
-#include "steps/validation/validation.hpp"
-
 #include "steps/shared/limits.hpp"
+#include "steps/validation/validation.hpp"
 
 namespace twindeck::steps {
 

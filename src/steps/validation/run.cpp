@@ -8,7 +8,7 @@
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"
 #include "core/parallel.hpp"
-#include "steps/shared/turbulence_sets.hpp"
+#include "steps/aerodynamics/turbulence_sets.hpp"
 #include "steps/validation/outputs.hpp"
 #include "steps/validation/validation.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 struct Prepared {
   RunResult result;
   MatrixXd load;
-  dynamics::Newmark newmark;
+  transient::Newmark newmark;
 };
 
 /// Frequencies to the cutoff. The trapezoid rule over a resonance of damping xi errs by exp(-2 pi xi f / spacing): 0.3 % for
@@ -55,7 +55,7 @@ Prepared prepare(const BridgeInWind& bridge, const ValidationConfig& config, con
   result.spectral_rms = buffeting::band_rms(f, buffeting::response_spectra(system, event.speed_m_s, load, along, vertical,
                                                                            bridge.sensors.motion.topRows(points), f, options));
   return {result, load,
-          dynamics::Newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), config.step_s)};
+          transient::Newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), config.step_s)};
 }
 
 }  // namespace

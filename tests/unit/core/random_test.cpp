@@ -54,7 +54,7 @@ TEST(Random, WhiteNumbersHaveTheirMoments) {
     fourth += x * x * x * x / n;
   }
   EXPECT_NEAR(mean, 0.0, 4.0 / std::sqrt(n));
-  EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt(0.8 / n));     // 9/5 - 1
+  EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt(0.8 / n));         // 9/5 - 1
   EXPECT_NEAR(fourth, 9.0 / 5.0, 4.0 * std::sqrt(5.76 / n));  // 81/9 - 81/25
 }
 

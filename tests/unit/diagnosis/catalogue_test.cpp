@@ -1,4 +1,6 @@
 // The catalogue as data, and what it becomes for a model and rows. Oracles: counts by hand; the reasons that are promised.
+#include "steps/diagnosis/catalogue.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -7,7 +9,6 @@
 #include <set>
 
 #include "chain.hpp"
-#include "steps/diagnosis/catalogue.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -71,7 +72,8 @@ TEST(Catalogue, WhatTheseRowsCannotSeeIsSaidWithTheReason) {
 
 // Oracle: the message as a user reads it: file, line, key, what it is and what was expected.
 TEST(Catalogue, NumbersThatAreNoneAreRefusedWithTheirLine) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("twindeck-catalogue-" + std::to_string(::getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("twindeck-catalogue-" + std::to_string(::getpid()));
   const auto said = [&](const std::string& weight, const std::string& low, const std::string& rest = "") -> std::string {
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "gain.toml") << "[hypothesis]\nid = \"gain\"\nprior_weight = " << weight

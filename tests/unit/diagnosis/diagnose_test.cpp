@@ -81,7 +81,8 @@ TEST(Diagnose, WithoutTheTrueFamilyTheAnswerIsUnknown) {
     std::erase_if(without, [](const auto& h) { return h.id == "tie"; });
     const Examined e = diagnosed(chain, features, without);
     if (e.result.verdict == "unknown") ++unknown;
-    if (!e.result.effects.empty() && e.result.verdict != "unknown" && e.result.residual.p_value > 0.05) ++named_with_a_passing_test;
+    if (!e.result.effects.empty() && e.result.verdict != "unknown" && e.result.residual.p_value > 0.05)
+      ++named_with_a_passing_test;
   }
   EXPECT_GE(with_the_family, 9);
   EXPECT_LE(named_with_a_passing_test, 1);

@@ -1,15 +1,17 @@
-// What is published about the Ponte del Mare, as the account states it. Oracles: the printed numbers themselves (Table 8's changes against
-// the ranges of section 4.2, (0.92/0.748)² - 1, Table 10's diagonal) and, for Table 13, the ratio computed here from M1's own row; made-up
-// errors without a channel that stands off; Student's law of two and six degrees of freedom in tables.
+// What is published about the Ponte del Mare, as the account states it. Oracles: the printed numbers themselves (Table 8's
+// changes against the ranges of section 4.2, (0.92/0.748)² - 1, Table 10's diagonal) and, for Table 13, the ratio computed here
+// from M1's own row; made-up errors without a channel that stands off; Student's law of two and six degrees of freedom in
+// tables.
+#include "steps/diagnosis/evidence.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
 #include "chain.hpp"
-#include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/setup.hpp"
-#include "steps/shared/measured_tables.hpp"
+#include "steps/measured/measured_tables.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::tests {
@@ -19,7 +21,8 @@ const std::filesystem::path kFeatures = std::string(TWINDECK_SOURCE_DIR) + "/dat
 
 std::vector<steps::Finding> account() {
   diagnosis::Places places;
-  places.sets["supports"] = {{"support:ramp", {72.0, 3.0, 11.0}, {}, {}, {}, {}, {}}, {"support:mast", {0.0, 0.0, 0.0}, {}, {}, {}, {}, {}}};
+  places.sets["supports"] = {{"support:ramp", {72.0, 3.0, 11.0}, {}, {}, {}, {}, {}},
+                             {"support:mast", {0.0, 0.0, 0.0}, {}, {}, {}, {}, {}}};
   places.sets["damper_types"] = {{"dampers:C1,C2,C3,C4", {0.0, 0.0, 0.0}, {}, {}, {}, {}, {}}};
   return steps::account_of(steps::read_claims(kFeatures), steps::read_all_features(kFeatures),
                            steps::read_channels(kFeatures / "channels.csv"), places);
@@ -63,7 +66,8 @@ TEST(Evidence, OneAccelerometerStandsOffInEveryWindModelAndEvent) {
   ASSERT_EQ(factors.size(), 8u);
   EXPECT_EQ(factors[0].records, 6);
   // Raw mean of ln(1 + error) of M1 is 0.79; the records' own levels, medians over channels, lie within 0.2 of nothing.
-  const double raw = (std::log(2.216) + std::log(2.3664) + std::log(1.7194) + std::log(2.1513) + std::log(2.1931) + std::log(2.7405)) / 6.0;
+  const double raw =
+      (std::log(2.216) + std::log(2.3664) + std::log(1.7194) + std::log(2.1513) + std::log(2.1931) + std::log(2.7405)) / 6.0;
   EXPECT_NEAR(std::log(factors[0].factor), raw, 0.2);
   EXPECT_LT(factors[0].p_value, 0.05);
   for (std::size_t i = 1; i < factors.size(); ++i) EXPECT_GT(factors[i].p_value, 0.3) << factors[i].channel;
@@ -88,8 +92,14 @@ struct TwoDampers {
     moved.directions.resize(12, 2);
     const std::pair<std::string, int> where[] = {{"A", 3}, {"B", 8}};
     for (int i = 0; i < 2; ++i) {
-      diagnosis::Place damper{"damper:" + where[i].first, Eigen::Vector3d::Zero(), {}, {}, {},
-                              {{"damping", i == 0 ? 4e3 : 9e3}, {"stiffness", 0.0}, {"series", 0.0}, {"always_on", 0.0}, {"type", 0.0}}, {}};
+      diagnosis::Place damper{
+          "damper:" + where[i].first,
+          Eigen::Vector3d::Zero(),
+          {},
+          {},
+          {},
+          {{"damping", i == 0 ? 4e3 : 9e3}, {"stiffness", 0.0}, {"series", 0.0}, {"always_on", 0.0}, {"type", 0.0}},
+          {}};
       damper.directions.resize(12, 1);
       force(where[i].second, 0, damper.directions);
       force(where[1 - i].second, i, moved.directions);
@@ -103,7 +113,8 @@ struct TwoDampers {
     for (int m = 1; m <= 4; ++m)
       features.rows.push_back({diagnosis::RowType::damping, std::to_string(m), -1, "", 0, 1.0, 0.1, false});
     hypotheses = catalogue({"fric", "dampc"});
-    for (diagnosis::Hypothesis& h : steps::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/ponte_del_mare/hypotheses"))
+    for (diagnosis::Hypothesis& h :
+         steps::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/ponte_del_mare/hypotheses"))
       if (h.id == "fric" || h.id == "dampplace") hypotheses.push_back(h);
     entries = diagnosis::instantiate(hypotheses, *reduced, features);
     map = std::make_unique<diagnosis::FeatureMap>(*reduced, features, diagnosis::ScatterOptions{});
@@ -147,7 +158,8 @@ TEST(DampersElsewhere, ActWhereTheyAreMovedTo) {
   EXPECT_GT((moved - two.rows({})).cwiseAbs().maxCoeff(), 1e-3);
 }
 
-// Oracle: the definition. What the model's form leaves open is one unknown of a mode in all conditions, on top of each one's own error.
+// Oracle: the definition. What the model's form leaves open is one unknown of a mode in all conditions, on top of each one's
+// own error.
 TEST(ModelForm, IsCommonToTheConditionsOfAMode) {
   const Chain chain({.masses = 8, .modes = 3, .shapes = false});
   auto features = chain.measure(chain.as_modelled());
@@ -166,8 +178,8 @@ TEST(ModelForm, IsCommonToTheConditionsOfAMode) {
   EXPECT_NEAR(c(0, 4), 0.0, 1e-15);
 }
 
-// Oracle: K/16 leaves shapes alone and divides every frequency by four. Few of the model's modes lie below the highest measured one then,
-// and every measured mode must find its own all the same.
+// Oracle: K/16 leaves shapes alone and divides every frequency by four. Few of the model's modes lie below the highest measured
+// one then, and every measured mode must find its own all the same.
 TEST(FeatureMap, PredictsEveryModeOfAStructureFourTimesAsSlow) {
   const Chain chain({.masses = 8, .modes = 6});
   ChainTruth truth = chain.as_modelled();

@@ -1,5 +1,5 @@
-// Rows of load tests. Oracles: closed forms of Euler beams (deflection, rotation, strain and reactions of one span and of two, a
-// settlement, a temperature gradient by its end moments); the structure with all its degrees of freedom; central differences.
+// Rows of load tests. Oracles: closed forms of Euler beams (deflection, rotation, strain and reactions of one span and of two,
+// a settlement, a temperature gradient by its end moments); the structure with all its degrees of freedom; central differences.
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
@@ -20,7 +20,8 @@ constexpr double kEI = kModulus * kInertia;
 /// Spans of equal length along x on simple supports, with a row for each channel and load case.
 class Girder {
  public:
-  Girder(int spans, int elements, std::vector<diagnosis::NodalLoad> loads, int full_below, double bearing = 0.0) : loads_(std::move(loads)) {
+  Girder(int spans, int elements, std::vector<diagnosis::NodalLoad> loads, int full_below, double bearing = 0.0)
+      : loads_(std::move(loads)) {
     fe::Model model;
     model.source = "girder";
     const int nodes = spans * elements + 1;
@@ -55,7 +56,8 @@ class Girder {
     }
     model.parameters.push_back({"E", fe::Target::youngs_modulus, {"concrete"}, "Pa", kModulus, 0.7 * kModulus, 1.3 * kModulus});
     at_middle_ = elements / 2;
-    // Displacement and rotation in the middle of the first span, rotations at its ends, forces of all supports, strain below its middle.
+    // Displacement and rotation in the middle of the first span, rotations at its ends, forces of all supports, strain below
+    // its middle.
     add_channel("w", at_middle_ + 1, {0.0, 0.0, 1.0}, RowType::static_displacement);
     add_channel("r0", 1, {0.0, 1.0, 0.0}, RowType::static_rotation);
     add_channel("r1", elements + 1, {0.0, 1.0, 0.0}, RowType::static_rotation);
@@ -79,15 +81,16 @@ class Girder {
       features_.conditions.emplace_back();
       features_.conditions.back().name = features_.conditions.back().load = name;
       for (std::size_t c = 0; c < types_.size(); ++c)
-        features_.rows.push_back({types_[c], "", static_cast<int>(c), "", static_cast<int>(features_.conditions.size()) - 1, 1.0, 0.1, false});
+        features_.rows.push_back(
+            {types_[c], "", static_cast<int>(c), "", static_cast<int>(features_.conditions.size()) - 1, 1.0, 0.1, false});
     }
     prepared_ = steps::prepare_model(steps::from_model(model), channels_, 0.01);
     structure_ = prepared_->structure();
     places_ = diagnosis::find_places(structure_, {});
     std::vector<diagnosis::Gauge> gauges;
     for (std::size_t c = 0; c < channels_.size(); ++c)
-      gauges.push_back({structure_.sensor_nodes[c], channels_[c].direction, channels_[c].element, channels_[c].xi, channels_[c].fibre_m,
-                        channels_[c].support, 0});
+      gauges.push_back({structure_.sensor_nodes[c], channels_[c].direction, channels_[c].element, channels_[c].xi,
+                        channels_[c].fibre_m, channels_[c].support, 0});
     structure_.load_tests = diagnosis::load_tests_of(structure_, places_, loads_, gauges, "loads.csv", "channels.csv");
     diagnosis::ReductionOptions options;
     options.full_below = full_below;
@@ -158,9 +161,15 @@ class Girder {
 constexpr int kAll = 1 << 20;  // dofs: no structure here is reduced
 constexpr int kNone = 0;       // every one is
 
-diagnosis::NodalLoad down(const std::string& load, int node, double newton) { return {load, std::to_string(node), 2, -newton, false, 2}; }
-diagnosis::NodalLoad couple(const std::string& load, int node, double value) { return {load, std::to_string(node), 4, value, false, 2}; }
-diagnosis::NodalLoad moved(const std::string& load, int node, double metre) { return {load, std::to_string(node), 2, metre, true, 2}; }
+diagnosis::NodalLoad down(const std::string& load, int node, double newton) {
+  return {load, std::to_string(node), 2, -newton, false, 2};
+}
+diagnosis::NodalLoad couple(const std::string& load, int node, double value) {
+  return {load, std::to_string(node), 4, value, false, 2};
+}
+diagnosis::NodalLoad moved(const std::string& load, int node, double metre) {
+  return {load, std::to_string(node), 2, metre, true, 2};
+}
 
 TEST(LoadTests, ForceInTheMiddleOfASpan) {
   for (const int full_below : {kAll, kNone}) {
@@ -266,7 +275,8 @@ TEST(LoadTests, WhatTheModelCannotAnswerIsRefusedByLine) {
     return "";
   };
   EXPECT_NE(refused(down("left", 99, kForce)).find("loads.csv:2: node: '99' is no node"), std::string::npos);
-  EXPECT_NE(refused(moved("lowered", 3, -kFall)).find("loads.csv:2: node: no support holds node '3' in direction z"), std::string::npos);
+  EXPECT_NE(refused(moved("lowered", 3, -kFall)).find("loads.csv:2: node: no support holds node '3' in direction z"),
+            std::string::npos);
   EXPECT_EQ(refused(moved("lowered", 7, -kFall)), "");
 }
 

@@ -53,8 +53,8 @@ TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
   channel.direction = Eigen::Vector3d::UnitZ();
   const auto prepared = steps::prepare_model(steps::from_model(model), {channel}, 0.6);
   const auto structure = prepared->structure();
-  const auto places =
-      diagnosis::find_places(structure, {.max_zones = 8, .max_nodes = 4, .moves = {}, .zone_centres = {}, .node_positions = {}});
+  const auto places = diagnosis::find_places(
+      structure, {.max_zones = 8, .max_nodes = 4, .moves = {}, .zone_centres = {}, .node_positions = {}});
   diagnosis::ReductionOptions options;
   options.modes = 24;
   const diagnosis::ReducedModel reduced(structure, places, options);

@@ -70,7 +70,8 @@ TEST(States, PartsChangeInOneStateAndSensorsInAll) {
 }
 
 TEST(States, ModesArePairedWithinTheirState) {
-  // In the second state everything is four times as stiff, so that its first mode has the frequency of the first state's second.
+  // In the second state everything is four times as stiff, so that its first mode has the frequency of the first state's
+  // second.
   const Chain chain({.masses = 6, .modes = 4});
   ChainTruth stiff = chain.as_modelled();
   stiff.spring *= 4.0;
@@ -107,7 +108,8 @@ TEST(States, NothingChangedIsNone) {
   for (unsigned i = 0; i < 4; ++i) {
     std::mt19937_64 random(60 + i);
     const ChainTruth truth = chain.scattered(random);
-    const auto result = asked(examine(chain, two_states(chain.measure(truth, &random), chain.measure(truth, &random)), catalogue()));
+    const auto result =
+        asked(examine(chain, two_states(chain.measure(truth, &random), chain.measure(truth, &random)), catalogue()));
     EXPECT_EQ(result.verdict, "none") << i << ": " << result.message;
   }
 }

@@ -128,7 +128,8 @@ TEST(Assembly, MassOnASupportVanishesAndMassOfAnUnreachedRotationBreaksNothing) 
 }
 
 TEST(Assembly, TotalMassIsWhatTheDrawingsSay) {
-  // 12 m2 slab (and a triangle of 2 m2) of 0.1 m at 2400; four edge beams and a tie; half the stay hangs on the deck, half on the mast (held).
+  // 12 m2 slab (and a triangle of 2 m2) of 0.1 m at 2400; four edge beams and a tie; half the stay hangs on the deck, half on
+  // the mast (held).
   const Model model = test::one_of_everything();
   Model free = model;
   free.supports.clear();

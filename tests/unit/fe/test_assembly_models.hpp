@@ -7,7 +7,9 @@
 namespace twindeck::fe::test {
 
 /// The whole of a symmetric matrix. @param lower  its lower triangle (n × n)
-inline Eigen::MatrixXd full(const linalg::SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
+inline Eigen::MatrixXd full(const linalg::SparseMatrix& lower) {
+  return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+}
 
 inline int add_node(Model& model, double x, double y, double z) {
   model.nodes.push_back({static_cast<long>(model.nodes.size()) + 1, {x, y, z}});
@@ -58,7 +60,8 @@ inline Model cantilever() {
   return model;
 }
 
-/// A plate on edge beams, of four-node shells and a triangle, with a stay, springs, a rigid link and a lumped mass: one of everything.
+/// A plate on edge beams, of four-node shells and a triangle, with a stay, springs, a rigid link and a lumped mass: one of
+/// everything.
 inline Model one_of_everything() {
   Model model = with_steel();
   model.formulation.beam_rotary_inertia = true;

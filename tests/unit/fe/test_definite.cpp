@@ -1,4 +1,5 @@
-/// Oracles: eigenvalues of matrices of two and three degrees of freedom, by hand; a chain of springs with one of the wrong sign.
+/// Oracles: eigenvalues of matrices of two and three degrees of freedom, by hand; a chain of springs with one of the wrong
+/// sign.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -54,8 +55,8 @@ Eigen::MatrixXd chain(const std::vector<double>& spring) {
 }
 
 TEST(Definite, MassMayBeSingular) {
-  EXPECT_EQ(mass_refusal(Eigen::Vector3d(1.0, 0.0, 2.0).asDiagonal()), "");           // a degree of freedom without mass
-  EXPECT_EQ(mass_refusal(Eigen::Matrix3d::Constant(4.0)), "");                        // one mass that three move together
+  EXPECT_EQ(mass_refusal(Eigen::Vector3d(1.0, 0.0, 2.0).asDiagonal()), "");  // a degree of freedom without mass
+  EXPECT_EQ(mass_refusal(Eigen::Matrix3d::Constant(4.0)), "");               // one mass that three move together
   EXPECT_EQ(mass_refusal(Eigen::Matrix3d{{2.0, 1.0, 0.0}, {1.0, 2.0, 0.0}, {0.0, 0.0, 0.0}}), "");
   // The same to six digits: its least eigenvalue is about -1e-6 of the diagonal, which is rounding.
   EXPECT_EQ(mass_refusal(Eigen::Matrix2d{{0.333333, 0.577350}, {0.577350, 1.0}}), "");
@@ -63,7 +64,8 @@ TEST(Definite, MassMayBeSingular) {
 
 TEST(Definite, NegativeMassIsRefusedWithItsDegreeOfFreedom) {
   const std::string said = mass_refusal(Eigen::Vector4d(1.0, 2.0, 3.0, -0.5).asDiagonal());
-  EXPECT_NE(said.find("model: node 2, direction x (degree of freedom 4): its mass is -0.5, expected 0 or more"), std::string::npos)
+  EXPECT_NE(said.find("model: node 2, direction x (degree of freedom 4): its mass is -0.5, expected 0 or more"),
+            std::string::npos)
       << said;
 }
 
@@ -112,8 +114,7 @@ TEST(Definite, NegativeSpringsAreRefusedWithTheNodeThatTheyMove) {
 
 TEST(Definite, AMechanismIsStillCalledOne) {
   Eigen::MatrixXd k = chain({1.0, 2.0, 0.0, 0.0});  // the third mass hangs on nothing
-  const std::string said =
-      refusal([&] { static_cast<void>(factorize_or_refuse(lower(k), dofs_of(k.rows()), "model", "")); });
+  const std::string said = refusal([&] { static_cast<void>(factorize_or_refuse(lower(k), dofs_of(k.rows()), "model", "")); });
   EXPECT_NE(said.find("is a mechanism: this node at (0, 0, 0) m moves freely in z"), std::string::npos) << said;
   std::vector<double> springs(8, 1.0);
   springs[6] = -0.9;

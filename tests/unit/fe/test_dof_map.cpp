@@ -77,10 +77,12 @@ TEST(DofMap, RefusesCirclesTwoMastersAndHeldSlaves) {
   EXPECT_NE(refusal_of_links(circle).find("circle"), std::string::npos) << refusal_of_links(circle);
   Model twice = test::cantilever();
   twice.links = {{"a", 0, 2}, {"b", 1, 2}};
-  EXPECT_NE(refusal_of_links(twice).find("node 3 is the slave of two rigid links"), std::string::npos) << refusal_of_links(twice);
+  EXPECT_NE(refusal_of_links(twice).find("node 3 is the slave of two rigid links"), std::string::npos)
+      << refusal_of_links(twice);
   Model held = test::cantilever();
   held.links = {{"a", 1, 0}};
-  EXPECT_NE(refusal_of_links(held).find("node 1 is held by a support and is the slave"), std::string::npos) << refusal_of_links(held);
+  EXPECT_NE(refusal_of_links(held).find("node 1 is held by a support and is the slave"), std::string::npos)
+      << refusal_of_links(held);
 }
 
 }  // namespace

@@ -30,8 +30,10 @@ TEST(ShellRigid, SixMotionsWithoutEnergy) {
     const Matrix24 membrane = shell_membrane_stiffness(g, kConcrete, DrillingRule::penalty, 0.0);
     const Matrix24 bending = shell_bending_stiffness(g, kConcrete);
     for (int d = 0; d < 6; ++d) {
-      EXPECT_NEAR((membrane * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / membrane.norm(), 0.0, 1e-13) << "motion " << d << ", warp " << warp;
-      EXPECT_NEAR((bending * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / bending.norm(), 0.0, 1e-13) << "motion " << d << ", warp " << warp;
+      EXPECT_NEAR((membrane * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / membrane.norm(), 0.0, 1e-13)
+          << "motion " << d << ", warp " << warp;
+      EXPECT_NEAR((bending * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / bending.norm(), 0.0, 1e-13)
+          << "motion " << d << ", warp " << warp;
     }
     EXPECT_NEAR((membrane - membrane.transpose()).norm(), 0.0, 1e-6);
     EXPECT_EQ(testing_mesh::shell_rank(membrane), 9);
@@ -49,7 +51,8 @@ TEST(ShellRigid, DiagonalDrillingIsGroundedAndOtherMotionsAreFree) {
   const Eigen::Vector3d normal = (g.node_m[2] - g.node_m[0]).cross(g.node_m[3] - g.node_m[1]).normalized();
   for (int d = 0; d < 3; ++d) EXPECT_NEAR((k * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / k.norm(), 0.0, 1e-13);
   const auto turn = [&](const Eigen::Vector3d& axis) {
-    return Vector24(axis.x() * testing_mesh::rigid_motion_of(g.node_m, 3) + axis.y() * testing_mesh::rigid_motion_of(g.node_m, 4) +
+    return Vector24(axis.x() * testing_mesh::rigid_motion_of(g.node_m, 3) +
+                    axis.y() * testing_mesh::rigid_motion_of(g.node_m, 4) +
                     axis.z() * testing_mesh::rigid_motion_of(g.node_m, 5));
   };
   const double expected = 4.0 * 0.03 * kConcrete.youngs_modulus_Pa * kConcrete.thickness_m * shell_area(g);

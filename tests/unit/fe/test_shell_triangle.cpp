@@ -20,8 +20,7 @@ using namespace testing_mesh;
 const ShellProperties kTriangleOfConcrete = {30e9, 0.2, 0.18, 0.7};
 const ShellProperties kTrianglePatch = {1e6, 0.25, 0.001, 1.0};  // MacNeal and Harder (1985)
 
-const Eigen::Matrix3d kSkewTurn =
-    Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, -0.5, 0.3).normalized()).toRotationMatrix();
+const Eigen::Matrix3d kSkewTurn = Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, -0.5, 0.3).normalized()).toRotationMatrix();
 
 /// A scalene triangle in the plane z = 0, turned and moved.
 TriangleGeometry triangle_turned_by(const Eigen::Matrix3d& turn) {
@@ -31,8 +30,8 @@ TriangleGeometry triangle_turned_by(const Eigen::Matrix3d& turn) {
   return g;
 }
 
-// Oracle: six rigid motions without energy, the turn in the plane included; ranks: membrane 9 - 3, bending 9 - 3, together 18 - 6,
-// also near ν = ½, where the optimal β₀ vanishes (properties).
+// Oracle: six rigid motions without energy, the turn in the plane included; ranks: membrane 9 - 3, bending 9 - 3, together 18 -
+// 6, also near ν = ½, where the optimal β₀ vanishes (properties).
 TEST(ShellTriangle, SixMotionsWithoutEnergy) {
   const TriangleGeometry g = triangle_turned_by(kSkewTurn);
   for (const double nu : {0.0, 0.2, 0.49}) {
@@ -41,10 +40,12 @@ TEST(ShellTriangle, SixMotionsWithoutEnergy) {
     mixed.straight_sides = 0b101;
     EXPECT_EQ(testing_mesh::shell_rank(triangle_membrane_stiffness(mixed, s)), 6);
     for (int d = 0; d < 6; ++d)
-      EXPECT_LT((triangle_membrane_stiffness(mixed, s) * testing_mesh::rigid_motion_of(g.node_m, d)).norm(), 1e-12 * s.youngs_modulus_Pa);
+      EXPECT_LT((triangle_membrane_stiffness(mixed, s) * testing_mesh::rigid_motion_of(g.node_m, d)).norm(),
+                1e-12 * s.youngs_modulus_Pa);
     const Matrix18 membrane = triangle_membrane_stiffness(g, s), bending = triangle_bending_stiffness(g, s);
     for (int d = 0; d < 6; ++d) {
-      EXPECT_NEAR((membrane * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / membrane.norm(), 0.0, 1e-13) << "motion " << d;
+      EXPECT_NEAR((membrane * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / membrane.norm(), 0.0, 1e-13)
+          << "motion " << d;
       EXPECT_NEAR((bending * testing_mesh::rigid_motion_of(g.node_m, d)).norm() / bending.norm(), 0.0, 1e-13) << "motion " << d;
     }
     EXPECT_EQ(testing_mesh::shell_rank(membrane), 6);
@@ -101,8 +102,8 @@ std::vector<std::uint8_t> straight_sides_of(const Mesh& mesh) {
   return sides_beside_four_nodes(model);
 }
 
-// Oracle: the patch test of MacNeal and Harder (1985) on triangles alone and on triangles among quadrilaterals, whatever drilling
-// rule those have: linear u, v at the inner nodes, drilling rotations ½ (dv/dx - du/dy), energy ½ σ:ε V.
+// Oracle: the patch test of MacNeal and Harder (1985) on triangles alone and on triangles among quadrilaterals, whatever
+// drilling rule those have: linear u, v at the inner nodes, drilling rotations ½ (dv/dx - du/dy), energy ½ σ:ε V.
 TEST(ShellTriangle, ConstantMembraneStressInMixedMeshes) {
   const double exx = 1e-3, eyy = 0.8e-3, uy = 0.5e-3, vx = 1.1e-3;
   const double e = kTrianglePatch.youngs_modulus_Pa, nu = kTrianglePatch.poisson_ratio;
@@ -131,8 +132,8 @@ TEST(ShellTriangle, ConstantMembraneStressInMixedMeshes) {
   }
 }
 
-// Oracle: the bending patch test of MacNeal and Harder (1985), w = 1e-3 (x² + xy + y²)/2, energy ½ κᵀ D κ A; triangles alone and
-// triangles among quadrilaterals.
+// Oracle: the bending patch test of MacNeal and Harder (1985), w = 1e-3 (x² + xy + y²)/2, energy ½ κᵀ D κ A; triangles alone
+// and triangles among quadrilaterals.
 TEST(ShellTriangle, ConstantCurvatureInMixedMeshes) {
   const double nu = kTrianglePatch.poisson_ratio;
   const double d = kTrianglePatch.youngs_modulus_Pa * std::pow(kTrianglePatch.thickness_m, 3) / 12.0 / (1 - nu * nu);
@@ -156,8 +157,8 @@ TEST(ShellTriangle, ConstantCurvatureInMixedMeshes) {
   }
 }
 
-// Oracle: Felippa (2003): two optimal triangles that make a rectangle have the energy ½ E I κ² L of pure in-plane bending, whatever
-// the sides' ratio and Poisson's ratio; mean of both diagonals. It fixes the ten coefficients of the formulation.
+// Oracle: Felippa (2003): two optimal triangles that make a rectangle have the energy ½ E I κ² L of pure in-plane bending,
+// whatever the sides' ratio and Poisson's ratio; mean of both diagonals. It fixes the ten coefficients of the formulation.
 TEST(ShellTriangle, PureInPlaneBendingOfARectangleIsExact) {
   const double kappa = 1e-3;
   for (const auto& [a, b] : {std::pair{1.0, 1.0}, {1.0, 0.1}, {0.3, 1.2}}) {
@@ -183,8 +184,8 @@ TEST(ShellTriangle, PureInPlaneBendingOfARectangleIsExact) {
   }
 }
 
-// Oracle: Newton: on the distorted patch of triangles, rigid motions give the mass ρ t a b and the inertias of the rectangle about
-// its centre, m b²/12, m a²/12 (plus the rotary ρ t³/12 a b) and m (a² + b²)/12. Lumped: the same mass, a third of each
+// Oracle: Newton: on the distorted patch of triangles, rigid motions give the mass ρ t a b and the inertias of the rectangle
+// about its centre, m b²/12, m a²/12 (plus the rotary ρ t³/12 a b) and m (a² + b²)/12. Lumped: the same mass, a third of each
 // triangle's at each corner.
 TEST(ShellTriangle, MassAndInertiaOfRigidMotion) {
   Mesh mesh = cut(macneal_patch(), 1);
@@ -203,7 +204,8 @@ TEST(ShellTriangle, MassAndInertiaOfRigidMotion) {
   const TriangleGeometry g = triangle_turned_by(kSkewTurn);
   const Matrix18 lumped = triangle_mass_lumped(g, per_area, rotary);
   for (int i = 0; i < 18; i += 6)
-    EXPECT_NEAR((lumped.block<3, 3>(i, i) - per_area * triangle_area(g) / 3.0 * Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-10);
+    EXPECT_NEAR((lumped.block<3, 3>(i, i) - per_area * triangle_area(g) / 3.0 * Eigen::Matrix3d::Identity()).norm(), 0.0,
+                1e-10);
   EXPECT_NEAR(lumped.trace(), 3.0 * per_area * triangle_area(g) + 2.0 * rotary * triangle_area(g), 1e-9);
   EXPECT_NEAR(triangle_area(g), 0.5 * (1.3 * 0.9 - 0.4 * 0.1), 1e-14);
 }
@@ -233,8 +235,8 @@ TEST(ShellTriangle, RefusesATriangleWithoutArea) {
   EXPECT_NE(says(model).find("element 9: has 2 nodes, expected 3 or 4"), std::string::npos) << says(model);
 }
 
-// Oracle: the header of uneven_shells.hpp: thickness follows from x of the element's middle, so a triangle and a four-node shell
-// of one deck with middles at one x are equally thick.
+// Oracle: the header of uneven_shells.hpp: thickness follows from x of the element's middle, so a triangle and a four-node
+// shell of one deck with middles at one x are equally thick.
 TEST(ShellTriangle, UnevennessFollowsTheMiddle) {
   Model model = test::one_of_everything();
   model.nodes.clear(), model.elements.clear();

@@ -1,5 +1,3 @@
-#include "fe/stay_chains.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -8,13 +6,14 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "fe/stay_chains.hpp"
 #include "test_assembly_models.hpp"
 
 namespace twindeck::fe {
 namespace {
 
-/// A stay of 80 m, 20 kg/m, between fixed ends `rise` metres apart in height, with a little mass hanging on a spring so that there is
-/// a model without it.
+/// A stay of 80 m, 20 kg/m, between fixed ends `rise` metres apart in height, with a little mass hanging on a spring so that
+/// there is a model without it.
 struct OneStay {
   Model model;
   PrestressState state;
@@ -59,7 +58,9 @@ void frequencies(const StayChains& chains, std::vector<double>& in_plane, std::v
 
 /// First root of Irvine's tan(w/2) = w/2 - (4/lambda²)(w/2)³ below the second antisymmetric mode.
 double irvine(double lambda_squared) {
-  const auto f = [&](double w) { return std::sin(w / 2) - (w / 2 - 4 / lambda_squared * std::pow(w / 2, 3)) * std::cos(w / 2); };
+  const auto f = [&](double w) {
+    return std::sin(w / 2) - (w / 2 - 4 / lambda_squared * std::pow(w / 2, 3)) * std::cos(w / 2);
+  };
   double low = std::numbers::pi, high = 2 * std::numbers::pi;
   for (int i = 0; i < 200; ++i) {
     const double middle = (low + high) / 2;
@@ -68,8 +69,9 @@ double irvine(double lambda_squared) {
   return low;
 }
 
-// Oracles: out of plane a string of lumped masses, omega_n = 2 N/L sqrt(T/m) sin(n pi / (2 N)); in plane, for a level stay, Irvine's first
-// symmetric frequency at its lambda² (1 % for what 24 pieces and the flat parabola leave), antisymmetric ones as the string's.
+// Oracles: out of plane a string of lumped masses, omega_n = 2 N/L sqrt(T/m) sin(n pi / (2 N)); in plane, for a level stay,
+// Irvine's first symmetric frequency at its lambda² (1 % for what 24 pieces and the flat parabola leave), antisymmetric ones as
+// the string's.
 TEST(StayChains, LevelStayHasIrvinesFrequencies) {
   const OneStay stay(0.0);
   const int pieces = 24;
@@ -87,8 +89,8 @@ TEST(StayChains, LevelStayHasIrvinesFrequencies) {
   EXPECT_NEAR(in[1], 2 * c, 0.01 * in[1]);
 }
 
-// Oracle: Dischinger's modulus, a closed form of its own: an inclined chain pulled at its end gives with E_eq A / L (2 % for the chord's
-// change of direction).
+// Oracle: Dischinger's modulus, a closed form of its own: an inclined chain pulled at its end gives with E_eq A / L (2 % for
+// the chord's change of direction).
 TEST(StayChains, GivesStaticallyAsDischingerSays) {
   OneStay stay(40.0);
   stay.model.supports.pop_back();
@@ -96,7 +98,8 @@ TEST(StayChains, GivesStaticallyAsDischingerSays) {
   Spring hold;
   hold.name = hold.group = "hold";
   hold.node = 1;
-  for (const Eigen::Vector3d& d : {Eigen::Vector3d::UnitX().eval(), Eigen::Vector3d::UnitY().eval(), Eigen::Vector3d::UnitZ().eval()}) {
+  for (const Eigen::Vector3d& d :
+       {Eigen::Vector3d::UnitX().eval(), Eigen::Vector3d::UnitY().eval(), Eigen::Vector3d::UnitZ().eval()}) {
     hold.direction = d;
     hold.stiffness = 1e3;
     stay.model.springs.push_back(hold);
@@ -107,7 +110,8 @@ TEST(StayChains, GivesStaticallyAsDischingerSays) {
   const Eigen::MatrixXd k = test::full(system.stiffness(theta));
   Eigen::VectorXd load = Eigen::VectorXd::Zero(system.expansion.rows());
   load.segment<3>(6) = along;
-  // What is asked is the stiffness along the chord with the end held from moving across it: the inverse of the flexibility's block.
+  // What is asked is the stiffness along the chord with the end held from moving across it: the inverse of the flexibility's
+  // block.
   const Eigen::MatrixXd end = Eigen::MatrixXd(system.expansion).middleRows(6, 3);
   const Eigen::Matrix3d held = (end * k.ldlt().solve(end.transpose())).inverse();
   const double found = along.dot(held * along) - 1e3;
@@ -117,7 +121,8 @@ TEST(StayChains, GivesStaticallyAsDischingerSays) {
   EXPECT_NEAR(found, expected, 0.02 * expected);
 }
 
-// Oracle: the contract: old nodes and elements keep their places, mass is kept, what is not named stays, what is no stay is refused.
+// Oracle: the contract: old nodes and elements keep their places, mass is kept, what is not named stays, what is no stay is
+// refused.
 TEST(StayChains, KeepsWhatWasThere) {
   const OneStay stay(40.0);
   const StayChains chains = with_stay_chains(stay.model, stay.state, 8, {"NE8"});
@@ -127,7 +132,9 @@ TEST(StayChains, KeepsWhatWasThere) {
   EXPECT_EQ(chains.nodes.at("NE8").back(), 1);
   double chain_length = 0.0;
   for (const Element& e : chains.model.elements) {
-    chain_length += (chains.model.nodes[static_cast<std::size_t>(e.nodes[1])].x_m - chains.model.nodes[static_cast<std::size_t>(e.nodes[0])].x_m).norm();
+    chain_length += (chains.model.nodes[static_cast<std::size_t>(e.nodes[1])].x_m -
+                     chains.model.nodes[static_cast<std::size_t>(e.nodes[0])].x_m)
+                        .norm();
   }
   const double slope = stay.mass * 9.81 * std::sqrt(80.0 * 80.0 - 40.0 * 40.0) / stay.pull;
   EXPECT_NEAR(chain_length, 80.0 * (1 + slope * slope / 24), 0.01);  // length of a flat parabola

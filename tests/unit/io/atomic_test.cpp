@@ -93,8 +93,8 @@ long ended_process() {
   return child;
 }
 
-// Oracle: of six leftovers the next run removes the two that are a dead process's and made here; it keeps a living process's, another
-// machine's, another step's and what has no process number. A folder that a dead process had moved aside comes back.
+// Oracle: of six leftovers the next run removes the two that are a dead process's and made here; it keeps a living process's,
+// another machine's, another step's and what has no process number. A folder that a dead process had moved aside comes back.
 TEST_F(AtomicTest, LeftoversOfDeadProcessesAreRemoved) {
   const std::string dead = std::to_string(ended_process());
   const auto leave = [&](const std::string& name, const char* owner) {

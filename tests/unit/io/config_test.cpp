@@ -120,7 +120,8 @@ TEST_F(ConfigTest, UnknownKeyNamesTheNearest) {
   EXPECT_EQ(load("[[damper]]\nname = \"A\"\nnmae = \"B\"\n"),
             "c.toml:3: unknown key 'damper[0].nmae'; did you mean 'damper[0].name'?");
   EXPECT_TRUE(load("[zzz]\na = 3\n").starts_with("c.toml:1: unknown key 'zzz.a'; known keys are E_s, "));
-  // The table is misspelt, and a key in it tells which one was meant; a word that is short beside its table is no match by that alone.
+  // The table is misspelt, and a key in it tells which one was meant; a word that is short beside its table is no match by that
+  // alone.
   EXPECT_EQ(load("\n[slover]\nmax_iterations = 3\n"),
             "c.toml:2: unknown key 'slover.max_iterations'; did you mean 'solver.max_iterations'?");
   EXPECT_TRUE(load("[solver]\nabc = 3\n").starts_with("c.toml:2: unknown key 'solver.abc'; known keys are "));
@@ -163,7 +164,8 @@ TEST_F(ConfigTest, MissingAndBrokenFilesAreNamed) {
 TEST_F(ConfigTest, PlaceOfAKeyIsWhereItWasGiven) {
   Sample sample;
   FieldTable table = sample.fields();
-  const auto file = write("c.toml", "title = \"a\"\n\ngroups = [\"a\"]\n[solver]\nmax_iterations = 3\n[[damper]]\nname = \"A\"\n");
+  const auto file =
+      write("c.toml", "title = \"a\"\n\ngroups = [\"a\"]\n[solver]\nmax_iterations = 3\n[[damper]]\nname = \"A\"\n");
   table.load(file);
   table.set("title=b");
   const auto place = [&](const char* key) {

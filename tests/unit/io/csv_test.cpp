@@ -55,8 +55,7 @@ TEST_F(CsvTest, RefusesWrongHeaders) {
     return refusal([&] { static_cast<void>(CsvTable::read(write("a.csv", text), {"mode", "frequency_Hz"}, {"note"})); });
   };
   EXPECT_EQ(read("mode\n"), "a.csv:1: frequency_Hz: column is missing; expected columns: mode,frequency_Hz");
-  EXPECT_EQ(read("mode,frequencyHz\n"),
-            "a.csv:1: unknown column 'frequencyHz'; did you mean 'frequency_Hz'?");
+  EXPECT_EQ(read("mode,frequencyHz\n"), "a.csv:1: unknown column 'frequencyHz'; did you mean 'frequency_Hz'?");
   EXPECT_EQ(read("mode,frequency_Hz,zeta\n"), "a.csv:1: unknown column 'zeta'; known columns are mode, frequency_Hz, note");
   EXPECT_EQ(read("mode,frequency_Hz,mode\n"), "a.csv:1: mode: column stands twice; remove or rename one of them");
   EXPECT_EQ(read(""), "a.csv:1: is empty, expected a header row; start the file with: mode,frequency_Hz");

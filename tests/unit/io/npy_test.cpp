@@ -36,8 +36,10 @@ TEST_F(Npy, RoundTripKeepsEveryBit) {
 }
 
 TEST_F(Npy, ReadsSinglePrecisionAndFortranOrder) {
-  const auto c = write("c.npy", file_of<float>("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", {1, 2, 3, 4, 5, 6}));
-  const auto f = write("f.npy", file_of<double>("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }", {1, 4, 2, 5, 3, 6}));
+  const auto c =
+      write("c.npy", file_of<float>("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", {1, 2, 3, 4, 5, 6}));
+  const auto f =
+      write("f.npy", file_of<double>("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }", {1, 4, 2, 5, 3, 6}));
   const auto v = write("v.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (4,), }", {1, 2, 3, 4}));
   const Eigen::MatrixXd expected = (Eigen::MatrixXd(2, 3) << 1, 2, 3, 4, 5, 6).finished();
   EXPECT_EQ(read_npy(c), expected);
@@ -49,11 +51,13 @@ TEST_F(Npy, RefusesWhatItCannotRead) {
   EXPECT_NE(refusal([&] { (void)read_npy(folder_ / "none.npy"); }).find("cannot be read"), std::string::npos);
   EXPECT_NE(refusal([&] { (void)read_npy(write("t.npy", "time_s,c01\n0,1\n")); }).find("is no NPY file"), std::string::npos);
   const auto ints = write("i.npy", file_of<std::int64_t>("{'descr': '<i8', 'fortran_order': False, 'shape': (1,), }", {1}));
-  EXPECT_NE(refusal([&] { (void)read_npy(ints); }).find("holds type '<i8', expected '<f8', '<f4', '<i2' or '<i4'"), std::string::npos);
+  EXPECT_NE(refusal([&] { (void)read_npy(ints); }).find("holds type '<i8', expected '<f8', '<f4', '<i2' or '<i4'"),
+            std::string::npos);
   const auto cube = write("3.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1), }", {1}));
   EXPECT_NE(refusal([&] { (void)read_npy(cube); }).find("one or two dimensions"), std::string::npos);
   const auto cut = write("s.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (4, 1), }", {1, 2, 3}));
-  EXPECT_NE(refusal([&] { (void)read_npy(cut); }).find("holds 24 bytes of data, expected 32 for 4 x 1 values"), std::string::npos);
+  EXPECT_NE(refusal([&] { (void)read_npy(cut); }).find("holds 24 bytes of data, expected 32 for 4 x 1 values"),
+            std::string::npos);
 }
 
 // Oracle: the sizes that the file has. A header that claims more is refused before anything is allocated.

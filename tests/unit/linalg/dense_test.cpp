@@ -1,6 +1,5 @@
 // Dense kernels. Oracle: the definitions, by products that are written out.
 #include "linalg/dense.hpp"
-#include "linalg/unsymmetric_eigen.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,8 @@
 #include <cmath>
 #include <complex>
 #include <vector>
+
+#include "linalg/unsymmetric_eigen.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -17,7 +18,8 @@ using Eigen::MatrixXd;
 MatrixXd numbers(Eigen::Index rows, Eigen::Index columns) {
   MatrixXd a(rows, columns);
   for (Eigen::Index j = 0; j < columns; ++j)
-    for (Eigen::Index i = 0; i < rows; ++i) a(i, j) = std::sin(1.0 + 3.7 * static_cast<double>(i) + 1.3 * static_cast<double>(i * j));
+    for (Eigen::Index i = 0; i < rows; ++i)
+      a(i, j) = std::sin(1.0 + 3.7 * static_cast<double>(i) + 1.3 * static_cast<double>(i * j));
   return a;
 }
 
@@ -27,7 +29,8 @@ TEST(Dense, ALowerFactorIsSolvedByItsLowerTriangleAlone) {
   const MatrixXd x = numbers(40, 7);
   const MatrixXd triangle = lower.triangularView<Eigen::Lower>();
   EXPECT_LT((linalg::lower_solve(lower, triangle.lazyProduct(x)) - x).cwiseAbs().maxCoeff(), 1e-10);
-  EXPECT_LT((linalg::lower_solve(lower.topLeftCorner(12, 12), triangle.topLeftCorner(12, 12).lazyProduct(x.topRows(12))) - x.topRows(12))
+  EXPECT_LT((linalg::lower_solve(lower.topLeftCorner(12, 12), triangle.topLeftCorner(12, 12).lazyProduct(x.topRows(12))) -
+             x.topRows(12))
                 .cwiseAbs()
                 .maxCoeff(),
             1e-11);

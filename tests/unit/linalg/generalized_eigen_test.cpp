@@ -16,7 +16,6 @@ using twindeck::linalg::EigenPairs;
 using twindeck::linalg::lowest_eigenpairs;
 using twindeck::linalg::SparseMatrix;
 
-
 SparseMatrix from(int n, const std::vector<Eigen::Triplet<double>>& entries) {
   SparseMatrix a(n, n);
   a.setFromTriplets(entries.begin(), entries.end());

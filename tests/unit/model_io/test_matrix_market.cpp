@@ -64,14 +64,16 @@ TEST(MatrixMarket, RefusesBadFilesWithTheirLine) {
   EXPECT_NE(refusal(folder, head + "2 2 1\n1 1\n").find("expected row, column and value"), std::string::npos);
   EXPECT_NE(refusal(folder, head + "2 2 2\n1 1 1.0\n").find("holds 1 entries, but its size line says 2"), std::string::npos);
   EXPECT_NE(refusal(folder, head + "2 2 2\n1 1 1.0\n1 1 2.0\n").find("A.mtx:4: entry (1, 1) stands twice"), std::string::npos);
-  EXPECT_NE(refusal(folder, head + "2 2 1\n1 2 1.0\n").find("A.mtx:3: entry (1, 2) lies above the diagonal"), std::string::npos);
+  EXPECT_NE(refusal(folder, head + "2 2 1\n1 2 1.0\n").find("A.mtx:3: entry (1, 2) lies above the diagonal"),
+            std::string::npos);
 }
 
 TEST(MatrixMarket, BelievesNoSizeLine) {
   const TestFolder folder;
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
-  EXPECT_NE(refusal(folder, head + "2 2 13\n1 1 1\n2 2 1\n").find("A.mtx:2: its size line says 13 entries, but 12 bytes follow"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(folder, head + "2 2 13\n1 1 1\n2 2 1\n").find("A.mtx:2: its size line says 13 entries, but 12 bytes follow"),
+      std::string::npos);
   EXPECT_NE(refusal(folder, head + "2 2 9000000000000000000\n1 1 1\n").find("but 6 bytes follow"), std::string::npos);
   EXPECT_NE(refusal(folder, head + "2 2 -1\n1 1 1\n").find("says -1 entries"), std::string::npos);
   EXPECT_NE(refusal(folder, head + "2 2 1").find("but 0 bytes follow"), std::string::npos);

@@ -44,16 +44,18 @@ TEST(TriangleExchange, EveryNameOfAThreeNodeShellIsRead) {
   EXPECT_NE(message_of([&] { (void)read_inp(folder.path() / "tip.inp"); }).find("unsupported card"), std::string::npos);
 }
 
-// Oracle: the same deck without the comma. A comma at the end of a card that another card follows used to swallow that card: the
-// supports were lost without a word.
+// Oracle: the same deck without the comma. A comma at the end of a card that another card follows used to swallow that card:
+// the supports were lost without a word.
 TEST(InpCards, AMeaninglessCommaAtTheEndOfACardSwallowsNothing) {
   const TestFolder folder;
-  const std::string body = deck_with("S3", "*SHELL SECTION, ELSET=TIP, MATERIAL=STEEL\n0.03\n"), supports = body.substr(body.find("*BOUNDARY"));
+  const std::string body = deck_with("S3", "*SHELL SECTION, ELSET=TIP, MATERIAL=STEEL\n0.03\n"),
+                    supports = body.substr(body.find("*BOUNDARY"));
   folder.write("step.inp", body.substr(0, body.find("*BOUNDARY")) + "*STEP,\n*FREQUENCY,\n10,\n\n" + supports + "*END STEP\n");
   const fe::Model model = read_inp(folder.path() / "step.inp").model;
   EXPECT_EQ(model.supports.size(), 2U);
   expect_triangle(model);
-  folder.write("step.inp", "*MATERIAL,\nNAME=STEEL\n" + body.substr(body.find("*ELASTIC"), body.find("*SHELL") - body.find("*ELASTIC")) +
+  folder.write("step.inp", "*MATERIAL,\nNAME=STEEL\n" +
+                               body.substr(body.find("*ELASTIC"), body.find("*SHELL") - body.find("*ELASTIC")) +
                                body.substr(0, body.find("*MATERIAL")) + body.substr(body.find("*SHELL")));
   expect_triangle(read_inp(folder.path() / "step.inp").model);  // a parameter on the next line still belongs to its card
 }

@@ -1,5 +1,5 @@
-// The study's bridge at its full size. Oracles: counts and places that the paper prints (27,093 degrees of freedom, 30 aerodynamic
-// nodes a deck, the yaw limits of Table 14), symmetry, and equal masses of coarse and fine meshes.
+// The study's bridge at its full size. Oracles: counts and places that the paper prints (27,093 degrees of freedom, 30
+// aerodynamic nodes a deck, the yaw limits of Table 14), symmetry, and equal masses of coarse and fine meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// On the earlier reconstruction (prototype.toml). Oracles: the numbers of nodes, stay lengths (Table 5) and coordinates, dead masses and sections of the reconstruction from
-// which bridge.toml was derived (typed in here, so that a slip in the file or the rules shows), and properties of the variants.
+// On the earlier reconstruction (prototype.toml). Oracles: the numbers of nodes, stay lengths (Table 5) and coordinates, dead
+// masses and sections of the reconstruction from which bridge.toml was derived (typed in here, so that a slip in the file or
+// the rules shows), and properties of the variants.
 #include "ponte/generator.hpp"
 
 #include <gtest/gtest.h>

@@ -62,13 +62,15 @@ TEST(MatRecord, VectorsWithATime) {
 TEST(Hdf5Record, DatasetInAGroupWithARateAttribute) {
   const Scratch scratch;
   const std::string file = scratch.file("a.h5").string();
-  const hid_t h5 = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), group = H5Gcreate2(h5, "run1", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t h5 = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+              group = H5Gcreate2(h5, "run1", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   const hsize_t dims[2] = {400, 3};
   const hid_t space = H5Screate_simple(2, dims, nullptr);
   const hid_t set = H5Dcreate2(group, "acceleration", H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = samples();
   H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
-  const hid_t scalar = H5Screate(H5S_SCALAR), attribute = H5Acreate2(set, "sampling_rate", H5T_IEEE_F64LE, scalar, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t scalar = H5Screate(H5S_SCALAR),
+              attribute = H5Acreate2(set, "sampling_rate", H5T_IEEE_F64LE, scalar, H5P_DEFAULT, H5P_DEFAULT);
   const double rate = 250.0;
   H5Awrite(attribute, H5T_NATIVE_DOUBLE, &rate);
   H5Aclose(attribute);

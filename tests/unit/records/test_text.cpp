@@ -31,8 +31,11 @@ void expect_samples(const Record& record, int rows, int columns) {
 
 TEST(TextRecord, LongHeaderSemicolonsDecimalCommaAndLatin1) {
   const Scratch scratch;
-  std::string text = "sep=;\r\nTest Br\xFC" "cke;;\r\nOperator;somebody\r\nSampling rate;200,5;Hz\r\n\r\nZeit;Acc \xB5 1;Acc 2\r\ns;m/s\xB2;mg\r\n";
-  for (int t = 0; t < 500; ++t) text += number(t / 200.5, true) + ";" + number(value(t, 0), true) + ";" + number(value(t, 1), true) + ";\r\n";
+  std::string text =
+      "sep=;\r\nTest Br\xFC"
+      "cke;;\r\nOperator;somebody\r\nSampling rate;200,5;Hz\r\n\r\nZeit;Acc \xB5 1;Acc 2\r\ns;m/s\xB2;mg\r\n";
+  for (int t = 0; t < 500; ++t)
+    text += number(t / 200.5, true) + ";" + number(value(t, 0), true) + ";" + number(value(t, 1), true) + ";\r\n";
   const Record record = read(scratch.write("a.csv", text));
   expect_samples(record, 500, 2);
   EXPECT_NEAR(record.info.rate_Hz, 200.5, 0.01);
@@ -47,7 +50,8 @@ TEST(TextRecord, LongHeaderSemicolonsDecimalCommaAndLatin1) {
 TEST(TextRecord, TabsUnitsInNamesAndRateInTheHeader) {
   const Scratch scratch;
   std::string text = "# logger 7\n# dt = 5 ms\nA1 [g]\tA2 [g]\tA3 (mm/s)\n";
-  for (int t = 0; t < 40; ++t) text += number(value(t, 0), false) + "\t" + number(value(t, 1), false) + "\t" + number(value(t, 2), false) + "\n";
+  for (int t = 0; t < 40; ++t)
+    text += number(value(t, 0), false) + "\t" + number(value(t, 1), false) + "\t" + number(value(t, 2), false) + "\n";
   const Record record = read(scratch.write("a.txt", text));
   expect_samples(record, 40, 3);
   EXPECT_NEAR(record.info.rate_Hz, 200.0, 1e-9);
@@ -78,7 +82,8 @@ TEST(TextRecord, GapsOfTheClockAndEmptyCellsAreMissing) {
   std::string text = "time_s,a,b\n";
   for (int t = 0; t < 100; ++t) {
     if (t >= 40 && t < 45) continue;
-    text += fmt::format("{},{},{}\n", 0.01 * t, t == 60 ? "" : number(value(t, 0), false), t == 61 ? "NaN" : number(value(t, 1), false));
+    text += fmt::format("{},{},{}\n", 0.01 * t, t == 60 ? "" : number(value(t, 0), false),
+                        t == 61 ? "NaN" : number(value(t, 1), false));
   }
   const Record record = read(scratch.write("a.csv", text));
   ASSERT_EQ(record.samples.rows(), 100);
@@ -106,7 +111,10 @@ TEST(TextRecord, RefusesWhatHoldsNoNumbers) {
   const Scratch scratch;
   EXPECT_THROW(static_cast<void>(read(scratch.write("a.csv", "hello\nworld\n"))), InputError);
   EXPECT_THROW(static_cast<void>(read(scratch.write("b.csv", ""))), InputError);
-  EXPECT_THROW(static_cast<void>(read(scratch.write("c.csv", std::string("\xFF\xFE" "a\0", 4)))), InputError);
+  EXPECT_THROW(static_cast<void>(read(scratch.write("c.csv", std::string("\xFF\xFE"
+                                                                         "a\0",
+                                                                         4)))),
+               InputError);
   EXPECT_THROW(static_cast<void>(read(scratch.file("none.csv"))), InputError);
 }
 
@@ -119,7 +127,8 @@ TEST(Inspect, SeesClippingAndDeadChannels) {
   EXPECT_TRUE(inspection.channels[1].dead);
   EXPECT_FALSE(inspection.channels[0].dead);
   const auto lines = describe(inspection);
-  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) { return line.find("constant") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(),
+                          [](const std::string& line) { return line.find("constant") != std::string::npos; }));
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ void expect_same(const Record& record, double tolerance) {
   const Eigen::MatrixXd data = waves();
   ASSERT_EQ(record.samples.rows(), data.rows());
   ASSERT_EQ(record.samples.cols(), data.cols());
-  for (int c = 0; c < 3; ++c) EXPECT_LT((record.samples.col(c) - data.col(c)).cwiseAbs().maxCoeff(), tolerance * data.col(c).cwiseAbs().maxCoeff());
+  for (int c = 0; c < 3; ++c)
+    EXPECT_LT((record.samples.col(c) - data.col(c)).cwiseAbs().maxCoeff(), tolerance * data.col(c).cwiseAbs().maxCoeff());
   EXPECT_NEAR(record.info.rate_Hz, 64.0, 1e-3);
 }
 
@@ -83,7 +84,8 @@ TEST(Universal58, QuirksOfOtherWriters) {
   wrong.replace(wrong.find("4000"), 4, "2000");
   const Record counted = read(scratch.write("wrong.uff", wrong));
   expect_same(counted, 1e-16);
-  EXPECT_TRUE(std::any_of(counted.info.notes.begin(), counted.info.notes.end(), [](const auto& n) { return n.find("2000 bytes") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(counted.info.notes.begin(), counted.info.notes.end(),
+                          [](const auto& n) { return n.find("2000 bytes") != std::string::npos; }));
 
   write_universal_series(info(), waves(), false, scratch.file("t.uff"));
   std::string fortran = content(scratch.file("t.uff"));
@@ -126,13 +128,15 @@ TEST(Universal, ShapesGeometryAndUnitsComeBack) {
     const double omega = 2.0 * M_PI * 2.5;
     result.eigenvalue = {-0.01 * omega, omega * std::sqrt(1.0 - 1e-4)};
     for (const auto& [node, position] : data.nodes) {
-      result.values[node] = Eigen::Vector3cd(std::complex<double>(0.25 * static_cast<double>(node), complex ? -0.5 : 0.0), 1.0, -1e-5);
+      result.values[node] =
+          Eigen::Vector3cd(std::complex<double>(0.25 * static_cast<double>(node), complex ? -0.5 : 0.0), 1.0, -1e-5);
     }
     data.results.push_back(result);
   }
   write_universal(data, scratch.file("a.unv"));
   RecordInfo record;
-  const UniversalData back = scan_universal_sets(scratch.file("a.unv"), [](Eigen::Index, Eigen::Index, const Eigen::MatrixXd&) {}, record);
+  const UniversalData back = scan_universal_sets(
+      scratch.file("a.unv"), [](Eigen::Index, Eigen::Index, const Eigen::MatrixXd&) {}, record);
   EXPECT_EQ(back.title, "a frame");
   EXPECT_TRUE(back.has_header && back.has_units);
   EXPECT_EQ(back.lines, data.lines);
@@ -144,17 +148,21 @@ TEST(Universal, ShapesGeometryAndUnitsComeBack) {
     EXPECT_EQ(back.results[k].mode, 4);
     EXPECT_NEAR(back.results[k].frequency_Hz, 2.5, 1e-4);
     EXPECT_NEAR(back.results[k].damping_ratio, 0.01, 1e-6);
-    for (const auto& [node, vector] : data.results[k].values) EXPECT_LT((back.results[k].values.at(node) - vector).norm(), 1e-5 * vector.norm());
+    for (const auto& [node, vector] : data.results[k].values)
+      EXPECT_LT((back.results[k].values.at(node) - vector).norm(), 1e-5 * vector.norm());
   }
 }
 
 TEST(UniversalLines, NumbersThatTouchAndMissingSets) {
   EXPECT_EQ(numbers_in(" 1.00000E+00-2.50000D-01 3.0 -4"), (std::vector<double>{1.0, -0.25, 3.0, -4.0}));
   const Scratch scratch;
-  const std::string nodes = "    -1\n    15\n         1         0         0        11  1.00000D+02-2.00000D+02  0.00000E+00\n    -1\n"
-                            "    -1\n   164\n         1mm                           2\n  1.0000000000000000D+03  1.0D+00  1.0D+00\n  2.7315D+02\n    -1\n";
+  const std::string nodes =
+      "    -1\n    15\n         1         0         0        11  1.00000D+02-2.00000D+02  0.00000E+00\n    -1\n"
+      "    -1\n   164\n         1mm                           2\n  1.0000000000000000D+03  1.0D+00  1.0D+00\n  2.7315D+02\n    "
+      "-1\n";
   RecordInfo record;
-  const UniversalData data = scan_universal_sets(scratch.write("n.unv", nodes), [](Eigen::Index, Eigen::Index, const Eigen::MatrixXd&) {}, record);
+  const UniversalData data = scan_universal_sets(
+      scratch.write("n.unv", nodes), [](Eigen::Index, Eigen::Index, const Eigen::MatrixXd&) {}, record);
   EXPECT_LT((data.nodes.at(1) - Eigen::Vector3d(0.1, -0.2, 0.0)).norm(), 1e-15);
   EXPECT_FALSE(data.has_header);
 }

@@ -26,8 +26,8 @@ TEST(Logged, ClipsAtItsRange) {
   EXPECT_EQ(out.minCoeff(), -2.0);
 }
 
-// Oracle: statistics of white noise: standard deviation of the sample deviation sigma/sqrt(2n), of the mean and of the lag-one correlation
-// 1/sqrt(n); five of each are never left. Streams differ, the same stream returns.
+// Oracle: statistics of white noise: standard deviation of the sample deviation sigma/sqrt(2n), of the mean and of the lag-one
+// correlation 1/sqrt(n); five of each are never left. Streams differ, the same stream returns.
 TEST(Logged, NoiseIsWhiteAndItsOwn) {
   const Eigen::Index n = 100000;
   const LoggerErrors errors{0.3, 0.0, 0.0, 0.0};

@@ -17,7 +17,8 @@ TEST(DecouplingScore, MeanOffTheDiagonal) {
   EXPECT_NEAR(decoupling_score(phi), 1.0 / 3.0, 1e-15);
 }
 
-// Oracle: extremes of Eq. (1): orthogonal shapes 0, equal shapes 1 whatever their scale and sign; a mode that is not seen is alike to all.
+// Oracle: extremes of Eq. (1): orthogonal shapes 0, equal shapes 1 whatever their scale and sign; a mode that is not seen is
+// alike to all.
 TEST(DecouplingScore, Extremes) {
   EXPECT_EQ(decoupling_score(MatrixXd::Identity(5, 5)), 0.0);
   EXPECT_NEAR(decoupling_score((MatrixXd(2, 2) << 1, -3, 2, -6).finished()), 1.0, 1e-15);

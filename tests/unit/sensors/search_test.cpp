@@ -19,7 +19,8 @@ using Eigen::MatrixXd;
 MatrixXd sines(Index points, Index modes) {
   MatrixXd phi(points, modes);
   for (Index i = 0; i < points; ++i) {
-    for (Index j = 0; j < modes; ++j) phi(i, j) = std::sin(static_cast<double>((j + 1) * (i + 1)) * std::numbers::pi / static_cast<double>(points + 1));
+    for (Index j = 0; j < modes; ++j)
+      phi(i, j) = std::sin(static_cast<double>((j + 1) * (i + 1)) * std::numbers::pi / static_cast<double>(points + 1));
   }
   return phi;
 }
@@ -43,12 +44,13 @@ void subsets(Index n, Index count, Visit visit) {
   } while (std::prev_permutation(in.begin(), in.end()));
 }
 
-// Oracle: Kammer's identity det after / det before = 1 - E_D of the row dropped; so each step drops the row whose loss leaves the
-// largest determinant, found here by trying all.
+// Oracle: Kammer's identity det after / det before = 1 - E_D of the row dropped; so each step drops the row whose loss leaves
+// the largest determinant, found here by trying all.
 TEST(EffectiveIndependence, DropsWhatTheDeterminantMissesLeast) {
   const MatrixXd phi = sines(9, 3);
   for (Index count = 8; count >= 3; --count) {
-    const std::vector<Index> before = count == 8 ? std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7, 8} : effective_independence(phi, count + 1).rows;
+    const std::vector<Index> before =
+        count == 8 ? std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7, 8} : effective_independence(phi, count + 1).rows;
     double best = 0.0;
     for (std::size_t drop = 0; drop < before.size(); ++drop) {
       std::vector<Index> rows = before;
@@ -61,18 +63,21 @@ TEST(EffectiveIndependence, DropsWhatTheDeterminantMissesLeast) {
   }
 }
 
-// Oracle: enumeration. On a small problem the search for the greatest determinant, begun where effective independence ends, must reach the
-// best of all subsets. (Least R_k has local optima even here: 0.015 by greedy start against 0.001, which is why step 2 starts it often.)
+// Oracle: enumeration. On a small problem the search for the greatest determinant, begun where effective independence ends,
+// must reach the best of all subsets. (Least R_k has local optima even here: 0.015 by greedy start against 0.001, which is why
+// step 2 starts it often.)
 TEST(GreedyExchange, FindsTheBestOfAllSubsets) {
   const MatrixXd phi = sines(10, 3);
   double best = -1e300;
   subsets(10, 4, [&](const std::vector<Index>& rows) { best = std::max(best, log_determinant(phi(rows, Eigen::all))); });
-  const Layout layout = greedy_exchange(phi, 4, [](const MatrixXd& part) { return log_determinant(part); }, effective_independence(phi, 4).rows);
+  const Layout layout = greedy_exchange(
+      phi, 4, [](const MatrixXd& part) { return log_determinant(part); }, effective_independence(phi, 4).rows);
   EXPECT_EQ(layout.rows.size(), 4U);
   EXPECT_NEAR(layout.worth, best, 1e-12);
 }
 
-// Oracle: the definition of where it stops, tried on random shapes: no single exchange gains, and it is no worse than its start.
+// Oracle: the definition of where it stops, tried on random shapes: no single exchange gains, and it is no worse than its
+// start.
 TEST(GreedyExchange, EndsWhereNoExchangeHelps) {
   MatrixXd phi(14, 4);
   for (Index i = 0; i < phi.size(); ++i) phi(i) = normal_number(3, 1, static_cast<std::uint64_t>(i));
@@ -96,7 +101,8 @@ TEST(EffectiveIndependence, RefusesFewerSensorsThanModes) {
     (void)effective_independence(sines(9, 3), 2);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "channels: is 2, expected from 3 (one a mode) to 9 (candidates); ask for another number of sensors");
+    EXPECT_STREQ(error.what(),
+                 "channels: is 2, expected from 3 (one a mode) to 9 (candidates); ask for another number of sensors");
   }
   EXPECT_THROW((void)effective_independence(MatrixXd::Ones(6, 2), 4), InputError);
 }

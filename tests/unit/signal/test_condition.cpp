@@ -1,5 +1,5 @@
-// Oracles: a straight line detrends to nothing; a sine in the passband keeps amplitude and phase, one above the new Nyquist frequency
-// is gone; the inverse transform undoes the transform.
+// Oracles: a straight line detrends to nothing; a sine in the passband keeps amplitude and phase, one above the new Nyquist
+// frequency is gone; the inverse transform undoes the transform.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace {
 
 Eigen::MatrixXd sine(Eigen::Index n, double cycles_per_sample) {
   Eigen::MatrixXd data(n, 1);
-  for (Eigen::Index t = 0; t < n; ++t) data(t, 0) = std::sin(2.0 * std::numbers::pi * cycles_per_sample * static_cast<double>(t) + 0.3);
+  for (Eigen::Index t = 0; t < n; ++t)
+    data(t, 0) = std::sin(2.0 * std::numbers::pi * cycles_per_sample * static_cast<double>(t) + 0.3);
   return data;
 }
 

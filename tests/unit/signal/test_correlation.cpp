@@ -52,7 +52,8 @@ TEST(Correlation, OfAFirstOrderAutoregression) {
   for (Eigen::Index t = 1; t < data.rows(); ++t) data(t, 0) += a * data(t - 1, 0);
   const auto lags = correlations(data, {0}, 12, 10).mean();
   // Standard deviation by Bartlett's formula is below 0.012 at every lag.
-  for (std::size_t k = 0; k < lags.size(); ++k) EXPECT_NEAR(lags[k](0, 0), std::pow(a, static_cast<double>(k)) / (1.0 - a * a), 0.04);
+  for (std::size_t k = 0; k < lags.size(); ++k)
+    EXPECT_NEAR(lags[k](0, 0), std::pow(a, static_cast<double>(k)) / (1.0 - a * a), 0.04);
 }
 
 TEST(Correlation, TooShortABlockIsRefused) {

@@ -18,7 +18,8 @@ double integral(const PowerSpectra& spectra, Eigen::Index channel) {
 TEST(Welch, IntegralOfASineIsHalfItsSquaredAmplitude) {
   const double rate = 50.0, amplitude = 3.0, frequency = 5.0;  // off the lines, so that it leaks
   Eigen::MatrixXd data(20000, 1);
-  for (Eigen::Index t = 0; t < data.rows(); ++t) data(t, 0) = amplitude * std::sin(2.0 * std::numbers::pi * frequency * static_cast<double>(t) / rate);
+  for (Eigen::Index t = 0; t < data.rows(); ++t)
+    data(t, 0) = amplitude * std::sin(2.0 * std::numbers::pi * frequency * static_cast<double>(t) / rate);
   const PowerSpectra spectra = power_spectra(data, rate, {1024, 0.5});
   EXPECT_NEAR(integral(spectra, 0), 0.5 * amplitude * amplitude, 1e-3);
   Eigen::Index peak = 0;
@@ -50,7 +51,8 @@ TEST(Welch, CrossSpectrumOfADelayIsAPhase) {
   const PowerSpectra power = power_spectra(data, 1.0, {256, 0.5});
   for (const std::size_t m : {10U, 40U, 100U}) {
     const std::complex<double> ratio = spectra.density[m](1, 0) / spectra.density[m](0, 0);
-    const std::complex<double> expected = std::polar(1.0, -2.0 * std::numbers::pi * spectra.frequency_Hz[static_cast<Eigen::Index>(m)] * static_cast<double>(delay));
+    const std::complex<double> expected = std::polar(
+        1.0, -2.0 * std::numbers::pi * spectra.frequency_Hz[static_cast<Eigen::Index>(m)] * static_cast<double>(delay));
     EXPECT_NEAR(std::abs(ratio - expected), 0.0, 0.03);
     EXPECT_NEAR(spectra.density[m](1, 1).real(), power.density(static_cast<Eigen::Index>(m), 1), 1e-12);
     EXPECT_NEAR(std::abs(spectra.density[m](0, 1) - std::conj(spectra.density[m](1, 0))), 0.0, 1e-12);

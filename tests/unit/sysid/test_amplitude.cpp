@@ -1,4 +1,5 @@
-// Oracles: a decay of constant frequency and damping at every level; one whose frequency and damping depend on its amplitude by a known law.
+// Oracles: a decay of constant frequency and damping at every level; one whose frequency and damping depend on its amplitude by
+// a known law.
 #include <gtest/gtest.h>
 
 #include "chain.hpp"

@@ -1,4 +1,5 @@
-// Oracle: a discrete system of known poles driven by a coloured input that is measured: its poles, and not the input's, come out.
+// Oracle: a discrete system of known poles driven by a coloured input that is measured: its poles, and not the input's, come
+// out.
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
@@ -17,7 +18,9 @@ struct Record {
 Record simulated(Eigen::Index n, double noise) {
   const double rate = 25.0;
   test::Noise random(5);
-  const auto pole = [rate](double f, double z) { return std::exp(std::complex<double>(-z, std::sqrt(1.0 - z * z)) * 2.0 * std::numbers::pi * f / rate); };
+  const auto pole = [rate](double f, double z) {
+    return std::exp(std::complex<double>(-z, std::sqrt(1.0 - z * z)) * 2.0 * std::numbers::pi * f / rate);
+  };
   const std::complex<double> p[] = {pole(1.7, 0.02), pole(4.1, 0.015)}, ring = pole(3.0, 0.02);
   std::complex<double> x[2] = {0.0, 0.0}, s = 0.0;
   Record record{Eigen::MatrixXd(n, 1), Eigen::MatrixXd(n, 2)};

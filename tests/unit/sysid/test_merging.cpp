@@ -44,7 +44,8 @@ TEST(MergePoser, ShapesAreThoseOfTheChainAndAGainOfThreeChangesNothing) {
     EXPECT_EQ(merged[m].members.size(), 3U);
     const Eigen::MatrixXcd truth = kChain.shape(static_cast<int>(m)).cast<std::complex<double>>();
     EXPECT_GT(modal::mac(truth, Eigen::MatrixXcd(merged[m].shape))(0, 0), 0.995);
-    EXPECT_LT(std::abs(merged[m].frequency_Hz - kChain.frequency_Hz(static_cast<int>(m))), 4.0 * merged[m].deviation.frequency_Hz);
+    EXPECT_LT(std::abs(merged[m].frequency_Hz - kChain.frequency_Hz(static_cast<int>(m))),
+              4.0 * merged[m].deviation.frequency_Hz);
   }
 }
 
@@ -56,8 +57,8 @@ TEST(MergePoser, AModeOfOneSetupIsKeptAndMarked) {
   ASSERT_EQ(merged.size(), setups[0].modes.size());
   EXPECT_EQ(merged[1].members.size(), 1U);
   EXPECT_NEAR(merged[1].frequency_Hz, setups[0].modes[1].frequency_Hz, 1e-12);
-  EXPECT_TRUE(std::isnan(merged[1].shape[2].real()));   // channel 2 is of the setup that did not see it
-  EXPECT_TRUE(std::isnan(merged[0].shape[4].real()));   // channel 4 of none
+  EXPECT_TRUE(std::isnan(merged[1].shape[2].real()));  // channel 2 is of the setup that did not see it
+  EXPECT_TRUE(std::isnan(merged[0].shape[4].real()));  // channel 4 of none
   EXPECT_FALSE(std::isnan(merged[1].shape[1].real()));
 }
 

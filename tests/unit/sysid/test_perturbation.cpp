@@ -35,7 +35,8 @@ TEST(Perturbation, ChangesOfEveryPoleEqualCentralDifferences) {
   const ShiftModels models = shift_models(o, orders, 20.0);
   const SubspaceChange change = subspace_change(o, models, d * o.right);
   const double step = 1e-6;
-  const auto plus = poles_of_orders(of(h + step * d, 3, 12), orders, 20.0), minus = poles_of_orders(of(h - step * d, 3, 12), orders, 20.0);
+  const auto plus = poles_of_orders(of(h + step * d, 3, 12), orders, 20.0),
+             minus = poles_of_orders(of(h - step * d, 3, 12), orders, 20.0);
   int compared = 0;
   for (std::size_t k = 0; k < orders.size(); ++k) {
     const auto changes = pole_changes(o, models, k, change);

@@ -1,4 +1,5 @@
-// Oracle: closed-form modes of a chain of masses, from exact correlations (to rounding); a direct least-squares solve of every order.
+// Oracle: closed-form modes of a chain of masses, from exact correlations (to rounding); a direct least-squares solve of every
+// order.
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
@@ -26,7 +27,8 @@ TEST(SsiCov, ExactCorrelationsGiveTheExactPoles) {
 TEST(SsiCov, ReferencesSeeTheSamePoles) {
   const test::Chain chain(4, 10.0, 0.02, 20.0);
   auto lags = chain.exact_correlations(60);
-  for (Eigen::MatrixXd& lag : lags) lag = lag.leftCols(1).eval();  // one reference, at the end of the chain: it moves in every mode
+  for (Eigen::MatrixXd& lag : lags)
+    lag = lag.leftCols(1).eval();  // one reference, at the end of the chain: it moves in every mode
   const auto poles = poles_of_orders(ssi_cov(lags, 30, 4, 8), {8}, 20.0).front();
   ASSERT_EQ(poles.size(), 4U);
   for (int r = 0; r < 4; ++r) EXPECT_NEAR(poles[static_cast<std::size_t>(r)].frequency_Hz, chain.frequency_Hz(r), 1e-8);
@@ -36,7 +38,8 @@ TEST(SsiCov, PolesOfEveryOrderEqualADirectSolve) {
   const test::Chain chain(3, 8.0, 0.01, 20.0);
   const Eigen::MatrixXd data = chain.simulate(4000, 5, 0.1);
   std::vector<Eigen::MatrixXd> lags;
-  for (Eigen::Index k = 0; k < 30; ++k) lags.emplace_back(data.bottomRows(4000 - k).transpose() * data.topRows(4000 - k) / (4000.0 - static_cast<double>(k)));
+  for (Eigen::Index k = 0; k < 30; ++k)
+    lags.emplace_back(data.bottomRows(4000 - k).transpose() * data.topRows(4000 - k) / (4000.0 - static_cast<double>(k)));
   const Observability observability = ssi_cov(lags, 15, 3, 20);
   const Eigen::MatrixXd o = observability.matrix();
   const std::vector<int> orders = {2, 6, 11, 20};

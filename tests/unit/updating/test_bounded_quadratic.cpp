@@ -1,5 +1,5 @@
-// Oracle: first-order (KKT) conditions of the strictly convex problem, which are sufficient; and the unbounded solution where no
-// bound is met.
+// Oracle: first-order (KKT) conditions of the strictly convex problem, which are sufficient; and the unbounded solution where
+// no bound is met.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>

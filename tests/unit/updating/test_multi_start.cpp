@@ -42,10 +42,10 @@ EndPoint end_point(double x0, double x1, double cost, bool converged = true) {
 
 TEST(DistinctOptima, GroupsByParametersAndCostAndForgivesFlatDirections) {
   const Box box{Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)};
-  const std::vector<int> optimum = distinct_optima(
-      {end_point(0.2, 0.5, 2e-3), end_point(0.8, 0.5, 1e-3), end_point(0.8, 0.1, 1e-3), end_point(0.2003, 0.5, 2.0000001e-3),
-       end_point(0.5, 0.5, 1e-9, false), end_point(0.6, 0.5, 1e-3)},
-      box);
+  const std::vector<int> optimum =
+      distinct_optima({end_point(0.2, 0.5, 2e-3), end_point(0.8, 0.5, 1e-3), end_point(0.8, 0.1, 1e-3),
+                       end_point(0.2003, 0.5, 2.0000001e-3), end_point(0.5, 0.5, 1e-9, false), end_point(0.6, 0.5, 1e-3)},
+                      box);
   EXPECT_EQ(optimum, (std::vector<int>{0, 1, 1, 0, -1, 5}));
 }
 

@@ -122,8 +122,7 @@ TEST(BoundedDogleg, FlatDirectionsDoNotBreakIt) {
     }
     return true;
   };
-  const BoundedResult result =
-      minimise_on_box(flat, 2, Eigen::Vector3d(0.1, 0.4, 0.6), box_of({0, 0, 0}, {1, 1, 1}), {}, {});
+  const BoundedResult result = minimise_on_box(flat, 2, Eigen::Vector3d(0.1, 0.4, 0.6), box_of({0, 0, 0}, {1, 1, 1}), {}, {});
   ASSERT_TRUE(result.converged) << result.message;
   // Oracle: F'(x0) = 0 of the one parameter that is felt, by bisection.
   double low = 0.0, high = 1.0;
@@ -139,7 +138,8 @@ TEST(BoundedDogleg, FlatDirectionsDoNotBreakIt) {
 TEST(BoundedDogleg, SaysWhenTheIterationsDoNotSuffice) {
   BoundedOptions options;
   options.max_iterations = 2;
-  const BoundedResult result = minimise_on_box(rosenbrock, 2, Eigen::Vector2d(-1.2, 1.0), box_of({-3, -3}, {3, 3}), options, {});
+  const BoundedResult result =
+      minimise_on_box(rosenbrock, 2, Eigen::Vector2d(-1.2, 1.0), box_of({-3, -3}, {3, 3}), options, {});
   EXPECT_FALSE(result.converged);
   EXPECT_NE(result.message.find("iteration limit"), std::string::npos) << result.message;
 }

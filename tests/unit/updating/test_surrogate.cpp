@@ -1,10 +1,9 @@
-// Search on the corrected reduced system. Oracles: the search on the full system from the same starts; for the projection, matrices
-// multiplied out densely.
-#include "updating/surrogate.hpp"
-
+// Search on the corrected reduced system. Oracles: the search on the full system from the same starts; for the projection,
+// matrices multiplied out densely.
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
+#include "updating/surrogate.hpp"
 #include "updating/updating.hpp"
 
 namespace twindeck::updating {
@@ -15,18 +14,24 @@ constexpr int kMasses = 60;
 /// A chain with three groups of springs and a factor on every third mass; `frozen` stands for a prestress.
 fe::ParametricSystem chain(double frozen) {
   SmallSystem small(kMasses);
-  const int a = small.parameter("a", 1.0, 0.85, 1.15), b = small.parameter("b", 1.0, 0.85, 1.15), c = small.parameter("c", 1.0, 0.85, 1.15),
-            m = small.parameter("m", 1.0, 0.85, 1.15);
+  const int a = small.parameter("a", 1.0, 0.85, 1.15), b = small.parameter("b", 1.0, 0.85, 1.15),
+            c = small.parameter("c", 1.0, 0.85, 1.15), m = small.parameter("m", 1.0, 0.85, 1.15);
   Eigen::MatrixXd parts[3] = {Eigen::MatrixXd::Zero(kMasses, kMasses), Eigen::MatrixXd::Zero(kMasses, kMasses),
                               Eigen::MatrixXd::Zero(kMasses, kMasses)};
-  for (int i = 0; i <= kMasses; ++i) parts[3 * i / (kMasses + 1)] += 4e3 * (1.0 + 0.03 * i) * spring(kMasses, i < kMasses ? i : -1, i - 1);
+  for (int i = 0; i <= kMasses; ++i)
+    parts[3 * i / (kMasses + 1)] += 4e3 * (1.0 + 0.03 * i) * spring(kMasses, i < kMasses ? i : -1, i - 1);
   // Nothing in it is symmetric: a mirror image would be a second optimum.
   Eigen::VectorXd own = Eigen::VectorXd::LinSpaced(kMasses, 1.0, 2.0), variable = Eigen::VectorXd::Zero(kMasses);
   for (int i = 0; i < kMasses; i += 3) variable[i] = 0.5 + 0.01 * i;
   Eigen::MatrixXd string = Eigen::MatrixXd::Zero(kMasses, kMasses);
   for (int i = 0; i < kMasses; ++i) string += frozen * spring(kMasses, i, -1);
-  return small.stiffness(parts[0], a).stiffness(parts[1], b).stiffness(parts[2], c).stiffness(string)
-      .mass(own.asDiagonal().toDenseMatrix()).mass(variable.asDiagonal().toDenseMatrix(), m).system();
+  return small.stiffness(parts[0], a)
+      .stiffness(parts[1], b)
+      .stiffness(parts[2], c)
+      .stiffness(string)
+      .mass(own.asDiagonal().toDenseMatrix())
+      .mass(variable.asDiagonal().toDenseMatrix(), m)
+      .system();
 }
 
 fe::ParametricSystem in_balance(const Eigen::VectorXd& theta) { return chain(0.05 * theta[3]); }

@@ -1,7 +1,5 @@
-// Updating of spring-mass chains. Oracles: parameters that the targets were computed from (dense eigenvalues, Eigen); a brute-force
-// grid where the optimum lies on bounds; the mirror image of a symmetric chain as second optimum.
-#include "updating/updating.hpp"
-
+// Updating of spring-mass chains. Oracles: parameters that the targets were computed from (dense eigenvalues, Eigen); a
+// brute-force grid where the optimum lies on bounds; the mirror image of a symmetric chain as second optimum.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "chain.hpp"
 #include "core/parallel.hpp"
+#include "updating/updating.hpp"
 
 namespace twindeck::updating {
 namespace {
@@ -64,12 +63,11 @@ TEST(Update, MeetsTheGridOptimumOnSeveralBounds) {
     for (int j = 0; j <= grid; ++j)
       for (int k = 0; k <= grid; ++k) {
         const Eigen::Vector3d theta = Eigen::Vector3d::Constant(0.9) + 0.2 / grid * Eigen::Vector3d(i, j, k);
-        const Eigen::VectorXd residual =
-            (dense_frequencies(small.system(), theta).array() / measured.array() - 1.0).matrix();
+        const Eigen::VectorXd residual = (dense_frequencies(small.system(), theta).array() / measured.array() - 1.0).matrix();
         if (0.5 * residual.squaredNorm() < best) best = 0.5 * residual.squaredNorm(), at = theta;
       }
   const double cost = result.starts[static_cast<std::size_t>(result.best)].cost;
-  EXPECT_LE(cost, best * (1.0 + 1e-9));                    // at least as good as every grid point
+  EXPECT_LE(cost, best * (1.0 + 1e-9));                                     // at least as good as every grid point
   EXPECT_NEAR((result.theta - at).cwiseAbs().maxCoeff(), 0.0, 0.2 / grid);  // and in the cell of the best
   EXPECT_GE(std::count_if(result.on_bound.begin(), result.on_bound.end(), [](int s) { return s != 0; }), 2);
   for (const StartResult& start : result.starts) EXPECT_TRUE(start.converged) << start.message;
@@ -112,8 +110,9 @@ TEST(Update, FindsBothOptimaOfASymmetricChain) {
   const int left = small.parameter("left", 1.0, 0.5, 2.0), right = small.parameter("right", 1.05, 0.5, 2.0);
   small.stiffness(100.0 * spring(3, 0, -1), left).stiffness(100.0 * spring(3, 2, -1), right);
   small.stiffness(300.0 * (spring(3, 0, 1) + spring(3, 1, 2))).mass(Eigen::MatrixXd::Identity(3, 3));
-  const UpdatingResult result = update(small.system(), {}, {left, right},
-                                       targets_of(dense_frequencies(small.system(), Eigen::Vector2d(0.8, 1.4)), {0, 1, 2}), starts(8), {});
+  const UpdatingResult result =
+      update(small.system(), {}, {left, right},
+             targets_of(dense_frequencies(small.system(), Eigen::Vector2d(0.8, 1.4)), {0, 1, 2}), starts(8), {});
   ASSERT_TRUE(result.status.converged) << result.status.message;
   ASSERT_EQ(result.optima.size(), 2U);
   std::vector<double> lefts;

@@ -17,7 +17,8 @@ diagnosis::LoadTests bar_on_springs() {
   diagnosis::LoadTests tests;
   tests.cases = {"lorry"};
   tests.force = Vector2d(-4.0, -2.0);
-  tests.grounds = {{"support:left", -1, Vector2d(2.0, 0.0), VectorXd::Zero(2)}, {"support:right", -1, Vector2d(0.0, 3.0), VectorXd::Zero(2)}};
+  tests.grounds = {{"support:left", -1, Vector2d(2.0, 0.0), VectorXd::Zero(2)},
+                   {"support:right", -1, Vector2d(0.0, 3.0), VectorXd::Zero(2)}};
   tests.rotation = tests.strain = MatrixXd::Zero(2, 2);
   tests.forces = {{0, Vector2d(2.0, 0.0), 2.0, VectorXd::Zero(1)}, {1, Vector2d(0.0, 3.0), 3.0, VectorXd::Zero(1)}};
   return tests;

@@ -140,8 +140,8 @@ TEST(LeaveOneOut, ACauseThatIsThereGainsAndNothingDoesNot) {
 }
 
 TEST(LeaveOneOut, TheEntryIsChosenAnewInEachFold) {
-  // Entries that each explain one mode and nothing else, and rows of different modes that have nothing in common: whoever is chosen without
-  // a mode says nothing of it.
+  // Entries that each explain one mode and nothing else, and rows of different modes that have nothing in common: whoever is
+  // chosen without a mode says nothing of it.
   Rows rows(8);
   rows.columns.rightCols(2).setZero();
   const VectorXd r = rows.draw() + 3.0 * rows.cause;

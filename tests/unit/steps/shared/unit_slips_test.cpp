@@ -39,9 +39,9 @@ void expect_slip(const fe::Model& model, const std::string& said) {
 }
 
 TEST(UnitSlips, SoundMaterialsPass) {
-  const std::vector<std::pair<double, double>> materials = {
-      {210e9, 7850.0}, {30e9, 2500.0}, {70e9, 2700.0}, {11e9, 450.0}, {36e9, 25000.0}, {3e6, 1100.0}, {50e6, 1800.0}, {16e9, 11340.0},
-      {1e15, 7850.0}, {210e9, 0.0}, {140e9, 1600.0}};
+  const std::vector<std::pair<double, double>> materials = {{210e9, 7850.0}, {30e9, 2500.0}, {70e9, 2700.0}, {11e9, 450.0},
+                                                            {36e9, 25000.0}, {3e6, 1100.0},  {50e6, 1800.0}, {16e9, 11340.0},
+                                                            {1e15, 7850.0},  {210e9, 0.0},   {140e9, 1600.0}};
   for (const auto& [modulus, density] : materials) {
     fe::Model model = beam();
     model.materials[0].youngs_modulus_Pa = modulus;
@@ -74,7 +74,8 @@ TEST(UnitSlips, DensityInAnotherUnit) {
 TEST(UnitSlips, CoordinatesInMillimetres) {
   fe::Model model = beam();
   for (fe::Node& node : model.nodes) node.x_m *= 1000.0;
-  expect_slip(model, "spans 1e+04 m, and half of its elements are 2.5e+03 and more times as long as deep: are the coordinates in mm?");
+  expect_slip(model,
+              "spans 1e+04 m, and half of its elements are 2.5e+03 and more times as long as deep: are the coordinates in mm?");
   for (fe::Node& node : model.nodes) node.x_m *= 0.2;  // two kilometres in ten elements: a long bridge, drawn coarsely
   EXPECT_TRUE(unit_slips(model).empty());
 }
@@ -87,7 +88,8 @@ TEST(UnitSlips, SectionsLargerThanTheStructure) {
 
 TEST(UnitSlips, FirstFrequencyOfNoStructure) {
   const std::string slow = only(frequency_slips(Eigen::Vector3d(0.0042, 0.005, 0.02), 6280.0, 10.0));
-  EXPECT_NE(slow.find("the first mode is computed at 0.0042 Hz (6280 kg move, span 10 m), slower than any structure"), std::string::npos)
+  EXPECT_NE(slow.find("the first mode is computed at 0.0042 Hz (6280 kg move, span 10 m), slower than any structure"),
+            std::string::npos)
       << slow;
   EXPECT_TRUE(frequency_slips(Eigen::Vector3d(1e-7, 1.2, 3.0), 6280.0, 10.0).empty());  // a rigid body's comes before it
   EXPECT_TRUE(frequency_slips(Eigen::Vector3d(0.03, 0.05, 0.1), 1e8, 3000.0).empty());
@@ -97,7 +99,8 @@ TEST(UnitSlips, FirstFrequencyOfNoStructure) {
 TEST(UnitSlips, OneMeasuredFrequencyAmongHertz) {
   const MeasuredFrequencies measured{{"1", "2", "3", "4"}, Eigen::Vector4d(1.21, 2.43, 3618.7, 5.9)};
   const std::string slip = only(measured_slips(measured, Eigen::Vector4d(1.2, 2.4, 3.6, 6.0)));
-  EXPECT_NE(slip.find("mode 3 is measured at 3618.7 Hz, but the others lie between 1.21 and 5.9 Hz: is it in mHz"), std::string::npos)
+  EXPECT_NE(slip.find("mode 3 is measured at 3618.7 Hz, but the others lie between 1.21 and 5.9 Hz: is it in mHz"),
+            std::string::npos)
       << slip;
   const std::string low = only(measured_slips({{"1", "2", "3"}, Eigen::Vector3d(0.0024, 2.9, 3.6)}, {}));
   EXPECT_NE(low.find("mode 1 is measured at 0.0024 Hz"), std::string::npos) << low;

@@ -1,0 +1,93 @@
+#include "matching/pairing.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "matching/assignment.hpp"
+#include "modal/mac.hpp"
+
+namespace twindeck::matching {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Runs of modes whose neighbours in frequency are closer than `gap`; runs of one are left out.
+std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, double gap) {
+  std::vector<Index> order(static_cast<std::size_t>(frequency.size()));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return frequency[a] < frequency[b]; });
+  std::vector<std::vector<Index>> runs;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && frequency[order[i]] - frequency[order[i - 1]] < gap * frequency[order[i]]) {
+      runs.back().push_back(order[i]);
+    } else {
+      runs.push_back({order[i]});
+    }
+  }
+  std::erase_if(runs, [](const auto& run) { return run.size() < 2; });
+  return runs;
+}
+
+/// Share of `x` that lies in the span of the columns of `basis`.
+double subspace_mac(const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& x) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> qr(basis);
+  const Eigen::MatrixXcd q = qr.householderQ() * Eigen::MatrixXcd::Identity(basis.rows(), qr.rank());
+  return std::min(1.0, (q.adjoint() * x).squaredNorm() / x.squaredNorm());
+}
+
+}  // namespace
+
+std::vector<int> follow_modes(const Eigen::Ref<const MatrixXd>& mac_matrix) { return best_assignment(mac_matrix); }
+
+std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
+                                  const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
+                                  const PairingOptions& options) {
+  const Index n_x = frequency_x.size(), n_n = frequency_n.size();
+  const bool shapes = phi_x.rows() > 0;
+  TWINDECK_ASSERT(!shapes || (phi_x.cols() == n_x && phi_n.cols() == n_n));
+  const MatrixXd error = ((-frequency_x).replicate(1, n_n).rowwise() + frequency_n.transpose()).cwiseAbs().array() /
+                         frequency_x.replicate(1, n_n).array();
+
+  MatrixXd value = MatrixXd::Constant(n_x, n_n, std::numeric_limits<double>::quiet_NaN());  // MAC, or subspace MAC in a cluster
+  MatrixXd gain = (options.maximum_frequency_error - error.array()).max(0.0);
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered =
+      Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(n_x, n_n, false);
+  if (shapes) {
+    value = modal::mac_where_measured(phi_n, phi_x).transpose();
+    gain = value;
+    for (const std::vector<Index>& run : clusters(frequency_n, options.cluster_gap)) {
+      // Where there are no more sensors than close modes any shape lies in their span, which then says nothing.
+      for (Index i = 0; i < n_x; ++i) {
+        const std::vector<Index> rows = modal::measured_rows(phi_x.col(i));
+        if (run.size() >= rows.size()) continue;
+        const double share = subspace_mac(phi_n(rows, run), phi_x(rows, Eigen::seqN(i, 1)));
+        for (const Index j : run) {
+          if (share < options.cluster_mac || value(i, j) >= options.cluster_mac) continue;
+          gain(i, j) = share + 1e-3 * value(i, j);  // within the cluster the nearer shape first
+          value(i, j) = share;
+          clustered(i, j) = true;
+        }
+      }
+    }
+  }
+  const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> admissible = error.array() <= options.maximum_frequency_error;
+  gain = (admissible && !(value.array() < options.minimum_mac))
+             .select(gain, 0.0);  // what will be left out must not crowd out a good pair
+
+  std::vector<ModePair> pairs;
+  const std::vector<int> column = best_assignment(gain);
+  for (Index i = 0; i < n_x; ++i) {
+    const Index j = column[static_cast<std::size_t>(i)];
+    if (j < 0 || !admissible(i, j) || value(i, j) < options.minimum_mac) continue;
+    pairs.push_back({i, j, value(i, j), clustered(i, j)});
+  }
+  return pairs;
+}
+
+}  // namespace twindeck::matching

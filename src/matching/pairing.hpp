@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "modal/modes.hpp"
+
+namespace twindeck::matching {
+
+/// A pair of an experimental and a numerical mode (0-based positions in their sets).
+struct ModePair {
+  Eigen::Index experimental = 0;
+  Eigen::Index numerical = 0;
+  double mac = 0.0;        ///< NaN where no shape is known
+  bool clustered = false;  ///< paired as a member of a subspace of close modes
+};
+
+struct PairingOptions {
+  double minimum_mac = 0.0;               ///< pairs below it are left out
+  double maximum_frequency_error = 0.35;  ///< relative; pairs with a larger error are not admitted
+  double cluster_gap = 0.02;              ///< relative frequency gap below which modes count as close
+  double cluster_mac = 0.8;               ///< least subspace MAC of a shape that lies in the span of close modes
+};
+
+/// One-to-one pairing that maximises the sum of MAC over admissible pairs (Hungarian assignment, not greedy). A mode may stay
+/// unpaired. Close numerical modes can rotate into each other. A pair of low MAC whose experimental shape lies within the span
+/// of such a cluster is marked `clustered`. It gets the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span.
+/// Without sensors (no rows) the pairing uses frequencies alone, and MAC is NaN.
+/// @return pairs in the order of the experimental modes
+/// @param frequency_x, frequency_n [Hz]
+/// @param phi_x (n_sensors × n_X), NaN where a mode was not measured; phi_n (n_sensors × n_N)
+/// Reference: Kuhn (1955), Naval Research Logistics Quarterly 2, 83-97.
+[[nodiscard]] std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
+                                                const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
+                                                const PairingOptions& options = {});
+
+/// Mode tracking: for each reference mode its position in a changed model. The one-to-one assignment maximises the sum of
+/// `mac` (n_ref × n_new). @return (n_ref), -1 for a reference mode without a partner
+[[nodiscard]] std::vector<int> follow_modes(const Eigen::Ref<const Eigen::MatrixXd>& mac);
+
+}  // namespace twindeck::matching

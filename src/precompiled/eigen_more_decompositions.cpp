@@ -1,0 +1,2 @@
+#define TWINDECK_INSTANCE
+#include "precompiled/eigen_more_decompositions.hpp"

@@ -1,0 +1,160 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/orthonormal_block.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/modal_forces.hpp"
+
+namespace twindeck::sensitivity {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using linalg::product;
+using linalg::subtract_product;
+
+constexpr double kAdjointTolerance = 1e-7;  ///< of an adjoint vector's residual, in the M norm
+constexpr int kMostBlocks = 100;            ///< far above what sensors of a structure need (six to twelve)
+
+/// Adjoint vectors of all modes in one basis: y_i = Y0 + V Z_i.
+struct Adjoint {
+  MatrixXd statics;         ///< Y0 = A⁻¹ P'C (n × n_channels), P' taking off what the modes carry
+  MatrixXd basis;           ///< V (n × r) M-orthonormal, M-orthogonal to the modes
+  std::vector<MatrixXd> z;  ///< (n_modes) Z_i (r × n_channels)
+};
+
+/// Rows with an entry: a parameter's force acts on its own elements alone, a damper's on two nodes.
+std::vector<Index> rows_in_use(const MatrixXd& force) {
+  std::vector<Index> rows;
+  const VectorXd size = force.rowwise().lpNorm<Eigen::Infinity>();
+  for (Index i = 0; i < size.size(); ++i) {
+    if (size[i] > 0.0) rows.push_back(i);
+  }
+  return rows;
+}
+
+/// With T = A⁻¹ M outside the modes and s = lambda - shift, (A - s M)⁻¹ P'C = Y0 + s (1 - s T)⁻¹ T Y0. Galerkin in the block
+/// Krylov space V of T from T Y0, H = V'M T V: (1 - s H) Z = s R with V R = T Y0. What is neglected is s Q S Z, with T V = V H
+/// + Q S.
+class AdjointSpace {
+ public:
+  AdjointSpace(const fe::ParametricSystem& system, const VectorXd& theta, const dynamics::EigenModes& modes)
+      : AdjointSpace(system.stiffness(theta), system.mass(theta), modes) {}
+  AdjointSpace(linalg::SparseMatrix stiffness, const linalg::SparseMatrix& mass, const dynamics::EigenModes& modes)
+      : modes_(modes), mass_(mass) {
+    shift_ = factorize_shifted(stiffness, mass, factor_);
+    mass_shapes_ = mass_.times(modes.shapes);
+  }
+
+  Adjoint solve(const Eigen::Ref<const MatrixXd>& channels) {
+    Adjoint out;
+    MatrixXd outside = channels;
+    subtract_product(mass_shapes_, product(modes_.shapes, channels, true), outside);
+    out.statics = from_mass(outside);
+    const MatrixXd mass_statics = mass_.times(out.statics);
+    const VectorXd size = out.statics.cwiseProduct(mass_statics).colwise().sum().cwiseAbs().cwiseSqrt();
+
+    MatrixXd v(channels.rows(), 8 * channels.cols()), mass_v(v.rows(), v.cols()), h(0, 0);
+    MatrixXd w = from_mass(mass_statics), mass_w = mass_.times(w);
+    linalg::OrthonormalBlock next = linalg::orthonormalise(w, mass_w, linalg::mass_norm(w, mass_w));
+    const MatrixXd start = next.r;
+    Index known = 0, before = 0;  // columns in use; the first of the block before the last
+    for (int block = 0; block < kMostBlocks && next.q.cols() > 0; ++block) {
+      const Index columns = next.q.cols(), last = known;
+      if (known + columns > v.cols()) {
+        v.conservativeResize(Eigen::NoChange, 2 * v.cols());
+        mass_v.conservativeResize(Eigen::NoChange, v.cols());
+      }
+      v.middleCols(known, columns) = next.q, mass_v.middleCols(known, columns) = next.mass_q;
+      known += columns;
+      w = from_mass(next.mass_q);
+      // Beyond the last two blocks there is nothing but rounding in common, which one pass over all takes away.
+      MatrixXd common = MatrixXd::Zero(known, columns);
+      for (const Index first : {before, Index{0}}) {
+        const MatrixXd part = product(mass_v.middleCols(first, known - first), w, true);
+        subtract_product(v.middleCols(first, known - first), part, w);
+        common.bottomRows(known - first) += part;
+      }
+      before = last;
+      h.conservativeResize(known, known);
+      h.rightCols(columns) = common;
+      h.bottomRows(columns) = common.transpose();
+      mass_w = mass_.times(w);
+      const double scale = std::hypot(std::sqrt(common.colwise().squaredNorm().maxCoeff()), linalg::mass_norm(w, mass_w));
+      next = linalg::orthonormalise(std::move(w), std::move(mass_w), scale);
+      if (solve_small(h, start, next.r, size, out.z)) break;
+    }
+    v.conservativeResize(Eigen::NoChange, known);
+    out.basis = std::move(v);
+    return out;
+  }
+
+ private:
+  /// A⁻¹ B, and nothing of rounding along the modes.
+  MatrixXd from_mass(const MatrixXd& b) const {
+    MatrixXd x = factor_.solve(b);
+    subtract_product(modes_.shapes, product(mass_shapes_, x, true), x);
+    return x;
+  }
+
+  /// Z of every mode; whether all are good enough. `size`: M-norms of the static parts.
+  bool solve_small(const MatrixXd& h, const MatrixXd& start, const MatrixXd& coupling, const VectorXd& size,
+                   std::vector<MatrixXd>& z) const {
+    z.clear();
+    bool good = true;
+    for (const double lambda : modes_.eigenvalue) {
+      const double s = lambda - shift_;
+      const MatrixXd matrix = MatrixXd::Identity(h.rows(), h.rows()) - s * h;
+      MatrixXd right = MatrixXd::Zero(h.rows(), start.cols());
+      right.topRows(start.rows()) = s * start;
+      z.push_back(matrix.ldlt().solve(right));
+      const MatrixXd neglected = s * coupling * z.back().bottomRows(coupling.cols());
+      for (Index c = 0; c < start.cols(); ++c)
+        good = good && neglected.col(c).norm() <= kAdjointTolerance * (size[c] + z.back().col(c).norm());
+    }
+    return good;
+  }
+
+  const dynamics::EigenModes& modes_;
+  linalg::SymmetricProduct mass_;
+  linalg::Cholesky factor_;
+  double shift_ = 0.0;
+  MatrixXd mass_shapes_;
+};
+
+}  // namespace
+
+std::vector<MatrixXd> channel_shape_derivatives(const fe::ParametricSystem& system, const VectorXd& theta,
+                                                const dynamics::EigenModes& modes, const Eigen::Ref<const MatrixXd>& channels,
+                                                double cluster_gap) {
+  const Adjoint adjoint = AdjointSpace(system, theta, modes).solve(channels);
+  const MatrixXd measured = product(channels, modes.shapes, true);
+  const auto count = static_cast<int>(system.parameters.size());
+  std::vector<MatrixXd> all(static_cast<std::size_t>(count));
+  parallel_for(count, [&](int p) {
+    const ModalForces forces = modal_forces(system, theta, modes, p, cluster_gap);
+    const std::vector<Index> rows = rows_in_use(forces.force);
+    MatrixXd derivative, share;
+    if (std::ssize(rows) < forces.force.rows() / 4) {
+      const MatrixXd force = forces.force(rows, Eigen::all);
+      derivative = product(adjoint.statics(rows, Eigen::all), force, true);
+      share = product(adjoint.basis(rows, Eigen::all), force, true);
+    } else {  // taking rows out of the basis would cost more than the zeros
+      derivative = product(adjoint.statics, forces.force, true);
+      share = product(adjoint.basis, forces.force, true);
+    }
+    derivative += measured * forces.along;
+    for (Index i = 0; i < derivative.cols(); ++i)
+      derivative.col(i) += adjoint.z[static_cast<std::size_t>(i)].transpose() * share.col(i);
+    all[static_cast<std::size_t>(p)] = std::move(derivative);
+  });
+  return all;
+}
+
+}  // namespace twindeck::sensitivity

@@ -1,0 +1,162 @@
+#include <utility>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "core/random.hpp"
+#include "linalg/block_lanczos.hpp"
+#include "linalg/dense.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/modal_forces.hpp"
+
+namespace twindeck::sensitivity {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using linalg::product;
+using linalg::subtract_product;
+
+constexpr double kTolerance = 1e-7;     ///< of the residual in the energy norm, relative to the right-hand side's
+constexpr int kMaxIterations = 300;     ///< far above what distinct eigenvalues need (three to ten)
+constexpr Index kFurtherModes = 20;     ///< modes above the given ones that the preconditioner knows
+constexpr double kFurtherError = 1e-2;  ///< how well: they only hasten
+
+VectorXd column_dots(const MatrixXd& a, const MatrixXd& b) { return a.cwiseProduct(b).colwise().sum(); }
+
+/// Columns `kept` of a matrix, to its front.
+void keep_columns(MatrixXd& a, const std::vector<Index>& kept) {
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (kept[k] != static_cast<Index>(k)) a.col(static_cast<Index>(k)) = a.col(kept[k]);
+  }
+  a.conservativeResize(Eigen::NoChange, static_cast<Index>(kept.size()));
+}
+
+}  // namespace
+
+ShapeSensitivity::ShapeSensitivity(const fe::ParametricSystem& system, VectorXd theta, dynamics::EigenModes modes,
+                                   double cluster_gap)
+    : system_(system), theta_(std::move(theta)), modes_(std::move(modes)), cluster_gap_(cluster_gap) {
+  linalg::SparseMatrix stiffness = system.stiffness(theta_);
+  const linalg::SparseMatrix mass = system.mass(theta_);
+  shift_ = factorize_shifted(stiffness, mass, factor_);
+  mass_ = std::make_unique<linalg::SymmetricProduct>(mass);
+  mass_shapes_ = mass_->times(modes_.shapes);
+  find_further_modes(stiffness);
+}
+
+void ShapeSensitivity::find_further_modes(const linalg::SparseMatrix& shifted_stiffness) {
+  const Index n = modes_.shapes.rows(), wanted = std::min(kFurtherModes, n - modes_.shapes.cols());
+  if (wanted < 1) return;
+  linalg::SelfAdjointOperator op;
+  op.size = n;
+  op.times_mass = [&](const MatrixXd& x) { return mass_->times(x); };
+  op.from_mass = [&](const MatrixXd& y) {
+    MatrixXd x = factor_.solve(y);
+    subtract_product(modes_.shapes, product(mass_shapes_, x, true), x);
+    return x;
+  };
+  const auto start = [&](int draw) {
+    MatrixXd block(n, 4);
+    for (Index i = 0; i < block.size(); ++i) {
+      block(i % n, i / n) = uniform_number(1968, static_cast<std::uint64_t>(draw), static_cast<std::uint64_t>(i)) - 0.5;
+    }
+    return op.from_mass(mass_->times(block));
+  };
+  linalg::BlockLanczosOptions options;
+  options.n_pairs = static_cast<int>(wanted);
+  options.tolerance = kFurtherError;
+  options.max_restarts = 0;
+  further_ = linalg::block_lanczos(op, start, options).vectors;
+  // Rayleigh quotients of what was found, and its images exactly: it need not be modes to help, only these must be true.
+  stiffness_further_ = linalg::SymmetricProduct(shifted_stiffness).times(further_);
+  further_value_ = column_dots(further_, stiffness_further_);
+}
+
+MatrixXd ShapeSensitivity::solve_outside_modes(MatrixXd residual) const {
+  const MatrixXd& phi = modes_.shapes;
+  subtract_product(mass_shapes_, product(phi, residual, true), residual);
+  MatrixXd z = MatrixXd::Zero(residual.rows(), residual.cols());
+  VectorXd eigenvalue = modes_.eigenvalue.array() - shift_;
+  std::vector<Index> column(static_cast<std::size_t>(residual.cols()));
+  for (Index i = 0; i < residual.cols(); ++i) column[static_cast<std::size_t>(i)] = i;
+
+  // Conjugate gradients on A - s_i M for each column i by itself, A = K - shift M. The preconditioner is A⁻¹, and on the
+  // further modes g_j, of Rayleigh quotient a_j, g_j (1/(a_j - s_i)) g_j'. So A times a direction needs no product: A A⁻¹ r =
+  // r.
+  MatrixXd direction, a_direction, mass_direction, solution;
+  VectorXd energy, floor;
+  for (int iteration = 0; iteration < kMaxIterations && residual.cols() > 0; ++iteration) {
+    MatrixXd y = factor_.solve(residual), a_y = residual;
+    if (further_.cols() > 0) {
+      MatrixXd share = product(further_, residual, true);
+      for (Index i = 0; i < share.cols(); ++i) {
+        for (Index j = 0; j < share.rows(); ++j) {
+          const double gap = further_value_[j] - eigenvalue[i];
+          share(j, i) *= gap > 1e-3 * further_value_[j] ? 1.0 / gap - 1.0 / further_value_[j] : 0.0;
+        }
+      }
+      y += product(further_, share);
+      a_y += product(stiffness_further_, share);
+    }
+    const VectorXd next = column_dots(residual, y);
+    const MatrixXd mass_y = mass_->times(y);
+    if (iteration == 0) {
+      energy = next;
+      floor = kTolerance * kTolerance * next;
+      direction = std::move(y), a_direction = std::move(a_y), mass_direction = mass_y;
+      solution = MatrixXd::Zero(z.rows(), z.cols());
+    } else {
+      const VectorXd turn = next.cwiseQuotient(energy);
+      direction = y + direction * turn.asDiagonal();
+      a_direction = a_y + a_direction * turn.asDiagonal();
+      mass_direction = mass_y + mass_direction * turn.asDiagonal();
+      energy = next;
+    }
+    std::vector<Index> kept;
+    for (Index i = 0; i < residual.cols(); ++i) {
+      const double curvature =
+          direction.col(i).dot(a_direction.col(i)) - eigenvalue[i] * direction.col(i).dot(mass_direction.col(i));
+      if (energy[i] > floor[i] && curvature > 0.0) {
+        const double step = energy[i] / curvature;
+        solution.col(i) += step * direction.col(i);
+        residual.col(i) -= step * (a_direction.col(i) - eigenvalue[i] * mass_direction.col(i));
+        kept.push_back(i);
+      } else {
+        z.col(column[static_cast<std::size_t>(i)]) = solution.col(i);
+      }
+    }
+    if (kept.size() == column.size()) continue;
+    for (MatrixXd* a : {&residual, &solution, &direction, &a_direction, &mass_direction}) keep_columns(*a, kept);
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const auto to = static_cast<Index>(k);
+      column[k] = column[static_cast<std::size_t>(kept[k])];
+      eigenvalue[to] = eigenvalue[kept[k]], energy[to] = energy[kept[k]], floor[to] = floor[kept[k]];
+    }
+    column.resize(kept.size());
+    const auto left = static_cast<Index>(kept.size());
+    eigenvalue.conservativeResize(left), energy.conservativeResize(left), floor.conservativeResize(left);
+  }
+  for (std::size_t k = 0; k < column.size(); ++k) z.col(column[k]) = solution.col(static_cast<Index>(k));
+  subtract_product(phi, product(mass_shapes_, z, true), z);  // of rounding
+  return z;
+}
+
+MatrixXd ShapeSensitivity::derivative(int parameter) const {
+  const ModalForces forces = modal_forces(system_, theta_, modes_, parameter, cluster_gap_);
+  return product(modes_.shapes, forces.along) + solve_outside_modes(forces.force);
+}
+
+std::vector<MatrixXd> ShapeSensitivity::derivatives() const {
+  std::vector<MatrixXd> all(system_.parameters.size());
+  parallel_for(all.size(), [&](std::size_t p) { all[p] = derivative(static_cast<int>(p)); });
+  return all;
+}
+
+MatrixXd shape_derivative(const fe::ParametricSystem& system, const VectorXd& theta, const dynamics::EigenModes& modes,
+                          int parameter) {
+  return ShapeSensitivity(system, theta, modes).derivative(parameter);
+}
+
+}  // namespace twindeck::sensitivity

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/eigenmodes.hpp"
+#include "steps/measured/measured.hpp"
+#include "steps/shared/model_source.hpp"
+
+namespace twindeck::steps {
+
+/// Model shapes at the measured degrees of freedom: at the node whose id is the point's name and otherwise at the nearest node
+/// to the channel's position, along the channel's direction cosines (or along x … rz where the dof names that).
+/// @return [-] (n_measured_dofs × n_modes), rows as in measured.modes.dofs
+/// @throws InputError  for a point that can be placed neither by name nor by coordinates, and for one that is over
+/// `tolerance_m` from
+///                     every node
+[[nodiscard]] Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& model,
+                                                 const dynamics::EigenModes& modes, double tolerance_m);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,112 @@
+#include "transient/newmark.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <utility>
+
+#include "transient/friction_balance.hpp"
+
+namespace twindeck::transient {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void add_maxwell(LinearSystem& system, const Eigen::Ref<const VectorXd>& direction, double stiffness_N_m,
+                 double damping_N_s_m) {
+  TWINDECK_ASSERT(direction.size() <= system.size());
+  const Index n = system.size();
+  for (MatrixXd* matrix : {&system.mass, &system.damping, &system.stiffness}) {
+    matrix->conservativeResize(n + 1, n + 1);
+    matrix->row(n).setZero();
+    matrix->col(n).setZero();
+  }
+  VectorXd elongation = VectorXd::Zero(n + 1);
+  elongation.head(direction.size()) = direction;
+  elongation[n] = -1.0;
+  system.stiffness += stiffness_N_m * elongation * elongation.transpose();
+  system.damping(n, n) += damping_N_s_m;
+}
+
+Newmark::Newmark(LinearSystem system, double step_s, std::vector<FrictionUnit> friction)
+    : system_(std::move(system)), step_s_(step_s), friction_(std::move(friction)) {
+  if (!(step_s > 0.0)) throw InputError({"", 0, "time step"}, fmt::format("is {} s, expected a positive number", step_s));
+  const Eigen::PartialPivLU<MatrixXd> factor(system_.mass + 0.5 * step_s * system_.damping +
+                                             0.25 * step_s * step_s * system_.stiffness);
+  if (!(factor.rcond() > 1e-15)) {
+    throw InputError({"", 0, "equations of motion"}, "are singular: a coordinate has neither mass nor damping nor stiffness");
+  }
+  inverse_ = factor.inverse();
+  velocity_ = inverse_ * system_.damping;
+  displacement_ = inverse_ * system_.stiffness;
+  direction_ = MatrixXd::Zero(system_.size(), static_cast<Index>(friction_.size()));
+  for (std::size_t i = 0; i < friction_.size(); ++i) {
+    direction_.col(static_cast<Index>(i)).head(friction_[i].direction.size()) = friction_[i].direction;
+  }
+  flexibility_ = 0.25 * step_s * step_s * direction_.transpose() * inverse_ * direction_;
+}
+
+MatrixXd Newmark::within_a_step(const Eigen::Ref<const MatrixXd>& load) const { return inverse_.leftCols(load.rows()) * load; }
+
+History Newmark::run(const Eigen::Ref<const MatrixXd>& force, const State& initial) const {
+  const Index r = system_.size();
+  History out;
+  out.acceleration = within_a_step(force);  // what the forces alone would do; the rest is added step by step
+  const VectorXd q = initial.displacement.size() > 0 ? initial.displacement : VectorXd::Zero(r);
+  const VectorXd v = initial.velocity.size() > 0 ? initial.velocity : VectorXd::Zero(r);
+  VectorXd first = -system_.damping * v - system_.stiffness * q;
+  first.head(force.rows()) += force.col(0);
+  integrate(out, q, v, system_.mass.completeOrthogonalDecomposition().solve(first));  // coordinates without mass: none
+  return out;
+}
+
+History Newmark::run_prepared(MatrixXd alone) const {
+  const VectorXd rest = VectorXd::Zero(system_.size());
+  History out;
+  out.acceleration = std::move(alone);
+  integrate(out, rest, rest, rest);
+  return out;
+}
+
+void Newmark::integrate(History& out, VectorXd q, VectorXd v, VectorXd a) const {
+  const Index r = system_.size(), n = out.acceleration.cols(), units = direction_.cols();
+  const double dt = step_s_;
+  out.displacement.resize(r, n);
+  out.friction_N = MatrixXd::Zero(units, n);
+  out.displacement.col(0) = q;
+  out.acceleration.col(0) = a;
+
+  VectorXd stiffness(units), threshold(units), plastic = direction_.transpose() * q, friction = VectorXd::Zero(units);
+  for (Index i = 0; i < units; ++i) {
+    stiffness[i] = friction_[static_cast<std::size_t>(i)].stiffness_N_m;
+    threshold[i] = friction_[static_cast<std::size_t>(i)].threshold_N;
+  }
+  const MatrixXd push = inverse_ * direction_;
+  for (Index i = 1; i < n; ++i) {
+    q += dt * v + 0.25 * dt * dt * a;  // predictors
+    v += 0.5 * dt * a;
+    a = out.acceleration.col(i);
+    a.noalias() -= velocity_ * v;
+    a.noalias() -= displacement_ * q;
+    if (units > 0) {
+      const VectorXd free = direction_.transpose() * (q + 0.25 * dt * dt * a);
+      if (!balance_friction(free, flexibility_, stiffness, threshold, plastic, friction) && out.status.converged) {
+        out.status = {false, fmt::format("friction found no balance at step {} ({} s)", i, dt * static_cast<double>(i))};
+      }
+      a.noalias() -= push * friction;
+      // where a unit slips, its point of rest follows
+      const VectorXd x = free - flexibility_ * friction;
+      for (Index u = 0; u < units; ++u) {
+        if (stiffness[u] > 0.0) plastic[u] = x[u] - friction[u] / stiffness[u];
+      }
+      out.friction_N.col(i) = friction;
+    }
+    q += 0.25 * dt * dt * a;
+    v += 0.5 * dt * a;
+    out.displacement.col(i) = q;
+    out.acceleration.col(i) = a;
+  }
+}
+
+}  // namespace twindeck::transient

@@ -1,0 +1,115 @@
+#include "matching/pairing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using twindeck::matching::ModePair;
+using twindeck::matching::pair_by_mac;
+
+/// Orthogonal shapes at six sensors.
+Eigen::MatrixXcd shapes(int n) { return Eigen::MatrixXcd::Identity(6, n) * 2.0; }
+
+// Oracle: by construction. The measured modes are the computed ones in another order and scale.
+TEST(PairByMac, FindsModesThatChangedOrder) {
+  const Eigen::Vector3d f_n(1.0, 1.2, 1.5);
+  const Eigen::Vector2d f_x(1.05, 1.25);
+  const Eigen::MatrixXcd phi_n = shapes(3);
+  Eigen::MatrixXcd phi_x(6, 2);
+  phi_x << -3.0 * phi_n.col(2), 0.1 * phi_n.col(0);
+  const std::vector<ModePair> pairs = pair_by_mac(f_x, phi_x, f_n, phi_n, {.maximum_frequency_error = 0.6});
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].numerical, 2);
+  EXPECT_EQ(pairs[1].numerical, 0);
+  EXPECT_NEAR(pairs[0].mac, 1.0, 1e-12);
+  EXPECT_FALSE(pairs[0].clustered);
+}
+
+// Oracle: by construction. Each measured mode lacks other sensors; over those that it has it is a computed mode in another
+// order.
+TEST(PairByMac, ComparesEachModeOverItsOwnSensors) {
+  const Eigen::Vector2d f(1.0, 1.2);
+  Eigen::MatrixXcd phi_n(4, 2);
+  phi_n << 1, 1, 2, -1, 3, 2, 4, -3;
+  Eigen::MatrixXcd phi_x(4, 2);
+  phi_x << -2.0 * phi_n.col(1), 0.5 * phi_n.col(0);
+  phi_x(0, 0) = std::nan("");
+  phi_x(3, 1) = std::nan("");
+  const std::vector<ModePair> pairs = pair_by_mac(f, phi_x, f, phi_n);
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].numerical, 1);
+  EXPECT_EQ(pairs[1].numerical, 0);
+  EXPECT_NEAR(pairs[0].mac, 1.0, 1e-12);
+  EXPECT_NEAR(pairs[1].mac, 1.0, 1e-12);
+  // With zeros in place of what is missing neither would be whole.
+  EXPECT_LT(pair_by_mac(f, phi_x.array().isNaN().select(0.0, phi_x.array()).matrix(), f, phi_n)[0].mac, 0.99);
+}
+
+// Oracle: the contract. Too far in frequency, or too unlike: no pair.
+TEST(PairByMac, LeavesOutWhatIsNotAdmissible) {
+  const Eigen::MatrixXcd phi = shapes(1);
+  const Eigen::VectorXd one = Eigen::VectorXd::Constant(1, 1.0), far = Eigen::VectorXd::Constant(1, 1.5);
+  EXPECT_EQ(pair_by_mac(one, phi, far, phi).size(), 0U);
+  EXPECT_EQ(pair_by_mac(one, phi, far, phi, {.maximum_frequency_error = 0.6}).size(), 1U);
+  Eigen::MatrixXcd mixed = phi;
+  mixed(3, 0) = 2.0;
+  EXPECT_EQ(pair_by_mac(one, mixed, one, phi, {.minimum_mac = 0.6}).size(), 0U);
+}
+
+// Oracle: hand calculation. MACs are 0.6 and 0.4 of the first measured mode, 0.3 and 0 of the second. The largest sum, 0.4 +
+// 0.3, is made of pairs that are both too unlike to be kept; the good pair must not be crowded out by them.
+TEST(PairByMac, UnlikePairsDoNotCrowdOutAGoodOne) {
+  const Eigen::MatrixXcd phi_n = shapes(2);
+  Eigen::MatrixXcd phi_x = Eigen::MatrixXcd::Zero(6, 2);
+  phi_x.col(0) << std::sqrt(0.6), std::sqrt(0.4), 0.0, 0.0, 0.0, 0.0;
+  phi_x.col(1) << std::sqrt(0.3), 0.0, std::sqrt(0.7), 0.0, 0.0, 0.0;
+  const Eigen::Vector2d f_x(1.0, 1.1), f_n(1.0, 1.2);
+  const std::vector<ModePair> kept = pair_by_mac(f_x, phi_x, f_n, phi_n, {.minimum_mac = 0.5});
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept[0].experimental, 0);
+  EXPECT_EQ(kept[0].numerical, 0);
+  EXPECT_EQ(pair_by_mac(f_x, phi_x, f_n, phi_n)[0].numerical, 1);
+}
+
+// Oracle: hand calculation. Two close computed modes rotated by 45 degrees: each measured shape has MAC 1/2 with either, and
+// lies wholly in their span. Modes that are not close are not a cluster, whatever their span.
+TEST(PairByMac, RecognisesARotatedPair) {
+  const double c = std::sqrt(0.5);
+  const Eigen::MatrixXcd phi_n = shapes(3);
+  Eigen::MatrixXcd phi_x(6, 2);
+  phi_x << c * (phi_n.col(0) + phi_n.col(1)), c * (phi_n.col(0) - phi_n.col(1));
+  const std::vector<ModePair> close = pair_by_mac(Eigen::Vector2d(1.0, 1.01), phi_x, Eigen::Vector3d(1.0, 1.005, 1.3), phi_n);
+  ASSERT_EQ(close.size(), 2U);
+  for (const ModePair& pair : close) {
+    EXPECT_TRUE(pair.clustered);
+    EXPECT_NEAR(pair.mac, 1.0, 1e-12);
+    EXPECT_LT(pair.numerical, 2);
+  }
+  EXPECT_NE(close[0].numerical, close[1].numerical);
+  const std::vector<ModePair> apart = pair_by_mac(Eigen::Vector2d(1.0, 1.01), phi_x, Eigen::Vector3d(1.0, 1.1, 1.3), phi_n);
+  for (const ModePair& pair : apart) {
+    EXPECT_FALSE(pair.clustered);
+    EXPECT_NEAR(pair.mac, 0.5, 1e-12);
+  }
+}
+
+// Oracle: by construction. Without sensors the nearest frequencies belong together and no MAC is claimed.
+TEST(PairByMac, GoesByFrequencyWithoutShapes) {
+  const std::vector<ModePair> pairs =
+      pair_by_mac(Eigen::Vector2d(1.0, 2.0), Eigen::MatrixXcd(0, 2), Eigen::Vector3d(0.8, 1.02, 1.97), Eigen::MatrixXcd(0, 3));
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].numerical, 1);
+  EXPECT_EQ(pairs[1].numerical, 2);
+  EXPECT_TRUE(std::isnan(pairs[0].mac));
+}
+
+// Oracle: by construction. More references than new modes: the one without likeness is left without a partner.
+TEST(FollowModes, LeavesTheUnlikeOne) {
+  Eigen::MatrixXd likeness(3, 2);
+  likeness << 0.1, 0.9, 0.0, 0.05, 0.8, 0.3;
+  EXPECT_EQ(twindeck::matching::follow_modes(likeness), (std::vector<int>{1, -1, 0}));
+}
+
+}  // namespace
