@@ -162,7 +162,8 @@ TEST(Damaged, BytesChangedAtRandomAreRefusedOrRead) {
   scratch.write("t.uff", universal_58(kSmall, 128.0, false));
   scratch.write("b.uff", universal_58(kSmall, 128.0, true));
   std::string csv = "time_s,A_x [g],B_x,C_z\n";
-  for (int t = 0; t < 40; ++t) csv += fmt::format("{:.3f},{},{},{}\n", 0.01 * t, kSmall(t, 0), kSmall(t, 1), kSmall(t, 2));
+  for (Eigen::Index t = 0; t < kSmall.rows(); ++t)
+    csv += fmt::format("{:.3f},{},{},{}\n", 0.01 * static_cast<double>(t), kSmall(t, 0), kSmall(t, 1), kSmall(t, 2));
   scratch.write("a.csv", csv);
   std::mt19937 random(18);
   for (const char* name : {"5.mat", "5c.mat", "4.mat", "a.npy", "t.uff", "b.uff", "a.csv"}) {
