@@ -230,7 +230,9 @@ Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before, co
                          const LoadedModel& after, const dynamics::EigenModes& modes, const Measured& measured) {
   Pairing pairing = before;
   if (measured.modes.has_shapes()) {
-    pairing.mac = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m).mac;
+    const Pairing now = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
+    pairing.mac = now.mac;
+    pairing.shapes = now.shapes;
   }
   for (std::size_t i = 0; i < pairing.pairs.size(); ++i) {
     matching::ModePair& pair = pairing.pairs[i];
