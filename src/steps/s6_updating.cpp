@@ -6,6 +6,7 @@
 #include "steps/updating/outputs.hpp"
 #include "steps/updating/setup.hpp"
 #include "steps/updating/twins.hpp"
+#include "steps/updating/weighing.hpp"
 
 namespace {
 
@@ -27,14 +28,17 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   if (!modes_before.status.converged) return modes_before.status;
   steps::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
   const steps::Pairing pairing = steps::pair_for_updating(context, config, before, modes_before, *measured);
-  steps::warn_of_twins(context, steps::indistinct_parameters(before, modes_before, active, *measured, pairing));
+  const updating::MeasuredRows rows = steps::weighed_rows(config, *measured, pairing, before, modes_before);
+  if (!rows.given())
+    steps::warn_of_twins(context, steps::indistinct_parameters(before, modes_before, active, *measured, pairing),
+                         measured->modes.has_shapes());
 
   // 3. The update.
   updating::UpdatingOptions options = config.options(context.seed);
   options.elsewhere = steps::published_values(config, parameters, active, context);
-  const updating::UpdatingResult result =
-      updating::update(before.system, steps::prestress_refresh(before), active, steps::frequency_targets(*measured, pairing),
-                       options, [&](int done, int of) { context.progress("starts", done, of); });
+  const updating::UpdatingResult result = updating::update(
+      before.system, steps::prestress_refresh(before), active, steps::frequency_targets(*measured, pairing), options,
+      [&](int done, int of) { context.progress("starts", done, of); }, rows);
   if (result.starts.empty() || result.mode_after.empty()) return result.status;
 
   // 4. The updated model, in balance, with its modes and the same pairs.
@@ -47,18 +51,12 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   comparison.insert(comparison.end(), rows_after.begin(), rows_after.end());
 
   // 5. Tables, the model, and the outcome in words.
-  steps::write_parameters(parameters, active, result, context.out / "parameters.csv");
-  steps::write_comparison(comparison, context.out);
-  steps::write_smooth_bounds(parameters, active, result, context.out / "smooth_bounds.csv");
-  steps::write_history(parameters, active, result, context.out / "history.csv");
-  steps::write_starts(parameters, active, result, context.out / "starts.csv");
-  steps::write_costs(result, context.out / "costs.csv");
-  steps::write_leave_one_out(comparison, pairing.pairs.size(), result, context.out / "leave_one_out.csv");
-  steps::write_updating_summary(comparison, config.common_pairs, result, context.out / "summary.csv");
+  steps::write_updating(parameters, active, comparison, config.common_pairs, result, context.out);
   steps::write_mac(*measured, followed, context.out);
   model_io::write_modes(steps::published_modes(after.fe_model(), after.system, modes_after), context.out);
   steps::save_model(before, result.theta, context.out / "model");
   for (const std::string& line : steps::report_lines(parameters, active, result)) context.say(line);
+  steps::report_weighing(context, {before, active, *measured, pairing, rows, result});
   context.say(steps::summary_line(comparison, account));
   return result.status.converged ? steps::outcome(modes_after.status, account) : result.status;
 }

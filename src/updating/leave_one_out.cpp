@@ -10,6 +10,7 @@ namespace {
 Search without(const Search& search, std::size_t target) {
   Search left = search;
   left.definition.targets[target].fitted = false;
+  if (left.definition.weighted) left.definition.weighted = left.definition.weighted->without(target);
   return left;
 }
 

@@ -23,8 +23,8 @@ std::vector<int> permutation(int n, std::mt19937_64& engine) {
   return order;
 }
 
-bool same_optimum(const EndPoint& a, const EndPoint& b, const Box& box) {
-  constexpr double parameter_tolerance = 0.01, cost_tolerance = 1e-3, residual_tolerance = 1e-4;
+bool same_optimum(const EndPoint& a, const EndPoint& b, const Box& box, double residual_tolerance) {
+  constexpr double parameter_tolerance = 0.01, cost_tolerance = 1e-3;
   const Eigen::VectorXd difference = a.x - b.x;
   const Eigen::VectorXd range = (box.upper - box.lower).cwiseMax(1e-300);
   if ((difference.array() / range.array()).abs().maxCoeff() <= parameter_tolerance) return true;
@@ -51,7 +51,7 @@ Eigen::MatrixXd starting_points(const Eigen::VectorXd& first, const Box& box, in
   return points;
 }
 
-std::vector<int> distinct_optima(const std::vector<EndPoint>& ends, const Box& box) {
+std::vector<int> distinct_optima(const std::vector<EndPoint>& ends, const Box& box, double negligible) {
   std::vector<std::size_t> order(ends.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ends[a].cost < ends[b].cost; });
@@ -60,7 +60,7 @@ std::vector<int> distinct_optima(const std::vector<EndPoint>& ends, const Box& b
   for (const std::size_t k : order) {
     if (!ends[k].converged) continue;
     const auto same = std::find_if(representatives.begin(), representatives.end(),
-                                   [&](std::size_t r) { return same_optimum(ends[r], ends[k], box); });
+                                   [&](std::size_t r) { return same_optimum(ends[r], ends[k], box, negligible); });
     if (same == representatives.end()) {
       representatives.push_back(k);
       optimum[k] = static_cast<int>(k);

@@ -25,9 +25,10 @@ struct EndPoint {
 };
 
 /// Sorts end points into distinct optima. Two are the same optimum if their parameters agree within 1 % of each range; or if
-/// their costs agree and the residuals' linearised difference J (x_a - x_b) stays below 1e-4: they then differ only
-/// along a direction that changes no residual.
+/// their costs agree and the residuals' linearised difference J (x_a - x_b) stays below a negligible size: they then differ
+/// only along a direction that changes no residual.
+/// @param negligible  in units of the residuals; by default relative frequencies
 /// @return for each end point the position of its optimum's representative (the cheapest converged member), -1 if not converged
-[[nodiscard]] std::vector<int> distinct_optima(const std::vector<EndPoint>& ends, const Box& box);
+[[nodiscard]] std::vector<int> distinct_optima(const std::vector<EndPoint>& ends, const Box& box, double negligible = 1e-4);
 
 }  // namespace twindeck::updating

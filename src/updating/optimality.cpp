@@ -35,9 +35,8 @@ Eigen::VectorXd projected_gradient(const Eigen::VectorXd& x, const Eigen::Vector
   return projected;
 }
 
-double gradient_reference(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& jacobian) {
-  constexpr double smallest_residual = 1e-4;
-  return std::max(gradient.norm(), smallest_residual * jacobian.norm());
+double gradient_reference(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& jacobian, double negligible) {
+  return std::max(gradient.norm(), negligible * jacobian.norm());
 }
 
 }  // namespace twindeck::updating

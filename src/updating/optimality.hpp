@@ -26,8 +26,10 @@ struct Box {
                                                  double tolerance);
 
 /// Scale for the norm of a projected gradient: the gradient at the starting point, but at least the gradient that residuals of
-/// 1e-4 cause (relative frequency, far below any measurement error). With this floor a search that starts at its optimum ends.
+/// a negligible size cause. With this floor a search that starts at its optimum ends.
 /// @param gradient J'r, @param jacobian (n_residuals × n), both at the starting point
-[[nodiscard]] double gradient_reference(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& jacobian);
+/// @param negligible  in units of the residuals; by default relative frequencies, far below any measurement error
+[[nodiscard]] double gradient_reference(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& jacobian,
+                                        double negligible = 1e-4);
 
 }  // namespace twindeck::updating

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -70,6 +71,17 @@ MatrixXd combine(const std::vector<fe::Term>& terms, const std::vector<Shared>& 
   return sum;
 }
 
+/// Derivative of a sum of terms, applied to vectors (r × m).
+MatrixXd slope_times(const std::vector<fe::Term>& terms, const std::vector<Shared>& projected, const Eigen::VectorXd& theta,
+                     int parameter, const MatrixXd& z) {
+  MatrixXd sum = MatrixXd::Zero(z.rows(), z.cols());
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const double a = terms[i].coefficient.derivative(theta, parameter);
+    if (a != 0.0) sum += a * linalg::product(*projected[i], z);
+  }
+  return sum;
+}
+
 }  // namespace
 
 ReducedSystem::ReducedSystem(std::shared_ptr<const fe::ParametricSystem> system, std::shared_ptr<const MatrixXd> basis,
@@ -110,6 +122,24 @@ MatrixXd ReducedSystem::eigenvalue_derivatives(const Eigen::VectorXd& theta, con
   add(system_->stiffness_terms, stiffness_, Eigen::VectorXd::Ones(z.cols()));
   add(system_->mass_terms, mass_, -lambda);
   return derivatives;
+}
+
+MatrixXd ReducedSystem::shape_derivatives(const Eigen::VectorXd& theta, int parameter, const Eigen::VectorXd& lambda,
+                                          const MatrixXd& z, Index count) const {
+  constexpr double equal = 1e-8;  // [-] relative difference of eigenvalues that count as equal, as in the full system
+  const MatrixXd some = z.leftCols(count);
+  const MatrixXd mass = slope_times(system_->mass_terms, mass_, theta, parameter, some);
+  const MatrixXd force =
+      slope_times(system_->stiffness_terms, stiffness_, theta, parameter, some) - mass * lambda.head(count).asDiagonal();
+  MatrixXd share = linalg::product(z, force, true);
+  const MatrixXd norm = linalg::product(z, mass, true);
+  for (Index i = 0; i < count; ++i) {
+    for (Index j = 0; j < z.cols(); ++j) {
+      const double gap = lambda[i] - lambda[j];
+      share(j, i) = std::abs(gap) <= equal * std::abs(lambda[i]) ? -0.5 * norm(j, i) : share(j, i) / gap;
+    }
+  }
+  return linalg::product(z, share);
 }
 
 MatrixXd orthonormal_basis(const MatrixXd& vectors, const linalg::SparseMatrix& mass_lower, double loss) {

@@ -23,6 +23,14 @@ class ReducedSystem {
   /// d lambda_i / d theta_p = z_i' (dK - lambda_i dM) z_i for mass-normalised z (r × m). (m × n_parameters)
   [[nodiscard]] Eigen::MatrixXd eigenvalue_derivatives(const Eigen::VectorXd& theta, const std::vector<int>& parameters,
                                                        const Eigen::VectorXd& lambda, const Eigen::MatrixXd& z) const;
+  /// Derivatives of the first `count` mass-normalised shapes with respect to one parameter, from all reduced modes:
+  ///   dz_i = sum over j of z_j z_j' (dK - lambda_i dM) z_i / (lambda_i - lambda_j), for j = i and equal lambda -1/2 z_j' dM
+  ///   z_i.
+  /// @param lambda, z  all modes (r), (r × r)
+  /// @return (r × count) per unit of parameter
+  /// Reference: Fox and Kapoor (1968), AIAA Journal 6, 2426-2429.
+  [[nodiscard]] Eigen::MatrixXd shape_derivatives(const Eigen::VectorXd& theta, int parameter, const Eigen::VectorXd& lambda,
+                                                  const Eigen::MatrixXd& z, Eigen::Index count) const;
 
  private:
   std::shared_ptr<const fe::ParametricSystem> system_;

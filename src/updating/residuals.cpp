@@ -15,10 +15,10 @@ Eigen::VectorXd ResidualDefinition::theta(const Eigen::VectorXd& x) const {
   return values;
 }
 
-FrequencyResiduals::FrequencyResiduals(std::shared_ptr<const fe::ParametricSystem> system, const ResidualDefinition& definition)
+ModalResiduals::ModalResiduals(std::shared_ptr<const fe::ParametricSystem> system, const ResidualDefinition& definition)
     : system_(std::move(system)), definition_(definition), solver_(*system_) {}
 
-const Evaluation& FrequencyResiduals::at(const Eigen::VectorXd& x, bool with_jacobian) {
+const Evaluation& ModalResiduals::at(const Eigen::VectorXd& x, bool with_jacobian) {
   constexpr std::size_t kept_points = 8;
   auto known = std::find_if(cache_.begin(), cache_.end(), [&](const Evaluation& e) { return e.x == x; });
   if (known == cache_.end()) {
@@ -33,7 +33,7 @@ const Evaluation& FrequencyResiduals::at(const Eigen::VectorXd& x, bool with_jac
   return *known;
 }
 
-void FrequencyResiduals::solve(Evaluation& evaluation) {
+void ModalResiduals::solve(Evaluation& evaluation) {
   modes_ = solver_.solve(definition_.theta(evaluation.x), definition_.n_modes);
   modes_x_ = evaluation.x;
   ++solves_;
@@ -53,16 +53,17 @@ void FrequencyResiduals::solve(Evaluation& evaluation) {
     evaluation.frequency_Hz(i) = modes_.frequency_Hz(mode);
     evaluation.residual(i) = target.fitted ? evaluation.frequency_Hz(i) / target.measured_Hz - 1.0 : 0.0;
   }
-  evaluation.valid = true;
+  evaluation.valid = !definition_.weighted || weigh(evaluation, followed.position);
 }
 
-void FrequencyResiduals::differentiate(Evaluation& evaluation) {
+void ModalResiduals::differentiate(Evaluation& evaluation) {
   if (modes_x_ != evaluation.x) {  // the modes of an older point are gone
     modes_ = solver_.solve(definition_.theta(evaluation.x), definition_.n_modes);
     modes_x_ = evaluation.x;
     ++solves_;
   }
   const Eigen::MatrixXd all = sensitivity::frequency_jacobian(*system_, definition_.theta(evaluation.x), modes_);
+  if (definition_.weighted) return differentiate_weighted(evaluation, all);
   const auto n = static_cast<Eigen::Index>(definition_.targets.size());
   evaluation.jacobian.setZero(n, static_cast<Eigen::Index>(definition_.active.size()));
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -74,6 +75,44 @@ void FrequencyResiduals::differentiate(Evaluation& evaluation) {
                                        definition_.targets[target].measured_Hz;
     }
   }
+}
+
+namespace {
+
+/// Shapes at the channels; empty where no shape is weighed.
+Eigen::MatrixXd at_channels(const WeightedRows& rows, const Eigen::MatrixXd& shapes) {
+  if (!rows.has_shapes()) return {};
+  return rows.measured().channels.transpose() * shapes;
+}
+
+}  // namespace
+
+bool ModalResiduals::weigh(Evaluation& evaluation, const std::vector<int>& position) {
+  const WeightedRows& rows = *definition_.weighted;
+  evaluation.span = rows.spans_at(position);
+  if (rows.has_shapes() && evaluation.span.empty()) return false;
+  const WeightedEvaluation weighted =
+      rows.evaluate({evaluation.frequency_Hz, at_channels(rows, modes_.shapes), evaluation.span, {}, {}}, false);
+  evaluation.residual = weighted.residual;
+  evaluation.predicted = weighted.predicted;
+  evaluation.scales = weighted.scales;
+  return true;
+}
+
+void ModalResiduals::differentiate_weighted(Evaluation& evaluation, const Eigen::MatrixXd& frequency_jacobian) {
+  const WeightedRows& rows = *definition_.weighted;
+  const Eigen::MatrixXd active = frequency_jacobian(evaluation.mode, definition_.active);
+  ComputedRows computed{
+      evaluation.frequency_Hz, at_channels(rows, modes_.shapes), evaluation.span, active * definition_.scale.asDiagonal(), {}};
+  if (rows.has_shapes()) {
+    // All parameters share the adjoint solves: to leave some out would save next to nothing.
+    const std::vector<Eigen::MatrixXd> all =
+        sensitivity::channel_shape_derivatives(*system_, definition_.theta(evaluation.x), modes_, rows.measured().channels);
+    for (std::size_t j = 0; j < definition_.active.size(); ++j)
+      computed.shape_slope.push_back(definition_.scale(static_cast<Eigen::Index>(j)) *
+                                     all[static_cast<std::size_t>(definition_.active[j])]);
+  }
+  evaluation.jacobian = rows.evaluate(computed, true).jacobian;
 }
 
 }  // namespace twindeck::updating

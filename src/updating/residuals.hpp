@@ -9,6 +9,7 @@
 #include "fe/parametric_system.hpp"
 #include "matching/mode_following.hpp"
 #include "updating/updating.hpp"
+#include "updating/weighted_rows.hpp"
 
 namespace twindeck::updating {
 
@@ -20,31 +21,40 @@ struct ResidualDefinition {
   Eigen::VectorXd scale;    ///< (n_active) parameter = scale · x: the initial value's size, or the range where it is 0
   int n_modes = 0;          ///< modes solved for
   std::shared_ptr<const matching::ModeFollower> follower;
+  std::shared_ptr<const WeightedRows> weighted;  ///< null: relative frequencies, Eq. (5)
 
   /// All parameters at normalised values of the active ones.
   [[nodiscard]] Eigen::VectorXd theta(const Eigen::VectorXd& x) const;
+  [[nodiscard]] int n_residuals() const { return weighted ? weighted->size() : static_cast<int>(targets.size()); }
+  /// Size of residuals that mean nothing: far below any measurement error if they are relative frequencies; one standard
+  /// deviation of all rows together if they are weighed.
+  [[nodiscard]] double negligible_residual() const { return weighted ? 1.0 : 1e-4; }
 };
 
 /// Residuals at one point.
 struct Evaluation {
   bool valid = false;            ///< false: modes not found here (mechanism, lost mode); the step must be refused
   Eigen::VectorXd x;             ///< (n_active)
-  Eigen::VectorXd residual;      ///< (n_targets) (f_N - f_X)/f_X [-]; 0 for a target that is not fitted
-  Eigen::MatrixXd jacobian;      ///< (n_targets × n_active) per normalised parameter; empty until asked for
+  Eigen::VectorXd residual;      ///< (n_residuals) (f_N - f_X)/f_X [-], 0 for a target that is not fitted; or weighed rows
+  Eigen::MatrixXd jacobian;      ///< (n_residuals × n_active) per normalised parameter; empty until asked for
   Eigen::VectorXd frequency_Hz;  ///< (n_targets) of the followed modes
   std::vector<int> mode;         ///< (n_targets) positions of the followed modes
   Eigen::VectorXd mac;           ///< (n_targets) with the reference modes
+  Eigen::VectorXd predicted;     ///< (n_residuals) of weighed rows, see WeightedEvaluation; else empty
+  int scales = 0;                ///< likewise
+  std::vector<std::vector<int>> span;  ///< (n_targets) positions of the modes that span each shape; empty without shapes
   [[nodiscard]] double cost() const { return 0.5 * residual.squaredNorm(); }
   [[nodiscard]] Eigen::VectorXd gradient() const { return jacobian.transpose() * residual; }
 };
 
-/// Relative frequency residuals, paper Eq. (5), of one frozen system as a function of normalised parameters x = p/p0:
-///   r_i(x) = (f_i(x) - f_X,i)/f_X,i,   dr_i/dx_j = (p0_j/f_X,i) df_i/dp_j.
-/// Residual and Jacobian at one point share one eigen-solve. The last points are kept, because a refused step returns to an
-/// earlier point. Each thread needs its own object, which holds a solver.
-class FrequencyResiduals {
+/// Residuals of one frozen system as a function of normalised parameters x = p/p0: relative frequencies, paper Eq. (5),
+///   r_i(x) = (f_i(x) - f_X,i)/f_X,i,   dr_i/dx_j = (p0_j/f_X,i) df_i/dp_j,
+/// or, where the definition weighs rows, frequencies and shapes in standard deviations (weighted_rows.hpp). Residual and
+/// Jacobian at one point share one eigen-solve. The last points are kept, because a refused step returns to an earlier point.
+/// Each thread needs its own object, which holds a solver.
+class ModalResiduals {
  public:
-  FrequencyResiduals(std::shared_ptr<const fe::ParametricSystem> system, const ResidualDefinition& definition);
+  ModalResiduals(std::shared_ptr<const fe::ParametricSystem> system, const ResidualDefinition& definition);
 
   /// @param x (n_active) @param with_jacobian  fills `jacobian`. The reference holds until the next call.
   const Evaluation& at(const Eigen::VectorXd& x, bool with_jacobian);
@@ -53,6 +63,9 @@ class FrequencyResiduals {
  private:
   void solve(Evaluation& evaluation);
   void differentiate(Evaluation& evaluation);
+  /// Replaces the residuals by those of the weighed rows. @return false if a mode of a span is lost
+  bool weigh(Evaluation& evaluation, const std::vector<int>& position);
+  void differentiate_weighted(Evaluation& evaluation, const Eigen::MatrixXd& frequency_jacobian);
 
   std::shared_ptr<const fe::ParametricSystem> system_;
   const ResidualDefinition& definition_;

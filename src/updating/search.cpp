@@ -17,7 +17,7 @@ namespace {
 
 using SharedSystem = std::shared_ptr<const fe::ParametricSystem>;
 
-ResidualFunction as_function(FrequencyResiduals& residuals) {
+ResidualFunction as_function(ModalResiduals& residuals) {
   return [&residuals](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
     const Evaluation& evaluation = residuals.at(x, jacobian != nullptr);
     if (!evaluation.valid) return false;
@@ -33,20 +33,21 @@ SharedSystem refreshed(const Search& search, const Eigen::VectorXd& x) {
 
 // Bounded solves on the full system at frozen prestress, the prestress found anew in between, until the parameters stay.
 void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, double reference, int start, SearchEnd& out) {
-  const auto n_targets = static_cast<int>(search.definition.targets.size());
+  const int n_residuals = search.definition.n_residuals();
   StartResult& result = out.result;
   const int before = result.outer;
   for (int outer = 0;; ++outer) {
     result.outer = before + outer + 1;
-    FrequencyResiduals residuals(system, search.definition);
+    ModalResiduals residuals(system, search.definition);
     if (outer == 0 && reference == 0.0) {
       const Evaluation& begin = residuals.at(x, true);
-      if (begin.valid) reference = gradient_reference(begin.gradient(), begin.jacobian);
+      if (begin.valid)
+        reference = gradient_reference(begin.gradient(), begin.jacobian, search.definition.negligible_residual());
     }
     const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
                                  search.options.optimality_tolerance * reference, search.options.bound_tolerance};
     const BoundedResult inner =
-        minimise_on_box(as_function(residuals), n_targets, x, search.box, options, [&](const AcceptedStep& step) {
+        minimise_on_box(as_function(residuals), n_residuals, x, search.box, options, [&](const AcceptedStep& step) {
           out.history.push_back(
               {start, before + outer, step.iteration, step.cost, step.projected_gradient, step.step, step.radius, step.x});
         });
@@ -81,14 +82,14 @@ Box box_about(const Eigen::VectorXd& x, const Box& box, double reach) {
 
 // The search on the corrected reduced system. Leaves x at the best point so far, and says whether it has converged there.
 bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference, int start, SearchEnd& out) {
-  const auto n_targets = static_cast<int>(search.definition.targets.size());
+  const int n_residuals = search.definition.n_residuals();
   StartResult& result = out.result;
   Eigen::VectorXd next = x;
   double cost = std::numeric_limits<double>::infinity(), reach = std::numeric_limits<double>::infinity();
   for (int outer = 0; outer < 3 * search.options.outer_iterations; ++outer) {
     // 1. The full system at the new point, with the prestress of that point.
     const SharedSystem system = search.refresh ? refreshed(search, next) : search.initial_system;
-    FrequencyResiduals residuals(system, search.definition);
+    ModalResiduals residuals(system, search.definition);
     const Evaluation& full = residuals.at(next, true);
     result.solves += residuals.solves();
     result.outer = outer + 1;
@@ -106,7 +107,8 @@ bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference,
     reach *= 2.0;
     cost = full.cost();
     out.evaluation = full;
-    if (reference == 0.0) reference = gradient_reference(full.gradient(), full.jacobian);
+    if (reference == 0.0)
+      reference = gradient_reference(full.gradient(), full.jacobian, search.definition.negligible_residual());
     result.cost = cost;
     result.projected_gradient = projected_gradient(x, full.gradient(), search.box, search.options.bound_tolerance).norm();
     result.relative_projected_gradient = result.projected_gradient / reference;
@@ -119,13 +121,12 @@ bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference,
     }
     // 2. The next point from the reduced system, corrected to agree with the full one here.
     const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());
-    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate.mass_reference, search.surrogate.mass,
-                                       full);
+    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate, full);
     if (!corrected.valid()) return false;
     const Box box = std::isfinite(reach) ? box_about(x, search.box, reach) : search.box;
     const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
                                  0.1 * search.options.optimality_tolerance * reference, search.options.bound_tolerance};
-    next = minimise_on_box(corrected, n_targets, x, box, options, {}).x;
+    next = minimise_on_box(corrected, n_residuals, x, box, options, {}).x;
     if (next == x) return false;
   }
   return false;
@@ -140,6 +141,8 @@ Surrogate make_surrogate(const Search& search, const Eigen::MatrixXd& points) {
   out.initial = std::make_shared<const ReducedSystem>(search.initial_system, out.basis, nullptr);
   out.mass_reference = out.basis->transpose() * search.definition.follower->mass_reference();
   out.mass = out.initial->mass(search.definition.initial);
+  if (const auto& weighted = search.definition.weighted; weighted && weighted->has_shapes())
+    out.channels = out.basis->transpose() * weighted->measured().channels;
   return out;
 }
 
@@ -163,30 +166,35 @@ SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int star
 
 Evaluation evaluate_in_balance(const Search& search, const Eigen::VectorXd& x) {
   const SharedSystem system = search.refresh ? refreshed(search, x) : search.initial_system;
-  FrequencyResiduals residuals(system, search.definition);
+  ModalResiduals residuals(system, search.definition);
   return residuals.at(x, false);
 }
 
+Evaluation evaluate_at_start(const Search& search, const Eigen::VectorXd& x) {
+  ModalResiduals residuals(search.initial_system, search.definition);
+  return residuals.at(x, true);
+}
+
 SmoothCheck check_by_smooth_map(const Search& search, const SearchEnd& ended) {
-  const auto n_targets = static_cast<int>(search.definition.targets.size());
+  const int n_residuals = search.definition.n_residuals();
   const SharedSystem system = search.refresh ? refreshed(search, ended.end.x) : search.initial_system;
-  FrequencyResiduals residuals(system, search.definition);
+  ModalResiduals residuals(system, search.definition);
   const Evaluation full = residuals.at(ended.end.x, true);
   SmoothCheck check;
   if (!full.valid) return check;
   const Eigen::VectorXd first = ended.result.initial.cwiseQuotient(search.definition.scale);
   const BoundedOptions options{search.options.trust_radius, 3 * search.options.max_iterations,
-                               search.options.optimality_tolerance * gradient_reference(full.gradient(), full.jacobian),
+                               search.options.optimality_tolerance *
+                                   gradient_reference(full.gradient(), full.jacobian, search.definition.negligible_residual()),
                                search.options.bound_tolerance};
   BoundedResult found;
   if (search.surrogate.basis) {
     const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());
-    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate.mass_reference, search.surrogate.mass,
-                                       full);
+    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate, full);
     if (!corrected.valid()) return check;
-    found = minimise_by_smooth_map(corrected, n_targets, first, search.box, options);
+    found = minimise_by_smooth_map(corrected, n_residuals, first, search.box, options);
   } else {
-    found = minimise_by_smooth_map(as_function(residuals), n_targets, first, search.box, options);
+    found = minimise_by_smooth_map(as_function(residuals), n_residuals, first, search.box, options);
   }
   check.theta = found.x.cwiseProduct(search.definition.scale);
   check.cost = found.cost;

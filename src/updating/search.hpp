@@ -7,17 +7,11 @@
 #include "updating/multi_start.hpp"
 #include "updating/reduced_system.hpp"
 #include "updating/residuals.hpp"
+#include "updating/surrogate.hpp"
 #include "updating/updating.hpp"
 
 /// One search of an update, from one starting point. `update` runs several in parallel.
 namespace twindeck::updating {
-
-/// Data of the reduced model that all searches share: projections of the start model.
-struct Surrogate {
-  std::shared_ptr<const Eigen::MatrixXd> basis;  ///< null: there is none
-  Eigen::MatrixXd mass_reference, mass;          ///< Q' M phi (r × n_reference), Q' M Q (r × r)
-  std::shared_ptr<const ReducedSystem> initial;
-};
 
 /// The search in normalised parameters, common to all starts.
 struct Search {
@@ -48,6 +42,9 @@ struct SearchEnd {
 
 /// Residuals at normalised parameters x, with the prestress of x.
 [[nodiscard]] Evaluation evaluate_in_balance(const Search& search, const Eigen::VectorXd& x);
+
+/// Residuals and Jacobian at normalised parameters x, with the prestress of the initial values.
+[[nodiscard]] Evaluation evaluate_at_start(const Search& search, const Eigen::VectorXd& x);
 
 /// Solves the problem of a finished search again from its first point, with the smooth map of the bounds and the prestress of
 /// its end point. It uses the reduced system, corrected to agree with the full one there, or the full one if there is no

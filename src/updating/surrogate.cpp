@@ -63,12 +63,10 @@ std::shared_ptr<const MatrixXd> modal_basis(const std::shared_ptr<const fe::Para
 }
 
 CorrectedResiduals::CorrectedResiduals(const ReducedSystem& reduced, const ResidualDefinition& definition,
-                                       const MatrixXd& reduced_mass_reference, const MatrixXd& reduced_mass,
-                                       const Evaluation& full)
+                                       const Surrogate& surrogate, const Evaluation& full)
     : reduced_(reduced),
       definition_(definition),
-      mass_reference_(reduced_mass_reference),
-      mass_(reduced_mass),
+      surrogate_(surrogate),
       centre_(full.x),
       shift_(full.residual),
       turn_(full.jacobian) {
@@ -87,6 +85,40 @@ bool CorrectedResiduals::operator()(const VectorXd& x, VectorXd& residual, Matri
   return true;
 }
 
+struct CorrectedResiduals::Modes {
+  const VectorXd& lambda;  // of all reduced modes
+  const MatrixXd& z;
+  Index kept;                        // of these, those that the full system has too
+  const std::vector<Index>& mode;    // (n_targets) positions
+  const std::vector<int>& position;  // (n_reference)
+};
+
+bool CorrectedResiduals::weighted_at(const Modes& modes, const VectorXd& theta, VectorXd& residual, MatrixXd* jacobian) const {
+  const WeightedRows& rows = *definition_.weighted;
+  ComputedRows computed;
+  computed.frequency_Hz = modes.lambda(modes.mode).cwiseSqrt() / (2.0 * std::numbers::pi);
+  if (rows.has_shapes()) {
+    computed.span = rows.spans_at(modes.position);
+    if (computed.span.empty()) return false;
+    computed.shape = surrogate_.channels.transpose() * modes.z.leftCols(modes.kept);
+  }
+  if (jacobian != nullptr) {
+    const VectorXd lambda = modes.lambda(modes.mode);
+    const MatrixXd slope = reduced_.eigenvalue_derivatives(theta, definition_.active, lambda, modes.z(Eigen::all, modes.mode));
+    const VectorXd per_eigenvalue =
+        (8.0 * std::numbers::pi * std::numbers::pi * computed.frequency_Hz.array()).inverse().matrix();
+    computed.frequency_slope = per_eigenvalue.asDiagonal() * slope * definition_.scale.asDiagonal();
+    for (Index j = 0; rows.has_shapes() && j < definition_.scale.size(); ++j)
+      computed.shape_slope.push_back(definition_.scale[j] * surrogate_.channels.transpose() *
+                                     reduced_.shape_derivatives(theta, definition_.active[static_cast<std::size_t>(j)],
+                                                                modes.lambda, modes.z, modes.kept));
+  }
+  const WeightedEvaluation weighted = rows.evaluate(computed, jacobian != nullptr);
+  residual = weighted.residual;
+  if (jacobian != nullptr) *jacobian = weighted.jacobian;
+  return true;
+}
+
 bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, MatrixXd* jacobian) const {
   const VectorXd theta = definition_.theta(x);
   const MatrixXd k = reduced_.stiffness(theta), m = reduced_.mass(theta);
@@ -96,9 +128,9 @@ bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, Matri
   const VectorXd lambda = eig.eigenvalues().head(n_modes);
   const MatrixXd z = eig.eigenvectors().leftCols(n_modes);
   MatrixXd scaled = z;
-  const MatrixXd mass_z = mass_ * z;
+  const MatrixXd mass_z = surrogate_.mass * z;
   for (Index j = 0; j < n_modes; ++j) scaled.col(j) /= std::sqrt(z.col(j).dot(mass_z.col(j)));
-  const matching::FollowedModes followed = matching::follow_normalised(mass_reference_, scaled);
+  const matching::FollowedModes followed = matching::follow_normalised(surrogate_.mass_reference, scaled);
 
   const auto n = static_cast<Index>(definition_.targets.size());
   std::vector<Index> mode(definition_.targets.size());
@@ -110,6 +142,8 @@ bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, Matri
     mode[static_cast<std::size_t>(i)] = at;
     residual(i) = target.fitted ? std::sqrt(lambda(at)) / (2.0 * std::numbers::pi * target.measured_Hz) - 1.0 : 0.0;
   }
+  if (definition_.weighted)
+    return weighted_at({eig.eigenvalues(), eig.eigenvectors(), n_modes, mode, followed.position}, theta, residual, jacobian);
   if (jacobian == nullptr) return true;
   const MatrixXd slope =
       reduced_.eigenvalue_derivatives(theta, definition_.active, lambda(mode), MatrixXd(z(Eigen::all, mode)));

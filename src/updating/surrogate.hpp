@@ -9,6 +9,14 @@
 
 namespace twindeck::updating {
 
+/// Data of the reduced model that all searches share: projections of the start model.
+struct Surrogate {
+  std::shared_ptr<const Eigen::MatrixXd> basis;  ///< Q (n × r); null: there is none
+  Eigen::MatrixXd mass_reference, mass;          ///< Q' M phi (r × n_reference), Q' M Q (r × r)
+  Eigen::MatrixXd channels;                      ///< Q' C (r × n_channels); empty where no shape is weighed
+  std::shared_ptr<const ReducedSystem> initial;
+};
+
 /// A basis for the modes of a system over the whole box: the modes at the given points, and for the targets' modes at the first
 /// point the static answer K^-1 (dK - lambda dM) phi to each parameter.
 /// @param points (n_active × n_points) normalised parameters; solved side by side
@@ -24,8 +32,7 @@ namespace twindeck::updating {
 class CorrectedResiduals {
  public:
   /// @param full  evaluation of the full system at x_k, valid and with its Jacobian
-  CorrectedResiduals(const ReducedSystem& reduced, const ResidualDefinition& definition,
-                     const Eigen::MatrixXd& reduced_mass_reference, const Eigen::MatrixXd& reduced_mass,
+  CorrectedResiduals(const ReducedSystem& reduced, const ResidualDefinition& definition, const Surrogate& surrogate,
                      const Evaluation& full);
   /// Whether the reduced system has the modes at x_k.
   [[nodiscard]] bool valid() const { return valid_; }
@@ -33,11 +40,14 @@ class CorrectedResiduals {
   bool operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
 
  private:
+  struct Modes;
+  bool weighted_at(const Modes& modes, const Eigen::VectorXd& theta, Eigen::VectorXd& residual,
+                   Eigen::MatrixXd* jacobian) const;
   bool reduced_at(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
 
   const ReducedSystem& reduced_;
   const ResidualDefinition& definition_;
-  const Eigen::MatrixXd &mass_reference_, &mass_;  // Q' M phi (r × n_reference) and Q' M Q of the start model
+  const Surrogate& surrogate_;
   Eigen::VectorXd centre_, shift_;
   Eigen::MatrixXd turn_;
   bool valid_ = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "updating/leave_one_out.hpp"
@@ -107,7 +108,7 @@ int best_start(const std::vector<SearchEnd>& ends) {
 void collect(const Search& search, std::vector<SearchEnd>& ends, UpdatingResult& result) {
   std::vector<EndPoint> end_points;
   for (const SearchEnd& end : ends) end_points.push_back(end.end);
-  const std::vector<int> optimum = distinct_optima(end_points, search.box);
+  const std::vector<int> optimum = distinct_optima(end_points, search.box, search.definition.negligible_residual());
   for (std::size_t k = 0; k < ends.size(); ++k) {
     ends[k].result.optimum = optimum[k];
     if (optimum[k] == static_cast<int>(k)) result.optima.push_back(static_cast<int>(k));
@@ -124,6 +125,7 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, UpdatingResult&
   result.frequency_after_Hz = best.evaluation.frequency_Hz;
   result.mode_after = best.evaluation.mode;
   result.followed_mac = best.evaluation.mac;
+  result.at_optimum = {best.evaluation.residual, best.evaluation.jacobian, best.evaluation.predicted, best.evaluation.scales};
   if (best.result.converged) result.smooth = check_by_smooth_map(search, best);
   if (!best.result.converged) {
     result.status = {
@@ -133,11 +135,28 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, UpdatingResult&
   }
 }
 
+// Residuals in standard deviations instead of relative frequencies, and what they are at the start.
+void weigh(Search& search, const MeasuredRows& rows, const Eigen::VectorXd& x0, UpdatingResult& result) {
+  ResidualDefinition& definition = search.definition;
+  Eigen::VectorXd measured_Hz(static_cast<Eigen::Index>(definition.targets.size()));
+  std::vector<bool> fitted;
+  for (const FrequencyTarget& target : definition.targets) {
+    measured_Hz(static_cast<Eigen::Index>(fitted.size())) = target.measured_Hz;
+    fitted.push_back(target.fitted);
+  }
+  definition.weighted =
+      std::make_shared<const WeightedRows>(std::make_shared<const MeasuredRows>(rows), measured_Hz, std::move(fitted));
+  const Evaluation start = evaluate_at_start(search, x0);
+  if (!start.valid) return;
+  result.cost_before = start.cost();
+  result.at_start = {start.residual, start.jacobian, start.predicted, start.scales};
+}
+
 }  // namespace
 
 UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh, const std::vector<int>& active,
                       const std::vector<FrequencyTarget>& targets, const UpdatingOptions& options,
-                      const std::function<void(int done, int of)>& progress) {
+                      const std::function<void(int done, int of)>& progress, const MeasuredRows& rows) {
   TWINDECK_ASSERT(options.starts >= 1 && options.outer_iterations >= 1 && options.max_iterations >= 1);
   check_input(start, active, targets);
   Search search{refresh,
@@ -152,6 +171,8 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
 
   // The start model's modes: what all later modes are followed from.
   UpdatingResult result;
+  result.scale = definition.scale;
+  result.box = search.box;
   dynamics::ModalSolver solver(*search.initial_system);
   dynamics::EigenModes reference = solver.solve(definition.initial, definition.n_modes);
   const auto found = static_cast<int>(reference.frequency_Hz.size());
@@ -171,13 +192,15 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
     result.frequency_before_Hz(static_cast<Eigen::Index>(i)) = reference.frequency_Hz(targets[i].reference_mode);
   }
 
+  if (rows.given()) weigh(search, rows, x0, result);
+
   const Eigen::MatrixXd points = starting_points(x0, search.box, options.starts, options.seed);
   if (start.size() >= options.surrogate_from_size) search.surrogate = make_surrogate(search, points);
   std::vector<SearchEnd> ends = run_starts(search, points, progress);
   collect(search, ends, result);
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const double residual = result.frequency_before_Hz(static_cast<Eigen::Index>(i)) / targets[i].measured_Hz - 1.0;
-    result.cost_before += targets[i].fitted ? 0.5 * residual * residual : 0.0;
+    if (!rows.given()) result.cost_before += targets[i].fitted ? 0.5 * residual * residual : 0.0;
   }
   for (const Eigen::VectorXd& values : options.elsewhere) {
     const Evaluation there = evaluate_in_balance(search, values.cwiseQuotient(definition.scale));

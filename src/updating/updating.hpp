@@ -8,6 +8,8 @@
 
 #include "core/error.hpp"
 #include "fe/parametric_system.hpp"
+#include "updating/optimality.hpp"
+#include "updating/weighted_rows.hpp"
 
 namespace twindeck::updating {
 
@@ -79,6 +81,14 @@ struct CostElsewhere {
   bool valid = false;            ///< false: the modes were not found there
 };
 
+/// Residuals and their Jacobian at one point (see Evaluation).
+struct Linearised {
+  Eigen::VectorXd residual;   ///< (n_residuals); empty where the modes were not found
+  Eigen::MatrixXd jacobian;   ///< (n_residuals × n_active) per normalised parameter
+  Eigen::VectorXd predicted;  ///< (n_residuals) of weighed rows, in their units; else empty
+  int scales = 0;             ///< free scales of weighed shapes
+};
+
 struct UpdatingResult {
   Eigen::VectorXd theta;  ///< (n_parameters) all parameters, the inactive at their initial values
   std::vector<StartResult> starts;
@@ -91,6 +101,9 @@ struct UpdatingResult {
   std::vector<IterationRecord> history;
   SmoothCheck smooth;
   double cost_before = 0.0;              ///< at the initial values
+  Linearised at_optimum, at_start;       ///< `at_start` only where rows are weighed
+  Eigen::VectorXd scale;                 ///< (n_active) parameter = scale · normalised parameter
+  Box box;                               ///< of the normalised parameters
   std::vector<LeftOut> left_out;         ///< (n_targets) where options.leave_one_out, else empty
   std::vector<CostElsewhere> elsewhere;  ///< one a point of options.elsewhere
   Status status;
@@ -100,7 +113,8 @@ struct UpdatingResult {
 /// Jacobian of an inner solve belong to the same function. Must be callable from several threads at once.
 using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)>;
 
-/// Bounded nonlinear least squares on relative frequency residuals, paper Eq. (5): F = 1/2 sum ((f_N - f_X)/f_X)².
+/// Bounded nonlinear least squares on relative frequency residuals, paper Eq. (5): F = 1/2 sum ((f_N - f_X)/f_X)², or on rows
+/// that are weighed by their covariance.
 /// Powell's dogleg (Ceres, see problem.hpp) on parameters divided by their initial values, with the exact Jacobian. Modes are
 /// tracked by their mass-weighted MAC with the start model's modes.
 ///
@@ -118,12 +132,14 @@ using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)
 /// @param active   positions of the parameters to update; each with lower < initial < upper (or on one of them)
 /// @param targets  measured frequencies [Hz] with the start model's modes they belong to
 /// @param progress called when a start has ended; may be empty
+/// @param rows     measured rows with their covariance: F is then half the sum of squared weighed rows (weighted_rows.hpp), of
+///                 frequencies alone or of shapes too; by default Eq. (5).
 /// @return the cheapest converged start; status not converged if no start converged
 /// @throws InputError  for a parameter that is fixed or starts outside its bounds, no parameter or target, a frequency that is
 ///                     not positive, or a mode that does not exist
 /// Reference: Powell (1970); Madsen, Nielsen and Tingleff (2004), Methods for non-linear least squares problems, section 3.3.
 [[nodiscard]] UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh, const std::vector<int>& active,
                                     const std::vector<FrequencyTarget>& targets, const UpdatingOptions& options,
-                                    const std::function<void(int done, int of)>& progress);
+                                    const std::function<void(int done, int of)>& progress, const MeasuredRows& rows = {});
 
 }  // namespace twindeck::updating

@@ -143,6 +143,16 @@ class WhatCannotFool(OnAChain):
             self.assertIn("WARNING: shapes disagree", done.stderr)
             self.assertTrue(any("shapes disagree" in w for w in manifest["warnings"]), manifest["warnings"])
             self.assertIn("shapes disagree", manifest["message"])
+            self.assertTrue(any(w.startswith("channel c4 seems to be reversed") for w in manifest["warnings"]), manifest["warnings"])
+
+    def test_a_reversed_channel_is_named_where_every_pair_still_agrees(self):
+        frequency, shapes = modes({"left": 0.8, "right": 0.8})
+        shapes = shapes.copy()
+        shapes[0] *= -1.0  # the mass beside the wall moves little in modes 1 and 2: MACs of 0.91 and 0.68
+        done, manifest = self.run_step("s4_refinement", write_features(self.folder / "two", {"calm": (frequency[:2], shapes[:, :2])}))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse(any("shapes disagree" in w for w in manifest["warnings"]), manifest["warnings"])
+        self.assertTrue(any(w.startswith("channel c1 seems to be reversed") for w in manifest["warnings"]), manifest["warnings"])
 
     def test_a_mode_that_is_none_stays_unpaired(self):
         frequency, shapes = modes()

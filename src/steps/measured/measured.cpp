@@ -93,6 +93,35 @@ Measured assemble_measured(const io::CsvTable& table, const std::vector<std::str
   return measured;
 }
 
+/// Rows that were entered into modes, with their covariance.
+void take_rows(const FeatureRows& read, const std::vector<std::size_t>& entered, Measured& measured) {
+  std::vector<Index> at;
+  for (const std::size_t r : entered) {
+    const FeatureRow& row = read.rows[r];
+    if (row.type == "damping_ratio_pct") continue;
+    const auto& names = measured.modes.names;
+    MeasuredRow& taken = measured.rows.emplace_back();
+    taken.mode = std::find(names.begin(), names.end(), row.mode) - names.begin();
+    taken.imaginary = row.type == "shape_imag";
+    taken.value = row.value;
+    if (row.is_shape()) {
+      const auto& dofs = measured.modes.dofs;
+      taken.dof =
+          std::find_if(dofs.begin(), dofs.end(), [&](const auto& dof) { return dof.direction == row.channel; }) - dofs.begin();
+    }
+    at.push_back(static_cast<Index>(r));
+  }
+  if (read.covariance.size() > 0) {
+    measured.covariance = read.covariance(at, at);
+    return;
+  }
+  measured.covariance = Eigen::MatrixXd::Zero(std::ssize(at), std::ssize(at));
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double std = read.rows[static_cast<std::size_t>(at[i])].std;
+    measured.covariance(static_cast<Index>(i), static_cast<Index>(i)) = std * std;
+  }
+}
+
 }  // namespace
 
 Measured read_measured_features(const std::filesystem::path& folder, const MeasuredChoice& choice) {
@@ -107,6 +136,7 @@ Measured read_measured_features(const std::filesystem::path& folder, const Measu
 
   std::map<std::string, MeasuredMode> found;
   std::vector<std::string> names;
+  std::vector<std::size_t> entered;
   for (std::size_t at = 0; at < read.rows.size(); ++at) {
     const FeatureRow& row = read.rows[at];
     if (!row.is_modal() || row.condition != chosen || row.held_out) continue;
@@ -116,12 +146,14 @@ Measured read_measured_features(const std::filesystem::path& folder, const Measu
       names.push_back(row.mode);
     }
     enter(row, mode->second);
+    entered.push_back(at);
   }
   if (names.empty()) {
     throw InputError({(folder / "rows.csv").string(), 0, ""}, fmt::format("has no modes of condition '{}'", chosen),
                      "check the column `condition`, or take another condition (--condition)");
   }
   Measured measured = assemble_measured(read.table, names, found, std::move(channels));
+  take_rows(read, entered, measured);
   measured.source = folder.string();
   return measured;
 }
@@ -143,7 +175,9 @@ Measured read_measured_modes(const std::filesystem::path& folder, const Measured
                        fmt::format("mode {} has no frequency above 0 Hz", name), "");
     }
     measured.labels.push_back(matching::experimental_label(name));
+    measured.rows.push_back({i, -1, false, measured.modes.frequency_Hz[i]});
   }
+  measured.covariance = measured.modes.frequency_std_Hz.cwiseAbs2().asDiagonal();
   if (std::filesystem::exists(folder / "channels.csv")) measured.channels = read_channels(folder / "channels.csv");
   correct(choice.corrections, measured.modes, (folder / "shapes.csv").string());
   return measured;

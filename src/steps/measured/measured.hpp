@@ -29,12 +29,22 @@ struct Channel {
   [[nodiscard]] bool is_at_a_point() const { return element.empty() && support.empty(); }
 };
 
+/// A measured frequency or component of a shape, as a row of a covariance.
+struct MeasuredRow {
+  Eigen::Index mode = 0;   ///< position in Measured::modes
+  Eigen::Index dof = -1;   ///< row of the shapes; -1 for the frequency
+  bool imaginary = false;  ///< of a component
+  double value = 0.0;      ///< [Hz] or [-]
+};
+
 /// Measured modes with their names and channels.
 struct Measured {
   modal::ModeSet modes;             ///< direction of a shape's dof: x … rz, or the name of a channel
   std::vector<std::string> labels;  ///< (n_modes) "7X"
   std::vector<Channel> channels;    ///< empty without channels.csv
   std::string source;               ///< folder, for messages
+  std::vector<MeasuredRow> rows;    ///< whatever has a standard deviation: frequencies, and shapes of a features folder
+  Eigen::MatrixXd covariance;       ///< (n_rows × n_rows) of covariance.npy, else the squared deviations
 };
 
 struct MeasuredChoice;

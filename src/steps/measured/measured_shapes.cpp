@@ -21,14 +21,12 @@ const std::array<std::string, 6> kDirections = {"x", "y", "z", "rx", "ry", "rz"}
 struct ModelPoints {
   std::vector<std::string> node;          ///< name of each node
   std::vector<Eigen::Vector3d> x_m;       ///< NaN where unknown
-  std::vector<std::array<Index, 6>> row;  ///< rows of `values`; -1 where the node lacks the direction
-  Eigen::MatrixXd values;                 ///< (rows × n_modes)
+  std::vector<std::array<Index, 6>> row;  ///< rows of the expanded shapes; -1 where the node lacks the direction
 };
 
-ModelPoints points_of(const LoadedModel& model, const dynamics::EigenModes& modes) {
+ModelPoints points_of(const LoadedModel& model) {
   ModelPoints points;
   if (model.model) {
-    points.values = model.system.expand(modes.shapes);
     for (std::size_t i = 0; i < model.model->nodes.size(); ++i) {
       points.node.push_back(std::to_string(model.model->nodes[i].id));
       points.x_m.push_back(model.model->nodes[i].x_m);
@@ -37,7 +35,6 @@ ModelPoints points_of(const LoadedModel& model, const dynamics::EigenModes& mode
     }
     return points;
   }
-  points.values = modes.shapes;
   std::map<std::string, std::size_t> at;
   for (std::size_t i = 0; i < model.system.dofs.size(); ++i) {
     const fe::DofLabel& dof = model.system.dofs[i];
@@ -94,12 +91,16 @@ std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const
                    "give the node's id as the point, or the channel's x_m, y_m, z_m in channels.csv");
 }
 
-}  // namespace
+/// A part of what a channel shows: `cosine` times a row of the expanded shapes.
+struct ChannelPart {
+  Index row = 0;
+  double cosine = 0.0;
+};
 
-Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
-                                   double tolerance_m) {
-  const ModelPoints points = points_of(model, modes);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Index>(measured.modes.dofs.size()), modes.shapes.cols());
+/// The parts of each measured degree of freedom.
+std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const LoadedModel& model, double tolerance_m) {
+  const ModelPoints points = points_of(model);
+  std::vector<std::vector<ChannelPart>> out(measured.modes.dofs.size());
   for (std::size_t i = 0; i < measured.modes.dofs.size(); ++i) {
     const modal::ShapeDof& dof = measured.modes.dofs[i];
     const auto found = std::find_if(measured.channels.begin(), measured.channels.end(),
@@ -121,13 +122,33 @@ Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& 
                        "give dx, dy, dz of the channel in channels.csv");
     }
     for (std::size_t d = 0; d < 6; ++d) {
-      if (cosine[d] == 0.0) continue;
-      const Index row = points.row[node][d];
       // Fixed in this direction, or condensed away: an FE node has a row of zeros, a matrix model no row at all.
-      if (row >= 0) out.row(static_cast<Index>(i)) += cosine[d] * points.values.row(row);
+      if (cosine[d] != 0.0 && points.row[node][d] >= 0) out[i].push_back({points.row[node][d], cosine[d]});
     }
   }
+  return out;
+}
+
+}  // namespace
+
+Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
+                                   double tolerance_m) {
+  const std::vector<std::vector<ChannelPart>> parts = placed(measured, model, tolerance_m);
+  const Eigen::MatrixXd values = model.system.expand(modes.shapes);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(parts), modes.shapes.cols());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const ChannelPart& part : parts[i]) out.row(static_cast<Index>(i)) += part.cosine * values.row(part.row);
   return out.cast<std::complex<double>>();
+}
+
+Eigen::MatrixXd sensor_vectors(const Measured& measured, const LoadedModel& model, double tolerance_m) {
+  const std::vector<std::vector<ChannelPart>> parts = placed(measured, model, tolerance_m);
+  Eigen::MatrixXd chosen =
+      Eigen::MatrixXd::Zero(model.model ? model.system.expansion.rows() : model.system.size(), std::ssize(parts));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const ChannelPart& part : parts[i]) chosen(part.row, static_cast<Index>(i)) += part.cosine;
+  if (!model.model) return chosen;
+  return model.system.expansion.transpose() * chosen;
 }
 
 }  // namespace twindeck::steps

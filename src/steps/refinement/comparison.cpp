@@ -67,6 +67,7 @@ Pairing pair_at_sensors(const Measured& measured, const LoadedModel& model, cons
   }
   Pairing pairing;
   pairing.method = "mac";
+  pairing.shapes = phi_n;
   pairing.mac = Eigen::MatrixXd::Zero(phi_n.cols(), measured.modes.size());
   const Eigen::MatrixXcd phi_moving = phi_n(Eigen::all, moving);
   const Eigen::VectorXd frequency_moving = modes.frequency_Hz(moving);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "steps/refinement/reversed_channel.hpp"
 
 namespace twindeck::steps {
 
@@ -63,6 +64,7 @@ std::string few(const std::vector<std::string>& names) {
 PairingAccount account_of(const Measured& measured, const Pairing& pairing, const Eigen::VectorXd& computed_Hz) {
   PairingAccount account;
   account.by_shape = pairing.method == "mac";
+  account.reversed = reversed_channel(measured, pairing);
   const double highest = computed_Hz.size() > 0 ? computed_Hz.maxCoeff() : 0.0;
   for (Index i = 0; i < measured.modes.size(); ++i) {
     const std::string& label = measured.labels[static_cast<std::size_t>(i)];
@@ -122,6 +124,7 @@ std::optional<std::string> common_factor(const Measured& measured, const Pairing
 void warn_of_pairing(StepContext& context, const PairingAccount& account, const std::optional<std::string>& factor,
                      const std::string& stage) {
   if (factor) context.warn(*factor);
+  if (account.reversed) context.warn(*account.reversed);
   if (account.unlike.empty()) return;
   context.warn(
       fmt::format("shapes disagree{}: {}; frequencies that fit say nothing there. A channel may be reversed, exchanged or "

@@ -20,13 +20,14 @@ inline constexpr double usual_minimum_mac = 0.2;
 inline constexpr double usual_least_paired = 0.5;
 
 struct PairingAccount {
-  bool by_shape = false;              ///< false: by order or by a published list, of which shapes say nothing
-  int measured = 0;                   ///< modes that could have a partner: no higher than the computed modes reach
-  std::vector<std::string> unpaired;  ///< of these, those that have none
-  std::vector<std::string> beyond;    ///< measured above the highest computed mode
-  double worst_mac = kUnknown;        ///< over the pairs; NaN where there is none
-  std::string worst;                  ///< its pair, "3X-4N"
-  std::vector<std::string> unlike;    ///< pairs below `agreeing_mac`, "3X-4N (MAC 0.31)"
+  bool by_shape = false;                ///< false: by order or by a published list, of which shapes say nothing
+  int measured = 0;                     ///< modes that could have a partner: no higher than the computed modes reach
+  std::vector<std::string> unpaired;    ///< of these, those that have none
+  std::vector<std::string> beyond;      ///< measured above the highest computed mode
+  double worst_mac = kUnknown;          ///< over the pairs; NaN where there is none
+  std::string worst;                    ///< its pair, "3X-4N"
+  std::vector<std::string> unlike;      ///< pairs below `agreeing_mac`, "3X-4N (MAC 0.31)"
+  std::optional<std::string> reversed;  ///< a channel that seems to be reversed, in a sentence
   [[nodiscard]] int paired() const { return measured - static_cast<int>(unpaired.size()); }
 };
 
@@ -47,7 +48,7 @@ struct PairingAccount {
 [[nodiscard]] std::optional<std::string> common_factor(const Measured& measured, const Pairing& pairing,
                                                        const Eigen::VectorXd& computed_Hz);
 
-/// Warns of pairs whose shapes disagree and of a common factor.
+/// Warns of pairs whose shapes disagree, of a reversed channel and of a common factor.
 /// @param stage  "before the updating" or so, for the message; may be empty
 void warn_of_pairing(StepContext& context, const PairingAccount& account, const std::optional<std::string>& factor,
                      const std::string& stage);

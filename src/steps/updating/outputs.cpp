@@ -172,6 +172,19 @@ void write_updating_summary(const std::vector<ComparisonRow>& comparison, const 
   csv.save(file);
 }
 
+void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                    const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                    const updating::UpdatingResult& result, const std::filesystem::path& folder) {
+  write_parameters(parameters, active, result, folder / "parameters.csv");
+  write_comparison(comparison, folder);
+  write_smooth_bounds(parameters, active, result, folder / "smooth_bounds.csv");
+  write_history(parameters, active, result, folder / "history.csv");
+  write_starts(parameters, active, result, folder / "starts.csv");
+  write_costs(result, folder / "costs.csv");
+  write_leave_one_out(comparison, comparison.size() / 2, result, folder / "leave_one_out.csv");
+  write_updating_summary(comparison, common, result, folder / "summary.csv");
+}
+
 std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                                       const updating::UpdatingResult& result) {
   std::vector<std::string> lines;

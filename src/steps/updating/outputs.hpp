@@ -49,6 +49,11 @@ void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size
 void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
                             const updating::UpdatingResult& result, const std::filesystem::path& file);
 
+/// All of these tables. @param comparison  rows of the stages `before` and `after`, in the order of the targets
+void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                    const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                    const updating::UpdatingResult& result, const std::filesystem::path& folder);
+
 /// What was found, for people: values before and after, bounds hit, cost and optimality of each start.
 [[nodiscard]] std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters,
                                                     const std::vector<int>& active, const updating::UpdatingResult& result);

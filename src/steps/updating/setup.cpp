@@ -36,7 +36,21 @@ matching::PairingOptions pairing_options(const UpdatingConfig& config) {
   return options;
 }
 
+std::optional<io::FieldTable::Broken> broken_weights(const UpdatingConfig& config) {
+  if (std::find(config.residuals.begin(), config.residuals.end(), "frequency") == config.residuals.end())
+    return io::FieldTable::Broken{"residuals", "lacks \"frequency\"",
+                                  "write residuals = [\"frequency\"] or [\"frequency\", \"shape\"]"};
+  if (config.weighs_shapes() && config.weights == "relative")
+    return io::FieldTable::Broken{"weights", "is \"relative\", which says nothing of shapes",
+                                  "write weights = \"covariance\", or residuals = [\"frequency\"]"};
+  return std::nullopt;
+}
+
 }  // namespace
+
+bool UpdatingConfig::weighs_shapes() const { return std::find(residuals.begin(), residuals.end(), "shape") != residuals.end(); }
+
+bool UpdatingConfig::weighs() const { return weights == "covariance" || weighs_shapes(); }
 
 io::FieldTable UpdatingConfig::fields() {
   io::FieldTable table;
@@ -68,6 +82,18 @@ io::FieldTable UpdatingConfig::fields() {
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(), "largest distance of a sensor from its node")
       .boolean("leave_one_out", leave_one_out,
                "afterwards each pair is left out in turn and predicted by an update to the others (leave_one_out.csv)")
+      .choices("residuals", residuals, {"frequency", "shape"},
+               "what is fitted: frequencies, and shapes too (any scale of each is free; docs/updating_on_shapes.md)")
+      .choice(
+          "weights", weights, {"automatic", "relative", "covariance"},
+          "relative: errors of frequencies relative to the measured ones, the paper's Eq. (5); covariance: standard deviations "
+          "or covariance.npy of the features; automatic: covariance with shapes, else relative")
+      .number("frequency_model_error", frequency_model_error, "", io::non_negative(),
+              "standard deviation of the model's own error relative to the frequency, added to the measurement's (weights by "
+              "covariance)")
+      .number("shape_model_error", shape_model_error, "", io::non_negative(),
+              "the same for components of shapes, relative to the largest of the shape")
+      .rule([this] { return broken_weights(*this); })
       .text("published_values", published_values,
             "file with another updating's result (parameter,unit,final_value), whose cost in this model is told (costs.csv)");
   return table;
@@ -204,7 +230,9 @@ Pairing followed_pairing(const UpdatingConfig& config, const Pairing& before, co
                          const LoadedModel& after, const dynamics::EigenModes& modes, const Measured& measured) {
   Pairing pairing = before;
   if (measured.modes.has_shapes()) {
-    pairing.mac = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m).mac;
+    const Pairing now = pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
+    pairing.mac = now.mac;
+    pairing.shapes = now.shapes;
   }
   for (std::size_t i = 0; i < pairing.pairs.size(); ++i) {
     matching::ModePair& pair = pairing.pairs[i];

@@ -33,8 +33,15 @@ struct UpdatingConfig {
   double cluster_gap = 0.02;
   double sensor_tolerance_m = 0.5;
   bool leave_one_out = false;
-  std::string published_values;  ///< file with somebody else's result: the cost of its parameters is told
+  std::vector<std::string> residuals = {"frequency"};  ///< "frequency", "shape"
+  std::string weights = "automatic";                   ///< "automatic" | "relative" | "covariance"
+  double frequency_model_error = 0.0;                  ///< [-] of the frequency
+  double shape_model_error = 0.0;                      ///< [-] of the shape's largest component
+  std::string published_values;                        ///< file with somebody else's result: the cost of its parameters is told
 
+  [[nodiscard]] bool weighs_shapes() const;
+  /// Whether rows are weighed by their covariance; false: relative frequencies, Eq. (5).
+  [[nodiscard]] bool weighs() const;
   [[nodiscard]] io::FieldTable fields();
   [[nodiscard]] updating::UpdatingOptions options(std::uint64_t seed) const;
 };

@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "sensitivity/eigen_sensitivity.hpp"
+#include "updating/posterior.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
 using Eigen::Index;
-
-constexpr double seen_from = 1.0;  ///< [standard deviations] of all frequencies together: what is less is noise (as in step 5)
 
 /// Shift of each paired frequency, in its standard deviations, over half the range of each active parameter.
 Eigen::MatrixXd scaled_shifts(const LoadedModel& loaded, const dynamics::EigenModes& modes, const std::vector<int>& active,
@@ -31,40 +28,33 @@ Eigen::MatrixXd scaled_shifts(const LoadedModel& loaded, const dynamics::EigenMo
   return shifts;
 }
 
-bool alike(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  if (a.norm() < seen_from || b.norm() < seen_from) return false;
-  const Eigen::VectorXd& larger = a.norm() < b.norm() ? b : a;
-  const Eigen::VectorXd& smaller = a.norm() < b.norm() ? a : b;
-  return (smaller - larger * (larger.dot(smaller) / larger.squaredNorm())).norm() < seen_from;
-}
-
 }  // namespace
 
 std::vector<std::vector<std::string>> indistinct_parameters(const LoadedModel& loaded, const dynamics::EigenModes& modes,
                                                             const std::vector<int>& active, const Measured& measured,
                                                             const Pairing& pairing) {
-  const Eigen::MatrixXd shifts = scaled_shifts(loaded, modes, active, measured, pairing);
-  std::vector<std::size_t> set(active.size());  // of each parameter, by its first member
-  std::iota(set.begin(), set.end(), std::size_t{0});
-  for (std::size_t i = 0; i < active.size(); ++i)
-    for (std::size_t j = i + 1; j < active.size(); ++j)
-      if (set[j] == j && alike(shifts.col(static_cast<Index>(i)), shifts.col(static_cast<Index>(j)))) set[j] = set[i];
-  std::vector<std::vector<std::string>> sets;
-  for (std::size_t first = 0; first < set.size(); ++first) {
-    std::vector<std::string> names;
-    for (std::size_t j = 0; j < set.size(); ++j)
-      if (set[j] == first) names.push_back(loaded.system.parameters[static_cast<std::size_t>(active[j])].name);
-    if (names.size() > 1) sets.push_back(names);
-  }
-  return sets;
+  return named_sets(loaded, active, updating::indistinct_sets(scaled_shifts(loaded, modes, active, measured, pairing)));
 }
 
-void warn_of_twins(StepContext& context, const std::vector<std::vector<std::string>>& sets) {
+std::vector<std::vector<std::string>> named_sets(const LoadedModel& loaded, const std::vector<int>& active,
+                                                 const std::vector<std::vector<int>>& sets) {
+  std::vector<std::vector<std::string>> named;
+  for (const std::vector<int>& set : sets) {
+    std::vector<std::string>& names = named.emplace_back();
+    for (const int j : set)
+      names.push_back(loaded.system.parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])].name);
+  }
+  return named;
+}
+
+void warn_of_twins(StepContext& context, const std::vector<std::vector<std::string>>& sets, bool has_shapes) {
+  const char* mend = has_shapes ? "weigh the shapes too (residuals = [\"frequency\", \"shape\"]), or ask s9_diagnosis"
+                                : "or ask s9_diagnosis, which weighs the shapes too";
   for (const std::vector<std::string>& names : sets)
     context.warn(fmt::format(
         "the paired frequencies cannot tell {} apart: what one does to them another does as well, so that blame may "
-        "fall on the wrong one. Update one of them, or ask s9_diagnosis, which weighs the shapes too",
-        fmt::join(names, ", ")));
+        "fall on the wrong one. Update one of them, {}",
+        fmt::join(names, ", "), mend));
 }
 
 }  // namespace twindeck::steps

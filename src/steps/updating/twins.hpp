@@ -22,7 +22,11 @@ namespace twindeck::steps {
                                                                           const std::vector<int>& active,
                                                                           const Measured& measured, const Pairing& pairing);
 
-/// Warns of each set.
-void warn_of_twins(StepContext& context, const std::vector<std::vector<std::string>>& sets);
+/// Names of sets of positions among the updated parameters.
+[[nodiscard]] std::vector<std::vector<std::string>> named_sets(const LoadedModel& loaded, const std::vector<int>& active,
+                                                               const std::vector<std::vector<int>>& sets);
+
+/// Warns of each set that frequencies cannot tell apart. @param has_shapes  whether shapes were measured, which may help
+void warn_of_twins(StepContext& context, const std::vector<std::vector<std::string>>& sets, bool has_shapes);
 
 }  // namespace twindeck::steps
