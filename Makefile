@@ -25,7 +25,7 @@ include workflows/virtual.mk
 endif
 
 .PHONY: compare baseline moves checksums check-power paper blind-trials score help all look deps build test unit steps tables figures report verify \
-  smoke bench format fuzz sanitize processors calibrate why new reference clean FORCE
+  smoke bench format fuzz sanitize processors calibrate calibrate-trade why new reference clean FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -141,6 +141,10 @@ sanitize: ## unit tests, broken inputs and the smoke chain under address, undefi
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
+
+calibrate-trade: build ## frequencies against cable forces against masses: every trial of data/$(STUDY)/calibration.toml, in $(PAPER)/calibration_trade.csv
+	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --mesh coarse --out results/calibration_trade --trials
+	@cp results/calibration_trade/trade.csv $(PAPER)/calibration_trade.csv
 
 format: ## lay the C++ sources out as .clang-format says (Debian: clang-format)
 	@git ls-files 'src/*.[hc]pp' 'tests/*.[hc]pp' | xargs clang-format -i

@@ -103,6 +103,8 @@ DeckDefinition read_deck(DefinitionFile& file, const std::string& name, const st
   out.chord_spacing_m = file.number(path + ".chord_spacing", "m", {0.1, 100.0});
   out.truss_depth_m = file.number(path + ".truss_depth", "m", {0.1, 100.0});
   out.bottom_chord_offset_m = file.number(path + ".bottom_chord_offset", "m", {-100.0, 100.0});
+  out.bottom_chord_spacing_m = file.number(path + ".bottom_chord_spacing", "m", {0.0, 100.0});
+  out.slab_height_m = file.number(path + ".slab_height", "m", {0.0, 10.0});
   out.nonstructural_mass_kg_m = file.number(path + ".nonstructural_mass", "kg/m", kMassPerLength);
   out.stays_on_outer_edge = file.choice(path + ".stay_edge", {"inner", "outer"}) == "outer";
   out.bracket_arm_m = file.number(path + ".bracket_arm", "m", {1e-3, 10.0});
@@ -270,7 +272,14 @@ std::vector<std::string> stay_names(const BridgeDefinition& definition) {
   return out;
 }
 
+void offer_optional_keys(DefinitionFile& file) {
+  for (const std::string deck : {"foot", "cycle"}) {
+    for (const std::string key : {"bottom_chord_spacing", "slab_height"}) file.offer_number("deck." + deck + "." + key, 0.0);
+  }
+}
+
 BridgeDefinition read_definition(DefinitionFile file, const std::string& variant) {
+  offer_optional_keys(file);
   BridgeDefinition out;
   out.source = file.name();
   out.title = file.text("title");

@@ -45,6 +45,8 @@ struct DeckDefinition {
   std::string name;  ///< "foot", "cycle"
   double radius_m, length_m, end_y_m, crown_z_m, rise_m;
   double chord_spacing_m, truss_depth_m, bottom_chord_offset_m, nonstructural_mass_kg_m;
+  double bottom_chord_spacing_m;  ///< 0: one bottom chord; above: two, so far apart
+  double slab_height_m;           ///< middle plane of the slab above the axes of the top chords
   bool stays_on_outer_edge;
   double bracket_arm_m;
   StayRow stay;
@@ -120,6 +122,8 @@ struct BridgeDefinition {
 };
 
 class DefinitionFile;
+/// Gives the keys that a file may leave out their values: `bottom_chord_spacing` and `slab_height` of each deck, both 0 m.
+void offer_optional_keys(DefinitionFile& file);
 /// Reads the definition as it stands after the overrides applied to `file`.
 /// @param variant  whose prototype pulls are taken; "" for none
 /// @throws InputError naming file, line and key for a missing or unknown key, a value out of range, an unknown name

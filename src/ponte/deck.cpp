@@ -7,19 +7,38 @@ namespace twindeck::ponte {
 
 namespace {
 
-// Rows of slab nodes and, at the stations, the bottom-chord node.
+/// Top-chord nodes of a line: the slab's edge nodes, or nodes below them that move with them as rigid bodies.
+std::vector<int> build_chord_nodes(ModelBuilder& builder, const DeckDefinition& deck, const std::vector<int>& across,
+                                   double s_m, std::size_t line) {
+  if (deck.slab_height_m == 0.0) return {across.front(), across.back()};
+  const DeckAxis axis(deck);
+  std::vector<int> out;
+  for (const bool outer : {false, true}) {
+    const double v = (outer ? 0.5 : -0.5) * deck.chord_spacing_m;
+    out.push_back(builder.add_node(axis.point(s_m, v, -deck.slab_height_m)));
+    builder.model.links.push_back({"slab_joint_" + deck.name + "_" + std::to_string(line) + (outer ? "_outer" : "_inner"),
+                                   outer ? across.back() : across.front(), out.back()});
+  }
+  return out;
+}
+
+// Rows of slab nodes and, at the stations, the bottom-chord nodes.
 DeckNodes build_nodes(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh) {
   const DeckAxis axis(deck);
   const std::vector<double> station = stations(deck, mesh.panels_per_stay_spacing);
   DeckNodes out;
   const auto add_line = [&](double s, bool is_station) {
-    DeckNodes::Line line{s, {}, -1};
+    DeckNodes::Line line{s, {}, {}, {}};
     for (int j = 0; j <= mesh.shells_across; ++j) {
       const double v = deck.chord_spacing_m * (static_cast<double>(j) / mesh.shells_across - 0.5);
       line.across.push_back(builder.add_node(axis.point(s, v)));
     }
-    if (is_station) {
-      line.bottom = builder.add_node(axis.point(s, deck.bottom_chord_offset_m, -deck.truss_depth_m));
+    line.chord = build_chord_nodes(builder, deck, line.across, s, out.lines.size());
+    const double half = deck.bottom_chord_spacing_m / 2;
+    for (const double v : half > 0.0 ? std::vector<double>{-half, half} : std::vector<double>{0.0}) {
+      if (!is_station) break;
+      const double depth = deck.slab_height_m + deck.truss_depth_m;
+      line.bottom.push_back(builder.add_node(axis.point(s, deck.bottom_chord_offset_m + v, -depth)));
     }
     out.lines.push_back(line);
   };
@@ -60,9 +79,8 @@ void build_truss(ModelBuilder& builder, const DeckDefinition& deck, const MeshDe
   const std::string d = deck.name;
   const auto& lines = nodes.lines;
   for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
-    for (const auto& [from, to] : {std::pair{lines[k].across.front(), lines[k + 1].across.front()},
-                                   std::pair{lines[k].across.back(), lines[k + 1].across.back()}}) {
-      builder.add_element(fe::ElementType::beam, d + "_top_chord", "steel", {from, to});
+    for (const std::size_t edge : {0u, 1u}) {
+      builder.add_element(fe::ElementType::beam, d + "_top_chord", "steel", {lines[k].chord[edge], lines[k + 1].chord[edge]});
     }
   }
   const std::size_t step = static_cast<std::size_t>(mesh.shells_per_panel_along);
@@ -72,15 +90,17 @@ void build_truss(ModelBuilder& builder, const DeckDefinition& deck, const MeshDe
       builder.add_element(fe::ElementType::beam, d + "_floor_beam", "steel", {line.across[j], line.across[j + 1]});
     }
     const auto diagonals = [&](const std::string& section, const DeckNodes::Line& top, const Eigen::Vector3d& orientation) {
-      builder.add_member(section, line.bottom, top.across.front(), mesh.members_per_panel, orientation);
-      builder.add_member(section, line.bottom, top.across.back(), mesh.members_per_panel, orientation);
+      builder.add_member(section, line.bottom.front(), top.chord.front(), mesh.members_per_panel, orientation);
+      builder.add_member(section, line.bottom.back(), top.chord.back(), mesh.members_per_panel, orientation);
     };
     // A post may stand upright, so its local z is laid along the deck.
     diagonals(d + "_short_diagonal", line, axis.tangent(line.s_m));
     // Long diagonals rise away from mid-length, at mid-length both ways.
     const double tolerance = 1e-6 * deck.length_m;
     if (k + step < lines.size()) {
-      builder.add_member(d + "_bottom_chord", line.bottom, lines[k + step].bottom, mesh.members_per_panel);
+      for (std::size_t i = 0; i < line.bottom.size(); ++i) {
+        builder.add_member(d + "_bottom_chord", line.bottom[i], lines[k + step].bottom[i], mesh.members_per_panel);
+      }
       if (line.s_m > -tolerance) {
         diagonals(d + "_long_diagonal", lines[k + step], Eigen::Vector3d::Zero());
       }
@@ -88,6 +108,26 @@ void build_truss(ModelBuilder& builder, const DeckDefinition& deck, const MeshDe
     if (k >= step && line.s_m < tolerance) {
       diagonals(d + "_long_diagonal", lines[k - step], Eigen::Vector3d::Zero());
     }
+  }
+}
+
+// Between two bottom chords: a strut and, from the inner bottom to the outer top chord, a brace across at each station, which
+// keep the section's shape; in each panel a diagonal in the bottom plane, inner to outer away from mid-length.
+void build_bottom_plane(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh, const DeckNodes& nodes) {
+  if (deck.bottom_chord_spacing_m == 0.0) return;
+  const DeckAxis axis(deck);
+  const auto& lines = nodes.lines;
+  const std::size_t step = static_cast<std::size_t>(mesh.shells_per_panel_along);
+  for (std::size_t k = 0; k < lines.size(); k += step) {
+    const DeckNodes::Line& line = lines[k];
+    const Eigen::Vector3d along = axis.tangent(line.s_m);
+    builder.add_member(deck.name + "_floor_beam", line.bottom[0], line.bottom[1], mesh.members_per_panel);
+    builder.add_member(deck.name + "_short_diagonal", line.bottom[0], line.chord[1], mesh.members_per_panel, along);
+    if (k + step >= lines.size()) continue;
+    const DeckNodes::Line& next = lines[k + step];
+    const bool north = line.s_m + next.s_m > 0.0;
+    const DeckNodes::Line &inwards = north ? line : next, &outwards = north ? next : line;
+    builder.add_member(deck.name + "_long_diagonal", inwards.bottom[0], outwards.bottom[1], mesh.members_per_panel);
   }
 }
 
@@ -145,6 +185,7 @@ DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const Me
   }
   DeckNodes nodes = build_nodes(builder, deck, mesh);
   build_truss(builder, deck, mesh, nodes);
+  build_bottom_plane(builder, deck, mesh, nodes);
   build_slab(builder, deck, mesh, nodes);
   build_nonstructural_mass(builder, deck, nodes);
   build_brackets(builder, deck, nodes);

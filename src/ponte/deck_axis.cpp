@@ -52,7 +52,7 @@ std::vector<double> stations(const DeckDefinition& deck, int panels_per_stay_spa
 const DeckNodes::Line& DeckNodes::station_near(double s_m) const {
   const Line* best = nullptr;
   for (const Line& line : lines) {
-    if (line.bottom >= 0 && (best == nullptr || std::abs(line.s_m - s_m) < std::abs(best->s_m - s_m))) {
+    if (!line.bottom.empty() && (best == nullptr || std::abs(line.s_m - s_m) < std::abs(best->s_m - s_m))) {
       best = &line;
     }
   }

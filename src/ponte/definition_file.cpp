@@ -234,6 +234,10 @@ void DefinitionFile::set_number(const std::string& path, double value) {
   found->second.is_text = false;
 }
 
+void DefinitionFile::offer_number(const std::string& path, double value) {
+  if (!has(path)) values_[path].text = io::toml_number(value);
+}
+
 long DefinitionFile::line_of(const std::string& path) const {
   const auto found = values_.find(path);
   return found == values_.end() ? 0 : found->second.line;

@@ -49,6 +49,8 @@ class DefinitionFile {
   /// @throws InputError for a path that is not there, naming the nearest
   void set_number(const std::string& path, double value);
   /// Line of a value, 0 if it is not there.
+  /// A number for a key that the file leaves out; one that is there stays.
+  void offer_number(const std::string& path, double value);
   [[nodiscard]] long line_of(const std::string& path) const;
   /// Marks a whole table as known.
   void mark_known(const std::string& table);

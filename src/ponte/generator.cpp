@@ -46,6 +46,7 @@ std::vector<Change> read_changes(DefinitionFile& file) {
 // The file with every change and variant checked, none applied.
 DefinitionFile open(const std::filesystem::path& bridge_toml) {
   DefinitionFile file = DefinitionFile::load(bridge_toml);
+  offer_optional_keys(file);
   for (const std::string list : {"change", "variant", "mesh_option"}) {
     for (std::size_t i = 0; i < file.size(list); ++i) {
       file.check_overrides(entry(list, i) + ".set");

@@ -41,8 +41,9 @@ class ModelBuilder {
 struct DeckNodes {
   struct Line {  ///< a row of slab nodes across the deck
     double s_m;
-    std::vector<int> across;  ///< from the inner edge (front) to the outer edge (back): the ends are top-chord nodes
-    int bottom = -1;          ///< bottom-chord node; -1 between stations
+    std::vector<int> across;  ///< from the inner edge (front) to the outer edge (back): both edges of the slab
+    std::vector<int> chord;   ///< top-chord nodes, inner and outer: the ends of `across`, or below them by the slab's height
+    std::vector<int> bottom;  ///< bottom-chord nodes, one or, from inner to outer, two; none between stations
   };
   std::vector<Line> lines;             ///< by rising s
   std::map<std::string, int> anchors;  ///< stay name -> bracket node
@@ -69,7 +70,8 @@ struct DeckAxis {
 /// not longer than spacing / panels_per_stay_spacing. [m]
 [[nodiscard]] std::vector<double> stations(const DeckDefinition& deck, int panels_per_stay_spacing);
 
-/// Truss, slab, brackets and non-structural mass of a deck.
+/// Truss, slab, brackets and non-structural mass of a deck. The truss has one bottom chord (a triangle) or two (a trapezoid or
+/// a rectangle, with a strut and a brace across at each station and a diagonal in the bottom plane of each panel).
 [[nodiscard]] DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh);
 /// Nodes of the two ends that the decks' bearings lean on: the middle of the end blocks' front faces; -1: they stand on the
 /// ground.

@@ -16,10 +16,15 @@ void build_deck_supports(ModelBuilder& builder, const DeckDefinition& deck, cons
       builder.model.links.push_back({"seat_" + name, block, below});
       return below;
     };
-    const int bottom = seat(end.bottom, group + "_bottom");
-    builder.add_spring(group, group + "_bottom_radial", end.bottom, r, k.bottom_N_m, bottom);
-    builder.add_spring(group, group + "_bottom_tangential", end.bottom, t, k.bottom_N_m, bottom);
-    builder.add_spring(group, group + "_bottom_vertical", end.bottom, z, k.bottom_N_m, bottom);
+    // Two bottom chords share the stiffness.
+    const double share = k.bottom_N_m / static_cast<double>(end.bottom.size());
+    for (std::size_t i = 0; i < end.bottom.size(); ++i) {
+      const std::string name = group + (end.bottom.size() == 1 ? "_bottom" : i == 0 ? "_bottom_inner" : "_bottom_outer");
+      const int bottom = seat(end.bottom[i], name);
+      builder.add_spring(group, name + "_radial", end.bottom[i], r, share, bottom);
+      builder.add_spring(group, name + "_tangential", end.bottom[i], t, share, bottom);
+      builder.add_spring(group, name + "_vertical", end.bottom[i], z, share, bottom);
+    }
     for (const bool outer : {false, true}) {
       const int corner = outer ? end.across.back() : end.across.front();
       const std::string name = group + (outer ? "_outer" : "_inner");

@@ -1,120 +1,94 @@
-/// Fits the bridge's unknown sizes to printed frequencies within ranges of engineering sense (data/<study>/calibration.toml),
-/// and writes them into bridge.toml on request.
-#include <fmt/format.h>
-
+/// Fits the bridge's unknown sizes to printed frequencies, known cable forces and masses per metre within ranges of engineering
+/// sense (data/<study>/calibration.toml), and writes them into bridge.toml on request.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
-#include "io/csv.hpp"
-#include "steps/calibration/calibration.hpp"
+#include "steps/calibration/calibration_tables.hpp"
 #include "steps/shared/run_step_threads.hpp"
 
 namespace {
 
 using namespace twindeck;
 
-constexpr double kEdge = 1e-3;  ///< part of a range within which a value counts as on its edge
+struct Options {
+  std::string definition = "data/ponte_del_mare/calibration.toml", bridge = "data/ponte_del_mare/bridge.toml";
+  std::string out = "results/calibration", mesh, search_mesh = "coarse", from, trial;
+  bool all_trials = false, write = false;
+};
 
-const char* edge_of(double part) { return part < kEdge ? "lower" : part > 1.0 - kEdge ? "upper" : ""; }
-
-void write_values(const steps::Calibration& calibration, const steps::CalibrationResult& result,
-                  const std::filesystem::path& file) {
-  io::CsvWriter csv({"value", "unit", "untuned", "lower", "upper", "fitted", "edge", "reason"});
-  for (std::size_t v = 0; v < calibration.values.size(); ++v) {
-    const steps::CalibrationValue& value = calibration.values[v];
-    const double part = result.part[static_cast<Eigen::Index>(v)];
-    csv.row({value.name, value.unit, value.start, value.lower, value.upper, value.at(part), edge_of(part), value.reason});
-  }
-  csv.save(file);
-}
-
-void write_frequencies(const steps::Calibration& calibration, const steps::CalibrationResult& result,
-                       const std::filesystem::path& file) {
-  io::CsvWriter csv(
-      {"variant", "source", "mode", "printed_Hz", "untuned_Hz", "untuned_error_pct", "fitted_Hz", "fitted_error_pct"});
-  Eigen::Index row = 0;
-  for (const steps::CalibrationTarget& target : calibration.targets) {
-    for (std::size_t i = 0; i < target.modes.size(); ++i, ++row) {
-      const double printed = target.frequency_Hz[i];
-      csv.row({target.variant, target.source, static_cast<long>(target.modes[i]), printed, result.untuned[row],
-               100 * (result.untuned[row] / printed - 1), result.fitted[row], 100 * (result.fitted[row] / printed - 1)});
+void write_into_bridge(const steps::Calibration& calibration, const Eigen::VectorXd& part,
+                       const std::filesystem::path& bridge) {
+  std::map<std::string, std::string> units;
+  for (const steps::CalibrationValue& value : calibration.values) {
+    for (const std::string& path : value.paths) {
+      if (!units.contains(path) || units[path] == "-") units[path] = value.unit;
     }
   }
-  csv.save(file);
+  for (const auto& [path, number] : calibration.set) units[path] = "-";  // SI, as the file reads a number without a unit
+  ponte::write_values(bridge, steps::bridge_values(calibration, part), units);
 }
 
-/// The values as bridge.toml has them now, as parts of their ranges: where a fit that is continued begins.
-Eigen::VectorXd parts_in(const std::filesystem::path& file, const steps::Calibration& calibration) {
-  const io::CsvTable table =
-      io::CsvTable::read(file, {"value", "fitted"}, {"unit", "untuned", "lower", "upper", "edge", "reason"});
-  Eigen::VectorXd part(std::ssize(calibration.values));
-  for (std::size_t v = 0; v < calibration.values.size(); ++v) {
-    const steps::CalibrationValue& value = calibration.values[v];
-    bool found = false;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      if (table.text(row, "value") != value.name) continue;
-      part[static_cast<Eigen::Index>(v)] = std::clamp(value.part_of(table.number(row, "fitted")), 0.0, 1.0);
-      found = true;
-    }
-    if (!found) throw InputError({file.string(), 0, value.name}, "is not in this file", "begin without --from");
-  }
-  return part;
-}
-
-int run(const std::filesystem::path& definition, const std::filesystem::path& bridge, const std::filesystem::path& out,
-        const std::string& mesh, const std::string& search_mesh, const std::string& from, bool write) {
-  const steps::Calibration calibration = steps::read_calibration(definition);
-  Eigen::VectorXd first(std::ssize(calibration.values));
-  for (Eigen::Index v = 0; v < first.size(); ++v) {
-    const steps::CalibrationValue& value = calibration.values[static_cast<std::size_t>(v)];
-    first[v] = value.part_of(value.start);
-  }
-  if (!from.empty()) first = parts_in(from, calibration);
-  const steps::CalibrationResult result =
-      steps::calibrate(calibration, bridge, mesh, search_mesh, first,
+steps::CalibrationResult fit(const steps::Calibration& calibration, const Options& options, const std::filesystem::path& out) {
+  const Eigen::VectorXd first = options.from.empty() ? steps::starts(calibration) : steps::parts_in(options.from, calibration);
+  steps::CalibrationResult result =
+      steps::calibrate(calibration, options.bridge, options.mesh, options.search_mesh, first,
                        [](const std::string& line) { std::fprintf(stderr, "calibrate_bridge: %s\n", line.c_str()); });
-  if (result.part.size() == 0) throw InputError({bridge.string(), 0, ""}, result.status.message, "check the starting values");
+  if (result.answers.empty()) throw InputError({options.bridge, 0, ""}, result.status.message, "check the starting values");
   std::filesystem::create_directories(out);
-  write_values(calibration, result, out / "values.csv");
-  write_frequencies(calibration, result, out / "frequencies.csv");
-  if (write) {
-    std::map<std::string, std::string> units;
-    for (const steps::CalibrationValue& value : calibration.values) {
-      for (const std::string& path : value.paths) {
-        if (!units.contains(path) || units[path] == "-") units[path] = value.unit;
-      }
-    }
-    ponte::write_values(bridge, steps::bridge_values(calibration, result.part), units);
+  steps::write_calibration_values(calibration, result, out / "values.csv");
+  steps::write_calibration_frequencies(calibration, result, out / "frequencies.csv");
+  steps::write_calibration_known(calibration, result, out / "known.csv");
+  return result;
+}
+
+int run(const Options& options) {
+  const steps::Calibration all = steps::read_calibration(options.definition);
+  if (!options.all_trials && options.trial.empty()) {
+    const steps::CalibrationResult result = fit(all, options, options.out);
+    if (options.write) write_into_bridge(all, result.part, options.bridge);
+    return result.status.converged ? 0 : 1;
   }
-  return result.status.converged ? 0 : 1;
+  if (!options.all_trials) static_cast<void>(steps::for_trial(all, options.trial));  // refuses an unknown name
+  steps::TradeTable trade(all);
+  for (const steps::CalibrationTrial& trial : all.trials) {
+    if (!options.all_trials && trial.name != options.trial) continue;
+    const steps::Calibration calibration = steps::for_trial(all, trial.name);
+    const steps::CalibrationResult result = fit(calibration, options, std::filesystem::path(options.out) / trial.name);
+    trade.add(trial, options.mesh.empty() ? "full" : options.mesh, calibration, result);
+    if (options.write) write_into_bridge(calibration, result.part, options.bridge);
+  }
+  trade.save(std::filesystem::path(options.out) / "trade.csv");
+  return 0;  // the table says which trials settled
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Fits the bridge's unknown sizes to printed frequencies within ranges of engineering sense.",
+  CLI::App app("Fits the bridge's unknown sizes to what is known of it within ranges of engineering sense.",
                "calibrate_bridge");
   app.footer(
       "Examples:\n  calibrate_bridge --out results/calibration\n"
-      "  calibrate_bridge --from results/calibration/values.csv --out results/calibration --write");
-  std::string definition = "data/ponte_del_mare/calibration.toml", bridge = "data/ponte_del_mare/bridge.toml";
-  std::string out = "results/calibration", mesh, search_mesh = "coarse", from;
+      "  calibrate_bridge --from results/calibration/values.csv --out results/calibration --write\n"
+      "  calibrate_bridge --trials --mesh coarse --out results/calibration_trade");
+  Options options;
   int threads = 0;
-  bool write = false;
-  app.add_option("--definition", definition, "ranges and targets")->capture_default_str();
-  app.add_option("--bridge", bridge, "definition of the bridge")->capture_default_str();
-  app.add_option("--out", out, "folder for values.csv and frequencies.csv")->capture_default_str();
-  app.add_option("--mesh", mesh, "mesh of the bridge by name; default: its own");
-  app.add_option("--search-mesh", search_mesh, "quick mesh that the search runs on")->capture_default_str();
-  app.add_option("--from", from, "values.csv of an earlier fit to go on from; default: the untuned starts");
+  app.add_option("--definition", options.definition, "ranges, targets and trials")->capture_default_str();
+  app.add_option("--bridge", options.bridge, "definition of the bridge")->capture_default_str();
+  app.add_option("--out", options.out, "folder for values.csv, frequencies.csv and known.csv")->capture_default_str();
+  app.add_option("--mesh", options.mesh, "mesh of the bridge by name; default: its own");
+  app.add_option("--search-mesh", options.search_mesh, "quick mesh that the search runs on")->capture_default_str();
+  app.add_option("--from", options.from, "values.csv of an earlier fit to go on from; default: the untuned starts");
   app.add_option("--threads", threads, "default: one a core");
-  app.add_flag("--write", write, "write the fitted values into the definition of the bridge");
+  app.add_option("--trial", options.trial,
+                 "run this [[trial]] of the definition, with its form and data: OUT/NAME and trade.csv");
+  CLI::Option* trials = app.add_flag("--trials", options.all_trials, "run every [[trial]]");
+  app.add_flag("--write", options.write, "write the fitted values into the definition of the bridge")->excludes(trials);
   CLI11_PARSE(app, argc, argv);
   try {
-    twindeck::steps::set_threads(threads);
-    return run(definition, bridge, out, mesh, search_mesh, from, write);
-  } catch (const twindeck::InputError& error) {
+    steps::set_threads(threads);
+    return run(options);
+  } catch (const InputError& error) {
     std::fprintf(stderr, "calibrate_bridge: %s\n", error.what());
     return 2;
   }

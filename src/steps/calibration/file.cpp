@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -38,6 +39,20 @@ class Reader {
     return required(find<double>(key), key);
   }
   std::string text(const std::string& key) { return required(find<std::string>(key), key); }
+  /// A table of numbers by path.
+  ponte::Values values(const std::string& key) {
+    ponte::Values out;
+    const auto* entries = find<TomlValue::Table>(key);
+    for (const io::TomlEntry& entry : entries == nullptr ? TomlValue::Table{} : *entries) {
+      const long* whole = entry.value.as<long>();
+      const double* real = entry.value.as<double>();
+      if (whole == nullptr && real == nullptr)
+        throw InputError({file_, entry.line, key + "." + entry.key}, "is " + io::shown(entry.value),
+                         "give a number in SI units");
+      out[entry.key] = whole != nullptr ? static_cast<double>(*whole) : *real;
+    }
+    return out;
+  }
   template <typename Kind, typename Wanted = Kind>
   std::vector<Wanted> list(const std::string& key) {
     std::vector<Wanted> out;
@@ -105,6 +120,83 @@ CalibrationTarget read_target(Reader reader) {
   return out;
 }
 
+constexpr double kNewtonsPerKilonewton = 1e3;
+constexpr double kPerCent = 1e-2;
+constexpr double kMetresPerMillimetre = 1e-3;
+/// Names of updating::DataKind in `use` of a trial, in its order.
+const std::array<std::string, updating::n_data_kinds> kKinds = {"frequencies", "forces", "masses", "displacements"};
+
+CalibrationForces read_forces(Reader reader) {
+  CalibrationForces out{reader.text("variant"),          reader.text("source"),
+                        reader.text("reason"),           reader.list<std::string>("stays"),
+                        reader.list<double>("force_kN"), kPerCent * reader.number("std_pct")};
+  if (out.stays.size() != out.force_N.size() || out.stays.empty())
+    reader.fail("force_kN", "are not as many as stays", "give one force a stay");
+  if (!(out.relative_std > 0.0)) reader.fail("std_pct", "is not above 0", "give the standard deviation of a force");
+  for (double& force : out.force_N) force *= kNewtonsPerKilonewton;
+  reader.finish();
+  return out;
+}
+
+CalibrationMass read_mass(Reader reader) {
+  CalibrationMass out{reader.text("variant"),
+                      reader.text("reason"),
+                      {reader.text("name"), reader.list<std::string>("groups"), reader.number("length_m"),
+                       reader.number("mass_kg_m"), reader.number("std_kg_m")},
+                      reader.number("lower_kg_m"),
+                      reader.number("upper_kg_m")};
+  if (!(out.known.std_kg_m > 0.0 && out.known.length_m > 0.0))
+    reader.fail(out.known.name, "needs std_kg_m and length_m above 0", "correct them");
+  if (!(out.lower_kg_m < out.upper_kg_m)) reader.fail(out.known.name, "needs lower_kg_m < upper_kg_m", "correct the range");
+  reader.finish();
+  return out;
+}
+
+CalibrationLimit read_limit(Reader reader) {
+  CalibrationLimit out{reader.text("variant"),
+                       reader.text("reason"),
+                       {kMetresPerMillimetre * reader.number("limit_mm"), kMetresPerMillimetre * reader.number("std_mm")}};
+  if (!(out.limit.limit_m >= 0.0 && out.limit.std_m > 0.0))
+    reader.fail("limit_mm", "needs limit_mm of 0 or more and std_mm above 0", "correct them");
+  reader.finish();
+  return out;
+}
+
+CalibrationForm read_form(Reader reader) {
+  CalibrationForm out{reader.text("name"), reader.text("meaning"), reader.values("set")};
+  reader.finish();
+  return out;
+}
+
+CalibrationTrial read_trial(Reader reader) {
+  CalibrationTrial out{reader.text("name"), reader.text("form"), {}, reader.number("whole_range_costs")};
+  for (const std::string& kind : reader.list<std::string>("use")) {
+    const auto found = std::find(kKinds.begin(), kKinds.end(), kind);
+    if (found == kKinds.end()) {
+      reader.fail("use", "names '" + kind + "'", fmt::format("name some of {}", fmt::join(kKinds, ", ")));
+    }
+    out.weight[static_cast<std::size_t>(found - kKinds.begin())] = 1.0;
+  }
+  reader.finish();
+  return out;
+}
+
+/// What is said of a variant needs a target of that variant, trials the forms that they name.
+void check_names(const Calibration& out, const std::string& file) {
+  std::vector<std::string> variants, forms;
+  for (const CalibrationTarget& target : out.targets) variants.push_back(target.variant);
+  for (const CalibrationForm& form : out.forms) forms.push_back(form.name);
+  const auto check = [&](const std::vector<std::string>& known, const std::string& name, const std::string& of) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    throw InputError({file, 0, of}, "names '" + name + "'" + did_you_mean(name, known),
+                     fmt::format("name one of {}", fmt::join(known, ", ")));
+  };
+  for (const CalibrationForces& one : out.forces) check(variants, one.variant, "force.variant");
+  for (const CalibrationMass& one : out.masses) check(variants, one.variant, "mass.variant");
+  for (const CalibrationLimit& one : out.limits) check(variants, one.variant, "displacement.variant");
+  for (const CalibrationTrial& one : out.trials) check(forms, one.form, "trial.form");
+}
+
 }  // namespace
 
 double CalibrationValue::at(double part) const {
@@ -119,30 +211,61 @@ Calibration read_calibration(const std::filesystem::path& file) {
   const TomlValue::Table tree = io::read_toml(file);
   Calibration out;
   Reader root(tree, file.string(), 0);
-  const auto tables = [&](const std::string& name, const auto& read) {
+  const auto tables = [&](const std::string& name, const auto& read, bool needed = false) {
     const auto* list = root.find<TomlValue::Array>(name);
-    if (list == nullptr || list->empty()) root.fail(name, "is missing", "give at least one [[" + name + "]]");
+    if (needed && (list == nullptr || list->empty())) root.fail(name, "is missing", "give at least one [[" + name + "]]");
+    if (list == nullptr) return;
     for (const TomlValue& one : *list) {
       if (const auto* table = one.as<TomlValue::Table>()) read(Reader(*table, file.string(), one.line));
     }
   };
-  tables("target", [&](Reader reader) { out.targets.push_back(read_target(std::move(reader))); });
-  tables("value", [&](Reader reader) { out.values.push_back(read_value(std::move(reader))); });
+  tables(
+      "target", [&](Reader reader) { out.targets.push_back(read_target(std::move(reader))); }, true);
+  tables(
+      "value", [&](Reader reader) { out.values.push_back(read_value(std::move(reader))); }, true);
+  tables("force", [&](Reader reader) { out.forces.push_back(read_forces(std::move(reader))); });
+  tables("mass", [&](Reader reader) { out.masses.push_back(read_mass(std::move(reader))); });
+  tables("displacement", [&](Reader reader) { out.limits.push_back(read_limit(std::move(reader))); });
+  tables("form", [&](Reader reader) { out.forms.push_back(read_form(std::move(reader))); });
+  tables("trial", [&](Reader reader) { out.trials.push_back(read_trial(std::move(reader))); });
   if (const auto* fit = root.find<TomlValue::Table>("fit")) {
     Reader reader(*fit, file.string(), 0);
+    out.frequency_std = kPerCent * reader.number("frequency_std_pct");
     out.whole_range_costs = reader.number("whole_range_costs");
     out.max_iterations = static_cast<int>(reader.number("max_iterations"));
     reader.finish();
   }
   root.finish();
+  check_names(out, file.string());
   return out;
 }
 
+Calibration for_trial(Calibration calibration, const std::string& trial) {
+  std::vector<std::string> known;
+  for (const CalibrationTrial& one : calibration.trials) known.push_back(one.name);
+  const auto found = std::find(known.begin(), known.end(), trial);
+  if (found == known.end())
+    throw InputError({"--trial", 0, trial}, "is no [[trial]] of the calibration" + did_you_mean(trial, known),
+                     fmt::format("name one of {}", fmt::join(known, ", ")));
+  const CalibrationTrial chosen = calibration.trials[static_cast<std::size_t>(found - known.begin())];
+  calibration.weight = chosen.weight;
+  calibration.whole_range_costs = chosen.whole_range_costs;
+  calibration.set = std::find_if(calibration.forms.begin(), calibration.forms.end(), [&](const CalibrationForm& form) {
+                      return form.name == chosen.form;
+                    })->set;
+  std::erase_if(calibration.values, [&](const CalibrationValue& value) {
+    return std::all_of(value.paths.begin(), value.paths.end(),
+                       [&](const std::string& path) { return calibration.set.contains(path); });
+  });
+  return calibration;
+}
+
 ponte::Values bridge_values(const Calibration& calibration, const Eigen::VectorXd& part) {
-  ponte::Values out;
+  ponte::Values out = calibration.set;
   for (std::size_t v = 0; v < calibration.values.size(); ++v) {
     const CalibrationValue& value = calibration.values[v];
     for (std::size_t p = 0; p < value.paths.size(); ++p) {
+      if (calibration.set.contains(value.paths[p])) continue;
       out.emplace(value.paths[p], 1.0).first->second *= value.factors[p] * value.at(part[static_cast<Eigen::Index>(v)]);
     }
   }
