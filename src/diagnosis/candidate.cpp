@@ -233,6 +233,17 @@ struct MeasuredModes {
   std::vector<std::pair<std::string, double>> modes;  ///< label, frequency [Hz]
 };
 
+MeasuredModes measured_modes(const FeatureSet& features) {
+  MeasuredModes measured;
+  for (std::size_t c = 0; c < features.conditions.size(); ++c) {
+    MeasuredModes here{static_cast<int>(c), {}};
+    for (const Row& row : features.rows)
+      if (row.condition == here.condition && row.type == RowType::frequency) here.modes.emplace_back(row.mode, row.value);
+    if (here.modes.size() > measured.modes.size()) measured = here;
+  }
+  return measured;
+}
+
 void bound(Candidate& candidate, const MeasuredModes& measured) {
   const Hypothesis& h = *candidate.hypothesis;
   const auto k = static_cast<Index>(h.unknowns.size());
@@ -318,17 +329,24 @@ double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
   return e.factor * attribute(*this, e);
 }
 
+Candidate elsewhere(const Candidate& like, const std::string& location, std::vector<const ReducedPlace*> places,
+                    const FeatureSet& features) {
+  Candidate out;
+  out.hypothesis = like.hypothesis;
+  out.location = location;
+  out.places = std::move(places);
+  out.state = like.state;
+  out.log_prior = like.log_prior;
+  out.refines = like.refines != nullptr ? like.refines : &like;
+  bound(out, measured_modes(features));
+  return out;
+}
+
 Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model, const FeatureSet& features) {
   Instantiated out;
   double weights = 0.0;
   const std::vector<std::string> states = states_of(features);
-  MeasuredModes measured;
-  for (std::size_t c = 0; c < features.conditions.size(); ++c) {
-    MeasuredModes here{static_cast<int>(c), {}};
-    for (const Row& row : features.rows)
-      if (row.condition == here.condition && row.type == RowType::frequency) here.modes.emplace_back(row.mode, row.value);
-    if (here.modes.size() > measured.modes.size()) measured = here;
-  }
+  const MeasuredModes measured = measured_modes(features);
   std::vector<std::vector<Candidate>> families;
   for (const Hypothesis& h : catalogue) {
     families.emplace_back();

@@ -34,6 +34,8 @@ struct Candidate {
   int tuned = -1;                       ///< unknown that is a frequency tuned to measured modes, -1 for none
   std::vector<Tuning> tuning;           ///< (n_starts) where there is one
   double log_prior = 0.0;               ///< ln (weight of the family / sum of weights / number of locations)
+  /// Entry of the catalogue whose prior this one shares, for one that was laid between the locations; null for all others.
+  const Candidate* refines = nullptr;
 
   [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
   /// The same, told apart by the state that it acts in.
@@ -68,5 +70,10 @@ struct Instantiated {
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
                                        const FeatureSet& features);
+
+/// The same cause somewhere else: `like` with the bounds and starts that its family has at other places of the model.
+/// @param places  of the kind that the family acts on
+[[nodiscard]] Candidate elsewhere(const Candidate& like, const std::string& location, std::vector<const ReducedPlace*> places,
+                                  const FeatureSet& features);
 
 }  // namespace twindeck::diagnosis

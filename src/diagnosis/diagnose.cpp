@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "diagnosis/diagnose_parts.hpp"
+#include "diagnosis/refinement.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -286,6 +287,11 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     }
     if (ranking.empty()) break;
     const auto weigh = [&] {
+      if (step < options.most_causes && tempered(ranking.front(), ratio) > out.threshold) {
+        if (options.refinement != nullptr) look_round_leader(inference, current, ranking, options);
+        ratio = birge(ranking.front(), inference.dof());
+        prefer_mass_to_bound(inference, current, ranking, ratio, options);
+      }
       prefer_fewer_unknowns(ranking, ratio, options);
       prefer_stated_priors(ranking, ratio);
       return step < options.most_causes ? extended_by_first(inference, current, ranking, ratio, out.threshold) : current;
@@ -305,8 +311,10 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
       out.localisation = location_map(inference, current, ranking);
     }
     if (step == options.most_causes || tempered(ranking.front(), ratio) <= out.threshold) break;
-    const auto members = cluster_of(ranking, ratio, options);
+    auto members = cluster_of(ranking, ratio, options);
+    std::vector<const Scored*> merged;
     Effect effect;
+    effect.within_m = merge_neighbours(members, merged);
     effect.cause = {ranking.front().candidate, ranking.front().a};
     effect.state = effect.cause.candidate->state;
     effect.log_odds = tempered(ranking.front(), ratio);
@@ -314,12 +322,13 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
     double scaled = std::exp(-top);  // nothing missing has odds 1
     for (const Scored& scored : ranking)
       if (const double d = tempered(scored, ratio); d > top - 40.0) scaled += std::exp(d - top);
-    effect.probability = 1.0 / scaled;
     std::vector<double> probability;
     for (const Scored* member : members) {
       effect.cluster.push_back(member->candidate->id());
-      probability.push_back(effect.probability * std::exp(tempered(*member, ratio) - top));
+      probability.push_back(1.0 / scaled * std::exp(tempered(*member, ratio) - top));
     }
+    effect.probability = 1.0 / scaled;
+    for (const Scored* beside : merged) effect.probability += 1.0 / scaled * std::exp(tempered(*beside, ratio) - top);
     effect.rivals = rivals_of(members, probability, ratio);
     effect.split_by = splitting_measurement(inference, current, members);
     current = std::move(extended);

@@ -13,6 +13,8 @@
 
 namespace twindeck::diagnosis {
 
+class Refinement;
+
 struct DiagnoseOptions {
   double alpha = 0.01;           ///< false alarms allowed by the threshold
   double least_log_odds = 3.0;   ///< least log odds of a named cause, whatever the threshold of the null calibration
@@ -25,6 +27,7 @@ struct DiagnoseOptions {
   int most_causes = 4;
   int bootstrap = 2000;  ///< resamples of held-out blocks
   SearchOptions search;
+  Refinement* refinement = nullptr;  ///< lays locations round the leading one before it is named; null: those of the catalogue
 };
 
 struct EffectParameter {
@@ -47,6 +50,7 @@ struct Effect {
   std::vector<std::string> cluster;  ///< "fric@damper:C1", the best first
   std::vector<Rival> rivals;         ///< the others of the cluster, in its order
   double log_odds = 0.0, probability = 0.0;
+  double within_m = 0.0;  ///< the cause sits no further than this from its location; 0 where the location itself stands out
   std::string split_by, sentence, remedy;
   std::vector<EffectParameter> parameters;  ///< 90 % intervals
 };

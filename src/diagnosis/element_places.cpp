@@ -375,6 +375,24 @@ void ElementPlaces::add_groups(Places& places) const {
   }
 }
 
+Place ElementPlaces::part(const std::vector<int>& elements) const {
+  Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const int e : elements) {
+    const auto position = static_cast<std::size_t>(e);
+    const fe::Element& element = model_.elements[position];
+    stiffness.add(element.type == fe::ElementType::stay ? stay_stiffness(position, pull_of(position))
+                                                        : element_stiffness(model_, position, straight_sides_));
+    mass.add(fe::element_mass(model_, element));
+    for (const int node : element.nodes) {
+      sum += model_.nodes[static_cast<std::size_t>(node)].x_m;
+      count += 1.0;
+    }
+  }
+  return {"", sum / count, free(stiffness), free(mass), {}, {}, elements};
+}
+
 bool ElementPlaces::stands_for_rigid(const fe::Spring& spring) const {
   const auto& rigid = structure_.rigid_supports;
   return spring.name.find(kRigidSpring) != std::string::npos &&

@@ -80,6 +80,8 @@ class Inference {
   [[nodiscard]] std::vector<Scored> search(const Fit& base, const SearchOptions& options, const ScreenTable* known = nullptr,
                                            ScreenTable* record = nullptr) const;
   [[nodiscard]] ScreenTable screen_table(const Fit& base) const;
+  /// An entry fitted together with x from `start` (empty: the prior's mean) and the magnitudes that it has.
+  void fit_with_base(const Fit& base, Scored& scored, const Eigen::VectorXd& start) const { refine(base, scored, start); }
   /// Lets the searches look through a table first; it must outlive them.
   void use(const ScreenTable* table) { table_ = table; }
   /// A change of all rows as the training rows of a fit see it, L^-1 dg; empty for an empty one.

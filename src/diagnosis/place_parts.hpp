@@ -28,6 +28,8 @@ class ElementPlaces {
   /// Dampers at other nodes: their unit forces there, and the nodes as attributes node_0 …
   void add_moves(const std::vector<DamperMove>& moves, Places& places) const;
   void add_nodes(const std::vector<int>& chosen, Places& places) const;  ///< set nodes
+  /// Some elements as a place, with its middle; the id is left empty.
+  [[nodiscard]] Place part(const std::vector<int>& elements) const;
   void fill_global(Place& global) const;  ///< stiffness of all but stays; mass of the deck (shells, else all elements)
 
  private:

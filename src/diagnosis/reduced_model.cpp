@@ -62,10 +62,33 @@ MatrixXd project(const Symmetric& s, const MatrixXd& rows_of_v) {
   return out;
 }
 
+/// V' S V where V has grown: what was there, and the further rows and columns.
+/// @param rows_of_v  V' (r × n), with the further vectors last
+MatrixXd grown(const MatrixXd& before, const Symmetric& s, const MatrixXd& rows_of_v) {
+  const Index r = rows_of_v.rows(), old = before.rows(), more = r - old;
+  std::vector<int> touched;
+  for (int c = 0; c < s.outerSize(); ++c)
+    if (Symmetric::InnerIterator(s, c)) touched.push_back(c);
+  MatrixXd rows(r, std::ssize(touched)), sum = MatrixXd::Zero(more, std::ssize(touched));
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    rows.col(static_cast<Index>(i)) = rows_of_v.col(touched[i]);
+    for (Symmetric::InnerIterator e(s, touched[i]); e; ++e)
+      sum.col(static_cast<Index>(i)) += e.value() * rows_of_v.col(e.row()).tail(more);
+  }
+  MatrixXd out(r, r);
+  out.topLeftCorner(old, old) = before;
+  out.rightCols(more) = linalg::product(rows, sum.transpose());
+  out.bottomLeftCorner(more, old) = out.topRightCorner(old, more).transpose();
+  return out;
+}
+
 /// The common basis, orthonormal in K.
 class Basis {
  public:
   Basis(const Symmetric& stiffness, Index n) : stiffness_(stiffness), vectors_(n, 0), images_(n, 0) {}
+  /// @param orthonormal  in K
+  Basis(const Symmetric& stiffness, const MatrixXd& orthonormal)
+      : stiffness_(stiffness), vectors_(orthonormal), images_(stiffness * orthonormal) {}
 
   /// The columns of `block`, orthonormalised against the basis and against each other; what is nearly in them already is
   /// dropped.
@@ -224,6 +247,32 @@ MatrixXd answer_corrections(const Basis& basis, const linalg::Cholesky& factor, 
 
 }  // namespace
 
+struct ReducedModel::Kept {
+  Symmetric stiffness;  ///< K where the basis was made, shifted where the structure is free
+  linalg::Cholesky factor;
+  Eigen::MatrixXd vectors, low, answers;  ///< V (n × r); the modes and responses that own vectors are made of
+  int vectors_per_place = 0;
+  bool whole = false;  ///< V is the identity
+};
+
+namespace {
+
+/// A place in the coordinates of a basis, but for its columns.
+ReducedPlace reduced(const Place& place, const MatrixXd& rows_of_v, const linalg::Cholesky& factor, double total_mass_kg) {
+  ReducedPlace out{place.id, place.x_m, {}, {}, {}, {}, place.attributes};
+  out.attributes.try_emplace("total_mass", total_mass_kg);
+  if (place.stiffness.size() > 0) out.stiffness = project(place.stiffness, rows_of_v);
+  if (place.mass.size() > 0) out.mass = project(place.mass, rows_of_v);
+  if (place.directions.size() == 0) return out;
+  out.directions = rows_of_v * place.directions;
+  const MatrixXd b = MatrixXd(place.directions);
+  const MatrixXd flexibility = b.transpose() * factor.solve(b);
+  out.attributes["k_drive"] = static_cast<double>(b.cols()) / flexibility.trace();
+  return out;
+}
+
+}  // namespace
+
 double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
                        const Eigen::VectorXd& value) {
   const auto parameter = attributes.find("parameter");
@@ -255,8 +304,10 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   if (modes.frequency_Hz.size() == 0) throw InputError({structure.source, 0, ""}, "has no modes: " + modes.status.message, "");
   frequency_Hz = modes.frequency_Hz;
   const linalg::SparseMatrix lower = system.stiffness(theta);
-  Symmetric stiffness_now = Symmetric(lower.selfadjointView<Eigen::Lower>());
-  linalg::Cholesky factor;
+  kept_ = std::make_shared<Kept>();
+  Symmetric& stiffness_now = kept_->stiffness;
+  linalg::Cholesky& factor = kept_->factor;
+  stiffness_now = Symmetric(lower.selfadjointView<Eigen::Lower>());
   if (!factor.factorize(lower).converged) {
     const Symmetric mass_now = Symmetric(system.mass(theta).selfadjointView<Eigen::Lower>());
     stiffness_now -= dynamics::free_structure_shift(lower, system.mass(theta)) * mass_now;
@@ -268,7 +319,10 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   // 2. The basis: common vectors, then each place's own.
   Basis basis(stiffness_now, n);
   const MatrixXd low = modes.shapes.leftCols(std::min<Index>(options.corrected_modes, modes.shapes.cols()));
-  MatrixXd v;
+  kept_->low = low;
+  kept_->vectors_per_place = options.vectors_per_place;
+  kept_->whole = whole;
+  MatrixXd& v = kept_->vectors;
   std::map<std::string, std::vector<std::vector<int>>> own;
   if (whole) {
     v = MatrixXd::Identity(n, n);
@@ -278,7 +332,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     basis.append(corrections(basis, factor, system, theta, modes.eigenvalue, low, places, options));
     if (const auto dampers = places.sets.find("dampers"); dampers != places.sets.end())
       for (const Place& damper : dampers->second) basis.append(factor.solve(MatrixXd(damper.directions)));
-    MatrixXd answers;
+    MatrixXd& answers = kept_->answers;
     if (!structure.load_tests.empty()) {
       answers = factor.solve(loads_to_answer(structure.load_tests));
       for (Index c = 0; c < answers.cols(); ++c)
@@ -335,18 +389,10 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     reduced_set.resize(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Place& place = list[i];
-      ReducedPlace& reduced = reduced_set[i];
-      const auto reduce = [&] {
-        if (place.stiffness.size() > 0) reduced.stiffness = project(place.stiffness, rows_of_v);
-        if (place.mass.size() > 0) reduced.mass = project(place.mass, rows_of_v);
-        if (place.directions.size() == 0) return;
-        reduced.directions = v.transpose() * place.directions;
-        const MatrixXd b = MatrixXd(place.directions);
-        const MatrixXd flexibility = b.transpose() * factor.solve(b);
-        reduced.attributes["k_drive"] = static_cast<double>(b.cols()) / flexibility.trace();
+      const auto reduce = [&, i] {
+        reduced_set[i] = reduced(place, rows_of_v, factor, total_mass_kg);
+        if (!whole) reduced_set[i].columns = own.at(set)[i];
       };
-      reduced = {place.id, place.x_m, whole ? std::vector<int>{} : own.at(set)[i], {}, {}, {}, place.attributes};
-      reduced.attributes.try_emplace("total_mass", total_mass_kg);
       jobs.push_back({place.stiffness.nonZeros() + place.mass.nonZeros(), reduce});
     }
   }
@@ -356,6 +402,64 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   load_tests = projected(structure.load_tests, v);
   // modes = V q with q from the K inner product (V is K-orthonormal), or the modes themselves.
   mode_coordinates = whole ? modes.shapes : MatrixXd(v.transpose() * (stiffness_now * modes.shapes));
+}
+
+void ReducedModel::extend(const Structure& structure, const Places& places, const std::string& set,
+                          const std::vector<Place>& further) {
+  TWINDECK_ASSERT(kept_ != nullptr && kept_.use_count() == 1 && !sets.contains(set));
+  const fe::ParametricSystem& system = *structure.system;
+  const Index before = size();
+
+  // 1. Vectors of the further places, beyond the common ones.
+  std::vector<std::vector<int>> own(further.size());
+  if (!kept_->whole) {
+    const Basis basis(kept_->stiffness, MatrixXd(kept_->vectors.leftCols(common)));
+    std::vector<MatrixXd> vectors(further.size());
+    parallel_for(further.size(), [&](std::size_t i) {
+      vectors[i] = own_vectors(basis, kept_->factor, further[i], kept_->low, kept_->answers, kept_->vectors_per_place);
+    });
+    Index next = before;
+    for (std::size_t i = 0; i < further.size(); ++i)
+      for (Index c = 0; c < vectors[i].cols(); ++c) own[i].push_back(static_cast<int>(next++));
+    kept_->vectors.conservativeResize(Eigen::NoChange, next);
+    for (std::size_t i = 0; i < further.size(); ++i)
+      if (!own[i].empty()) kept_->vectors.middleCols(own[i].front(), vectors[i].cols()) = vectors[i];
+  }
+
+  // 2. What there is already grows by the further rows and columns; then the further places themselves.
+  const MatrixXd& v = kept_->vectors;
+  const MatrixXd rows_of_v = v.transpose();
+  std::vector<std::function<void()>> jobs;
+  if (v.cols() > before) {
+    const auto grow_terms = [&](std::vector<Term>& terms, const std::vector<fe::Term>& of) {
+      for (std::size_t t = 0; t < terms.size(); ++t)
+        jobs.emplace_back([&, t] { terms[t].matrix = grown(terms[t].matrix, symmetric_of(system, of[t]), rows_of_v); });
+    };
+    grow_terms(stiffness, system.stiffness_terms);
+    grow_terms(mass, system.mass_terms);
+    for (const auto& [name, list] : places.sets)
+      for (std::size_t i = 0; i < list.size(); ++i)
+        jobs.emplace_back([&, &place = list[i], &known = sets.at(name)[i]] {
+          if (known.stiffness.size() > 0) known.stiffness = grown(known.stiffness, place.stiffness, rows_of_v);
+          if (known.mass.size() > 0) known.mass = grown(known.mass, place.mass, rows_of_v);
+          if (known.directions.size() > 0) {
+            known.directions.conservativeResize(v.cols(), Eigen::NoChange);
+            known.directions.bottomRows(v.cols() - before) = rows_of_v.bottomRows(v.cols() - before) * place.directions;
+          }
+        });
+  }
+  std::vector<ReducedPlace>& reduced_set = sets[set];
+  reduced_set.resize(further.size());
+  for (std::size_t i = 0; i < further.size(); ++i)
+    jobs.emplace_back([&, i] {
+      reduced_set[i] = reduced(further[i], rows_of_v, kept_->factor, total_mass_kg);
+      reduced_set[i].columns = own[i];
+    });
+  parallel_for(jobs.size(), [&](std::size_t i) { jobs[i](); });
+  if (v.cols() == before) return;
+  sensors = structure.sensors(v);
+  load_tests = projected(structure.load_tests, v);
+  mode_coordinates.conservativeResizeLike(MatrixXd::Zero(v.cols(), mode_coordinates.cols()));  // modes are common vectors
 }
 
 }  // namespace twindeck::diagnosis

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,19 @@ class ReducedModel {
   Eigen::MatrixXd mode_coordinates;  ///< (r × n_modes) the same modes in the basis
   LoadTests load_tests;              ///< in the basis, which answers their loads exactly at `theta`
 
+  /// Takes in further places as a set of their own, with their static responses as further basis vectors. Coordinates that were
+  /// there before keep their numbers and meaning, so that predictions without the further places stay the same.
+  /// @param structure, places  those that the model was made of
+  /// @param set                a name that `sets` does not have
+  void extend(const Structure& structure, const Places& places, const std::string& set, const std::vector<Place>& further);
+
   [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
   /// The location called `id` in any set; null if there is none.
   [[nodiscard]] const ReducedPlace* place(const std::string& set, const std::string& id) const;
+
+ private:
+  struct Kept;                  ///< what `extend` needs: the basis in full coordinates, the factor of K
+  std::shared_ptr<Kept> kept_;  ///< a model that has copies cannot be extended
 };
 
 }  // namespace twindeck::diagnosis
