@@ -24,7 +24,7 @@ include workflows/steps.mk
 include workflows/virtual.mk
 endif
 
-.PHONY: compare baseline moves checksums check-power paper blind-trials score help all look deps build test unit steps tables figures report verify \
+.PHONY: compare baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
   smoke bench format fuzz sanitize processors calibrate calibrate-trade why new reference clean FORCE
 
 help: ## this page
@@ -117,6 +117,10 @@ BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(f
 blind-trials: build ## make blind-trials N=400 TIER=features, form, records or time: hidden effects looked for on another mesh or by a model of another class, scored with intervals
 	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
 	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(BLIND_LAST)
+
+blind-modes: build ## make blind-modes N=200 SEED=1: records of random structures identified by the automatic rule, scored with exact intervals (results/blind/modes_SEED_N.csv)
+	@cmake --build $(BUILD) -j $(JOBS) --target blind_modes
+	@$(BUILD)/bin/blind_modes $(N) $(SEED) results/blind/modes_$(SEED)_$(N).csv
 
 BATCH ?= -j$(JOBS)
 batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as independent jobs of Snakemake (docs/batch.md)

@@ -180,6 +180,57 @@ std::vector<Cluster> whole_chains(const std::vector<DiagramPole>& diagram, const
   return whole;
 }
 
+/// Part of a unit-norm shape, squared, outside the span of two others.
+double outside_span(const Eigen::VectorXcd& shape, const Eigen::VectorXcd& first, const Eigen::VectorXcd& second) {
+  const Eigen::VectorXcd a = first.normalized();
+  Eigen::VectorXcd b = second - a * a.dot(second);
+  constexpr double kParallel = 1e-6;  // two shapes that are one span a line
+  b = b.norm() > kParallel ? Eigen::VectorXcd(b.normalized()) : Eigen::VectorXcd::Zero(b.size());
+  return std::max(0.0, 1.0 - (std::norm(a.dot(shape)) + std::norm(b.dot(shape))) / shape.squaredNorm());
+}
+
+/// Largest residual outside the span that counts as none. A random real shape of n channels has a residual below r with
+/// probability r^((n - 2)/2).
+double largest_residual(Index channels, const AutomaticRule& rule) {
+  if (channels <= 2) return 0.0;
+  return std::min(rule.mixture_residual, std::pow(rule.mixture_chance, 2.0 / static_cast<double>(channels - 2)));
+}
+
+/// At most of the cluster's orders one of the two neighbours has no pole, and both go on at orders above its last one.
+bool gives_way(const std::vector<DiagramPole>& diagram, const Cluster& cluster, const Cluster& low, const Cluster& high) {
+  const auto last = [&](const Cluster& c) { return diagram[c.members.back()].pole.order; };
+  if (last(low) <= last(cluster) || last(high) <= last(cluster)) return false;
+  const auto is_at = [&](const Cluster& c, int order) {
+    return std::any_of(c.members.begin(), c.members.end(), [&](std::size_t i) { return diagram[i].pole.order == order; });
+  };
+  const auto both = std::count_if(cluster.members.begin(), cluster.members.end(), [&](std::size_t i) {
+    const int order = diagram[i].pole.order;
+    return is_at(low, order) && is_at(high, order);
+  });
+  return 2 * static_cast<std::size_t>(both) < cluster.members.size();
+}
+
+/// Without the clusters that two others explain, one below and one above, which both recur at more orders and take its place.
+std::vector<Cluster> without_mixtures(const std::vector<DiagramPole>& diagram, const std::vector<Cluster>& clusters,
+                                      const AutomaticRule& rule) {
+  std::vector<Cluster> kept;
+  for (const Cluster& cluster : clusters) {
+    const double f = cluster.frequency_Hz, residual = largest_residual(cluster.shape.size(), rule);
+    std::vector<const Cluster*> below, above;
+    for (const Cluster& other : clusters) {
+      if (other.members.size() <= cluster.members.size() || std::abs(other.frequency_Hz - f) > rule.mixture_reach * f) continue;
+      (other.frequency_Hz < f ? below : above).push_back(&other);
+    }
+    const bool mixture = std::any_of(below.begin(), below.end(), [&](const Cluster* low) {
+      return std::any_of(above.begin(), above.end(), [&](const Cluster* high) {
+        return gives_way(diagram, cluster, *low, *high) && outside_span(cluster.shape, low->shape, high->shape) < residual;
+      });
+    });
+    if (!mixture) kept.push_back(cluster);
+  }
+  return kept;
+}
+
 }  // namespace
 
 std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
@@ -238,7 +289,7 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
     });
     if (!again) distinct.push_back(std::move(cluster));
   }
-  distinct = whole_chains(diagram, orders, distinct, cut);
+  distinct = without_mixtures(diagram, whole_chains(diagram, orders, distinct, cut), rule);
   number_clusters(diagram, distinct);
   return distinct;
 }

@@ -17,6 +17,11 @@ struct AutomaticRule {
   /// section 3.1 (MAC 0.95). Upper bound: plus its tolerance of the frequency (2 %). Orders far above the number of modes
   /// repeat a strong mode to 1e-4; a cut from its distances alone would split a weaker mode.
   double smallest_cut = 0.05, largest_cut = 0.07;
+  /// A mixture of two neighbours: largest part of its unit-norm shape, squared, outside the span of theirs, and largest chance
+  /// that the shape of another mode lies as near to the span. With few channels the chance decides: of four, 1 % are near
+  /// enough.
+  double mixture_residual = 0.1, mixture_chance = 0.01;
+  double mixture_reach = 0.10;  ///< [-] relative distance within which either neighbour lies
 };
 
 /// Modal phase collinearity: 1 where all components move in phase or opposite phase, 0 where phases are arbitrary. From the
@@ -33,7 +38,10 @@ struct AutomaticRule {
 /// quantile of the physical ones' distances. Each order without a pole in a cluster then adds its nearest pole, if it is within
 /// twice the cut of the cluster's centre. Clusters at too few orders are dropped. Of two clusters nearer than half a bandwidth
 /// with a MAC above 0.8 the smaller is dropped. A cluster is also dropped if the nearest pole of the next order, within the
-/// cut, is the first pole of another cluster: it is the same mode at orders that do not yet separate it from a neighbour.
+/// cut, is the first pole of another cluster: it is the same mode at orders that do not yet separate it from a neighbour. At
+/// last mixtures are dropped: a cluster whose frequency lies between those of two clusters that more orders carry, and whose
+/// shape lies in the span of theirs, is the two of them at orders that do not separate them; at most of its orders one of the
+/// two is missing, and both go on above its last one.
 /// @param orders  ascending @return ascending in frequency; marks `mode` in the diagram
 /// Reference: Reynders, Houbrechts and De Roeck (2012), Mechanical Systems and Signal Processing 29, 228-250.
 [[nodiscard]] std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,

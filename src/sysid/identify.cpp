@@ -34,6 +34,27 @@ bool is_shadow(const Identification& found, const std::vector<bool>& kept, std::
   return false;
 }
 
+/// Drops the modes that do not stay, with their deviations and marks in the diagram.
+void keep_modes(Identification& result, const std::vector<bool>& stays) {
+  const std::size_t n = result.modes.size();
+  std::vector<int> renumbered(n, -1);
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < n; ++m) {
+    if (!stays[m]) continue;
+    renumbered[m] = static_cast<int>(kept);
+    if (kept != m) {
+      result.modes[kept] = result.modes[m];
+      if (m < result.deviations.size()) result.deviations[kept] = result.deviations[m];
+    }
+    ++kept;
+  }
+  result.modes.resize(kept);
+  result.deviations.resize(std::min(result.deviations.size(), kept));
+  for (DiagramPole& pole : result.diagram) {
+    if (pole.mode >= 0) pole.mode = renumbered[static_cast<std::size_t>(pole.mode)];
+  }
+}
+
 }  // namespace
 
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
@@ -44,22 +65,7 @@ void drop_undetermined(Identification& result, const IdentifyOptions& options, d
   if (options.selection == Selection::automatic) {
     for (std::size_t m = 0; m < n; ++m) stays[m] = settled[m] && !is_shadow(result, settled, m);
   }
-  std::vector<int> renumbered(n, -1);
-  std::size_t kept = 0;
-  for (std::size_t m = 0; m < n; ++m) {
-    if (!stays[m]) continue;
-    renumbered[m] = static_cast<int>(kept);
-    if (kept != m) {
-      result.modes[kept] = result.modes[m];
-      result.deviations[kept] = result.deviations[m];
-    }
-    ++kept;
-  }
-  result.modes.resize(kept);
-  result.deviations.resize(kept);
-  for (DiagramPole& pole : result.diagram) {
-    if (pole.mode >= 0) pole.mode = renumbered[static_cast<std::size_t>(pole.mode)];
-  }
+  keep_modes(result, stays);
 }
 
 namespace {
@@ -70,6 +76,7 @@ Identification select(const ShiftModels& models, const IdentifyOptions& options)
   result.diagram = stabilisation_diagram(poles_of(models), options.criteria, options.limits);
   result.modes = options.selection == Selection::paper ? identify_clusters(result.diagram, orders, options.cleaning)
                                                        : automatic_clusters(result.diagram, orders, options.automatic);
+  result.periodic = undamped_poles(poles_of(models), options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
   return result;
 }
 
@@ -103,6 +110,7 @@ void add_order_scatter(Identification& result) {
 void add_deviations(Identification& result, const Observability& observability, const ShiftModels& models,
                     const Changes& changes, const IdentifyOptions& options, double seconds) {
   const PoleFactors factors = pole_factors(observability, models, changes);
+  for (DiagramPole& pole : result.diagram) pole.frequency_std_Hz = frequency_deviation(models, factors, pole.pole);
   if (options.selection == Selection::automatic) keep_well_known(result, models, factors);
   std::vector<std::vector<Pole>> members;
   for (const Cluster& mode : result.modes) {
@@ -115,6 +123,22 @@ void add_deviations(Identification& result, const Observability& observability, 
 }
 
 }  // namespace
+
+void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
+                   const PeriodicRule& rule) {
+  result.periodic = periodic_lines(result.periodic, records, rate_Hz, rule);
+  std::vector<bool> stays(result.modes.size(), true);
+  for (std::size_t m = 0; m < stays.size(); ++m) {
+    const Cluster& mode = result.modes[m];
+    // Without damping as far as the record can tell.
+    const double reach = m < result.deviations.size() ? 2.0 * result.deviations[m].damping_ratio : 0.0;
+    if (mode.damping_ratio >= rule.largest_damping + std::max(reach, rule.largest_damping)) continue;
+    stays[m] = std::none_of(result.periodic.begin(), result.periodic.end(), [&](const PeriodicLine& line) {
+      return std::abs(line.frequency_Hz - mode.frequency_Hz) < rule.largest_spread * mode.frequency_Hz;
+    });
+  }
+  keep_modes(result, stays);
+}
 
 std::vector<int> IdentifyOptions::orders() const {
   std::vector<int> list;

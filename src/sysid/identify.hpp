@@ -6,6 +6,7 @@
 #include "signal/correlation.hpp"
 #include "sysid/automatic.hpp"
 #include "sysid/clustering.hpp"
+#include "sysid/periodic.hpp"
 #include "sysid/uncertainty.hpp"
 
 namespace twindeck::sysid {
@@ -23,6 +24,7 @@ struct IdentifyOptions {
   Selection selection = Selection::automatic;
   CleaningRule cleaning;
   AutomaticRule automatic;
+  PeriodicRule periodic;
   /// The paper's selection: a cluster whose frequency has a relative standard deviation above this is dropped: its pole
   /// recurs over the model orders, but the data do not determine it. 0 keeps all (the rule as printed).
   double largest_deviation = 0.01;
@@ -44,6 +46,9 @@ struct Identification {
   /// One per mode. For frequency and damping: root of the sum of the data's variance (`factor`) and the variance over the model
   /// orders. Empty if the covariance is unknown (a single block).
   std::vector<ModeDeviation> deviations;
+  /// Recurring poles without damping: of ambient records the candidates of `mark_periodic`, after it the lines of periodic
+  /// forces.
+  std::vector<PeriodicLine> periodic;
 };
 
 /// Covariance-driven identification of output-only records: correlations to subspace to poles of all orders, stabilisation
@@ -63,6 +68,12 @@ struct Identification {
 [[nodiscard]] Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz,
                                              const IdentifyOptions& options, std::uint64_t seed,
                                              const std::vector<Eigen::MatrixXd>& quiet = {});
+
+/// Tells lines of periodic forces from modes: `periodic` keeps the candidates that the records show to be lines. Modes at such
+/// a frequency are dropped if their damping does not differ from that of a line by more than two standard deviations.
+/// @param records  those identified (n_samples × n_outputs), channels scaled alike
+void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
+                   const PeriodicRule& rule);
 
 /// Drops the modes that the data do not determine, by the rules of the options. The automatic selection also treats pairs that
 /// the data cannot tell apart (frequencies within three standard deviations of their difference, MAC above 0.8): it drops the

@@ -23,7 +23,8 @@ struct PoleLimits {
 struct DiagramPole {
   Pole pole;
   bool stable_frequency = false, stable_damping = false, stable_shape = false;
-  int mode = -1;  ///< position in the list of identified modes, -1 for none
+  int mode = -1;                  ///< position in the list of identified modes, -1 for none
+  double frequency_std_Hz = 0.0;  ///< from the data's covariance; 0 where that is unknown
   [[nodiscard]] bool stable() const { return stable_frequency && stable_damping && stable_shape; }
 };
 

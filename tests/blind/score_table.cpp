@@ -6,28 +6,6 @@
 
 namespace twindeck::blind {
 
-namespace {
-
-/// P(K >= k) of n trials at p.
-double upper_tail(int k, int n, double p) {
-  double sum = 0.0;
-  for (int i = k; i <= n; ++i)
-    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) + i * std::log(p) +
-                    (n - i) * std::log1p(-p));
-  return sum;
-}
-
-}  // namespace
-
-std::pair<double, double> exact_interval(int k, int n) {
-  const auto solve = [&](int from, double level) {  // p at which P(K >= from) = level
-    double low = 1e-12, high = 1.0 - 1e-12;
-    for (int i = 0; i < 60; ++i) (upper_tail(from, n, 0.5 * (low + high)) < level ? low : high) = 0.5 * (low + high);
-    return 0.5 * (low + high);
-  };
-  return {k == 0 ? 0.0 : solve(k, 0.025), k == n ? 1.0 : solve(k + 1, 0.975)};
-}
-
 std::vector<ScoreLine> score_lines(double eased) {
   const auto null = [](const Score& s) { return s.kind == "null"; };
   const auto effect = [](const Score& s) { return s.kind == "effect"; };
@@ -52,10 +30,6 @@ std::vector<ScoreLine> score_lines(double eased) {
        [](const Score& s) { return s.unknown; }, 0.90, true, 0.855}};
   for (ScoreLine& line : lines) line.target += line.at_least ? -eased : eased;
   return lines;
-}
-
-double worse_or_equal(int k, int n, double rate, bool at_least) {
-  return at_least ? 1.0 - upper_tail(k + 1, n, rate) : upper_tail(k, n, rate);
 }
 
 bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>& scores, Judge judge) {

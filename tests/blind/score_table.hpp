@@ -2,15 +2,12 @@
 
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "blind/exact_intervals.hpp"
 #include "blind/trial.hpp"
 
 namespace twindeck::blind {
-
-/// The exact 95 % interval of a proportion (Clopper and Pearson 1934): right for few trials too.
-[[nodiscard]] std::pair<double, double> exact_interval(int k, int n);
 
 /// A line of the score: of which cases, what counts as a hit, what is asked for.
 struct ScoreLine {
@@ -34,8 +31,5 @@ enum class Judge {
 /// Prints the lines with intervals. @return false when a line fails
 [[nodiscard]] bool print_scores(const std::vector<ScoreLine>& lines, const std::vector<Score>& scores,
                                 Judge judge = Judge::targets);
-
-/// Probability of `k` hits or a worse count out of `n` at this rate.
-[[nodiscard]] double worse_or_equal(int k, int n, double rate, bool at_least);
 
 }  // namespace twindeck::blind

@@ -180,6 +180,11 @@ ConditionResult identify_condition(const Campaign& campaign, const std::vector<R
     setup.spectra = average_spectra(setup.conditioned, config);
     setup.singular = singular_spectra(setup.conditioned, config);
     setup.found = identify_modes(setup.conditioned, config);
+    for (const sysid::PeriodicLine& line : setup.found.periodic) {
+      context.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", group.setup,
+                              line.frequency_Hz,
+                              line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
+    }
     estimate_lags(setup.conditioned, setup.found);
     for (const CampaignChannel& channel : setup.conditioned.channels) {
       if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);

@@ -119,6 +119,7 @@ sysid::IdentifyOptions IdentificationConfig::options(double rate_Hz, const std::
   options.selection = selection == "paper" ? sysid::Selection::paper : sysid::Selection::automatic;
   options.cleaning = cleaning;
   options.automatic = automatic;
+  options.periodic = periodic;
   for (const CampaignChannel& channel : channels) options.automatic.derivatives.push_back(derivative(channel.quantity));
   options.largest_deviation = largest_deviation;
   options.largest_law_ratio = largest_law_ratio;

@@ -207,6 +207,11 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
                 ? sysid::identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
                 : sysid::identify(blocks, conditioned.rate_Hz, options);
   }
+  if (options.selection == sysid::Selection::automatic && conditioned.excitation.empty()) {
+    sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic);
+  } else {
+    found.periodic.clear();  // candidates that nobody judged
+  }
   to_physical_shapes(found, conditioned.channels, scale);
   return found;
 }

@@ -33,6 +33,7 @@ struct IdentificationConfig {
   double largest_deviation = 0.01, largest_law_ratio = 10.0;
   sysid::CleaningRule cleaning;
   sysid::AutomaticRule automatic;
+  sysid::PeriodicRule periodic;
   // Free decays (ERA).
   long decay_decimation = 0, decay_block_rows = 60, decay_maximum_order = 40;
   double decay_start_s = 0.3, decay_length_s = 20.0, decay_band_Hz = 0.08;

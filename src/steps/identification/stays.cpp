@@ -44,6 +44,7 @@ std::vector<StayResult> identify_stays(const Campaign& campaign, const std::vect
   own.maximum_order = config.stay_maximum_order;
   own.lowest_Hz = 0.0;
   own.highest_Hz = 0.0;
+  own.periodic.largest_damping = 0.0;  // a taut string's modes are multiples with next to no damping, and no machine's lines
   std::vector<StayResult> stays;
   for (const RecordGroup& group : groups) {
     const Conditioned conditioned = condition_records(campaign, group, own, config.stay_decimation);

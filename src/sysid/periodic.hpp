@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sysid/state_space.hpp"
+
+namespace twindeck::sysid {
+
+/// Lines of periodic forces (machines, pumps, generators) in a record: no modes.
+struct PeriodicRule {
+  /// [-] largest |damping ratio| of a line's pole. A line has none; its estimate scatters to either side of zero. Structures
+  /// have 0.2 % and more.
+  double largest_damping = 0.001;
+  double largest_spread = 0.001;  ///< [-] relative distance of neighbouring poles of one line, which repeats at all orders
+  double share = 0.3;             ///< [-] least share of the orders that a line is found at
+  /// [-] largest E|a|⁴ / (E|a|²)² of the envelope a in a narrow band around it: 1 for a steady line, 2 for normal noise or a
+  /// mode.
+  double largest_kurtosis = 1.3;
+  /// [-] the same where the frequency is a multiple of a line that is already found: prior knowledge, weaker evidence.
+  double largest_kurtosis_of_multiple = 1.5;
+  double multiple = 0.001;  ///< [-] relative distance from a multiple
+};
+
+/// A line, or a candidate for one.
+struct PeriodicLine {
+  double frequency_Hz = 0.0;   ///< median over the orders
+  double damping_ratio = 0.0;  ///< median over the orders [-]
+  Eigen::VectorXcd shape;      ///< (n_outputs) of the highest order: how the structure moves at this frequency; no mode shape
+  double kurtosis = 0.0;       ///< [-] E|a|⁴ / (E|a|²)²
+  int multiple = 1;            ///< of the lowest line that it is a multiple of
+};
+
+/// Poles with next to no damping, also below zero, that recur over the orders.
+/// @param poles  one list an order @return ascending in frequency; kurtosis not known yet
+[[nodiscard]] std::vector<PeriodicLine> undamped_poles(const std::vector<std::vector<Pole>>& poles, double lowest_Hz,
+                                                       double highest_Hz, const PeriodicRule& rule);
+
+/// Which candidates are lines of a periodic force. The records are projected on the candidate's shape and filtered to a narrow
+/// band. The amplitude of a line is steady there; that of a mode or of noise has the normal law's kurtosis.
+/// @param records  (n_samples × n_outputs) each @return ascending in frequency, multiples numbered
+/// Reference: Jacobsen, Andersen and Brincker (2007), IOMAC 2 (harmonics by the kurtosis of the filtered signal).
+[[nodiscard]] std::vector<PeriodicLine> periodic_lines(const std::vector<PeriodicLine>& candidates,
+                                                       const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
+                                                       const PeriodicRule& rule);
+
+}  // namespace twindeck::sysid

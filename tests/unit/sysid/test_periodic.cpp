@@ -1,0 +1,71 @@
+// Oracle: a record made of closed-form modes, a steady machine and its second multiple. The machine's lines are marked; modes
+// and narrow noise are not.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "chain.hpp"
+#include "signal/condition.hpp"
+#include "sysid/identify.hpp"
+#include "sysid/periodic.hpp"
+
+namespace twindeck::sysid {
+namespace {
+
+constexpr double kLine_Hz = 1.7;
+
+/// Four modes of a chain (2.46 Hz the first) and, of amplitude `level`, lines at 1.7 and 3.4 Hz.
+Eigen::MatrixXd record_with_machine(double level) {
+  const test::Chain chain(4, 25.0, 0.01, 20.0);
+  Eigen::MatrixXd data = chain.simulate(20000, 42, 0.05);
+  const Eigen::RowVector4d motion(0.3, 1.0, -0.5, 0.7);
+  for (Eigen::Index t = 0; t < data.rows(); ++t) {
+    const double angle = 2.0 * std::numbers::pi * kLine_Hz * static_cast<double>(t) / 20.0;
+    data.row(t) += level * (std::sin(angle) * motion + 0.4 * std::sin(2.0 * angle + 0.7) * motion.reverse());
+  }
+  return signal::detrended(data);
+}
+
+Identification identified_with_machine(double level) {
+  const Eigen::MatrixXd data = record_with_machine(level);
+  IdentifyOptions options;
+  options.block_rows = 25;
+  options.maximum_order = 40;
+  Identification found = identify(signal::correlations(data, {0, 1, 2, 3}, 50, 20), 20.0, options);
+  mark_periodic(found, {data}, 20.0, options.periodic);
+  return found;
+}
+
+TEST(Periodic, LinesOfAMachineAreMarkedAndNoModes) {
+  const test::Chain chain(4, 25.0, 0.01, 20.0);
+  const Identification found = identified_with_machine(0.5);
+  ASSERT_EQ(found.periodic.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double multiple = static_cast<double>(k + 1);
+    EXPECT_NEAR(found.periodic[k].frequency_Hz, multiple * kLine_Hz, 0.001);
+    EXPECT_EQ(found.periodic[k].multiple, static_cast<int>(k + 1));
+    EXPECT_LT(found.periodic[k].kurtosis, 1.3);
+  }
+  ASSERT_EQ(found.modes.size(), 4U);
+  for (int r = 0; r < 4; ++r)
+    EXPECT_NEAR(found.modes[static_cast<std::size_t>(r)].frequency_Hz / chain.frequency_Hz(r), 1.0, 0.01);
+}
+
+TEST(Periodic, WithoutAMachineNothingIsMarked) {
+  const Identification found = identified_with_machine(0.0);
+  EXPECT_TRUE(found.periodic.empty());
+  EXPECT_EQ(found.modes.size(), 4U);
+}
+
+TEST(Periodic, AModeTakenForACandidateHasTheKurtosisOfNoise) {
+  // Even with a pole without damping at its frequency: the envelope decides. 1000 s hold some 80 independent values of this
+  // mode.
+  const test::Chain chain(4, 25.0, 0.01, 20.0);
+  PeriodicLine candidate{chain.frequency_Hz(0), 0.0, chain.shape(0).cast<std::complex<double>>()};
+  EXPECT_TRUE(periodic_lines({candidate}, {record_with_machine(0.5)}, 20.0, {}).empty());
+  candidate.frequency_Hz = kLine_Hz;
+  EXPECT_EQ(periodic_lines({candidate}, {record_with_machine(0.5)}, 20.0, {}).size(), 1U);
+}
+
+}  // namespace
+}  // namespace twindeck::sysid
