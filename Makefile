@@ -34,7 +34,7 @@ include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: compare baseline moves checksums check-power paper blind-trials score help all look deps build test unit steps tables figures report verify \
-  smoke bench format fuzz sanitize processors calibrate why new reference clean install package FORCE
+  smoke bench format fuzz sanitize processors calibrate why new reference clean install package coverage FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -147,6 +147,9 @@ fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFu
 
 sanitize: ## unit tests, broken inputs and the smoke chain under address, undefined-behaviour and thread sanitizers (ONLY=address or thread)
 	@tests/sanitize/run.sh $(JOBS) $(ONLY)
+
+coverage: deps ## lines and branches that unit tests, laws and verification reach, by room (build-coverage/coverage.md; needs gcovr)
+	@tests/coverage/run.sh $(JOBS) $(ONLY)
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
