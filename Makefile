@@ -34,7 +34,7 @@ include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: compare baseline moves checksums check-power paper blind-trials score help all look deps build test unit steps tables figures report verify \
-  smoke bench format fuzz sanitize processors calibrate why new reference clean install package coverage FORCE
+  smoke bench format fuzz sanitize processors calibrate why new reference clean install package coverage docs FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -168,6 +168,9 @@ new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands
 
 reference: build ## every configuration key and every column of a file, as docs/reference.md
 	@$(PRODUCT)workflows/python.sh -m twindeck_reference --bin $(BIN) --out docs/reference.md
+
+docs: build ## guides, reference, decisions, studies and C++ headers as static pages in build/site (needs mkdocs; doxygen for the headers)
+	@$(PRODUCT)workflows/python.sh -m twindeck_site --bin $(BIN) --out $(BUILD)/site
 
 PREFIX ?= /usr/local
 install: build ## executables, the command twindeck, report, catalogue, manual pages and studies into PREFIX (default /usr/local); DESTDIR counts
