@@ -146,6 +146,18 @@ class Release(unittest.TestCase):
         found = {file: re.search(pattern, (ROOT / file).read_text()).group(1) for file, pattern in places.items()}
         self.assertEqual(len(set(found.values())), 1, found)
 
+    def test_the_citation_has_what_the_format_requires(self):
+        """Citation File Format 1.2.0: cff-version, message, title and authors, each of whom has a name."""
+        try:
+            import yaml
+        except ModuleNotFoundError:
+            self.skipTest("no PyYAML here (Debian: python3-yaml)")
+        citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+        for key in ("cff-version", "message", "title", "authors"):
+            self.assertTrue(citation[key], key)
+        self.assertTrue(all(a.get("name") or a.get("family-names") for a in citation["authors"]))
+        self.assertIsInstance(citation["version"], str)
+
     def test_shell_scripts_have_no_findings(self):
         if not shutil.which("shellcheck"):
             self.skipTest("no shellcheck here (Debian: shellcheck)")
