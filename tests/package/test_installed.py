@@ -130,5 +130,22 @@ class Installed(unittest.TestCase):
                 self.assertEqual(seen.stderr, "", program)
 
 
+class SourceTree(unittest.TestCase):
+    def test_the_command_works_from_the_source_tree_too(self):
+        """A study elsewhere, the programs of build/bin; nothing is compiled."""
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+
+        def run(*arguments):
+            return subprocess.run([ROOT / "packaging/twindeck", *arguments], cwd=folder, capture_output=True, text=True, timeout=60)
+
+        self.assertEqual(run("new", "mine").returncode, 0)
+        done = run("run", "--dry-run", "s6")
+        self.assertEqual(done.returncode, 2, "an option of make needs the study's name or a step first")
+        done = run("run", "mine", "s6", "--dry-run", f"BIN={BUILD}/bin")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{BUILD}/bin/s6_updating --study workflows/mine", done.stdout)
+        self.assertNotIn("cmake", done.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()
