@@ -1,5 +1,7 @@
 #!/bin/sh
 # make coverage: builds with g++'s counters, runs the unit tests, the laws and the verification, counts lines and branches with gcovr.
+# Without optimisation (preset `coverage`): g++ merges branches even with -O1 and -Og, before it counts them, so that lines that no test reaches
+# are not listed at all.
 #   build-coverage/coverage.json   by file; coverage.md: by room of src, the table that the run of CI shows
 #
 #   run.sh [JOBS] [EXECUTABLE ...]     executables: a part of the tests, for example test_modal

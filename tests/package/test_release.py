@@ -136,6 +136,7 @@ class Runs(unittest.TestCase):
     def test_the_preset_of_coverage_is_there(self):
         presets = {p["name"]: p for p in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
         self.assertIn("--coverage", presets["coverage"]["cacheVariables"]["CMAKE_CXX_FLAGS"])
+        self.assertIn("-O0", presets["coverage"]["cacheVariables"]["CMAKE_CXX_FLAGS_RELWITHDEBINFO"])  # run.sh says why
         self.assertIn("--preset coverage", (ROOT / "tests/coverage/run.sh").read_text())
 
 
