@@ -8,24 +8,33 @@ STUDY ?= ponte_del_mare
 BUILD ?= build
 THREADS ?= 2
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+# The product's own files lie beside this one. In the source tree that is the current folder (empty); `make install` puts them into
+# <prefix>/share/twindeck/ and the executables into <prefix>/bin, and `twindeck run` reads this file there from a folder of the user's.
+PRODUCT := $(filter-out ./,$(dir $(firstword $(MAKEFILE_LIST))))
+INSTALLED := $(if $(PRODUCT),$(if $(wildcard $(PRODUCT)CMakeLists.txt),,yes))
+ifeq ($(INSTALLED),)
 BIN := $(BUILD)/bin
+else
+BIN := $(abspath $(PRODUCT)../../bin)
+NO_BUILD := 1
+endif
 RESULTS := results/$(STUDY)
 WORKFLOW := workflows/$(STUDY)
 DATA ?=
 PAPER := data/$(STUDY)
-REPORT := workflows/python.sh -m twindeck_report
+REPORT := $(PRODUCT)workflows/python.sh -m twindeck_report
 
 # `make why s6`: the words after `why` name a step; they are not built.
 ifeq ($(firstword $(MAKECMDGOALS)),why)
 STEP ?= $(word 2,$(MAKECMDGOALS))
 $(filter-out why,$(MAKECMDGOALS)): why ; @:
 else
-include workflows/steps.mk
-include workflows/virtual.mk
+include $(PRODUCT)workflows/steps.mk
+include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: compare baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
-  smoke bench format fuzz sanitize processors calibrate calibrate-trade why new reference clean FORCE
+  smoke bench format fuzz sanitize processors calibrate calibrate-trade why new reference clean install package coverage docs FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -72,13 +81,13 @@ figures: $(RESULTS)/figures/manifest.json ## figures as PDF, PNG and their data
 report: $(RESULTS)/report/report.html ## one self-contained page; refused where a file was changed after it was written
 	@$(REPORT) unchanged $(REPORT_ARGUMENTS)
 
-REPORT_SOURCES := $(shell find paper data/$(STUDY) -type f -not -path '*/__pycache__/*' -not -path 'paper/article/*' 2>/dev/null)
+REPORT_SOURCES := $(shell find $(PRODUCT)paper data/$(STUDY) -type f -not -path '*/__pycache__/*' -not -path '*paper/article/*' 2>/dev/null)
 REPORT_ARGUMENTS = --study $(STUDY) --results $(RESULTS) --data $(PAPER)
 
-$(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) workflows/python.sh
+$(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(PRODUCT)workflows/python.sh
 	@$(REPORT) tables $(REPORT_ARGUMENTS)
 
-$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(wildcard results/scoring/*.csv) workflows/python.sh
+$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(wildcard results/scoring/*.csv) $(PRODUCT)workflows/python.sh
 	@$(REPORT) figures $(REPORT_ARGUMENTS)
 
 $(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json $(wildcard results/check_power/power.csv) $(SCORE)
@@ -86,7 +95,7 @@ $(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figure
 
 paper: $(RESULTS)/paper/paper.pdf ## our article as PDF, with the generated tables, figures and numbers (needs LaTeX; says how to get it)
 
-$(RESULTS)/paper/paper.pdf: $(RESULTS)/report/report.html $(shell find paper/article -name '*.tex')
+$(RESULTS)/paper/paper.pdf: $(RESULTS)/report/report.html $(shell find $(PRODUCT)paper/article -name '*.tex')
 	@$(REPORT) article $(REPORT_ARGUMENTS)
 
 verify: $(RESULTS)/report/report.html ## hold the tables, as they lie there, against the paper within the declared tolerances
@@ -104,7 +113,7 @@ checksums: ## list the input files anew in data/SHA256SUMS
 
 ONLY ?=
 check-power: build ## change the inputs one at a time and see what the check notices (ONLY=name for one; results/check_power/power.csv)
-	@workflows/python.sh -m twindeck_power --study $(STUDY) --bin $(BIN) $(ONLY:%=--only %)
+	@$(PRODUCT)workflows/python.sh -m twindeck_power --study $(STUDY) --bin $(BIN) $(ONLY:%=--only %)
 
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
@@ -130,11 +139,11 @@ batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as i
 
 bench: build ## ratios against peers: modes, derivatives, identification, wind (results/bench/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field
-	@workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
+	@$(PRODUCT)workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
 
 processors: build ## the study and the tests under the kernels of other processors: tests failed, columns that move (results/processors/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS)
-	@workflows/python.sh tests/processors/run.py $(BUILD) $(STUDY) $(if $(KERNELS),--kernels $(KERNELS))
+	@$(PRODUCT)workflows/python.sh tests/processors/run.py $(BUILD) $(STUDY) $(if $(KERNELS),--kernels $(KERNELS))
 
 SECONDS ?= 300
 fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFuzzer and sanitizers, SECONDS shared out
@@ -142,6 +151,9 @@ fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFu
 
 sanitize: ## unit tests, broken inputs and the smoke chain under address, undefined-behaviour and thread sanitizers (ONLY=address or thread)
 	@tests/sanitize/run.sh $(JOBS) $(ONLY)
+
+coverage: deps ## lines and branches that unit tests, laws and verification reach, by room (build-coverage/coverage.md; needs gcovr)
+	@tests/coverage/run.sh $(JOBS) $(ONLY)
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
@@ -154,16 +166,30 @@ format: ## lay the C++ sources out as .clang-format says (Debian: clang-format)
 	@git ls-files 'src/*.[hc]pp' 'tests/*.[hc]pp' | xargs clang-format -i
 
 compare: ## make compare A=results/x B=results/y: two runs beside each other: options, parameters, frequencies, verdicts, what moved by how much
-	@workflows/python.sh -m twindeck_compare "$(A)" "$(B)"
+	@$(PRODUCT)workflows/python.sh -m twindeck_compare "$(A)" "$(B)"
 
 why: ## make why s6: why that step would run again
-	@workflows/why.sh "$(STEP)" $(STUDY)
+	@$(PRODUCT)workflows/why.sh "$(STEP)" $(STUDY) $(PRODUCT)Makefile
 
 new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands
-	@workflows/new.sh $(if $(filter command line environment,$(origin STUDY)),$(STUDY))
+	@$(PRODUCT)workflows/new.sh $(if $(filter command line environment,$(origin STUDY)),$(STUDY))
 
 reference: build ## every configuration key and every column of a file, as docs/reference.md
-	@workflows/python.sh -m twindeck_reference --bin $(BIN) --out docs/reference.md
+	@$(PRODUCT)workflows/python.sh -m twindeck_reference --bin $(BIN) --out docs/reference.md
+
+docs: build ## guides, reference, decisions, studies and C++ headers as static pages in build/site (needs mkdocs; doxygen for the headers)
+	@$(PRODUCT)workflows/python.sh -m twindeck_site --bin $(BIN) --out $(BUILD)/site
+
+PREFIX ?= /usr/local
+install: build ## executables, the command twindeck, report, catalogue, manual pages and studies into PREFIX (default /usr/local); DESTDIR counts
+	@cmake --build $(BUILD) -j $(JOBS) --target manuals
+	@DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)" >$(BUILD)/install.log || { cat $(BUILD)/install.log; exit 1; }
+	@echo "installed $$(wc -l <$(BUILD)/install_manifest.txt) files into $(DESTDIR)$(PREFIX); go on with: twindeck new my_bridge"
+
+package: build ## the Debian packages twindeck and twindeck-data, in build/packages
+	@cmake --build $(BUILD) -j $(JOBS) --target manuals
+	@cd $(BUILD) && cpack -B packages >package.log 2>&1 || { cat package.log; exit 1; }
+	@ls $(BUILD)/packages/*.deb
 
 clean: ## remove the build and all results
 	@rm -rf $(BUILD) && find results -mindepth 1 -not -name README.md -delete

@@ -37,8 +37,8 @@ endif
 # A study of outside records makes its inputs from them once: make s9 STUDY=gt_pedestrian_bridge DATA=dir
 ifneq ($(wildcard $(WORKFLOW)/make_inputs.py),)
 STUDY_INPUTS += $(RESULTS)/inputs/model/model.toml
-$(RESULTS)/inputs/model/model.toml: $(WORKFLOW)/make_inputs.py $(wildcard workflows/common/*.py)
-	@workflows/python.sh $(WORKFLOW)/make_inputs.py "$(DATA)" $(RESULTS)/inputs
+$(RESULTS)/inputs/model/model.toml: $(WORKFLOW)/make_inputs.py $(wildcard $(PRODUCT)workflows/common/*.py)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_inputs.py "$(DATA)" $(RESULTS)/inputs
 endif
 
 # Somebody's own measured modes: make s6 MODES=dir

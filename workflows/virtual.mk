@@ -10,7 +10,7 @@ $(VIRTUAL_DIAGNOSIS): $(wildcard workflows/$(VIRTUAL)/*.toml $(WORKFLOW)/hypothe
     $(RESULTS)/s3_identification/manifest.json $(RESULTS)/s4_refinement/manifest.json
 	@$(BIN)/s9_diagnosis --study workflows/$(VIRTUAL) --results results/$(VIRTUAL) --out results/$(VIRTUAL)/s9_diagnosis --threads $(THREADS)
 
-$(SCORE): $(VIRTUAL_DIAGNOSIS) $(RESULTS)/s0_campaign/manifest.json tests/steps/diagnosis_score.py
-	@workflows/python.sh tests/steps/diagnosis_score.py --campaign $(RESULTS)/s0_campaign --imposed $(WORKFLOW)/s0_campaign.toml \
+$(SCORE): $(VIRTUAL_DIAGNOSIS) $(RESULTS)/s0_campaign/manifest.json $(PRODUCT)tests/steps/diagnosis_score.py
+	@$(PRODUCT)workflows/python.sh $(PRODUCT)tests/steps/diagnosis_score.py --campaign $(RESULTS)/s0_campaign --imposed $(WORKFLOW)/s0_campaign.toml \
 	  --diagnosis results/$(VIRTUAL)/s9_diagnosis --out results/$(VIRTUAL)/score
 endif

@@ -9,6 +9,7 @@ from .results import StepResults, read_step
 from .writing import toml_value
 
 _REPOSITORY = Path(__file__).resolve().parents[2]
+_INSTALLED = Path(__file__).resolve().parent / "../../../../bin"  # of <prefix>/lib/python3/dist-packages/twindeck
 _FOLDERS = ("study", "model", "campaign", "modes", "features", "results", "correct")  # options that take a path
 
 
@@ -16,14 +17,14 @@ def find_step(step: str) -> Path:
     """The executable of a step, `s6_updating` or `s6` for short.
 
     It is looked for in the folder that the environment variable TWINDECK_BIN names, in `build/bin` of the repository that this package
-    lies in, in `build/bin` of the current folder, and on the PATH, in this order.
+    lies in, in `build/bin` of the current folder, in the prefix that the package was installed to, and on the PATH, in this order.
 
     Raises
     ------
     InputError
         If there is none; it lists where it was looked for.
     """
-    folders = [Path(p) for p in (os.environ.get("TWINDECK_BIN"), _REPOSITORY / "build/bin", Path.cwd() / "build/bin") if p]
+    folders = [Path(p) for p in (os.environ.get("TWINDECK_BIN"), _REPOSITORY / "build/bin", Path.cwd() / "build/bin", _INSTALLED) if p]
     for folder in folders:
         found = [p for p in (folder / step, *sorted(folder.glob(f"{step}_*"))) if p.is_file() and os.access(p, os.X_OK)]
         if found:

@@ -6,7 +6,7 @@ $(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
 
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/channels.csv $(DATA)/*.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
-	@workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
 
 # The transverse mode of each part and a model of it; the model fitted to the weak parts (below 0.3 mm), the parts of December 2022 held out; then the
 # diagnosis, which starts from that model, and beside it the same with a form error that is estimated, and with the largest amplitude held out by rule.
@@ -17,12 +17,12 @@ BESIDE := $(RESULTS)/with_form $(RESULTS)/by_rule
 $(RESULTS)/s9_diagnosis/manifest.json: $(WEAK_FIT)/manifest.json $(BESIDE:%=%/manifest.json) $(wildcard workflows/meloland_overpass/hypotheses/*)
 
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
-	@workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)
 
-$(WEAK_FIT)/manifest.json: $(INPUTS)/model/model.toml $(WORKFLOW)/s9_diagnosis.toml workflows/common/narrow.py $(BIN)/s9_diagnosis
+$(WEAK_FIT)/manifest.json: $(INPUTS)/model/model.toml $(WORKFLOW)/s9_diagnosis.toml $(PRODUCT)workflows/common/narrow.py $(BIN)/s9_diagnosis
 	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $(WEAK_FIT) --model $(INPUTS)/model --threads $(THREADS) --quiet \
 	  --set most_causes=0 --set 'hold_out=["dec2022_603_strong","dec2022_603_after"]'
-	@workflows/python.sh workflows/common/narrow.py $(WEAK_FIT)/extended_model $(INPUTS)/fitted_model
+	@$(PRODUCT)workflows/python.sh $(PRODUCT)workflows/common/narrow.py $(WEAK_FIT)/extended_model $(INPUTS)/fitted_model
 
 $(RESULTS)/with_form/manifest.json: OTHER := --set form=on
 $(RESULTS)/by_rule/manifest.json: OTHER := --set 'hold_out=[]'

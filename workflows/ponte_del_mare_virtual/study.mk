@@ -2,4 +2,4 @@
 $(RESULTS)/s9_diagnosis/manifest.json: results/ponte_del_mare/s3_identification/manifest.json results/ponte_del_mare/s4_refinement/manifest.json
 
 results/ponte_del_mare/%/manifest.json: FORCE
-	@$(MAKE) --no-print-directory STUDY=ponte_del_mare FEATURES= MODES= $*
+	@$(MAKE) --no-print-directory -f $(PRODUCT)Makefile STUDY=ponte_del_mare FEATURES= MODES= $*

@@ -7,4 +7,4 @@ $(RESULTS)/s9_diagnosis/manifest.json: $(PUBLISHED)/manifest.json
 $(PUBLISHED)/manifest.json: $(RESULTS)/inputs/model/model.toml $(WORKFLOW)/s9_diagnosis.toml $(WORKFLOW)/changes.py $(BIN)/s9_diagnosis
 	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $(PUBLISHED) --model $(RESULTS)/inputs/published_model \
 	  --threads $(THREADS) --quiet
-	@workflows/python.sh $(WORKFLOW)/changes.py $(PUBLISHED)/extended_model $(RESULTS)/inputs/changes_as_published.csv
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/changes.py $(PUBLISHED)/extended_model $(RESULTS)/inputs/changes_as_published.csv

@@ -6,7 +6,7 @@ $(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
 
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/setup_*_channel_dofs.txt $(DATA)/grid.txt))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
-	@workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
 
 # Steps 4 and 6 take what is written at its word. Step 9 does not, and not what was fitted to these frequencies before either: a first
 # look from the open model, with room for two causes, then the diagnosis from the model that it leaves.

@@ -15,6 +15,7 @@
 #include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
 #include "steps/measured/measured_tables.hpp"
+#include "steps/shared/shipped_files.hpp"
 #include "steps/shared/study.hpp"
 #include "steps/shared/unit_slips.hpp"
 
@@ -25,17 +26,12 @@ namespace {
 std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const StepContext& context) {
   if (const auto given = context.flag("catalogue")) return *given;
   if (!config.catalogue.empty()) return config.catalogue;
-  std::vector<std::filesystem::path> tried = {"workflows/common/hypotheses"};
-  if (!context.study.empty()) tried.push_back(context.study.parent_path() / "common/hypotheses");
-  std::error_code ignored;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  if (!ignored) {
-    tried.push_back(self.parent_path() / "../../workflows/common/hypotheses");
-    tried.push_back(self.parent_path() / "../share/twindeck/hypotheses");
+  const std::filesystem::path catalogue = "workflows/common/hypotheses";
+  if (!context.study.empty()) {  // of the tree that the study lies in
+    const auto beside = context.study.parent_path() / "common/hypotheses";
+    if (!std::filesystem::is_directory(catalogue) && std::filesystem::is_directory(beside)) return beside;
   }
-  for (const auto& folder : tried)
-    if (std::filesystem::is_directory(folder)) return folder;
-  return tried.front();
+  return shipped(catalogue);
 }
 
 /// @param model  null for a matrix model, which has no dampers

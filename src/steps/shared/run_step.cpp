@@ -19,6 +19,7 @@
 #include "steps/shared/run_step_memory.hpp"
 #include "steps/shared/run_step_signals.hpp"
 #include "steps/shared/run_step_threads.hpp"
+#include "steps/shared/shipped_files.hpp"
 #include "steps/shared/study.hpp"
 
 namespace twindeck::steps {
@@ -176,7 +177,8 @@ fs::path StepContext::resolved(const std::string& path) const {
 
 bool StepContext::has_flag(const std::string& name) const { return flag(name).has_value(); }
 
-fs::path StepContext::input(const fs::path& path) {
+fs::path StepContext::input(const fs::path& asked) {
+  const fs::path path = shipped(asked);
   if (!fs::exists(path)) {
     throw InputError({path.string(), 0, ""}, "does not exist",
                      "run the step that writes it, or point to your own data (--help)");

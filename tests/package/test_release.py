@@ -1,0 +1,189 @@
+"""The container, the runs of CI and the version, as far as they can be checked without either.
+
+Oracles: Debian's shell, which parses each command; the tree, which has the files that are copied; the Makefile, which has the targets that
+are called; workflows/debian-packages.txt, the one list of packages.
+"""
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
+TARGETS = set(re.findall(r"^([a-z][a-z-]*):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M))
+
+
+def instructions(text):
+    """[(word, rest)] of a Dockerfile, continued lines joined."""
+    lines = [line for line in text.replace("\\\n", " ").splitlines() if line.strip() and not line.startswith("#")]
+    return [tuple(line.split(None, 1)) for line in lines]
+
+
+def make_goals(command):
+    """Targets that a shell command asks make for."""
+    goals = []
+    for part in re.split(r"&&|\|\||;|\n", command):
+        words = part.split()
+        if words[:1] == ["make"]:
+            goals += [w for w in words[1:] if "=" not in w and not w.startswith("-")]
+    return goals
+
+
+def commands(workflow):
+    """The commands of a workflow's `run:` keys; expressions of the platform replaced by a word."""
+    found, lines = [], workflow.read_text(encoding="utf-8").splitlines()
+    for i, line in enumerate(lines):
+        match = re.match(r"^( *)(?:- )?run: (.*)$", line)
+        if not match:
+            continue
+        text = match.group(2)
+        if text == "|":
+            depth = len(match.group(1)) + (2 if line.lstrip().startswith("- ") else 0)
+            body = []
+            for below in lines[i + 1:]:
+                if below.strip() and len(below) - len(below.lstrip()) <= depth:
+                    break
+                body.append(below.strip())
+            text = "\n".join(body)
+        found.append(re.sub(r"\$\{\{.*?\}\}", "word", text))
+    return found
+
+
+def parses(command):
+    return subprocess.run(["sh", "-n", "-c", command], capture_output=True, text=True)
+
+
+class Container(unittest.TestCase):
+    text = (ROOT / "Dockerfile").read_text(encoding="utf-8")
+    steps = instructions(text)
+
+    def test_two_stages_of_debian_12(self):
+        self.assertEqual([rest.split()[0] for word, rest in self.steps if word == "FROM"], ["debian:12", "debian:12"])
+
+    def test_commands_are_sound_shell_and_make_targets(self):
+        runs = [rest for word, rest in self.steps if word == "RUN"]
+        self.assertEqual(len(runs), 3)
+        for command in runs:
+            self.assertEqual(parses(command).stderr, "")
+            self.assertLessEqual(set(make_goals(command)), TARGETS)
+        self.assertIn("package", make_goals(runs[1]))
+
+    def test_what_is_copied_is_there(self):
+        for word, rest in self.steps:
+            sources = rest.split()[:-1]
+            if word == "COPY" and not sources[0].startswith("--from"):
+                for source in sources:
+                    self.assertTrue((ROOT / source).exists(), source)
+
+    def test_packages_are_those_of_the_one_list(self):
+        """The first stage calls deps.sh, which reads debian-packages.txt; by name come only those that are needed before and for packing."""
+        first = next(rest for word, rest in self.steps if word == "RUN")
+        self.assertTrue(first.endswith("&& workflows/deps.sh"))
+        named = re.search(r"install (.*?) &&", first).group(1).split()
+        self.assertEqual([n for n in named if not n.startswith("-")], ["dpkg-dev", "file", "make"])
+        listed = subprocess.run([ROOT / "workflows/deps.sh", "--list"], capture_output=True, text=True)
+        if shutil.which("dpkg-query"):
+            lines = (ROOT / "workflows/debian-packages.txt").read_text().splitlines()
+            self.assertEqual([line.split()[0] for line in listed.stdout.splitlines()], [line for line in lines if line and not line.startswith("#")])
+
+    def test_what_is_copied_into_the_build_is_not_ignored(self):
+        ignored = (ROOT / ".dockerignore").read_text().split()
+        for part in ("src", "workflows", "packaging", "paper", "python", "data", "docs", "tests", "Makefile", "CMakeLists.txt", "LICENSE"):
+            self.assertTrue((ROOT / part).exists())
+            self.assertFalse(any(pathlib.PurePath(part).match(pattern) for pattern in ignored), part)
+
+    def test_the_documented_commands_are_the_same_everywhere(self):
+        guide = (ROOT / "docs/install.md").read_text(encoding="utf-8")
+        said = [line.removeprefix("#").strip() for line in self.text.splitlines() if line.startswith("#   docker")]
+        self.assertEqual(len(said), 3)
+        ran = "\n".join(c for w in WORKFLOWS for c in commands(w))
+        for command in said:
+            self.assertIn(command, guide)
+            self.assertIn(command, ran)
+
+
+class Runs(unittest.TestCase):
+    def test_commands_are_sound_shell_and_make_targets(self):
+        self.assertEqual([w.name for w in WORKFLOWS], ["ci.yml", "nightly.yml"])
+        for workflow in WORKFLOWS:
+            found = commands(workflow)
+            self.assertGreater(len(found), 2, workflow.name)
+            for command in found + re.findall(r"command: (.*)", workflow.read_text()):
+                self.assertEqual(parses(command).stderr, "", command)
+                self.assertLessEqual(set(make_goals(command)), TARGETS, command)
+
+    def test_they_are_yaml(self):
+        try:
+            import yaml
+        except ModuleNotFoundError:
+            self.skipTest("no PyYAML here (Debian: python3-yaml)")
+        for workflow in WORKFLOWS:
+            for name, job in yaml.safe_load(workflow.read_text())["jobs"].items():
+                self.assertTrue(job["runs-on"] and job["steps"] and job["timeout-minutes"], name)
+
+    def test_files_that_they_name_are_there(self):
+        for workflow in WORKFLOWS:
+            for command in commands(workflow):
+                for name in re.findall(r"(?<![\w/$])(?:tests|workflows|packaging|\.ci)/[\w./*-]+", command):
+                    self.assertTrue(list(ROOT.glob(name)), name)
+
+    def test_a_command_that_no_shell_takes_is_found(self):
+        self.assertNotEqual(parses("make test && (").stderr, "")
+        self.assertEqual(make_goals("cd x && make deps fuzz SECONDS=300"), ["deps", "fuzz"])
+
+    def test_the_preset_of_coverage_is_there(self):
+        presets = {p["name"]: p for p in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
+        self.assertIn("--coverage", presets["coverage"]["cacheVariables"]["CMAKE_CXX_FLAGS"])
+        self.assertIn("-O0", presets["coverage"]["cacheVariables"]["CMAKE_CXX_FLAGS_RELWITHDEBINFO"])  # run.sh says why
+        self.assertIn("--preset coverage", (ROOT / "tests/coverage/run.sh").read_text())
+
+
+class Release(unittest.TestCase):
+    def test_one_version_in_three_places(self):
+        places = {"CMakeLists.txt": r"project\(twindeck VERSION ([\d.]+)", "src/core/build_info.cpp": r'version\(\) \{ return "([\d.]+)"',
+                  "CITATION.cff": r"(?m)^version: ([\d.]+)$"}
+        found = {file: re.search(pattern, (ROOT / file).read_text()).group(1) for file, pattern in places.items()}
+        self.assertEqual(len(set(found.values())), 1, found)
+
+    def test_the_citation_has_what_the_format_requires(self):
+        """Citation File Format 1.2.0: cff-version, message, title and authors, each of whom has a name."""
+        try:
+            import yaml
+        except ModuleNotFoundError:
+            self.skipTest("no PyYAML here (Debian: python3-yaml)")
+        citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+        for key in ("cff-version", "message", "title", "authors"):
+            self.assertTrue(citation[key], key)
+        self.assertTrue(all(a.get("name") or a.get("family-names") for a in citation["authors"]))
+        self.assertIsInstance(citation["version"], str)
+
+    def test_shell_scripts_have_no_findings(self):
+        if not shutil.which("shellcheck"):
+            self.skipTest("no shellcheck here (Debian: shellcheck)")
+        done = subprocess.run(["shellcheck", "packaging/twindeck", "tests/coverage/run.sh", "workflows/new.sh", "workflows/python.sh", "workflows/deps.sh"],
+                              cwd=ROOT, capture_output=True, text=True)
+        self.assertEqual(done.stdout, "")
+
+
+class CoverageTable(unittest.TestCase):
+    """Oracle: counts worked out by hand."""
+
+    def test_by_room(self):
+        import sys
+        sys.path.insert(0, str(ROOT / "tests/coverage"))
+        import rooms
+        files = [{"filename": "src/fe/beam.cpp", "line_total": 60, "line_covered": 60, "branch_total": 10, "branch_covered": 5},
+                 {"filename": "src/fe/shell.cpp", "line_total": 40, "line_covered": 30, "branch_total": 0, "branch_covered": 0},
+                 {"filename": "src/steps/model/run.cpp", "line_total": 100, "line_covered": 10, "branch_total": 4, "branch_covered": 1}]
+        found = rooms.by_room({"files": files})
+        self.assertEqual(found, {"fe": [100, 90, 10, 5], "steps": [100, 10, 4, 1]})
+        lines = rooms.table(found).splitlines()
+        self.assertEqual(lines[2], "| fe | 100 | 90.0 % | 10 | 50.0 % | below 95 % |")
+        self.assertEqual(lines[3], "| steps | 100 | 10.0 % | 4 | 25.0 % |  |")
+        self.assertTrue(lines[4].startswith("| all | 200 | 50.0 % | 14 | 42.9 %"))
+
+
+if __name__ == "__main__":
+    unittest.main()
