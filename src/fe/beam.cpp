@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 
 #include "fe/beam_frame.hpp"
+#include "fe/element_products.hpp"
 
 namespace twindeck::fe {
 
@@ -30,8 +31,8 @@ Matrix12 local_stiffness(const BeamStiffnessProperties& p, double length_m) {
   s = (0.5 * (s + s.transpose())).eval();  // symmetric but for rounding
   const Matrix2x12 bend = slope_of(1) - slope_of(0);
   const Matrix2x12 sway = 0.5 * l * (slope_of(0) + slope_of(1)) - (deflection_of(1) - deflection_of(0));
-  Matrix12 k = bend.transpose() * (d / l) * bend;
-  k += sway.transpose() * s * sway;
+  Matrix12 k = quadratic_form(1.0, bend, d / l);
+  k += quadratic_form(1.0, sway, s);
   const auto add_spring = [&k](int a, int b, double c) {
     k(a, a) += c;
     k(b, b) += c;
@@ -67,8 +68,7 @@ Matrix12 release_transformation(const Matrix12& stiffness, std::uint16_t release
 Matrix12 beam_stiffness(const BeamGeometry& geometry, const BeamStiffnessProperties& properties) {
   const Matrix12 local = beam::local_stiffness(properties, beam_length(geometry));
   const Matrix12 t = beam::release_transformation(local, geometry.releases) * beam::end_displacements(geometry);
-  const Matrix12 k = t.transpose() * local * t;
-  return 0.5 * (k + k.transpose());
+  return congruence(t, local);
 }
 
 double beam_axial_force(const BeamGeometry& geometry, const BeamStiffnessProperties& properties, const Vector12& u) {

@@ -1,4 +1,5 @@
 #include "fe/beam_frame.hpp"
+#include "fe/element_products.hpp"
 
 namespace twindeck::fe {
 
@@ -9,15 +10,14 @@ Matrix12 beam_geometric_stiffness(const BeamGeometry& geometry, double axial_for
   Matrix12 local = Matrix12::Zero();
   for (const beam::GaussPoint& point : beam::gauss_points()) {
     const beam::Shape shape = beam::shape_at(point.xi, length, Eigen::Matrix2d::Zero());
-    local += axial_force_N * length * point.weight * shape.deflection_slope.transpose() * shape.deflection_slope;
+    local += quadratic_form(axial_force_N * length * point.weight, shape.deflection_slope);
   }
   Matrix12 t = beam::end_displacements(geometry);
   if (geometry.releases != 0) {
     const BeamStiffnessProperties slender{1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0};
     t = (beam::release_transformation(beam::local_stiffness(slender, length), geometry.releases) * t).eval();
   }
-  const Matrix12 k = t.transpose() * local * t;
-  return 0.5 * (k + k.transpose());
+  return congruence(t, local);
 }
 
 }  // namespace twindeck::fe

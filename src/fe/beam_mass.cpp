@@ -1,4 +1,5 @@
 #include "fe/beam_frame.hpp"
+#include "fe/element_products.hpp"
 
 namespace twindeck::fe {
 
@@ -9,8 +10,7 @@ Matrix12 at_nodes(const BeamGeometry& geometry, const BeamStiffnessProperties& p
   Matrix12 t = beam::end_displacements(geometry);
   if (geometry.releases != 0)
     t = (beam::release_transformation(beam::local_stiffness(properties, beam_length(geometry)), geometry.releases) * t).eval();
-  const Matrix12 m = t.transpose() * local * t;
-  return 0.5 * (m + m.transpose());
+  return congruence(t, local);
 }
 
 }  // namespace
@@ -27,8 +27,8 @@ Matrix12 beam_mass(const BeamGeometry& geometry, const BeamStiffnessProperties& 
   for (const beam::GaussPoint& point : beam::gauss_points()) {
     const beam::Shape shape = beam::shape_at(point.xi, length, phi);
     const double weight = density_kg_m3 * length * point.weight;
-    local += weight * properties.area_m2 * shape.deflection.transpose() * shape.deflection;
-    if (rotary_inertia) local += weight * shape.section_slope.transpose() * moments * shape.section_slope;
+    local += quadratic_form(weight * properties.area_m2, shape.deflection);
+    if (rotary_inertia) local += quadratic_form(weight, shape.section_slope, moments);
   }
   const auto add_linear = [&local](int a, int b, double total) {
     local(a, a) += total / 3.0;
@@ -48,7 +48,7 @@ Matrix12 beam_mass_lumped(const BeamGeometry& geometry, const BeamStiffnessPrope
   for (int end = 0; end < 2; ++end) {
     for (int d = 0; d < 3; ++d) local(6 * end + d, 6 * end + d) = half * properties.area_m2;
     local(6 * end + 3, 6 * end + 3) = half * (properties.inertia_y_m4 + properties.inertia_z_m4);
-    if (rotary_inertia) local += half * beam::slope_of(end).transpose() * beam::area_moments(properties) * beam::slope_of(end);
+    if (rotary_inertia) local += quadratic_form(half, beam::slope_of(end), beam::area_moments(properties));
   }
   return at_nodes(geometry, properties, local);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fe/beam_frame.hpp"
+#include "fe/element_products.hpp"
 
 namespace twindeck::fe {
 
@@ -71,7 +72,7 @@ Matrix12 local_stiffness(const TaperedProperties& p, double length_m) {
     Eigen::Matrix<double, 4, 12> tip;
     tip.topRows<2>() = beam::deflection_of(1) - beam::deflection_of(0) - l * beam::slope_of(0);
     tip.bottomRows<2>() = beam::slope_of(1) - beam::slope_of(0);
-    k = tip.transpose() * flexibility.ldlt().solve(tip);
+    k = inverse_form(flexibility, tip);
     k = (0.5 * (k + k.transpose())).eval();
   }
   add_spring(k, 0, 6, in_series(axial));
@@ -83,8 +84,7 @@ Matrix12 at_nodes(const BeamGeometry& geometry, const TaperedProperties& propert
   Matrix12 t = beam::end_displacements(geometry);
   if (geometry.releases != 0)
     t = (beam::release_transformation(local_stiffness(properties, beam_length(geometry)), geometry.releases) * t).eval();
-  const Matrix12 m = t.transpose() * matrix * t;
-  return 0.5 * (m + m.transpose());
+  return congruence(t, matrix);
 }
 
 }  // namespace
@@ -115,8 +115,8 @@ Matrix12 tapered_beam_mass(const BeamGeometry& geometry, const TaperedProperties
     const BeamStiffnessProperties s = section_at(properties, point.xi);
     const beam::Shape shape = beam::shape_at(point.xi, length, phi);
     const double weight = density_kg_m3 * length * point.weight;
-    local += weight * s.area_m2 * shape.deflection.transpose() * shape.deflection;
-    if (rotary_inertia) local += weight * shape.section_slope.transpose() * beam::area_moments(s) * shape.section_slope;
+    local += quadratic_form(weight * s.area_m2, shape.deflection);
+    if (rotary_inertia) local += quadratic_form(weight, shape.section_slope, beam::area_moments(s));
     const Eigen::Vector2d along(1.0 - point.xi, point.xi);
     const double polar = s.inertia_y_m4 + s.inertia_z_m4;
     for (int i = 0; i < 2; ++i)
@@ -138,7 +138,7 @@ Matrix12 tapered_beam_mass_lumped(const BeamGeometry& geometry, const TaperedPro
       const double weight = density_kg_m3 * beam_length(geometry) * point.weight * along[end];
       for (int d = 0; d < 3; ++d) local(6 * end + d, 6 * end + d) += weight * s.area_m2;
       local(6 * end + 3, 6 * end + 3) += weight * (s.inertia_y_m4 + s.inertia_z_m4);
-      if (rotary_inertia) local += weight * beam::slope_of(end).transpose() * beam::area_moments(s) * beam::slope_of(end);
+      if (rotary_inertia) local += quadratic_form(weight, beam::slope_of(end), beam::area_moments(s));
     }
   }
   return at_nodes(geometry, properties, local);

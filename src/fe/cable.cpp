@@ -65,9 +65,9 @@ Cable cable_beyond_bar(const Model& model, const Element& stay, double force_N, 
   }
   const Index inner = n - 6;
   const MatrixXd coupling = cable.stiffness.bottomLeftCorner(inner, 6);
+  const MatrixXd inner_stiffness = cable.stiffness.bottomRightCorner(inner, inner);
   // What is left of the ends' block once the inner nodes follow statically is the bar's.
-  cable.stiffness.topLeftCorner<6, 6>() =
-      coupling.transpose() * cable.stiffness.bottomRightCorner(inner, inner).llt().solve(coupling);
+  cable.stiffness.topLeftCorner<6, 6>() = coupling.transpose() * inner_stiffness.llt().solve(coupling);
   cable.mass.topLeftCorner<6, 6>() -= element_mass(model, stay).matrix;
   return cable;
 }

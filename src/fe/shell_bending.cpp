@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 
+#include "fe/element_products.hpp"
 #include "fe/shell_frame.hpp"
 
 namespace twindeck::fe {
@@ -64,7 +65,7 @@ Eigen::Matrix<double, 12, 12> bending(const shell::Frame& frame, double poisson_
       curvature.row(1) += gradient(1, n) * b.row(1);
       curvature.row(2) += gradient(1, n) * b.row(0) + gradient(0, n) * b.row(1);
     }
-    k += at.determinant * curvature.transpose() * d * curvature;
+    k += quadratic_form(at.determinant, curvature, d);
   }
   return k;
 }
@@ -79,9 +80,7 @@ Matrix24 shell_bending_stiffness(const ShellGeometry& geometry, const ShellPrope
     for (int j = 0; j < 4; ++j) local.block<3, 3>(6 * i + 2, 6 * j + 2) = plate.block<3, 3>(3 * i, 3 * j);
   const double t = properties.thickness_m;
   const double scale = properties.youngs_modulus_Pa * t * t * t * properties.bending_inertia_ratio;
-  const Matrix24 turn = shell::corner_displacements(frame);
-  const Matrix24 k = scale * (turn.transpose() * local * turn);
-  return 0.5 * (k + k.transpose());
+  return congruence(shell::corner_displacements(frame), local, scale);
 }
 
 }  // namespace twindeck::fe

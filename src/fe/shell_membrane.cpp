@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 
+#include "fe/element_products.hpp"
 #include "fe/shell_frame.hpp"
 
 namespace twindeck::fe {
@@ -53,7 +54,7 @@ Eigen::Matrix<double, 12, 12> membrane(const shell::Frame& frame, double poisson
       mode_spin(2 * m) = 0.5 * mode(1, m);
       mode_spin(2 * m + 1) = -0.5 * mode(0, m);
     }
-    k += at.determinant * (b.transpose() * d * b + gamma * spin.transpose() * spin);
+    k += at.determinant * (quadratic_form(1.0, b, d) + gamma * spin.transpose() * spin);
     coupling += at.determinant * (b.transpose() * d * g + gamma * spin.transpose() * mode_spin);
     inner += at.determinant * (g.transpose() * d * g + gamma * mode_spin.transpose() * mode_spin);
   }
@@ -80,9 +81,7 @@ Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProp
     for (int j = 0; j < 12; ++j)
       local(6 * (i / 3) + place[static_cast<std::size_t>(i % 3)], 6 * (j / 3) + place[static_cast<std::size_t>(j % 3)]) =
           plane(i, j);
-  const Matrix24 t = shell::corner_displacements(frame);
-  const Matrix24 k = properties.youngs_modulus_Pa * properties.thickness_m * (t.transpose() * local * t);
-  return 0.5 * (k + k.transpose());
+  return congruence(shell::corner_displacements(frame), local, properties.youngs_modulus_Pa * properties.thickness_m);
 }
 
 }  // namespace twindeck::fe

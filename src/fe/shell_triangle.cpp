@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "core/error.hpp"
+#include "fe/element_products.hpp"
 #include "fe/triangle_membrane.hpp"
 #include "fe/triangle_plate.hpp"
 
@@ -44,8 +45,7 @@ Matrix18 in_space(const TrianglePlane& plane, const triangle::Matrix9& flat, con
       local(6 * (i / 3) + directions[static_cast<std::size_t>(i % 3)],
             6 * (j / 3) + directions[static_cast<std::size_t>(j % 3)]) = flat(i, j);
   for (int block = 0; block < 18; block += 3) turn.block<3, 3>(block, block) = plane.axes;
-  const Matrix18 k = turn.transpose() * local * turn;
-  return 0.5 * (k + k.transpose());
+  return congruence(turn, local);
 }
 
 /// Mass with the products of the corners' shapes, ∫ N_i N_j dA (3 × 3).

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "fe/element_products.hpp"
 
 namespace twindeck::fe {
 
@@ -134,9 +135,10 @@ Parts integrate(const SolidGeometry& geometry, double nu) {
     const Matrix6x9 g = internal_strain_at(inverse, centre.determinant, t, point.xi);
     const double w = point.weight * t.determinant;
     const Matrix6x24 db = w * d * b;
-    parts.uu += b.transpose() * db;
-    parts.ua += db.transpose() * g;
-    parts.aa += g.transpose() * (w * d * g);
+    const Matrix6x9 dg = w * d * g;
+    parts.uu += transposed_product(b, db);
+    parts.ua += transposed_product(db, g);
+    parts.aa += transposed_product(g, dg);
   }
   return parts;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "fe/element_products.hpp"
 #include "fe/shell_frame.hpp"
 
 namespace twindeck::fe::triangle {
@@ -79,8 +80,7 @@ Matrix9 optimal_membrane(const Corners& corner_m, double poisson_ratio, std::uin
   const Eigen::Matrix<double, 3, 9> deviation = deviating_rotations(corner_m);
   const double beta_zero = std::max(0.5 * (1.0 - 4.0 * poisson_ratio * poisson_ratio), kLeastBetaZero);
   const double a = area(corner_m);
-  return force * d * force.transpose() / a +
-         0.75 * beta_zero * a * deviation.transpose() * rotation_stiffness(corner_m, d) * deviation;
+  return force * d * force.transpose() / a + quadratic_form(0.75 * beta_zero * a, deviation, rotation_stiffness(corner_m, d));
 }
 
 }  // namespace twindeck::fe::triangle

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "fe/element_products.hpp"
 #include "fe/shell_frame.hpp"
 
 namespace twindeck::fe::triangle {
@@ -55,7 +56,7 @@ Matrix9 kirchhoff_plate(const Corners& corner_m, double poisson_ratio) {
       curvature.row(1) += slope.y() * b.row(1);
       curvature.row(2) += slope.y() * b.row(0) + slope.x() * b.row(1);
     }
-    k += area(corner_m) / 3.0 * curvature.transpose() * d * curvature;
+    k += quadratic_form(area(corner_m) / 3.0, curvature, d);
   }
   return k;
 }

@@ -1,6 +1,6 @@
 #include "matching/pairing.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,11 +34,23 @@ std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, doubl
   return runs;
 }
 
-/// Share of `x` that lies in the span of the columns of `basis`.
-double subspace_mac(const Eigen::MatrixXcd& basis, const Eigen::MatrixXcd& x) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> qr(basis);
-  const Eigen::MatrixXcd q = qr.householderQ() * Eigen::MatrixXcd::Identity(basis.rows(), qr.rank());
-  return std::min(1.0, (q.adjoint() * x).squaredNorm() / x.squaredNorm());
+/// Share of `x` that lies in the span of the columns of `basis`: what is missing once x is made orthogonal to each of them
+/// (modified Gram and Schmidt, the longest column left comes first; columns of which only rounding is left are passed over).
+double subspace_mac(Eigen::MatrixXcd basis, const Eigen::MatrixXcd& x) {
+  const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(basis.cols()) * basis.norm();
+  Eigen::VectorXcd rest = x;
+  for (Index done = 0; done < basis.cols(); ++done) {
+    Index longest = 0;
+    for (Index j = 1; j < basis.cols(); ++j)
+      if (basis.col(j).norm() > basis.col(longest).norm()) longest = j;
+    const double length = basis.col(longest).norm();
+    if (length <= rounding) break;
+    const Eigen::VectorXcd q = basis.col(longest) / length;
+    basis.col(longest).setZero();
+    for (Index j = 0; j < basis.cols(); ++j) basis.col(j) -= q.dot(basis.col(j)) * q;
+    rest -= q.dot(rest) * q;
+  }
+  return std::max(0.0, 1.0 - rest.squaredNorm() / x.squaredNorm());
 }
 
 }  // namespace
