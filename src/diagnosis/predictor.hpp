@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/feature_map.hpp"
+#include "diagnosis/mode_derivative.hpp"
 
 /// Private to src/diagnosis: one evaluation of g(x, a).
 namespace twindeck::diagnosis {
