@@ -1,3 +1,5 @@
+#include "aero/analytic_derivatives.hpp"
+
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -1,3 +1,5 @@
+#include "aero/critical_speed.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>

@@ -1,3 +1,5 @@
+#include "aero/derivative_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

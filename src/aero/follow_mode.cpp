@@ -1,3 +1,5 @@
+#include "aero/follow_mode.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>

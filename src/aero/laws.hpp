@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "aero/analytic_derivatives.hpp"
+#include "aero/derivative_table.hpp"
 #include "aero/flutter_derivatives.hpp"
 #include "aero/polar.hpp"
 

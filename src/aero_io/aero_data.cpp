@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "aero/derivative_table.hpp"
 #include "core/angle.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "aero/derivative_table.hpp"
 #include "aero/flutter_derivatives.hpp"
 #include "aero/polar.hpp"
 

@@ -1,7 +1,7 @@
+#include "diagnosis/attachment_stiffness.hpp"
+
 #include <cmath>
 #include <numbers>
-
-#include "diagnosis/state_modes.hpp"
 
 namespace twindeck::diagnosis {
 

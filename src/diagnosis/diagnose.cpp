@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "diagnosis/diagnose_parts.hpp"
 #include "diagnosis/refinement.hpp"
+#include "diagnosis/splitting_measurement.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -19,13 +20,24 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double kMostWidening = 3.0;  ///< [-] of chi² per degree of freedom: more is a further cause, not an honest mistake
+constexpr double kWorthALowerBase = -2.0;  ///< [nats] log odds from which a lower fit of the base may change what is named
+constexpr double kNoticeableFall = 0.5;    ///< [nats] of a lower fit of the base: less changes no ranking
+constexpr int kLowerFits = 2;              ///< of the base before one step goes on
+constexpr std::size_t kOtherStarts = 3;    ///< entries whose x the base is fitted from again: the leading ones
+constexpr double kBackwardSlack = 1.0;  ///< [nats] below the threshold before an earlier cause is dropped: none comes and goes
+constexpr double kNegligibleOdds = 40.0;  ///< [nats] below the best: e^-40 adds nothing to a sum in double precision
+constexpr double kLowestThreshold = -10.0, kHighestThreshold = 30.0;  ///< [nats] between which the analytic threshold is sought
+constexpr int kHalvings = 60;                                         ///< of that interval: to the last bit
+constexpr double kNearBound = 0.02;  ///< [-] of a parameter's range: nearer than that to its end it stands on the bound
+
 /// What misfit is left even with the best cause widens every likelihood (Birge 1932), so that a badly stated noise names
 /// nothing. Up to a factor: misfit beyond any honest mistake about the noise is a further cause, and must not hide the first.
-double birge(const Scored& best, int dof) { return std::clamp(best.remaining / std::max(1, dof), 1.0, 3.0); }
+double birge(const Scored& best, int dof) { return std::clamp(best.remaining / std::max(1, dof), 1.0, kMostWidening); }
 
 double tempered(const Scored& scored, double ratio) {
   const double prior = scored.candidate->log_prior;
-  return scored.log_odds < -1e299 ? -1e300 : (scored.log_odds - prior) / ratio + prior;
+  return scored.weighed() ? (scored.log_odds - prior) / ratio + prior : -kNotFitted;
 }
 
 /// The ranking as it is told: one number an entry, the same as that of an effect or of the detection. The leader stays the
@@ -68,7 +80,7 @@ std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double
   std::vector<const Scored*> members;
   const Scored& best = ranking.front();
   for (const Scored& other : ranking) {
-    if (other.log_odds < -1e299) continue;
+    if (!other.weighed()) continue;
     const double gap = tempered(best, ratio) - tempered(other, ratio);
     bool in = gap < options.either_within;
     if (!in && gap < options.same_within) in = std::abs(cosine_of(best, other)) > options.same_direction;
@@ -78,77 +90,6 @@ std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double
 }
 
 }  // namespace
-
-/// The measurement that would tell two causes apart: the node where their mode shapes differ most, or another condition.
-std::string splitting_measurement(const Inference& inference, const Fit& base, const std::vector<const Scored*>& members) {
-  if (members.size() < 2) return "";
-  const FeatureMap& map = inference.map();
-  const Candidate& a = *members[0]->candidate;
-  const Candidate& b = *members[1]->candidate;
-  const auto& needs_a = a.hypothesis->needs.distinct;
-  const auto& needs_b = b.hypothesis->needs.distinct;
-  for (const auto* needs : {&needs_a, &needs_b})
-    for (const auto& [key, count] : *needs)
-      if (a.hypothesis != b.hypothesis && (!needs_a.contains(key) || !needs_b.contains(key)))
-        return fmt::format("the same modes at further values of {}", key);
-  if (a.hypothesis->set == "dampers" && b.hypothesis->set == "dampers" && a.hypothesis != b.hypothesis)
-    return "the modes with dampers at two or more amplitudes, one of them beyond slip";
-  if (a.hypothesis->measurement || b.hypothesis->measurement) {
-    std::string names;
-    for (const Candidate* c : {&a, &b})
-      for (const int channel : c->channels)
-        names += (names.empty() ? "" : ", ") + map.features().channels[static_cast<std::size_t>(channel)];
-    return "a repeated record with a second, calibrated sensor beside " + names;
-  }
-  const auto nodes = map.model().sets.find("nodes");
-  if (nodes == map.model().sets.end() || map.measured_modes().empty()) return "";
-  // Shapes at every candidate node under both causes, of the modes as measured now.
-  double largest = 0.0;
-  std::string where;
-  const auto shapes_of = [&](const Scored& scored) {
-    std::vector<Cause> causes = base.causes;
-    causes.push_back({scored.candidate, scored.a});
-    return map.node_motion(base.base, causes);
-  };
-  const auto motion_a = shapes_of(*members[0]), motion_b = shapes_of(*members[1]);
-  for (const auto& [name, values] : motion_a) {
-    const auto other = motion_b.find(name);
-    if (other == motion_b.end() || other->second.size() != values.size()) continue;
-    Index mode = 0;
-    const double difference = (values - other->second).cwiseAbs().maxCoeff(&mode);
-    if (difference > largest) {
-      largest = difference;
-      const auto space = name.rfind(' ');  // "node:17 z"
-      where = fmt::format("the shape of mode {} at {} along {}", map.measured_modes()[static_cast<std::size_t>(mode)].label,
-                          name.substr(0, space), name.substr(space + 1));
-    }
-  }
-  return where.empty() ? "" : fmt::format("{} (differs by {:.1f} % of the largest)", where, 100.0 * largest);
-}
-
-std::vector<LocationScore> location_map(const Inference& inference, const Fit& fit, const std::vector<Scored>& ranking) {
-  std::map<std::string, double> best;
-  const auto& nuisances = inference.map().nuisances();
-  for (std::size_t j = 0; j < nuisances.size(); ++j) {
-    const Nuisance& v = nuisances[j];
-    if (v.kind == Nuisance::Kind::mode_damping || v.kind == Nuisance::Kind::level) continue;
-    const VectorXd l = fit.total_factor.triangularView<Eigen::Lower>().solve(fit.map.jacobian.col(static_cast<Index>(j)));
-    if (!(l.norm() > 1e-9)) continue;
-    const std::string location = v.kind == Nuisance::Kind::parameter ? "group:" + v.name : v.name.substr(0, v.name.find(' '));
-    double& score = best[location];
-    score = std::max(score, std::abs(l.dot(fit.whitened)) / l.norm());
-  }
-  for (const Scored& scored : ranking) {
-    if (scored.candidate->location == "global" || scored.candidate->hypothesis->measurement || scored.screen <= 0.0) continue;
-    double& score = best[scored.candidate->location];
-    score = std::max(score, std::sqrt(scored.screen));
-  }
-  std::vector<LocationScore> map;
-  for (const auto& [location, score] : best) map.push_back({location, score});
-  std::stable_sort(map.begin(), map.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
-  if (map.size() > 40) map.resize(40);
-  return map;
-}
 
 std::string sentence_of(const Effect& effect) {
   std::string text = effect.cause.candidate->hypothesis->sentence;
@@ -179,7 +120,7 @@ void check_backwards(const Inference& inference, Fit& current, std::vector<Effec
     });
     const auto dispensable = [&](std::size_t i) {
       const double cost = 0.5 * (without[i].chi_squared - current.chi_squared) + effects[i].cause.candidate->log_prior;
-      return cost < std::max(options.threshold, options.least_log_odds) - 1.0;
+      return cost < std::max(options.threshold, options.least_log_odds) - kBackwardSlack;
     };
     while (held < without.size() && !dispensable(held)) ++held;
     if (held == without.size()) return;
@@ -189,11 +130,11 @@ void check_backwards(const Inference& inference, Fit& current, std::vector<Effec
 }
 
 /// The lowest fit of the same causes from where the best entries left x. A better optimiser must not look like a better model:
-/// modes that change partners make valleys beside each other, and an entry may have found the way into a deeper one.
+/// modes that change partners make several local minima, and an entry may have found the way into a lower one.
 Fit lowest_from(const Inference& inference, const Fit& current, const std::vector<Scored>& ranking) {
   std::vector<const VectorXd*> starts;
   for (const Scored& scored : ranking)
-    if (scored.x.size() > 0 && starts.size() < 3) starts.push_back(&scored.x);
+    if (scored.x.size() > 0 && starts.size() < kOtherStarts) starts.push_back(&scored.x);
   std::vector<Fit> again(starts.size());
   parallel_for(starts.size(), [&](std::size_t i) { again[i] = inference.fit(current.causes, *starts[i]); });
   Fit lowest = current;
@@ -211,7 +152,7 @@ Fit extended_by_first(const Inference& inference, const Fit& current, std::vecto
     Scored& first = ranking.front();
     std::vector<Cause> causes = current.causes;
     causes.push_back({first.candidate, first.a});
-    // From where the search left it and from where the fit without it is: valleys lie beside each other.
+    // From where the search left it and from where the fit without it is: they may lead to different local minima.
     std::vector<VectorXd> starts{current.map.x.head(n)};
     if (first.x.size() > 0) starts.push_back(first.x);
     std::vector<Fit> extended(starts.size());
@@ -219,10 +160,187 @@ Fit extended_by_first(const Inference& inference, const Fit& current, std::vecto
     // By what the fits minimise: the whitened misfit looks past the bounds that hold a fit back.
     Fit& lowest = extended.back().map.chi_squared <= extended.front().map.chi_squared ? extended.back() : extended.front();
     if (lowest.chi_squared < current.chi_squared) return std::move(lowest);
-    first.log_odds = -1e300;
+    first.log_odds = -kNotFitted;
     std::rotate(ranking.begin(), ranking.begin() + 1, ranking.end());
   }
   return current;
+}
+
+/// The forward steps: each searches the catalogue on the fit so far and puts the first entry above the threshold into the
+/// model.
+class ForwardSteps {
+ public:
+  ForwardSteps(const Inference& inference, const DiagnoseOptions& options, Diagnosis& out)
+      : inference_(inference), options_(options), out_(out), current_(out.before) {}
+
+  void run() {
+    for (int step = 0; step <= options_.most_causes; ++step)
+      if (!take(step)) break;
+  }
+  [[nodiscard]] const Fit& fit() const { return current_; }
+  [[nodiscard]] const std::vector<Scored>& ranking() const { return ranking_; }
+
+ private:
+  /// One step. @return whether another may follow
+  bool take(int step) {
+    const bool last = step == options_.most_causes;  // no more causes are wanted
+    if (last && step > 0) {
+      screen_what_is_left();
+      return false;
+    }
+    if (!search() || !lower_the_base(step == 0)) return false;
+    Fit extended = weigh(last);
+    const bool found = tempered(ranking_.front(), ratio_) > out_.threshold;
+    if (!found && step > 0 && !first_look_.change.empty()) {
+      // That nothing more is there is said only after every entry was computed anew.
+      ranking_ = inference_.search(current_, options_.search);
+      if (!widen()) return false;
+      extended = weigh(last);
+    }
+    if (step == 0) {
+      out_.ranking = with_widened_odds(ranking_, ratio_);
+      out_.log_odds = tempered(ranking_.front(), ratio_);
+      out_.localisation = location_map(inference_, current_, ranking_);
+    }
+    if (last || tempered(ranking_.front(), ratio_) <= out_.threshold) return false;
+    const Effect effect = first_effect();
+    current_ = std::move(extended);
+    out_.effects.push_back(effect);
+    check_backwards(inference_, current_, out_.effects, options_);
+    return true;
+  }
+
+  /// Widens the odds by the misfit that the best entry leaves. @return whether there is an entry
+  bool widen() {
+    if (ranking_.empty()) return false;
+    ratio_ = birge(ranking_.front(), inference_.dof());
+    return true;
+  }
+
+  bool search() {
+    ranking_ = inference_.search(current_, options_.search, known(), &first_look_);
+    return widen();
+  }
+
+  /// The screen alone, for the map of what is left.
+  void screen_what_is_left() {
+    SearchOptions look = options_.search;
+    look.short_list = look.longest_list = look.probes = 0;
+    look.family_screen = std::numeric_limits<double>::infinity();
+    ranking_ = inference_.search(current_, look, known(), &first_look_);
+  }
+
+  /// Fits the base lower where the search found the way, and searches again if that is worth it.
+  bool lower_the_base(bool before_any_cause) {
+    for (int i = 0; i < kLowerFits && tempered(ranking_.front(), ratio_) > kWorthALowerBase; ++i) {
+      Fit lower = lowest_from(inference_, current_, ranking_);
+      const double fall = 0.5 * (current_.chi_squared - lower.chi_squared) / ratio_;  // of the widened odds
+      if (!(fall > kNoticeableFall)) break;
+      const double nats = 0.5 * (current_.chi_squared + current_.log_determinant - lower.chi_squared - lower.log_determinant);
+      current_ = std::move(lower);
+      if (before_any_cause) out_.before = current_;
+      if (fall < options_.least_log_odds) {  // not worth another search: every entry gains that much less
+        for (Scored& scored : ranking_) scored.log_odds -= nats;
+        break;
+      }
+      if (!search()) return false;
+    }
+    return true;
+  }
+
+  /// Orders the leading entries. @return the fit with the first that keeps its promise, the fit so far if none does
+  Fit weigh(bool last) {
+    if (!last && tempered(ranking_.front(), ratio_) > out_.threshold) {
+      if (options_.refinement != nullptr) look_round_leader(inference_, current_, ranking_, options_);
+      ratio_ = birge(ranking_.front(), inference_.dof());
+      prefer_mass_to_bound(inference_, current_, ranking_, ratio_, options_);
+    }
+    prefer_fewer_unknowns(ranking_, ratio_, options_);
+    prefer_stated_priors(ranking_, ratio_);
+    return last ? current_ : extended_by_first(inference_, current_, ranking_, ratio_, out_.threshold);
+  }
+
+  /// The first entry as an effect, with the entries that these data cannot tell from it.
+  [[nodiscard]] Effect first_effect() const {
+    auto members = cluster_of(ranking_, ratio_, options_);
+    std::vector<const Scored*> merged;
+    Effect effect;
+    effect.within_m = merge_neighbours(members, merged);
+    effect.cause = {ranking_.front().candidate, ranking_.front().a};
+    effect.state = effect.cause.candidate->state;
+    effect.log_odds = tempered(ranking_.front(), ratio_);
+    const double top = effect.log_odds;
+    double scaled = std::exp(-top);  // nothing missing has odds 1
+    for (const Scored& scored : ranking_)
+      if (const double d = tempered(scored, ratio_); d > top - kNegligibleOdds) scaled += std::exp(d - top);
+    std::vector<double> probability;
+    for (const Scored* member : members) {
+      effect.cluster.push_back(member->candidate->id());
+      probability.push_back(1.0 / scaled * std::exp(tempered(*member, ratio_) - top));
+    }
+    effect.probability = 1.0 / scaled;
+    for (const Scored* beside : merged) effect.probability += 1.0 / scaled * std::exp(tempered(*beside, ratio_) - top);
+    effect.rivals = rivals_of(members, probability, ratio_);
+    effect.split_by = splitting_measurement(inference_, current_, members);
+    return effect;
+  }
+
+  [[nodiscard]] const ScreenTable* known() const { return first_look_.change.empty() ? nullptr : &first_look_; }
+
+  const Inference& inference_;
+  const DiagnoseOptions& options_;
+  Diagnosis& out_;
+  Fit current_;
+  std::vector<Scored> ranking_;
+  ScreenTable first_look_;  ///< what the first search computed of every entry; the next ones look through it first
+  double ratio_ = 1.0;      ///< by which log likelihoods are divided
+};
+
+/// Intervals, sentence and remedy of each effect, at the fit with all of them.
+void describe_effects(const Inference& inference, const Fit& fit, std::vector<Effect>& effects) {
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    effects[i].cause = fit.causes[i];
+    effects[i].parameters = effect_parameters(inference, fit, i);
+    effects[i].sentence = sentence_of(effects[i]);
+    effects[i].remedy = effects[i].cause.candidate->hypothesis->remedy;
+  }
+}
+
+std::vector<std::string> parameters_on_bounds(const Inference& inference, const Fit& fit) {
+  std::vector<std::string> names;
+  const auto& nuisances = inference.map().nuisances();
+  for (std::size_t j = 0; j < nuisances.size(); ++j) {
+    const Nuisance& v = nuisances[j];
+    const double range = v.upper - v.lower;
+    if (v.kind != Nuisance::Kind::parameter || !std::isfinite(range)) continue;
+    const double u = fit.map.x[static_cast<Index>(j)];
+    if (u < v.lower + kNearBound * range || u > v.upper - kNearBound * range) names.push_back(v.name);
+  }
+  return names;
+}
+
+Verdict verdict_of(const Diagnosis& out, bool residual_rejects, const DiagnoseOptions& options) {
+  // Held-out rows speak against a cause where they lose by more than chance, and by as many nats as a name must win.
+  const double loss = 0.5 * out.gain.rows * (out.gain.after * out.gain.after - out.gain.before * out.gain.before);
+  const bool fits_but_does_not_predict =
+      !out.effects.empty() && out.gain.rows > 0 && out.gain.high_pct < 0.0 && loss > options.least_log_odds;
+  if (residual_rejects || fits_but_does_not_predict) return Verdict::unknown;
+  if (out.effects.empty()) return Verdict::none;
+  const bool ambiguous =
+      std::any_of(out.effects.begin(), out.effects.end(), [](const Effect& e) { return e.cluster.size() > 1; });
+  return ambiguous ? Verdict::ambiguous : Verdict::named;
+}
+
+std::string message_for(const Diagnosis& out, bool residual_rejects, const DiagnoseOptions& options) {
+  if (out.verdict == Verdict::none)
+    return fmt::format("nothing found (largest log odds {:.1f}, threshold {:.1f})", out.log_odds, out.threshold);
+  if (out.verdict != Verdict::unknown) return out.effects.front().sentence;
+  std::string message = residual_rejects ? "something is missing that no entry of the catalogue explains"
+                                         : "the best cause fits but does not predict the held-out rows";
+  if (!out.effects.empty()) message += "; it acts like " + out.effects.front().cluster.front();
+  if (residual_rejects && out.residual.block_p_value < options.residual_alpha)
+    message += fmt::format("; not explained: {} ({} rows)", out.residual.blocks.front().name, out.residual.blocks.front().rows);
+  return message;
 }
 
 }  // namespace
@@ -237,8 +355,8 @@ double analytic_threshold(const Inference& inference, double alpha) {
           chi_squared_tail(2.0 * (d - candidate->log_prior), std::max<double>(1.0, static_cast<double>(candidate->low.size())));
     return sum;
   };
-  double low = -10.0, high = 30.0;
-  for (int i = 0; i < 60; ++i) (tail(0.5 * (low + high)) > alpha ? low : high) = 0.5 * (low + high);
+  double low = kLowestThreshold, high = kHighestThreshold;
+  for (int i = 0; i < kHalvings; ++i) (tail(0.5 * (low + high)) > alpha ? low : high) = 0.5 * (low + high);
   return high;
 }
 
@@ -246,137 +364,25 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
   Diagnosis out;
   out.threshold = std::max(options.threshold, options.least_log_odds);
   out.alpha = options.alpha;
-  const auto n = static_cast<Index>(inference.map().nuisances().size());
-  Fit current = inference.fit({}, {});
-  if (current.chi_squared > 1e299) {
-    out.verdict = "unknown";
-    out.message = "the model predicts none of these rows: " + current.map.status.message;
+  const Fit without_causes = inference.fit({}, {});
+  if (!without_causes.made()) {
+    out.verdict = Verdict::unknown;
+    out.message = "the model predicts none of these rows: " + without_causes.map.status.message;
     return out;
   }
-  out.before = current;
-  std::vector<Scored> ranking;
-  ScreenTable first_look;  // what the first search computed of every entry; the next ones look through it first
-  const auto search = [&] {
-    return inference.search(current, options.search, first_look.change.empty() ? nullptr : &first_look, &first_look);
-  };
-  for (int step = 0; step <= options.most_causes; ++step) {
-    if (step == options.most_causes && step > 0) {  // no more causes are wanted: the map of what is left takes the screen alone
-      SearchOptions look = options.search;
-      look.short_list = look.longest_list = look.probes = 0;
-      look.family_screen = std::numeric_limits<double>::infinity();
-      ranking = inference.search(current, look, first_look.change.empty() ? nullptr : &first_look, &first_look);
-      break;
-    }
-    ranking = search();
-    if (ranking.empty()) break;
-    double ratio = birge(ranking.front(), inference.dof());
-    for (int guard = 0; guard < 2 && tempered(ranking.front(), ratio) > -2.0; ++guard) {
-      Fit lower = lowest_from(inference, current, ranking);
-      const double fall = 0.5 * (current.chi_squared - lower.chi_squared) / ratio;  // of the widened odds
-      if (!(fall > 0.5)) break;
-      const double nats = 0.5 * (current.chi_squared + current.log_determinant - lower.chi_squared - lower.log_determinant);
-      current = std::move(lower);
-      if (step == 0) out.before = current;
-      if (fall < options.least_log_odds) {  // not worth another search: every entry gains that much less
-        for (Scored& scored : ranking) scored.log_odds -= nats;
-        break;
-      }
-      ranking = search();
-      if (ranking.empty()) break;
-      ratio = birge(ranking.front(), inference.dof());
-    }
-    if (ranking.empty()) break;
-    const auto weigh = [&] {
-      if (step < options.most_causes && tempered(ranking.front(), ratio) > out.threshold) {
-        if (options.refinement != nullptr) look_round_leader(inference, current, ranking, options);
-        ratio = birge(ranking.front(), inference.dof());
-        prefer_mass_to_bound(inference, current, ranking, ratio, options);
-      }
-      prefer_fewer_unknowns(ranking, ratio, options);
-      prefer_stated_priors(ranking, ratio);
-      return step < options.most_causes ? extended_by_first(inference, current, ranking, ratio, out.threshold) : current;
-    };
-    Fit extended = weigh();
-    const bool found = tempered(ranking.front(), ratio) > out.threshold;
-    if (!found && step > 0 && step < options.most_causes && !first_look.change.empty()) {
-      // That nothing more is there is said only after every entry was computed anew.
-      ranking = inference.search(current, options.search);
-      if (ranking.empty()) break;
-      ratio = birge(ranking.front(), inference.dof());
-      extended = weigh();
-    }
-    if (step == 0) {
-      out.ranking = with_widened_odds(ranking, ratio);
-      out.log_odds = tempered(ranking.front(), ratio);
-      out.localisation = location_map(inference, current, ranking);
-    }
-    if (step == options.most_causes || tempered(ranking.front(), ratio) <= out.threshold) break;
-    auto members = cluster_of(ranking, ratio, options);
-    std::vector<const Scored*> merged;
-    Effect effect;
-    effect.within_m = merge_neighbours(members, merged);
-    effect.cause = {ranking.front().candidate, ranking.front().a};
-    effect.state = effect.cause.candidate->state;
-    effect.log_odds = tempered(ranking.front(), ratio);
-    const double top = effect.log_odds;
-    double scaled = std::exp(-top);  // nothing missing has odds 1
-    for (const Scored& scored : ranking)
-      if (const double d = tempered(scored, ratio); d > top - 40.0) scaled += std::exp(d - top);
-    std::vector<double> probability;
-    for (const Scored* member : members) {
-      effect.cluster.push_back(member->candidate->id());
-      probability.push_back(1.0 / scaled * std::exp(tempered(*member, ratio) - top));
-    }
-    effect.probability = 1.0 / scaled;
-    for (const Scored* beside : merged) effect.probability += 1.0 / scaled * std::exp(tempered(*beside, ratio) - top);
-    effect.rivals = rivals_of(members, probability, ratio);
-    effect.split_by = splitting_measurement(inference, current, members);
-    current = std::move(extended);
-    out.effects.push_back(effect);
-    check_backwards(inference, current, out.effects, options);
-  }
-  out.after = current;
-  for (std::size_t i = 0; i < out.effects.size(); ++i) {
-    out.effects[i].cause = current.causes[i];
-    out.effects[i].parameters = effect_parameters(inference, current, i);
-    out.effects[i].sentence = sentence_of(out.effects[i]);
-    out.effects[i].remedy = out.effects[i].cause.candidate->hypothesis->remedy;
-  }
+  out.before = without_causes;
+  ForwardSteps steps(inference, options, out);
+  steps.run();
+  out.after = steps.fit();
+  describe_effects(inference, out.after, out.effects);
   out.after_extension = !out.effects.empty();
-  if (out.after_extension) out.localisation = location_map(inference, current, ranking);
-  out.residual = residual_test(inference, current);
+  if (out.after_extension) out.localisation = location_map(inference, out.after, steps.ranking());
+  out.residual = residual_test(inference, out.after);
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
-  for (Index j = 0; j < n; ++j) {
-    const Nuisance& v = inference.map().nuisances()[static_cast<std::size_t>(j)];
-    const double range = v.upper - v.lower;
-    if (v.kind != Nuisance::Kind::parameter || !std::isfinite(range)) continue;
-    const double u = out.before.map.x[j];
-    if (u < v.lower + 0.02 * range || u > v.upper - 0.02 * range) out.on_bounds.push_back(v.name);
-  }
+  out.on_bounds = parameters_on_bounds(inference, out.before);
   const bool rejects = out.residual.rejects(options.residual_alpha);
-  // Held-out rows speak against a cause where they lose by more than chance, and by as many nats as a name must win.
-  const double loss = 0.5 * out.gain.rows * (out.gain.after * out.gain.after - out.gain.before * out.gain.before);
-  const bool fits_but_does_not_predict =
-      !out.effects.empty() && out.gain.rows > 0 && out.gain.high_pct < 0.0 && loss > options.least_log_odds;
-  const bool ambiguous =
-      std::any_of(out.effects.begin(), out.effects.end(), [](const Effect& e) { return e.cluster.size() > 1; });
-  if (rejects || fits_but_does_not_predict)
-    out.verdict = "unknown";
-  else if (out.effects.empty())
-    out.verdict = "none";
-  else
-    out.verdict = ambiguous ? "ambiguous" : "named";
-  if (out.verdict == "none")
-    out.message = fmt::format("nothing found (largest log odds {:.1f}, threshold {:.1f})", out.log_odds, out.threshold);
-  if (out.verdict == "unknown") {
-    out.message = rejects ? "something is missing that no entry of the catalogue explains"
-                          : "the best cause fits but does not predict the held-out rows";
-    if (!out.effects.empty()) out.message += "; it acts like " + out.effects.front().cluster.front();
-    if (rejects && out.residual.block_p_value < options.residual_alpha)
-      out.message +=
-          fmt::format("; not explained: {} ({} rows)", out.residual.blocks.front().name, out.residual.blocks.front().rows);
-  }
-  if (out.verdict == "named" || out.verdict == "ambiguous") out.message = out.effects.front().sentence;
+  out.verdict = verdict_of(out, rejects, options);
+  out.message = message_for(out, rejects, options);
   return out;
 }
 

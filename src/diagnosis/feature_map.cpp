@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Index;
 constexpr double kFree = std::numeric_limits<double>::infinity();
-/// Deviations beyond which no workmanship goes: a gain 140 of them off is a reversed sensor and must stay a misfit, or the fit
-/// hides it.
+/// Prior deviations beyond which no element scatter and no gain goes: a gain 140 of them off is a reversed sensor and must stay
+/// a misfit, or the fit hides it.
 constexpr double kWorst = 6.0;
 
 /// Of the largest value of a type in a condition, alike wherever a channel is read under the same load. Models after fitting

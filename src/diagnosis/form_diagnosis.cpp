@@ -1,3 +1,5 @@
+#include "diagnosis/form_diagnosis.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +9,10 @@
 #include <set>
 
 #include "core/statistics.hpp"
-#include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnose_parts.hpp"
 #include "diagnosis/form_search.hpp"
 #include "diagnosis/inference/verdict.hpp"
+#include "diagnosis/splitting_measurement.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -231,10 +233,10 @@ void widen(std::vector<EffectParameter>& parameters, double form_error) {
 }
 
 std::string message_of(const Diagnosis& out, const Ruling& ruling, const FormReport& form, const FormSearch& search) {
-  if (out.verdict == "named" || out.verdict == "ambiguous") return out.effects.front().sentence;
+  if (out.verdict == Verdict::named || out.verdict == Verdict::ambiguous) return out.effects.front().sentence;
   const std::string scales = fmt::format("form error about {:.1f} % in frequency and {:.1f} % in shape",
                                          100.0 * form.frequency.level, 100.0 * form.shape.level);
-  if (out.verdict == "none")
+  if (out.verdict == Verdict::none)
     return fmt::format("nothing found: {} ({}); causes smaller than that which act in every condition cannot be seen",
                        ruling.reason, scales);
   std::string text = ruling.reason + " (" + scales + ")";
@@ -300,7 +302,7 @@ class Chain {
     for (int step = 0; step <= options_.most_causes; ++step)
       if (!take(step)) break;
     if (causes_.size() > 1 && in_part_) judge_again();
-    out_.verdict = name_of(verdict_);
+    out_.verdict = verdict_;
   }
   [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
   [[nodiscard]] const Fit& current() const { return current_; }
@@ -370,7 +372,7 @@ class Chain {
     causes_.push_back(out_.effects.back().cause);
     const Fit with =
         setting_.informed.fit(causes_, leader.refined ? VectorXd(leader.with.map.x.head(n)) : VectorXd(current_.map.x.head(n)));
-    if (with.chi_squared > 1e299) {  // it stands out and cannot be put into the model: nothing is named
+    if (!with.made()) {  // it stands out and cannot be put into the model: nothing is named
       out_.effects.pop_back();
       causes_.pop_back();
       ruling_.reason = "the best cause cannot be put into the model";
@@ -449,7 +451,7 @@ Fit first_fit(const Inference& informed, const std::vector<std::unique_ptr<Candi
   first_map.add_covariance(aside);
   const Inference first(first_map, candidates);
   const Fit fit = first.fit({}, {});
-  return fit.chi_squared > 1e299 ? fit : informed.stand(fit.map.x);
+  return fit.made() ? informed.stand(fit.map.x) : fit;
 }
 
 }  // namespace
@@ -460,7 +462,7 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   const FeatureMap& map = plain.map();
   const FeatureMap::Base prior = map.base(VectorXd::Zero(static_cast<Index>(map.nuisances().size())));
   const Prediction nominal = map.predict(prior, {}, false);
-  out.verdict = name_of(Verdict::unknown);
+  out.verdict = Verdict::unknown;
   out.message = "the model predicts none of these rows";
   if (!nominal.valid) return out;
   const FeatureMap informed_map = with_form_error(map, prior, nominal.g, kFitted, kFitted);
@@ -468,7 +470,7 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   const FormSetting setting{plain, informed, contrasts_of(map.features()), scale_grid()};
   const auto n = static_cast<Index>(map.nuisances().size());
   out.before = first_fit(informed, plain.candidates());
-  if (out.before.chi_squared > 1e299) {
+  if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;
     return out;
   }

@@ -143,7 +143,7 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
                                   Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets,
                                   map.model().theta, fit.base.theta};
   full.scatter(map, fit.base.x);
-  // What the map assembles holds parameters and workmanship already.
+  // What the map assembles holds parameters and element scatter already.
   std::vector<int> all(static_cast<std::size_t>(map.model().size()));
   std::iota(all.begin(), all.end(), 0);
   const auto [stiffness, mass] = map.matrices(fit.base, all);

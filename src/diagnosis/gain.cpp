@@ -1,15 +1,79 @@
+#include "diagnosis/gain.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
 #include <set>
 
-#include "diagnosis/diagnose.hpp"
-
 namespace twindeck::diagnosis {
 
-using Eigen::Index;
 using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::size_t kLongestList = 160;  ///< letters of the list of held-out modes: it stands in one line of a report
+constexpr int kFewestResampled = 3;        ///< blocks: of fewer nobody can say how much the gain varies
+constexpr double kLowerEnd = 0.05, kUpperEnd = 0.95;  ///< of the resampled gains: an interval of 90 %
+
+/// Squared residuals of rows that share errors.
+struct HeldOutBlock {
+  double before = 0.0, after = 0.0;
+  int rows = 0;
+};
+
+/// The held-out rows by mode or record of one condition: entries of one shape share errors, they stay together.
+std::map<std::string, HeldOutBlock> held_out_blocks(const Inference& inference, const VectorXd& before, const VectorXd& after) {
+  const auto& features = inference.map().features();
+  std::map<std::string, HeldOutBlock> by_name;
+  for (const int r : inference.held_out()) {
+    const Row& row = features.rows[static_cast<std::size_t>(r)];
+    const std::string& condition = features.conditions[static_cast<std::size_t>(row.condition)].name;
+    HeldOutBlock& block = by_name[condition + "/" + (row.mode.empty() ? name_of(row.type) : row.mode)];
+    block.before += before[r] * before[r];
+    block.after += after[r] * after[r];
+    block.rows += 1;
+  }
+  return by_name;
+}
+
+/// "winter mode 2; winter mode 5": the held-out conditions and modes, for people.
+std::string list_of_held_out(const Inference& inference) {
+  const auto& features = inference.map().features();
+  std::set<std::string> names;
+  for (const int r : inference.held_out()) {
+    const Row& row = features.rows[static_cast<std::size_t>(r)];
+    const std::string& condition = features.conditions[static_cast<std::size_t>(row.condition)].name;
+    names.insert(condition + (row.mode.empty() ? "" : " mode " + row.mode));
+  }
+  std::string text;
+  for (const std::string& name : names) {
+    if (text.size() > kLongestList) return text + " …";
+    text += (text.empty() ? "" : "; ") + name;
+  }
+  return text;
+}
+
+double reduction_pct(const HeldOutBlock& b) { return b.before > 0.0 ? 100.0 * (1.0 - std::sqrt(b.after / b.before)) : 0.0; }
+
+/// Reductions of data sets drawn from the blocks with replacement, in ascending order.
+std::vector<double> resampled_reductions(const std::vector<HeldOutBlock>& blocks, int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<double> drawn;
+  for (int i = 0; i < count; ++i) {
+    HeldOutBlock resample;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const HeldOutBlock& b = blocks[random() % blocks.size()];
+      resample.before += b.before;
+      resample.after += b.after;
+    }
+    drawn.push_back(reduction_pct(resample));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  return drawn;
+}
+
+}  // namespace
 
 VectorXd standardised_residuals(const Inference& inference, const Fit& fit) {
   const FeatureMap& map = inference.map();
@@ -34,67 +98,32 @@ VectorXd standardised_residuals(const Inference& inference, const Fit& fit) {
 
 Gain held_out_gain(const Inference& inference, const Fit& before, const Fit& after, int bootstrap, std::uint64_t seed) {
   Gain gain;
-  const auto& features = inference.map().features();
   gain.rows = static_cast<int>(inference.held_out().size());
   if (gain.rows == 0) {
     gain.held_out = "no row was held out";
     return gain;
   }
-  const VectorXd e0 = standardised_residuals(inference, before), e1 = standardised_residuals(inference, after);
-  struct Block {
-    double before = 0.0, after = 0.0;
-    int rows = 0;
-  };
-  std::map<std::string, Block> by_name;
-  std::set<std::string> conditions;
-  for (const int r : inference.held_out()) {
-    const Row& row = features.rows[static_cast<std::size_t>(r)];
-    const std::string& condition = features.conditions[static_cast<std::size_t>(row.condition)].name;
-    // Entries of one shape share errors: they stay together.
-    Block& block = by_name[condition + "/" + (row.mode.empty() ? name_of(row.type) : row.mode)];
-    block.before += e0[r] * e0[r];
-    block.after += e1[r] * e1[r];
-    block.rows += 1;
-    conditions.insert(condition + (row.mode.empty() ? "" : " mode " + row.mode));
-  }
-  for (const std::string& name : conditions) {
-    if (gain.held_out.size() > 160) {
-      gain.held_out += " …";
-      break;
-    }
-    gain.held_out += (gain.held_out.empty() ? "" : "; ") + name;
-  }
-  std::vector<Block> blocks;
-  Block sum;
-  for (const auto& [name, block] : by_name) {
+  gain.held_out = list_of_held_out(inference);
+  std::vector<HeldOutBlock> blocks;
+  HeldOutBlock sum;
+  for (const auto& [name, block] :
+       held_out_blocks(inference, standardised_residuals(inference, before), standardised_residuals(inference, after))) {
     blocks.push_back(block);
     sum.before += block.before;
     sum.after += block.after;
     sum.rows += block.rows;
   }
-  const auto reduction = [](const Block& b) { return b.before > 0.0 ? 100.0 * (1.0 - std::sqrt(b.after / b.before)) : 0.0; };
   gain.before = std::sqrt(sum.before / sum.rows);
   gain.after = std::sqrt(sum.after / sum.rows);
-  gain.reduction_pct = reduction(sum);
-  if (blocks.size() < 3) {  // too few to say how much it varies
+  gain.reduction_pct = reduction_pct(sum);
+  if (std::ssize(blocks) < kFewestResampled) {
     gain.low_pct = std::min(0.0, gain.reduction_pct);
     gain.high_pct = std::max(0.0, gain.reduction_pct);
     return gain;
   }
-  std::mt19937_64 random(seed);
-  std::vector<double> drawn;
-  for (int i = 0; i < bootstrap; ++i) {
-    Block resample;
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      const Block& b = blocks[random() % blocks.size()];
-      resample.before += b.before;
-      resample.after += b.after;
-    }
-    drawn.push_back(reduction(resample));
-  }
-  std::sort(drawn.begin(), drawn.end());
-  gain.low_pct = drawn[static_cast<std::size_t>(0.05 * bootstrap)];
-  gain.high_pct = drawn[static_cast<std::size_t>(0.95 * bootstrap)];
+  const std::vector<double> drawn = resampled_reductions(blocks, bootstrap, seed);
+  gain.low_pct = drawn[static_cast<std::size_t>(kLowerEnd * bootstrap)];
+  gain.high_pct = drawn[static_cast<std::size_t>(kUpperEnd * bootstrap)];
   return gain;
 }
 

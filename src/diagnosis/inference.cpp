@@ -20,6 +20,13 @@ using Eigen::VectorXd;
 
 constexpr double kScaleDeviation = 10.0;  // of a free shape scale, relative: wide enough to cost nothing
 constexpr double kUnbounded = 1e3;        // prior deviations
+constexpr double kScaledEnd = 0.25;       // of magnitudes in units of twice their range: its ends
+constexpr double kSlopeStep = 1e-3;       // of a magnitude's range: for derivatives of a fit by differences
+constexpr double kSearchStep = 2e-3;      // the same in the search, where the base is linearised
+constexpr double kLongestStep = 0.35;     // of a magnitude's range in one step on the linearised base
+constexpr double kStartDamping = 1e-3, kDampingFall = 0.2, kDampingRise = 8.0, kDampingAgain = 1e-2;  // Levenberg-Marquardt
+constexpr int kLinearisedSteps = 8, kLinearisedAttempts = 5;  // on the linearised base: the joint fit goes on from there
+constexpr double kLeastFall = 0.02;                           // of chi² in one step: less decides nothing
 
 VectorXd pick(const VectorXd& from, const std::vector<int>& rows) { return from(rows); }
 
@@ -29,6 +36,35 @@ MatrixXd total_factor_of(const MatrixXd& sigma, const Eigen::Ref<const MatrixXd>
   all << jacobian, kScaleDeviation * scales;
   return linalg::cholesky_factor(sigma + linalg::product(all, all.transpose()));
 }
+
+/// Magnitudes of causes in units of twice their range about its middle, where the prior of deviation 1 is as good as uniform
+/// inside the hard bounds. One entry a coordinate, cause by cause (n_coordinates).
+struct Magnitudes {
+  VectorXd middle, width;
+
+  Magnitudes(const std::vector<Cause>& causes, Index count) : middle(count), width(count) {
+    Index at = 0;
+    for (const Cause& cause : causes)
+      for (Index i = 0; i < cause.a.size(); ++i, ++at) {
+        width[at] = 2.0 * (cause.candidate->high[i] - cause.candidate->low[i]);
+        middle[at] = 0.5 * (cause.candidate->high[i] + cause.candidate->low[i]);
+      }
+  }
+  [[nodiscard]] VectorXd scaled(const std::vector<Cause>& causes) const {
+    VectorXd out(width.size());
+    Index at = 0;
+    for (const Cause& cause : causes)
+      for (Index i = 0; i < cause.a.size(); ++i, ++at) out[at] = (cause.a[i] - middle[at]) / width[at];
+    return out;
+  }
+  [[nodiscard]] std::vector<Cause> at(const std::vector<Cause>& causes, const VectorXd& scaled) const {
+    std::vector<Cause> moved = causes;
+    Index p = 0;
+    for (Cause& cause : moved)
+      for (Index i = 0; i < cause.a.size(); ++i, ++p) cause.a[i] = middle[p] + width[p] * scaled[p];
+    return moved;
+  }
+};
 
 }  // namespace
 
@@ -97,7 +133,7 @@ MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>&
   for (Index i = 0; i < candidate.low.size(); ++i) {
     std::vector<Cause> moved = causes;
     const double range = candidate.high[i] - candidate.low[i];
-    double step = 1e-3 * range;
+    double step = kSlopeStep * range;
     if (moved[which].a[i] + step > candidate.high[i]) step = -step;
     moved[which].a[i] += step;
     const Prediction p = map_.predict(at, moved, false);
@@ -117,26 +153,12 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
     box.lower[j] = std::max(map_.nuisances()[static_cast<std::size_t>(j)].lower, -kUnbounded);
     box.upper[j] = std::min(map_.nuisances()[static_cast<std::size_t>(j)].upper, kUnbounded);
   }
-  // Magnitudes in units of twice their range about the start's middle: as good as uniform inside their hard bounds.
-  VectorXd x0 = VectorXd::Zero(n + k), middle(k), width(k);
+  VectorXd x0 = VectorXd::Zero(n + k);
   if (start.size() >= n) x0.head(n) = start.head(n);
-  Index at = 0;
-  for (const Cause& cause : causes) {
-    for (Index i = 0; i < cause.a.size(); ++i, ++at) {
-      width[at] = 2.0 * (cause.candidate->high[i] - cause.candidate->low[i]);
-      middle[at] = 0.5 * (cause.candidate->high[i] + cause.candidate->low[i]);
-      x0[n + at] = (cause.a[i] - middle[at]) / width[at];
-      box.lower[n + at] = -0.25;
-      box.upper[n + at] = 0.25;
-    }
-  }
-  const auto causes_at = [&](const VectorXd& x) {
-    std::vector<Cause> moved = causes;
-    Index p = 0;
-    for (Cause& cause : moved)
-      for (Index i = 0; i < cause.a.size(); ++i, ++p) cause.a[i] = middle[p] + width[p] * x[n + p];
-    return moved;
-  };
+  const Magnitudes magnitudes(causes, k);
+  x0.tail(k) = magnitudes.scaled(causes);
+  box.lower.tail(k).setConstant(-kScaledEnd);
+  box.upper.tail(k).setConstant(kScaledEnd);
   // A step that is taken is predicted twice, without derivatives and with them: both share the solved states.
   FeatureMap::Base base;
   const auto predict = [&](const VectorXd& x, VectorXd& g, MatrixXd* jacobian, MatrixXd* scales) {
@@ -144,7 +166,7 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
       base = map_.base(x.head(n));
       base.keeps = true;
     }
-    const std::vector<Cause> moved = causes_at(x);
+    const std::vector<Cause> moved = magnitudes.at(causes, x.tail(k));
     const Prediction p = map_.predict(base, moved, jacobian != nullptr);
     if (!p.valid) return false;
     g = pick(p.g, training_);
@@ -155,7 +177,7 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
     for (std::size_t c = 0; c < moved.size(); ++c) {
       const MatrixXd slope = slopes(base, moved, c, p.g);
       for (Index i = 0; i < slope.cols(); ++i, ++column)
-        jacobian->col(n + column) = width[column] * pick(slope.col(i), training_);
+        jacobian->col(n + column) = magnitudes.width[column] * pick(slope.col(i), training_);
     }
     *scales = p.scales(training_, Eigen::all);
     return true;
@@ -164,26 +186,29 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
   updating::JointMapOptions options;
   if (iterations != 0) options.max_iterations = std::max(iterations, 0);
   fit.map = updating::joint_map(predict, y_, sigma_factor_, x0, box, options);
-  fit.causes = causes_at(fit.map.x);
+  fit.causes = magnitudes.at(causes, fit.map.x.tail(k));
   fit.base = map_.base(fit.map.x.head(n));
   fit.all = map_.predict(fit.base, fit.causes, true);
-  if (fit.map.jacobian.size() == 0 || !fit.all.valid) {
-    fit.chi_squared = 1e300;
-    return fit;
-  }
+  if (fit.map.jacobian.size() == 0 || !fit.all.valid)
+    fit.chi_squared = kNotFitted;
+  else
+    marginalise(magnitudes.width, fit);
+  return fit;
+}
+
+void Inference::marginalise(const VectorXd& width, Fit& fit) const {
   // Accepted causes are marginalised like x, or the next step would find their errors again.
   const MatrixXd& j = fit.map.jacobian;
   fit.total_factor = total_factor_of(sigma_, j, fit.map.scales);
   if (fit.total_factor.size() == 0) {  // derivatives that are no numbers
-    fit.chi_squared = 1e300;
-    return fit;
+    fit.chi_squared = kNotFitted;
+    return;
   }
   fit.log_determinant = 2.0 * fit.total_factor.diagonal().array().log().sum();
   const VectorXd r = y_ - fit.map.g + j * fit.map.x;
   fit.whitened = fit.total_factor.triangularView<Eigen::Lower>().solve(r);
   fit.chi_squared = fit.whitened.squaredNorm();
-  fit.cause_jacobian = linalg::lower_solve(fit.total_factor, j.rightCols(k) * width.cwiseInverse().asDiagonal());
-  return fit;
+  fit.cause_jacobian = linalg::lower_solve(fit.total_factor, j.rightCols(width.size()) * width.cwiseInverse().asDiagonal());
 }
 
 VectorXd Inference::change(const Fit& base, const Candidate& candidate, const VectorXd& a) const {
@@ -211,10 +236,10 @@ void Inference::fit_linearised(const Fit& base, Scored& scored) const {
   double chi_squared = cost(s);
   const VectorXd range = candidate.high - candidate.low;
   MatrixXd slope(s.size(), k);
-  double damping = 1e-3;
-  for (int iteration = 0; iteration < 8 && k > 0; ++iteration) {
+  double damping = kStartDamping;
+  for (int iteration = 0; iteration < kLinearisedSteps && k > 0; ++iteration) {
     for (Index i = 0; i < k; ++i) {
-      double step = 2e-3 * range[i];
+      double step = kSearchStep * range[i];
       if (a[i] + step > candidate.high[i]) step = -step;
       VectorXd moved = a;
       moved[i] += step;
@@ -226,24 +251,27 @@ void Inference::fit_linearised(const Fit& base, Scored& scored) const {
     normal.diagonal() += (1e-9 / range.array().square()).matrix();
     bool moved = false;
     double fall = 0.0;
-    for (int attempt = 0; attempt < 5 && !moved; ++attempt) {
+    for (int attempt = 0; attempt < kLinearisedAttempts && !moved; ++attempt) {
       MatrixXd damped = normal;
       damped.diagonal() *= 1.0 + damping;
       VectorXd next = a + VectorXd(damped.ldlt().solve(gradient));
-      next = next.cwiseMax(a - 0.35 * range).cwiseMin(a + 0.35 * range).cwiseMax(candidate.low).cwiseMin(candidate.high);
+      next = next.cwiseMax(a - kLongestStep * range)
+                 .cwiseMin(a + kLongestStep * range)
+                 .cwiseMax(candidate.low)
+                 .cwiseMin(candidate.high);
       const VectorXd there = signature(base, candidate, next);
       if (there.size() && cost(there) < chi_squared) {
         fall = chi_squared - cost(there);
         a = next;
         s = there;
         chi_squared = cost(s);
-        damping *= 0.2;
+        damping *= kDampingFall;
         moved = true;
       } else {
-        damping = std::max(damping * 8.0, 1e-2);
+        damping = std::max(damping * kDampingRise, kDampingAgain);
       }
     }
-    if (!moved || fall < 0.02) break;
+    if (!moved || fall < kLeastFall) break;
   }
   scored.a = a;
   scored.signature = s;
@@ -261,7 +289,7 @@ void Inference::refine(const Fit& base, Scored& scored, const VectorXd& start, i
   std::vector<Cause> causes = base.causes;
   causes.push_back({scored.candidate, scored.a});
   const Fit with = fit(causes, start, iterations);
-  if (with.chi_squared > 1e299) return;
+  if (!with.made()) return;
   scored.stage = iterations > 0 && !with.map.status.converged ? 2 : 3;
   scored.a = with.causes.back().a;
   scored.x = with.map.x.head(static_cast<Index>(map_.nuisances().size()));

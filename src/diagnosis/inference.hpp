@@ -11,6 +11,10 @@
 
 namespace twindeck::diagnosis {
 
+/// Stands for chi² of a fit that could not be made and, negative, for the log odds of an entry that was not weighed: beyond any
+/// that data give.
+inline constexpr double kNotFitted = 1e300;
+
 /// Best account of the training rows with given causes in the model, linearised there.
 struct Fit {
   std::vector<Cause> causes;  ///< at their best magnitudes
@@ -22,6 +26,8 @@ struct Fit {
   double chi_squared = 0.0;        ///< w'w
   double log_determinant = 0.0;    ///< of Sigma_tot
   Eigen::MatrixXd cause_jacobian;  ///< L^-1 dg/da (n_train × n_coordinates of causes)
+  /// Whether the fit could be made: the model predicts the rows and their derivatives there.
+  [[nodiscard]] bool made() const { return !(chi_squared >= kNotFitted); }
 };
 
 /// A candidate held against the rows.
@@ -37,6 +43,7 @@ struct Scored {
   Eigen::VectorXd x;                          ///< of the joint fit, where there was one
   Eigen::VectorXd signature;                  ///< L^-1 (g(x, a) - g(x)) (n_train)
   Eigen::MatrixXd a_covariance;               ///< of the coordinates (stage 2 on)
+  [[nodiscard]] bool weighed() const { return !(log_odds <= -kNotFitted); }
 };
 
 struct SearchOptions {
@@ -125,6 +132,9 @@ class Inference {
   void fit_linearised(const Fit& base, Scored& scored) const;
   /// Joint fit of x and the magnitudes from `start` (empty: the prior's mean), and the evidence there.
   void refine(const Fit& base, Scored& scored, const Eigen::VectorXd& start, int iterations = 0) const;
+  /// Whitens what a joint fit leaves, with x and the causes as scatter. @param width  of the causes' coordinates, by which
+  /// their columns were scaled (n_coordinates)
+  void marginalise(const Eigen::VectorXd& width, Fit& fit) const;
   [[nodiscard]] Eigen::MatrixXd slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
                                        const Eigen::VectorXd& g) const;
 

@@ -24,16 +24,18 @@ bool support_is_gauged(const FeatureSet& features, const LoadTests& tests, int c
 
 }  // namespace
 
-void Predictor::predict_load_tests(int c) {
-  const FeatureSet& features = map_.features();
-  const Condition& condition = features.conditions[static_cast<std::size_t>(c)];
-  const LoadTests& tests = map_.model().load_tests;
-  const auto named = std::find(tests.cases.begin(), tests.cases.end(), condition.load);
-  TWINDECK_ASSERT(named != tests.cases.end());
-  const auto load_case = static_cast<Index>(named - tests.cases.begin());
+/// A load test as it is solved: K q = f, and the derivatives of q and of what the ground does by the nuisances.
+struct Predictor::SolvedLoadTest {
+  Index load_case;
+  std::vector<GroundState> ground;
+  const SolvedState* state = nullptr;
+  VectorXd answer, q;         ///< in the state's columns, then its own degrees of freedom; in all of the reduced model's
+  MatrixXd slopes, relative;  ///< d answer (size × unknowns); d ln(factor of a ground) (n_grounds × unknowns)
+};
 
-  // What the ground does here, and how its springs follow parameters.
-  std::vector<GroundState> ground(tests.grounds.size());
+bool Predictor::ground_of(const Condition& condition, int c, std::vector<GroundState>& ground) const {
+  const LoadTests& tests = map_.model().load_tests;
+  ground.resize(tests.grounds.size());
   bool moved_away = false;
   for (std::size_t g = 0; g < ground.size(); ++g) {
     const Ground& support = tests.grounds[g];
@@ -46,77 +48,98 @@ void Predictor::predict_load_tests(int c) {
         if (candidate.hypothesis->set == "supports") ground[g].factor += stiffness_change(cause, action, condition);
         if (action.kind == "support.settle") ground[g].settled_m += candidate.value(action.number.at("rise"), cause.a);
         if (action.kind == "support.move")
-          moved_away = moved_away || support_is_gauged(features, tests, c, static_cast<int>(g));
+          moved_away = moved_away || support_is_gauged(map_.features(), tests, c, static_cast<int>(g));
       }
     }
   }
-  if (moved_away) {
-    out_.valid = false;  // its gauge stands elsewhere too, and nobody has said where
-    return;
-  }
+  return !moved_away;
+}
 
-  SolvedState& state = solved(c);
+MatrixXd Predictor::load_slopes(SolvedLoadTest& test) {
+  const LoadTests& tests = map_.model().load_tests;
+  const SolvedState& state = *test.state;
   const auto n = static_cast<Index>(state.columns.size()), size = state.state.stiffness.rows();
-  VectorXd load = VectorXd::Zero(size);
-  load.head(n) = load_of(tests, load_case, ground)(state.columns);
-  const Eigen::LLT<MatrixXd> factor(state.state.stiffness);
-  if (factor.info() != Eigen::Success) {
-    out_.valid = false;  // a structure that falls shows nothing
-    return;
-  }
-  const VectorXd answer = factor.solve(load);
-  VectorXd q = VectorXd::Zero(map_.model().size());
-  q(state.columns) = answer.head(n);
-
-  // Derivatives: K dq = df - dK q, f with the springs of supports that a parameter scales.
   const Index unknowns = with_jacobian_ ? static_cast<Index>(map_.nuisances().size()) : 0;
-  MatrixXd loads = MatrixXd::Zero(size, unknowns), relative = MatrixXd::Zero(static_cast<Index>(ground.size()), unknowns);
+  MatrixXd loads = MatrixXd::Zero(size, unknowns);
+  test.relative = MatrixXd::Zero(static_cast<Index>(test.ground.size()), unknowns);
   for (Index j = 0; j < unknowns; ++j) {
     const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(j)];
     if (v.kind != Nuisance::Kind::parameter) continue;
-    for (std::size_t g = 0; g < ground.size(); ++g) {
+    for (std::size_t g = 0; g < test.ground.size(); ++g) {
       if (tests.grounds[g].parameter != v.index || !(map_.model().theta[v.index] != 0.0)) continue;
       const double slope = v.deviation / map_.model().theta[v.index];
-      relative(static_cast<Index>(g), j) = slope;
-      const VectorXd held = tests.grounds[g].moved.col(load_case) + ground[g].settled_m * tests.grounds[g].settle;
+      test.relative(static_cast<Index>(g), j) = slope;
+      const VectorXd held = tests.grounds[g].moved.col(test.load_case) + test.ground[g].settled_m * tests.grounds[g].settle;
       loads.col(j).head(n) += slope * held(state.columns);
     }
   }
   if (with_jacobian_) {  // without it the base's store is read by several threads, and `changes` may write to it
     const auto& change = changes(state);
     for (std::size_t k = 0; k < change.position.size(); ++k)
-      if (change.stiffness[k].size() > 0) loads.col(change.position[k]) -= change.stiffness[k] * answer;
+      if (change.stiffness[k].size() > 0) loads.col(change.position[k]) -= change.stiffness[k] * test.answer;
   }
-  const MatrixXd slopes = factor.solve(loads);
+  return loads;
+}
 
-  for (std::size_t r = 0; r < features.rows.size(); ++r) {
-    const Row& row = features.rows[r];
-    if (row.condition != c || !is_static(row.type)) continue;
-    const auto at = static_cast<Index>(r);
-    const double gain = channel_factor_[row.channel];
-    RowVectorXd shown;  // d row / d q
-    double value = 0.0;
-    VectorXd direct = VectorXd::Zero(unknowns);  // beside what q does
-    if (row.type == RowType::static_force) {
-      const ForceGauge& gauge = tests.forces[static_cast<std::size_t>(row.channel)];
-      const GroundState& here = ground[static_cast<std::size_t>(gauge.ground)];
-      shown = -here.factor * gauge.pull.transpose();
-      value = force_of(tests, row.channel, load_case, ground, q);
-      if (here.factor != 0.0) direct = value / here.factor * relative.row(gauge.ground).transpose();
-    } else {
-      shown = row.type == RowType::static_displacement ? RowVectorXd(channel_rows_.row(row.channel))
-              : row.type == RowType::static_rotation   ? RowVectorXd(tests.rotation.row(row.channel))
-                                                       : RowVectorXd(tests.strain.row(row.channel));
-      value = shown.dot(q);
-    }
-    out_.g[at] = gain * value;
-    if (!with_jacobian_) continue;
-    out_.jacobian.row(at) += gain * (shown(state.columns) * slopes.topRows(n) + direct.transpose());
-    for (Index j = 0; j < unknowns; ++j) {
-      const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(j)];
-      if (v.kind == Nuisance::Kind::gain && v.index == row.channel)
-        out_.jacobian(at, j) += v.deviation * out_.g[at] / (1.0 + v.deviation * base_.x[j]);
-    }
+void Predictor::predict_load_tests(int c) {
+  const FeatureSet& features = map_.features();
+  const Condition& condition = features.conditions[static_cast<std::size_t>(c)];
+  const LoadTests& tests = map_.model().load_tests;
+  const auto named = std::find(tests.cases.begin(), tests.cases.end(), condition.load);
+  TWINDECK_ASSERT(named != tests.cases.end());
+  SolvedLoadTest test;
+  test.load_case = static_cast<Index>(named - tests.cases.begin());
+  if (!ground_of(condition, c, test.ground)) {
+    out_.valid = false;  // a support's gauge stands elsewhere too, and nobody has said where
+    return;
+  }
+  const SolvedState& state = solved(c);
+  test.state = &state;
+  const auto n = static_cast<Index>(state.columns.size()), size = state.state.stiffness.rows();
+  VectorXd load = VectorXd::Zero(size);
+  load.head(n) = load_of(tests, test.load_case, test.ground)(state.columns);
+  const Eigen::LLT<MatrixXd> factor(state.state.stiffness);
+  if (factor.info() != Eigen::Success) {
+    out_.valid = false;  // a structure that falls shows nothing
+    return;
+  }
+  test.answer = factor.solve(load);
+  test.q = VectorXd::Zero(map_.model().size());
+  test.q(state.columns) = test.answer.head(n);
+  test.slopes = factor.solve(load_slopes(test));
+  for (std::size_t r = 0; r < features.rows.size(); ++r)
+    if (features.rows[r].condition == c && is_static(features.rows[r].type)) predict_static_row(test, r);
+}
+
+void Predictor::predict_static_row(const SolvedLoadTest& test, std::size_t r) {
+  const LoadTests& tests = map_.model().load_tests;
+  const Row& row = map_.features().rows[r];
+  const auto at = static_cast<Index>(r);
+  const double gain = channel_factor_[row.channel];
+  const Index unknowns = test.slopes.cols();
+  RowVectorXd shown;  // d row / d q
+  double value = 0.0;
+  VectorXd direct = VectorXd::Zero(unknowns);  // beside what q does
+  if (row.type == RowType::static_force) {
+    const ForceGauge& gauge = tests.forces[static_cast<std::size_t>(row.channel)];
+    const GroundState& here = test.ground[static_cast<std::size_t>(gauge.ground)];
+    shown = -here.factor * gauge.pull.transpose();
+    value = force_of(tests, row.channel, test.load_case, test.ground, test.q);
+    if (here.factor != 0.0) direct = value / here.factor * test.relative.row(gauge.ground).transpose();
+  } else {
+    shown = row.type == RowType::static_displacement ? RowVectorXd(channel_rows_.row(row.channel))
+            : row.type == RowType::static_rotation   ? RowVectorXd(tests.rotation.row(row.channel))
+                                                     : RowVectorXd(tests.strain.row(row.channel));
+    value = shown.dot(test.q);
+  }
+  out_.g[at] = gain * value;
+  if (!with_jacobian_) return;
+  const std::vector<int>& columns = test.state->columns;
+  out_.jacobian.row(at) += gain * (shown(columns) * test.slopes.topRows(std::ssize(columns)) + direct.transpose());
+  for (Index j = 0; j < unknowns; ++j) {
+    const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(j)];
+    if (v.kind == Nuisance::Kind::gain && v.index == row.channel)
+      out_.jacobian(at, j) += v.deviation * out_.g[at] / (1.0 + v.deviation * base_.x[j]);
   }
 }
 

@@ -1,7 +1,8 @@
+#include "diagnosis/mode_derivative.hpp"
+
 #include <Eigen/Dense>
 #include <utility>
 
-#include "diagnosis/state_modes.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/feature_map.hpp"
+#include "diagnosis/mode_derivative.hpp"
 
 /// Private to src/diagnosis: one evaluation of g(x, a).
 namespace twindeck::diagnosis {
@@ -52,7 +53,14 @@ class Predictor {
   [[nodiscard]] double stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   [[nodiscard]] StructureState build_state(const Condition& condition) const;
   void apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const;
+  void apply_spring(const Candidate& candidate, const ActionSpec& action, double stiffness, StructureState& state) const;
+  /// An oscillator or, as a string, a cable of this mass and circular frequency, with degrees of freedom of its own.
+  void apply_body(const ReducedPlace& place, bool string, double mass_kg, double omega_rad_s, StructureState& state) const;
   void apply_dampers(const Condition& condition, StructureState& state) const;
+  struct Acting;
+  [[nodiscard]] Acting acting_in(const Condition& condition) const;
+  /// Values of a condition that its state depends on: the key of the state beside the causes.
+  [[nodiscard]] std::vector<double> circumstances(const Condition& condition, const Acting& acting) const;
   [[nodiscard]] SolvedState& solved(int condition);
   [[nodiscard]] static Eigen::MatrixXd sliced(const Eigen::MatrixXd& full, const std::vector<int>& columns, Eigen::Index size);
   [[nodiscard]] static Eigen::VectorXd sliced(const Eigen::VectorXd& full, const std::vector<int>& columns, Eigen::Index size);
@@ -72,12 +80,41 @@ class Predictor {
   /// The same with a mode of the structure as it stands, by the whole shape (n_modes).
   [[nodiscard]] Eigen::VectorXd unlike_bound(int position, const SolvedState& state) const;
 
-  // measurement (prediction.cpp)
+  // modes
   void predict_mode(const MeasuredMode& measured, std::size_t position);
-  void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const Eigen::VectorXcd& phi);
+  /// What causes do to a mode that is not in the state's matrices.
+  struct AddedToMode {
+    double frequency = 0.0, damping_pct = 0.0;  ///< to ln f; to the damping ratio
+  };
+  [[nodiscard]] AddedToMode added_to(const MeasuredMode& measured, const SolvedState& state, Eigen::Index mode) const;
+  void differentiate_mode(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const std::string& damping_name,
+                          double own_pct, double total_pct);
+  /// The model mode whose shape stands under this measured one: its pair, or another's where shapes were exchanged.
+  [[nodiscard]] int mode_of_shape(const MeasuredMode& measured, std::size_t position) const;
+  struct ScaledShape;
+  [[nodiscard]] ScaledShape scaled_shape(const MeasuredMode& measured, const SolvedState& state, Eigen::Index mode);
+  void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode);
+  void differentiate_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const ScaledShape& shape);
+
+  // records and cables
   void predict_load(int condition);
+  void predict_floor(std::size_t row);
+  void predict_rms(std::size_t row, SolvedState& state, const std::vector<double>& weight);
+  /// Variance of each mode's motion under the excitation, up to a common factor (n_modes).
+  [[nodiscard]] std::vector<double> excitation_weights(int condition, const SolvedState& state) const;
+  [[nodiscard]] Eigen::Index level_of(int condition, bool floor) const;  ///< among the nuisances, -1 without one
   void predict_stays();
-  void predict_load_tests(int condition);  ///< load_test_rows.cpp
+
+  // load tests (load_test_rows.cpp)
+  struct SolvedLoadTest;
+  void predict_load_tests(int condition);
+  /// What the ground does in a condition, and how its springs follow parameters. @return false if a gauged support was moved
+  [[nodiscard]] bool ground_of(const Condition& condition, int c, std::vector<GroundState>& ground) const;
+  /// Right sides of K dq = df - dK q (size × unknowns), f with the springs of supports that a parameter scales; fills
+  /// `relative` of the test.
+  [[nodiscard]] Eigen::MatrixXd load_slopes(SolvedLoadTest& test);
+  void predict_static_row(const SolvedLoadTest& test, std::size_t row);
+
   /// What the channels show of each mode of a state, (n_channels × n_modes), gains, signs and delays of causes included.
   [[nodiscard]] const Eigen::MatrixXcd& motion(const SolvedState& state);
   [[nodiscard]] Eigen::VectorXcd shape_at(const std::vector<int>& channels, const SolvedState& state, Eigen::Index mode);

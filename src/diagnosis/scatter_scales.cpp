@@ -18,13 +18,14 @@ using Eigen::VectorXd;
 
 constexpr double kReach = 1.609;         // ln 5
 constexpr double kFreeDeviation = 10.0;  // of a shape's own scale, as in the fit
-constexpr std::array kWorkmanship = {Nuisance::Kind::element_stiffness, Nuisance::Kind::element_mass,
-                                     Nuisance::Kind::node_mass,         Nuisance::Kind::stay,
-                                     Nuisance::Kind::stay_pull,         Nuisance::Kind::gain};
+constexpr std::array kElementScatter = {Nuisance::Kind::element_stiffness, Nuisance::Kind::element_mass,
+                                        Nuisance::Kind::node_mass,         Nuisance::Kind::stay,
+                                        Nuisance::Kind::stay_pull,         Nuisance::Kind::gain};
 
-/// The rows' law with the logarithms of its scales as what is free: one for each type that occurs, the last for workmanship.
+/// The rows' law with the logarithms of its scales as what is free: one for each type that occurs, the last for element
+/// scatter.
 struct MarginalLikelihood {
-  MatrixXd errors, fixed, workmanship;  ///< (n_train × n_train)
+  MatrixXd errors, fixed, element_scatter;  ///< (n_train × n_train)
   VectorXd r;
   std::vector<Index> group;  ///< of each row
 
@@ -33,7 +34,7 @@ struct MarginalLikelihood {
     for (Index i = 0; i < r.size(); ++i) row_scale[i] = std::exp(log_scale[group[static_cast<std::size_t>(i)]]);
     const double w = std::exp(2.0 * log_scale[log_scale.size() - 1]);
     const MatrixXd factor =
-        linalg::cholesky_factor(row_scale.asDiagonal() * errors * row_scale.asDiagonal() + fixed + w * workmanship);
+        linalg::cholesky_factor(row_scale.asDiagonal() * errors * row_scale.asDiagonal() + fixed + w * element_scatter);
     if (factor.size() == 0) return -1e300;
     return -0.5 * linalg::lower_solve(factor, r).squaredNorm() - factor.diagonal().array().log().sum();
   }
@@ -84,17 +85,17 @@ std::vector<ScatterScale> scatter_scales(const Inference& inference, const Fit& 
   if (fit.total_factor.size() == 0) return {};
   const std::vector<Nuisance>& nuisances = inference.map().nuisances();
   const MatrixXd& j = fit.map.jacobian;
-  MatrixXd parameters(j.rows(), j.cols()), workmanship(j.rows(), j.cols());
+  MatrixXd parameters(j.rows(), j.cols()), element_scatter(j.rows(), j.cols());
   Index p = 0, w = 0;
   for (Index c = 0; c < j.cols(); ++c) {
-    const bool of_work =
-        c < static_cast<Index>(nuisances.size()) &&
-        std::find(kWorkmanship.begin(), kWorkmanship.end(), nuisances[static_cast<std::size_t>(c)].kind) != kWorkmanship.end();
-    (of_work ? workmanship.col(w++) : parameters.col(p++)) = j.col(c);
+    const bool of_work = c < static_cast<Index>(nuisances.size()) &&
+                         std::find(kElementScatter.begin(), kElementScatter.end(),
+                                   nuisances[static_cast<std::size_t>(c)].kind) != kElementScatter.end();
+    (of_work ? element_scatter.col(w++) : parameters.col(p++)) = j.col(c);
   }
   MarginalLikelihood likelihood;
   likelihood.errors = inference.covariance();
-  likelihood.workmanship = linalg::product(workmanship.leftCols(w), workmanship.leftCols(w).transpose());
+  likelihood.element_scatter = linalg::product(element_scatter.leftCols(w), element_scatter.leftCols(w).transpose());
   likelihood.fixed = linalg::product(parameters.leftCols(p), parameters.leftCols(p).transpose()) +
                      kFreeDeviation * kFreeDeviation * fit.map.scales * fit.map.scales.transpose();
   likelihood.r = fit.total_factor.triangularView<Eigen::Lower>() * fit.whitened;

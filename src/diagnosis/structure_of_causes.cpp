@@ -16,7 +16,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-constexpr double kPersonMass = 75.0;  // the base model's crowd [kg]
+constexpr double kPersonMass = 75.0;  ///< [kg] the base model's crowd
+constexpr double kUnknown = -1e300;   ///< in the key of a state: a circumstance that the condition does not tell
 
 /// Value of the condition's key that an action refers to, NaN where it is not known.
 double variable(const ActionSpec& action, const Condition& condition) {
@@ -187,45 +188,50 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
     const double people = condition.people.value_or(0.0);
     if (people > 0.0) state.mass += people * (value("mass") - value("assumed")) / deck * sliced(place.mass, columns_, n);
   } else if (kind == "element.spring") {
-    if (candidate.places.size() == 2) {
-      const ReducedPlace& other = *candidate.places[1];
-      const Eigen::Vector3d along = other.x_m - place.x_m;
-      const Index shared = std::min(place.directions.cols(), other.directions.cols());
-      if (along.allFinite() && along.norm() > 0.0 && shared == 3) {  // a tie pulls along its line
-        const VectorXd b = sliced(VectorXd((place.directions - other.directions) * along.normalized()), columns_, n);
-        state.stiffness += value("stiffness") * b * b.transpose();
-      } else {
-        for (Index d = 0; d < shared; ++d) {
-          const VectorXd b = sliced(VectorXd(place.directions.col(d) - other.directions.col(d)), columns_, n);
-          state.stiffness += value("stiffness") * b * b.transpose();
-        }
-      }
-    } else {
-      for (const Index d : directions_of(place, action)) {
-        const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, n);
-        state.stiffness += value("stiffness") * b * b.transpose();
-      }
-    }
+    apply_spring(candidate, action, value("stiffness"), state);
   } else if (kind == "element.oscillator" || kind == "element.string") {
-    const bool string = kind == "element.string";
-    const double m = value("mass"), omega = 2.0 * std::numbers::pi * value("frequency");
-    // An attached body moves in every direction that the node has; a cable in the two across its chord.
-    for (Index d = 0; d < place.directions.cols(); ++d) {
-      grow(state);
-      const Index k = state.stiffness.rows() - 1;
-      const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, k + 1);
-      if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
-        state.mass += m / 3.0 * b * b.transpose();
-        state.mass(k, k) += 0.5 * m;
-        state.mass.col(k) += m / std::numbers::pi * b;
-        state.mass.row(k) += m / std::numbers::pi * b.transpose();
-        state.stiffness(k, k) += 0.5 * m * omega * omega;
-      } else {
-        VectorXd relative = -b;
-        relative[k] = 1.0;
-        state.mass(k, k) += m;
-        state.stiffness += m * omega * omega * relative * relative.transpose();
-      }
+    apply_body(place, kind == "element.string", value("mass"), 2.0 * std::numbers::pi * value("frequency"), state);
+  }
+}
+
+void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& action, double stiffness,
+                             StructureState& state) const {
+  const ReducedPlace& place = *candidate.places[0];
+  const Index n = state.stiffness.rows();
+  const auto add = [&](const VectorXd& along) {
+    const VectorXd b = sliced(along, columns_, n);
+    state.stiffness += stiffness * b * b.transpose();
+  };
+  if (candidate.places.size() != 2) {
+    for (const Index d : directions_of(place, action)) add(place.directions.col(d));
+    return;
+  }
+  const ReducedPlace& other = *candidate.places[1];
+  const Eigen::Vector3d along = other.x_m - place.x_m;
+  const Index shared = std::min(place.directions.cols(), other.directions.cols());
+  if (along.allFinite() && along.norm() > 0.0 && shared == 3)  // a tie pulls along its line
+    add((place.directions - other.directions) * along.normalized());
+  else
+    for (Index d = 0; d < shared; ++d) add(place.directions.col(d) - other.directions.col(d));
+}
+
+void Predictor::apply_body(const ReducedPlace& place, bool string, double m, double omega, StructureState& state) const {
+  // An attached body moves in every direction that the node has; a cable in the two across its chord.
+  for (Index d = 0; d < place.directions.cols(); ++d) {
+    grow(state);
+    const Index k = state.stiffness.rows() - 1;
+    const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, k + 1);
+    if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
+      state.mass += m / 3.0 * b * b.transpose();
+      state.mass(k, k) += 0.5 * m;
+      state.mass.col(k) += m / std::numbers::pi * b;
+      state.mass.row(k) += m / std::numbers::pi * b.transpose();
+      state.stiffness(k, k) += 0.5 * m * omega * omega;
+    } else {
+      VectorXd relative = -b;
+      relative[k] = 1.0;
+      state.mass(k, k) += m;
+      state.stiffness += m * omega * omega * relative * relative.transpose();
     }
   }
 }
@@ -257,15 +263,17 @@ StructureState Predictor::build_state(const Condition& condition) const {
   return state;
 }
 
-SolvedState& Predictor::solved(int c) {
-  if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
-  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
-  // What the state depends on: conditions and causes that agree in it share one solution.
-  bool temperature = false, amplitude = false, wind = false;
-  std::vector<double> acting, before_last;  // the causes that act here; without the last of them
-  bool follows = false;                     // the last one leaves dampers alone and adds no motion of its own
-  std::vector<int> columns;
-  for (int k = 0; k < map_.model().common; ++k) columns.push_back(k);
+/// What acts in a condition: conditions and causes that agree in it share one solution.
+struct Predictor::Acting {
+  std::vector<double> causes, before_last;  ///< the causes that act here, by entry and magnitudes; without the last of them
+  bool follows = false;                     ///< the last one leaves dampers alone and adds no motion of its own
+  std::vector<int> columns;                 ///< of the reduced model that the state needs
+  bool temperature = false, amplitude = false, wind = false;  ///< on which the state depends
+};
+
+Predictor::Acting Predictor::acting_in(const Condition& condition) const {
+  Acting out;
+  for (int k = 0; k < map_.model().common; ++k) out.columns.push_back(k);
   for (const Cause& cause : causes_) {
     bool any = false, alone = false;
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
@@ -274,47 +282,57 @@ SolvedState& Predictor::solved(int c) {
       const bool field = action.kind == "field.stiffness" || action.kind == "soften.stiffness";
       const auto named = action.text.find("variable");
       const std::string key = named == action.text.end() ? "temperature_C" : named->second;
-      temperature = temperature || (field && key == "temperature_C");
-      amplitude = amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
-      wind = wind || (field && key == "wind_m_s");
+      out.temperature = out.temperature || (field && key == "temperature_C");
+      out.amplitude = out.amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
+      out.wind = out.wind || (field && key == "wind_m_s");
       alone =
           alone || action.kind.starts_with("damper.") || action.kind == "element.oscillator" || action.kind == "element.string";
     }
     if (!any) continue;
-    before_last = acting;
-    follows = !alone;
+    out.before_last = out.causes;
+    out.follows = !alone;
     // The catalogue entry itself and its magnitudes name the cause.
-    acting.push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(cause.candidate)));
-    for (Index i = 0; i < cause.a.size(); ++i) acting.push_back(cause.a[i]);
+    out.causes.push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(cause.candidate)));
+    for (Index i = 0; i < cause.a.size(); ++i) out.causes.push_back(cause.a[i]);
     for (const ReducedPlace* place : cause.candidate->places)
       for (const int k : place->columns)
-        if (std::find(columns.begin(), columns.end(), k) == columns.end()) columns.push_back(k);
+        if (std::find(out.columns.begin(), out.columns.end(), k) == out.columns.end()) out.columns.push_back(k);
   }
   const auto dampers = map_.model().sets.find("dampers");
   if (dampers != map_.model().sets.end() && condition.dampers_on.value_or(false))
-    for (const ReducedPlace& damper : dampers->second) amplitude = amplitude || damper.attributes.contains("friction");
-  const double unknown = -1e300;
-  std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : unknown,
+    for (const ReducedPlace& damper : dampers->second) out.amplitude = out.amplitude || damper.attributes.contains("friction");
+  return out;
+}
+
+std::vector<double> Predictor::circumstances(const Condition& condition, const Acting& acting) const {
+  std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : kUnknown,
                              condition.people.value_or(0.0)};
-  key.push_back(temperature ? condition.temperature_C.value_or(unknown) : 0.0);
-  key.push_back(amplitude ? condition.amplitude_m.value_or(unknown) : 0.0);
+  key.push_back(acting.temperature ? condition.temperature_C.value_or(kUnknown) : 0.0);
+  key.push_back(acting.amplitude ? condition.amplitude_m.value_or(kUnknown) : 0.0);
   const auto& channels = map_.features().channels;
-  key.push_back(amplitude ? static_cast<double>(std::find(channels.begin(), channels.end(), condition.amplitude_channel) -
-                                                channels.begin())
-                          : 0.0);
-  key.push_back(wind ? condition.wind_m_s.value_or(unknown) : 0.0);
+  const auto channel = std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin();
+  key.push_back(acting.amplitude ? static_cast<double>(channel) : 0.0);
+  key.push_back(acting.wind ? condition.wind_m_s.value_or(kUnknown) : 0.0);
+  return key;
+}
+
+SolvedState& Predictor::solved(int c) {
+  if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
+  const Acting acting = acting_in(condition);
+  const std::vector<double> key = circumstances(condition, acting);
   auto& states = base_.store->states;
-  const auto known = states.find({acting, key});
+  const auto known = states.find({acting.causes, key});
   std::shared_ptr<SolvedState> entry = known == states.end() ? nullptr : known->second;
-  if (const auto mine = own_.find({acting, key}); !entry && mine != own_.end()) entry = mine->second;
+  if (const auto mine = own_.find({acting.causes, key}); !entry && mine != own_.end()) entry = mine->second;
   if (!entry) {
     entry = std::make_shared<SolvedState>();
-    columns_ = entry->columns = columns;
+    columns_ = entry->columns = acting.columns;
     entry->state = build_state(condition);
     // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
-    const bool kept = acting.empty() || with_jacobian_ || base_.keeps;
+    const bool kept = acting.causes.empty() || with_jacobian_ || base_.keeps;
     // Damped modes follow from those without the last cause.
-    const auto neighbour = follows ? states.find({before_last, key}) : states.end();
+    const auto neighbour = acting.follows ? states.find({acting.before_last, key}) : states.end();
     StateModes from;
     if (neighbour != states.end() && entry->state.damped()) {
       const SolvedState& near = *neighbour->second;
@@ -326,7 +344,7 @@ SolvedState& Predictor::solved(int c) {
     }
     entry->modes = solve_state(entry->state, map_.highest_Hz_, kept ? base_.store->undamped : undamped_,
                                from.s.size() > 0 ? &from : nullptr);
-    (kept ? states : own_)[{acting, key}] = entry;
+    (kept ? states : own_)[{acting.causes, key}] = entry;
   }
   of_condition_[c] = entry.get();
   return *entry;

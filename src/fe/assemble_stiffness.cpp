@@ -1,3 +1,5 @@
+#include "fe/assemble_stiffness.hpp"
+
 #include <fmt/format.h>
 
 #include "fe/assembly_terms.hpp"

@@ -1,3 +1,5 @@
+#include "fe/assembly_parameters.hpp"
+
 #include <algorithm>
 
 #include "core/error.hpp"

@@ -1,3 +1,5 @@
+#include "fe/prestress.hpp"
+
 #include <cmath>
 
 #include "fe/assembly.hpp"

@@ -26,7 +26,7 @@ struct Structure::Parts {
 [[nodiscard]] PrestressState prestress_of(const Model& base, const DofMap& map, const linalg::SparseMatrix& lower,
                                           const Eigen::VectorXd& theta);
 
-/// Geometric stiffness of members and the string stiffness T/L of stays, one term without parameters (assemble.cpp).
+/// Geometric stiffness of members and the string stiffness T/L of stays, one term without parameters (assembly.cpp).
 [[nodiscard]] Term geometric_stiffness(const Model& model, const PrestressState& state, const linalg::SparseMatrix& pattern,
                                        const DofMap& map);
 

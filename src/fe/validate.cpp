@@ -1,3 +1,5 @@
+#include "fe/validate.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +11,9 @@
 #include "fe/assembly_elements.hpp"
 #include "fe/dof_map.hpp"
 #include "fe/matrix_element.hpp"
+#include "fe/validate_parameters.hpp"
 #include "fe/validate_parts.hpp"
+#include "fe/validate_properties.hpp"
 
 namespace twindeck::fe {
 

@@ -1,3 +1,5 @@
+#include "fe/validate_parameters.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

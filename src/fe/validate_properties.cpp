@@ -1,3 +1,5 @@
+#include "fe/validate_properties.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>

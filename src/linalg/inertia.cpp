@@ -1,9 +1,11 @@
+#include "linalg/inertia.hpp"
+
 #include <cholmod.h>
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "linalg/generalized_eigen.hpp"
+#include "core/error.hpp"
 #include "linalg/one_thread.hpp"
 
 namespace twindeck::linalg {

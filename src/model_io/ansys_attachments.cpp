@@ -1,3 +1,5 @@
+#include "model_io/ansys_attachments.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "model_io/ansys_build.hpp"
+#include "model_io/ansys_equations.hpp"
 
 /// Springs, masses, rigid links and supports.
 namespace twindeck::model_io::ansys {

@@ -1,10 +1,14 @@
+#include "model_io/ansys_blocks.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "model_io/ansys_mesh.hpp"
 #include "model_io/ansys_parts.hpp"
+#include "model_io/ansys_properties.hpp"
 #include "model_io/inp_cards.hpp"
 
 /// Blocks: a command, the format of its lines, the lines.

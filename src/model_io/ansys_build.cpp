@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "model_io/ansys_attachments.hpp"
+#include "model_io/ansys_members.hpp"
 #include "model_io/inp_cards.hpp"
 
 namespace twindeck::model_io::ansys {

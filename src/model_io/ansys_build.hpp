@@ -65,21 +65,6 @@ void for_each_member(const Parts& parts, Visit visit);
 /// The member of an element after these checks.
 [[nodiscard]] Member checked_member(const Parts& parts, long id, const Element& element);
 
-// ansys_sections.cpp
-[[nodiscard]] CrossSection beam_section(Builder& builder, const Member& member, double poisson_ratio);
-[[nodiscard]] CrossSection bar_section(Builder& builder, const Member& member);
-[[nodiscard]] CrossSection shell_section(Builder& builder, const Member& member);
-// ansys_members.cpp
-void add_member(Builder& builder, const Member& member);
-// ansys_attachments.cpp
-void add_spring(Builder& builder, const Member& member);
-void add_mass(Builder& builder, const Member& member);
-void add_rigid(Builder& builder, const Member& member);
-void add_links(Builder& builder);
-void add_supports(Builder& builder);
-// ansys_equations.cpp
-void add_equations(Builder& builder);
-
 template <class Visit>
 void for_each_member(const Parts& parts, Visit visit) {
   for (const auto& [id, element] : parts.elements) {

@@ -1,3 +1,5 @@
+#include "model_io/ansys_equations.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

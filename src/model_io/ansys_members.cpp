@@ -1,3 +1,5 @@
+#include "model_io/ansys_members.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -8,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "model_io/ansys_build.hpp"
+#include "model_io/ansys_sections.hpp"
 
 /// Beams, bars, shells and solids.
 namespace twindeck::model_io::ansys {

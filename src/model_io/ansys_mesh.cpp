@@ -1,3 +1,5 @@
+#include "model_io/ansys_mesh.hpp"
+
 #include <fmt/format.h>
 
 #include <array>

@@ -144,47 +144,6 @@ struct Parts {
   [[nodiscard]] const Component* component(const std::string& name) const;
 };
 
-// ansys_blocks.cpp
-void read_node_block(Parts& parts, const Command& command);
-void read_element_block(Parts& parts, const Command& command);
-void read_component_block(Parts& parts, const Command& command);
-void read_real_block(Parts& parts, const Command& command);
-void read_section_block(Parts& parts, const Command& command);
-// ansys_mesh.cpp
-void add_node(Parts& parts, long id, const Node& node);
-void add_element(Parts& parts, long id, Element element);
-void read_node(Parts& parts, const Command& command);
-void read_element(Parts& parts, const Command& command);
-void read_numbered_element(Parts& parts, const Command& command);
-void read_attribute(Parts& parts, const Command& command);
-void read_axes(Parts& parts, const Command& command);
-// ansys_properties.cpp
-void read_type(Parts& parts, const Command& command);
-void read_option(Parts& parts, const Command& command);
-void read_reals(Parts& parts, const Command& command);
-void read_more_reals(Parts& parts, const Command& command);
-void read_changed_reals(Parts& parts, const Command& command);
-void read_property(Parts& parts, const Command& command);
-void read_property_data(Parts& parts, const Command& command);
-void read_section_type(Parts& parts, const Command& command);
-void read_section_data(Parts& parts, const Command& command);
-void read_section_offset(Parts& parts, const Command& command);
-void read_section_control(Parts& parts, const Command& command);
-// ansys_selection.cpp
-void read_component(Parts& parts, const Command& command);
-void select_component(Parts& parts, const Command& command);
-void select_nodes(Parts& parts, const Command& command);
-void select_elements(Parts& parts, const Command& command);
-void select_nodes_of_elements(Parts& parts, const Command& command);
-void select_all(Parts& parts, const Command& command);
-// ansys_supports.cpp
-void read_support(Parts& parts, const Command& command);
-void read_released_support(Parts& parts, const Command& command);
-void read_couple(Parts& parts, const Command& command);
-void read_rigid_region(Parts& parts, const Command& command);
-// ansys_equations.cpp
-void read_equation(Parts& parts, const Command& command);
-
 /// The model out of what was collected.
 void build_model(Parts& parts);
 

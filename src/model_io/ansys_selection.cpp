@@ -1,3 +1,5 @@
+#include "model_io/ansys_selection.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+#include "model_io/ansys_supports.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+#include "model_io/export_matrices.hpp"
+
 #include <cmath>
 #include <optional>
 

@@ -1,3 +1,5 @@
+#include "model_io/inp_assign.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

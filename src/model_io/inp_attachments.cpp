@@ -1,3 +1,5 @@
+#include "model_io/inp_attachments.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

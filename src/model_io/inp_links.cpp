@@ -1,3 +1,5 @@
+#include "model_io/inp_links.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,5 @@
+#include "model_io/inp_materials.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

@@ -1,3 +1,5 @@
+#include "model_io/inp_mesh.hpp"
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"

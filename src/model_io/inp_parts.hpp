@@ -72,25 +72,4 @@ struct InpParts {
   [[nodiscard]] std::vector<InpElement*> elements_of(const InpCard& card);
 };
 
-// inp_mesh.cpp
-void read_inp_nodes(InpParts& parts, const InpCard& card);
-void read_inp_elements(InpParts& parts, const InpCard& card);
-void read_inp_set(InpParts& parts, const InpCard& card);
-// inp_materials.cpp
-void read_inp_material(InpParts& parts, const InpCard& card);
-void read_inp_elastic(InpParts& parts, const InpCard& card);
-void read_inp_density(InpParts& parts, const InpCard& card);
-void read_inp_orientation(InpParts& parts, const InpCard& card);
-// inp_assign.cpp: sections give the elements of their set a material and a cross-section
-void assign_inp_section(InpParts& parts, const InpCard& card);
-// inp_attachments.cpp
-void attach_inp_spring(InpParts& parts, const InpCard& card);
-void attach_inp_mass(InpParts& parts, const InpCard& card);
-void attach_inp_boundary(InpParts& parts, const InpCard& card);
-// inp_links.cpp: equations are collected, then those of one node must together be a rigid link
-void read_inp_equation(InpParts& parts, const InpCard& card);
-void attach_inp_equations(InpParts& parts);
-void attach_inp_rigid_body(InpParts& parts, const InpCard& card);
-void attach_inp_mpc(InpParts& parts, const InpCard& card);
-
 }  // namespace twindeck::model_io

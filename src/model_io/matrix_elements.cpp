@@ -1,3 +1,5 @@
+#include "model_io/matrix_elements.hpp"
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"

@@ -1,3 +1,5 @@
+#include "model_io/matrix_model.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+#include "model_io/model_toml.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
+#include "model_io/matrix_elements.hpp"
 #include "model_io/model_folder.hpp"
 #include "model_io/names.hpp"
 

@@ -1,3 +1,5 @@
+#include "model_io/modes_io.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>

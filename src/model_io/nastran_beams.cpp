@@ -1,3 +1,5 @@
+#include "model_io/nastran_beams.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include "model_io/inp_cards.hpp"
 #include "model_io/inp_profiles.hpp"
 #include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_properties.hpp"
 
 /// Sections of CBAR and CBEAM. Nastran's element axes are ours: plane 1 is x-y, so that I1 is our inertia_z, I2 our inertia_y,
 /// K1 belongs to shear along y, K2 along z.

@@ -1,10 +1,14 @@
+#include "model_io/nastran_elements.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
 #include "model_io/inp_cards.hpp"
+#include "model_io/nastran_beams.hpp"
 #include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_properties.hpp"
 
 namespace twindeck::model_io::nastran {
 namespace {

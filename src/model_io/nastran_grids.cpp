@@ -1,3 +1,5 @@
+#include "model_io/nastran_grids.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -6,6 +8,7 @@
 #include <numbers>
 
 #include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_properties.hpp"
 
 /// Grids and coordinate systems, each resolved when it is first asked for: systems lean on grids and grids on systems.
 namespace twindeck::model_io::nastran {

@@ -1,3 +1,5 @@
+#include "model_io/nastran_masses.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -5,6 +7,7 @@
 
 #include "fe/beam_frame.hpp"
 #include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_springs.hpp"
 
 namespace twindeck::model_io::nastran {
 namespace {

@@ -76,39 +76,9 @@ struct Parts {
   int section(const fe::Section& s);
 };
 
-/// "pbar_7": group and section of a property.
-[[nodiscard]] std::string property_name(const Card& property);
-/// A note that is made once, however many cards cause it.
-void note_once(Parts& parts, const std::string& note);
-/// Components "1" to "6" of a field as flags. @throws InputError for anything else, scalar points (0 or blank) included
-[[nodiscard]] std::array<bool, 6> components(const Parts& parts, const Card& card, std::size_t i);
-
 /// Section and material that a member takes from its property, at both ends.
 struct MemberProperty {
   int material = -1, section = -1, section2 = -1;
 };
-// nastran_beams.cpp
-[[nodiscard]] MemberProperty bar_property(Parts& parts, const Card& element, long id);   ///< PBAR, PBARL
-[[nodiscard]] MemberProperty beam_property(Parts& parts, const Card& element, long id);  ///< PBEAM, PBEAML
-
-// Readers of cards, in the order in which they run.
-void index_card(Parts& parts, const Card& card);          // nastran_grids.cpp: what others refer to
-void read_member(Parts& parts, const Card& card);         // nastran_elements.cpp: CBAR, CBEAM
-void read_rod(Parts& parts, const Card& card);            // CROD, CONROD
-void read_shell(Parts& parts, const Card& card);          // CQUAD4
-void read_solid(Parts& parts, const Card& card);          // CHEXA
-void read_scalar_spring(Parts& parts, const Card& card);  // nastran_springs.cpp: CELAS1, CELAS2
-void read_bush(Parts& parts, const Card& card);           // CBUSH
-void read_mass(Parts& parts, const Card& card);           // nastran_masses.cpp: CONM1, CONM2
-void read_scalar_mass(Parts& parts, const Card& card);    // CMASS1, CMASS2
-void read_rigid(Parts& parts, const Card& card);          // nastran_supports.cpp: RBE2, RBAR
-void read_supports(Parts& parts);                         // SPC, SPC1, SPCADD of the chosen set, and what GRID holds
-void refuse_multipoint(Parts& parts);                     // MPC
-void finish_masses(Parts& parts);                         // nastran_masses.cpp: CMASS of a node together
-void finish_rods(Parts& parts);                           // nastran_elements.cpp: torsion of rods
-
-/// A spring or mass given by a matrix on the six displacements of each node; displacements that it does not touch are left out.
-void add_matrix(Parts& parts, const std::string& name, const std::vector<int>& nodes, const Eigen::MatrixXd& stiffness,
-                const Eigen::MatrixXd& mass);
 
 }  // namespace twindeck::model_io::nastran

@@ -1,3 +1,5 @@
+#include "model_io/nastran_properties.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

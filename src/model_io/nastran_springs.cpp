@@ -1,3 +1,5 @@
+#include "model_io/nastran_springs.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +9,7 @@
 #include "model_io/inp_cards.hpp"
 #include "model_io/names.hpp"
 #include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_properties.hpp"
 
 namespace twindeck::model_io::nastran {
 namespace {

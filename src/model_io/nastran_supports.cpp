@@ -1,3 +1,5 @@
+#include "model_io/nastran_supports.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_properties.hpp"
 
 /// Supports and rigid links.
 namespace twindeck::model_io::nastran {

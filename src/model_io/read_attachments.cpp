@@ -1,3 +1,5 @@
+#include "model_io/read_attachments.hpp"
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"

@@ -1,3 +1,5 @@
+#include "model_io/read_elements.hpp"
+
 #include <fmt/format.h>
 
 #include <set>

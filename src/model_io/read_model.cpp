@@ -1,3 +1,5 @@
+#include "model_io/read_model.hpp"
+
 #include <algorithm>
 #include <fstream>
 
@@ -5,6 +7,10 @@
 #include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/model_folder.hpp"
+#include "model_io/model_toml.hpp"
+#include "model_io/read_attachments.hpp"
+#include "model_io/read_elements.hpp"
+#include "model_io/read_nodes_and_properties.hpp"
 
 namespace twindeck::model_io {
 namespace {

@@ -1,3 +1,5 @@
+#include "model_io/read_nodes_and_properties.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>

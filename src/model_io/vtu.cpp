@@ -1,3 +1,5 @@
+#include "model_io/vtu.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+#include "model_io/write_matrix_model.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,8 +1,11 @@
+#include "model_io/write_model.hpp"
+
 #include <algorithm>
 
 #include "io/csv.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/model_folder.hpp"
+#include "model_io/model_toml.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {

@@ -90,15 +90,20 @@ namespace {
 // Bytes of a name or unit, and of a note, that are shown.
 constexpr std::size_t kLongestShown = 100, kLongestNote = 1000;
 
+constexpr double kNearGravity = 0.05;   ///< [g] of a mean: nearer than an uncalibrated sensor misses gravity by
+constexpr double kBesideGravity = 0.2;  ///< [g] RMS: ambient vibration is far below gravity
+constexpr double kBelowAnyUnit = 1e-7;  ///< RMS: below the noise of accelerometers in g, and further below in other units
+constexpr double kAmbientInG = 3e-3;    ///< RMS: bridges shake below that in g, and may in m/s²
+
 /// Ambient vibration of a structure: what size of numbers speaks for which unit.
 std::string guess(const ChannelSummary& channel) {
   const double mean = std::abs(channel.mean), rms = channel.rms;
   if (channel.dead) return "";
-  if (std::abs(mean - 9.81) < 0.5) return "m/s² with gravity in it, by the mean";
-  if (std::abs(mean - 1.0) < 0.05 && rms < 0.2) return "g with gravity in it, by the mean";
-  if (std::abs(mean - 1000.0) < 50.0) return "mg with gravity in it, by the mean";
-  if (rms < 1e-7) return "too small for any usual unit: gain or volts?";
-  if (rms < 3e-3) return "g or m/s², by the size";
+  if (std::abs(mean - 9.81) < kNearGravity * 10.0) return "m/s² with gravity in it, by the mean";
+  if (std::abs(mean - 1.0) < kNearGravity && rms < kBesideGravity) return "g with gravity in it, by the mean";
+  if (std::abs(mean - 1000.0) < kNearGravity * 1000.0) return "mg with gravity in it, by the mean";
+  if (rms < kBelowAnyUnit) return "too small for any usual unit: gain or volts?";
+  if (rms < kAmbientInG) return "g or m/s², by the size";
   if (rms < 1.0) return "m/s² or V, by the size";
   return "mg, mV, µm or counts, by the size";
 }

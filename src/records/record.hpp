@@ -68,11 +68,7 @@ struct Record {
 [[nodiscard]] Record read(const std::filesystem::path& file, const std::vector<Eigen::Index>& columns,
                           const ReadOptions& options = {});
 
-// The formats, each with the same contract as `scan`.
-RecordInfo scan_text(const std::filesystem::path& file, const Visitor& visit, const ReadOptions& options = {});
+/// NPY, with the contract of `scan`.
 RecordInfo scan_npy(const std::filesystem::path& file, const Visitor& visit);
-RecordInfo scan_mat(const std::filesystem::path& file, const Visitor& visit);   ///< MAT 4 and 5
-RecordInfo scan_hdf5(const std::filesystem::path& file, const Visitor& visit);  ///< MAT 7.3 too
-RecordInfo scan_universal(const std::filesystem::path& file, const Visitor& visit);
 
 }  // namespace twindeck::records

@@ -1,3 +1,5 @@
+#include "records/scan_hdf5.hpp"
+
 #include <fmt/format.h>
 #include <hdf5.h>
 

@@ -1,3 +1,5 @@
+#include "records/scan_mat.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

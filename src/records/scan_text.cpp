@@ -1,3 +1,5 @@
+#include "records/scan_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

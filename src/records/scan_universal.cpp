@@ -1,3 +1,5 @@
+#include "records/scan_universal.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 
 #include "core/error.hpp"
 #include "records/text_cells.hpp"
-#include "records/universal.hpp"
 #include "records/universal_lines.hpp"
 
 namespace twindeck::records {
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 using Eigen::Index;
 
 namespace {
-
 constexpr Index kValuesOfAPart = 65536;  // a part
 
 const char* direction_name(long code) {

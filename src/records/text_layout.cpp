@@ -17,6 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double kStepScatter = 0.25;  ///< [-] of the usual step: clocks that print few digits scatter by that
+constexpr double kEvenSteps = 0.9;     ///< [-] of the steps must be usual ones for a column to be a clock: the rest are gaps
+
 // What of a file's beginning is looked at for its layout: lines, bytes.
 constexpr std::size_t kLines = 2000;
 constexpr std::size_t kBytes = 4000000;
@@ -190,8 +193,9 @@ bool runs_evenly(const std::vector<double>& values) {
   std::sort(sorted.begin(), sorted.end());
   const double middle = sorted[sorted.size() / 2];
   if (!(middle > 0.0) || sorted.front() < 0.0) return false;
-  const auto alike = std::count_if(steps.begin(), steps.end(), [&](double s) { return std::abs(s - middle) < 0.25 * middle; });
-  return static_cast<double>(alike) > 0.9 * static_cast<double>(steps.size());
+  const auto alike =
+      std::count_if(steps.begin(), steps.end(), [&](double s) { return std::abs(s - middle) < kStepScatter * middle; });
+  return static_cast<double>(alike) > kEvenSteps * static_cast<double>(steps.size());
 }
 
 void find_time(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {

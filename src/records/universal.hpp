@@ -2,12 +2,9 @@
 
 #include <Eigen/Core>
 #include <complex>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
-
-#include "records/record.hpp"
 
 namespace twindeck::records {
 
@@ -33,20 +30,5 @@ struct UniversalData {
   std::vector<NodalResult> results;            ///< set 55
   std::map<std::string, int> others;           ///< sets that are not read, by number
 };
-
-/// Reads a universal file: sets 15, 55, 58, 58b, 82, 151, 164, 2411. Accepts what programs get wrong: a newline too many before
-/// or after binary data, a byte count that is not that of the values, Fortran's D exponents, numbers that touch, sets 151 and
-/// 164 left out, lines cut short. @param visit  gets the samples of sets 58 of time, a channel a set
-/// @throws InputError  with file and line for a file that breaks off or a field that is no number
-/// Reference: University of Cincinnati, Structural Dynamics Research Laboratory, "Universal File Datasets Summary".
-UniversalData scan_universal_sets(const std::filesystem::path& file, const Visitor& visit, RecordInfo& info);
-
-/// Writes sets 151, 164 (SI), 2411, 82 and a set 55 a result, in text.
-void write_universal(const UniversalData& data, const std::filesystem::path& file);
-
-/// A time series as set 58 (text) or 58b (binary, little-endian): one channel after another.
-/// @param samples (n_samples × n_channels)
-void write_universal_series(const RecordInfo& info, const Eigen::MatrixXd& samples, bool binary,
-                            const std::filesystem::path& file);
 
 }  // namespace twindeck::records

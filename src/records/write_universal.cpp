@@ -1,3 +1,5 @@
+#include "records/write_universal.hpp"
+
 #include <fmt/format.h>
 
 #include <cstring>

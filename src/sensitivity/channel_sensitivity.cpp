@@ -1,3 +1,5 @@
+#include "sensitivity/channel_sensitivity.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

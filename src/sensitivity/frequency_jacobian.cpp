@@ -1,3 +1,5 @@
+#include "sensitivity/frequency_jacobian.hpp"
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>

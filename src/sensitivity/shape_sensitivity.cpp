@@ -1,3 +1,5 @@
+#include "sensitivity/shape_sensitivity.hpp"
+
 #include <utility>
 #include <vector>
 

@@ -47,8 +47,7 @@ Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
   const steps::Pairing followed = steps::followed_pairing(config, pairing, result, after, modes_after, *measured);
   const steps::PairingAccount account = steps::account_after(context, config, followed, after, modes_after, *measured);
   std::vector<steps::ComparisonRow> comparison = steps::compare("before", *measured, modes_before.frequency_Hz, pairing);
-  const auto rows_after = steps::compare("after", *measured, modes_after.frequency_Hz, followed);
-  comparison.insert(comparison.end(), rows_after.begin(), rows_after.end());
+  for (auto& row : steps::compare("after", *measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
 
   // 5. Tables, the model, and the outcome in words.
   steps::write_updating(parameters, active, comparison, config.common_pairs, result, context.out);

@@ -1,3 +1,5 @@
+#include "sysid/merge_poser.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/SVD>

@@ -1,3 +1,5 @@
+#include "sysid/merge_preger.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>

@@ -283,7 +283,7 @@ Case make_case(const Bench& bench, std::uint64_t seed, double noise_scale, bool 
   hidden.seal = drawn.seal;
   hidden.removed = drawn.removed;
   const std::vector<Cause>& truth = drawn.causes;
-  // 2. Parameters and workmanship of this bridge, then what is measured on it.
+  // 2. Parameters and element scatter of this bridge, then what is measured on it.
   const diagnosis::FeatureMap map(*bench.truth.reduced, bench.rows, bench.scatter);
   for (;;) {
     VectorXd x(static_cast<Index>(map.nuisances().size()));
@@ -399,15 +399,15 @@ Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double se
   score.sigma = seal.sigma;
   score.seal = seal.text();
   score.seconds = seconds;
-  score.verdict = result.verdict;
+  score.verdict = name_of(result.verdict);
   score.log_odds = result.log_odds;
-  score.detected = !result.effects.empty() || result.verdict == "unknown";
+  score.detected = !result.effects.empty() || result.verdict == diagnosis::Verdict::unknown;
   score.p_value = result.residual.p_value;
   score.block_p_value = result.residual.block_p_value;
   score.chi_squared_ratio = result.before.chi_squared / result.residual.dof;
   score.gain_claimed = !result.effects.empty() && result.gain.low_pct > 0.0;
   score.held_out_ratio = result.gain.before > 0.0 ? result.gain.after / result.gain.before : 1.0;
-  score.unknown = result.verdict == "unknown" || result.verdict == "none";
+  score.unknown = result.verdict == diagnosis::Verdict::unknown || result.verdict == diagnosis::Verdict::none;
   std::vector<bool> named(seal.families.size(), false);
   for (const auto& effect : result.effects) {
     score.found += (score.found.empty() ? "" : " + ") + effect.cluster.front();

@@ -10,7 +10,7 @@
 #include "steps/diagnosis/model.hpp"
 
 /// Blind trials in the tier of features (sealed generator, diagnosis, scorer): the truth is computed on another mesh than the
-/// one that diagnoses, with parameters and workmanship drawn anew for every case, the null ones too.
+/// one that diagnoses, with parameters and element scatter drawn anew for every case, the null ones too.
 namespace twindeck::blind {
 
 /// One side: a mesh with everything reduced.

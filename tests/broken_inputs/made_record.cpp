@@ -12,7 +12,9 @@
 
 #include "core/random.hpp"
 #include "io/npy.hpp"
+#include "records/record.hpp"
 #include "records/universal.hpp"
+#include "records/write_universal.hpp"
 
 namespace twindeck::broken {
 namespace {

@@ -1,5 +1,6 @@
-#include "fuzz/features.hpp"
+#include "steps/diagnosis/features.hpp"
 
+#include "fuzz/features.hpp"
 #include "fuzz/target.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/measured/measured.hpp"

@@ -1,6 +1,7 @@
 /// Records as HDF5.
 #include "fuzz/target.hpp"
 #include "records/record.hpp"
+#include "records/scan_hdf5.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace twindeck;

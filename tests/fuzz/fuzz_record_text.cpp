@@ -1,6 +1,7 @@
 /// Records as text: CSV of any dialect, headers, clocks.
 #include "fuzz/target.hpp"
 #include "records/record.hpp"
+#include "records/scan_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace twindeck;

@@ -1,6 +1,7 @@
 /// Records as universal files, text and binary sets.
 #include "fuzz/target.hpp"
 #include "records/record.hpp"
+#include "records/scan_universal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace twindeck;

@@ -5,6 +5,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "linalg/generalized_eigen.hpp"
+#include "linalg/inertia.hpp"
 #include "random_system.hpp"
 #include "sensitivity/eigen_sensitivity.hpp"
 

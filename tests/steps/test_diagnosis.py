@@ -135,7 +135,7 @@ class Diagnosis(unittest.TestCase):
     def test_a_soft_group_is_named_and_sized(self):
         result, out = self.diagnose("soft", stiffness={"g5": 0.6})
         self.assert_found(result, "stiffness", "group:g5", "factor", 0.6, 0.06)
-        self.assertGreater(result["gain"]["reduction_pct"], 25.0)  # mode 6 was held out; noise and workmanship stay
+        self.assertGreater(result["gain"]["reduction_pct"], 25.0)  # mode 6 was held out; noise and element scatter stay
         self.assertIn("calm", result["gain"]["held_out"])
         # The extended model is a model: with it, nothing is missing any more.
         shutil.copytree(self.folder / "soft", self.folder / "again")

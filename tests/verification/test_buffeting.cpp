@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "aero/analytic_derivatives.hpp"
 #include "buffeting/interval.hpp"
 #include "buffeting/loads.hpp"
 #include "buffeting/response.hpp"

@@ -9,6 +9,8 @@
 #include <array>
 #include <memory>
 
+#include "aero/analytic_derivatives.hpp"
+#include "aero/derivative_table.hpp"
 #include "aero_io/aero_data.hpp"
 #include "io/csv.hpp"
 #include "verification_table.hpp"

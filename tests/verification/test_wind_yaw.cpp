@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "aero/analytic_derivatives.hpp"
+#include "aero/derivative_table.hpp"
 #include "aero_io/aero_data.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"

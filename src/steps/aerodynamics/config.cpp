@@ -1,3 +1,5 @@
+#include "steps/aerodynamics/config.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

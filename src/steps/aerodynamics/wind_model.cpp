@@ -1,3 +1,5 @@
+#include "steps/aerodynamics/wind_model.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -5,6 +7,8 @@
 #include <memory>
 #include <sstream>
 
+#include "aero/analytic_derivatives.hpp"
+#include "aero/derivative_table.hpp"
 #include "aero/laws.hpp"
 #include "aero/stability.hpp"
 #include "aero_io/aero_data.hpp"
@@ -15,6 +19,9 @@
 
 namespace twindeck::steps {
 namespace {
+
+constexpr double kLevelTolerance = 1e-9;  ///< [-] of a set's level: far finer than it is printed
+constexpr int kLevelSteps = 100;          ///< a third of them halves the bracket: enough for any
 
 aero::OutOfRange choice(const std::string& word) { return word == "hold" ? aero::OutOfRange::hold : aero::OutOfRange::refuse; }
 
@@ -209,7 +216,7 @@ std::optional<double> fit_level(const AerodynamicsConfig& config, const std::vec
   }
   if (!at_low || !at_high || *at_low >= 0.0) return std::nullopt;
   double f_low = *at_low, f_high = *at_high;
-  for (int i = 0; i < 100 && high - low > 1e-9 * high; ++i) {
+  for (int i = 0; i < kLevelSteps && high - low > kLevelTolerance * high; ++i) {
     const double guess = i % 3 == 2 ? 0.5 * (low + high) : low - f_low * (high - low) / (f_high - f_low);
     const std::optional<double> here = growth(guess);
     if (!here) return std::nullopt;

@@ -13,6 +13,7 @@
 #include "io/npy.hpp"
 #include "sensors/logger.hpp"
 #include "steps/campaign/campaign_files.hpp"
+#include "steps/campaign/virtual_calibration.hpp"
 #include "steps/campaign/virtual_records.hpp"
 #include "steps/campaign/virtual_stays.hpp"
 #include "steps/campaign/virtual_wind.hpp"

@@ -21,6 +21,10 @@ using Eigen::VectorXd;
 
 namespace {
 
+constexpr double kDeckMode = 0.5;         ///< [-] of the kinetic energy in stays: a mode with less is one of the decks
+constexpr double kNeverPaired = 1e3;      ///< a distance in ln f beyond any between two modes
+constexpr double kSensorAtNode_m = 0.05;  ///< a sensor is at a node that is this near: the layout prints centimetres
+
 /// Every [[damper]] of the configuration belongs to a type of the bridge's definition, and stands once.
 void check_damper_types(const CampaignSettings& settings, const fe::Model& model) {
   const std::string prefix = "damper_";
@@ -101,7 +105,7 @@ std::vector<Index> nearest_named(const BridgeState& state, const CampaignSetting
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < m; ++j) {
       const double ratio = state.modes.frequency_Hz[j] / settings.named[static_cast<std::size_t>(i)].frequency_Hz;
-      distance(i, j) = state.stay_share[j] < 0.5 ? std::abs(std::log(ratio)) : 1e3;
+      distance(i, j) = state.stay_share[j] < kDeckMode ? std::abs(std::log(ratio)) : kNeverPaired;
     }
   }
   std::map<Index, Index> mode_of;
@@ -152,7 +156,7 @@ VectorXd imposed_damping(const BridgeState& state, const CampaignSettings& setti
 MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vector<LayoutChannel>& channels) {
   std::vector<Eigen::Vector3d> places;
   for (const LayoutChannel& channel : channels) places.push_back(channel.x_m);
-  const std::vector<int> nodes = nodes_at(state.chains.model, places, 0.05);
+  const std::vector<int> nodes = nodes_at(state.chains.model, places, kSensorAtNode_m);
   const MatrixXd full = state.system.expand(x);
   MatrixXd out(std::ssize(channels), x.cols());
   for (std::size_t c = 0; c < channels.size(); ++c)

@@ -1,3 +1,5 @@
+#include "steps/campaign/virtual_calibration.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
@@ -15,11 +17,13 @@ using Eigen::VectorXd;
 
 namespace {
 
+constexpr double kMovesDecks = 0.5;  ///< [-] of the kinetic energy in stays: a mode with less is one of the decks
+
 /// The modes that calibration starts from: the so many-th of those with less than half of their kinetic energy in the stays.
 std::vector<Index> starting_modes(const BridgeState& state, const CampaignSettings& settings) {
   std::vector<Index> deck;
   for (Index j = 0; j < state.stay_share.size(); ++j) {
-    if (state.stay_share[j] < 0.5) deck.push_back(j);
+    if (state.stay_share[j] < kMovesDecks) deck.push_back(j);
   }
   std::vector<Index> named;
   for (const NamedMode& mode : settings.named) {

@@ -19,6 +19,10 @@ using Eigen::VectorXd;
 
 namespace {
 
+constexpr double kMostlyAcross =
+    0.5;                          ///< [-] of a mode's kinetic energy: a mode that moves across the chord has most of it there
+constexpr double kWarmUp = 10.0;  ///< times 1 / (zeta omega): what the start was has faded by e^-10
+
 constexpr int kPieces = 96;  // the fifth mode is then within 1e-6 of the continuous string's
 constexpr Index kModes = 5;
 constexpr double kLeastLambda = 0.01;  // a chain without axial stiffness would not hold together
@@ -79,7 +83,7 @@ void solve(const Chain& chain, double pull_N, VectorXd& omega, MatrixXd& shapes)
   for (Index j = 0; j < phi.cols() && found < kModes; ++j) {
     const VectorXd across = phi.col(j)(Eigen::seqN(1, n, 2));
     // Those that go along the chord lie higher.
-    if (across.squaredNorm() * piece_kg < 0.5) continue;
+    if (across.squaredNorm() * piece_kg < kMostlyAcross) continue;
     omega[found] = std::sqrt(eig.eigenvalues()[j]);
     shapes.col(found++) = across;
   }
@@ -116,7 +120,7 @@ StayRecord stay_record(const fe::Model& model, const StayTest& test, const Campa
   const double step_s = 1.0 / (settings.rate_Hz * static_cast<double>(kSubsteps));
   const VectorXd shortened = (0.5 * step_s * omega.array()).tan() * (2.0 / step_s);
   transient::TrapezoidalStepper stepper(shortened, VectorXd::Constant(kModes, test.damping_ratio), step_s);
-  const auto warm_up = static_cast<Index>(10.0 / (test.damping_ratio * omega[0]) * settings.rate_Hz);
+  const auto warm_up = static_cast<Index>(kWarmUp / (test.damping_ratio * omega[0]) * settings.rate_Hz);
   const auto n_samples = static_cast<Index>(std::lround(settings.stay_duration_s * settings.rate_Hz));
   const double intensity = settings.stay_force * std::sqrt(0.5 * settings.rate_Hz);
   const Index n_forces = shapes.rows();

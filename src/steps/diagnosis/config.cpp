@@ -1,4 +1,4 @@
-#include "steps/diagnosis/setup.hpp"
+#include "steps/diagnosis/config.hpp"
 
 namespace twindeck::steps {
 

@@ -80,8 +80,8 @@ BarStaysEffect::BarStaysEffect(std::vector<diagnosis::FoundStay> stays, double l
 
 void BarStaysEffect::put_first(diagnosis::Diagnosis& result) const {
   result.effects.insert(result.effects.begin(), effect_);
-  if (result.verdict == "none") {
-    result.verdict = "named";
+  if (result.verdict == diagnosis::Verdict::none) {
+    result.verdict = diagnosis::Verdict::named;
     result.log_odds = effect_.log_odds;
     result.message = effect_.sentence + ". Beyond that nothing was found";
   } else {

@@ -1,3 +1,5 @@
+#include "steps/diagnosis/extension.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include "io/toml_value.hpp"
 #include "model_io/load_cases.hpp"
 #include "model_io/model_folder.hpp"
-#include "steps/diagnosis/model.hpp"
 
 namespace twindeck::steps {
 
@@ -139,94 +140,115 @@ void add_oscillator(fe::Model& model, int node, double mass, double frequency_Hz
   }
 }
 
+/// A cause that is put into a finite element model, with the name of its location: "17" of "element:17".
+struct Extension {
+  fe::Model& model;
+  Eigen::VectorXd& theta;
+  const diagnosis::Places& places;
+  const Cause& cause;
+  std::string name;
+
+  [[nodiscard]] double value(const ActionSpec& action, const char* of) const {
+    return cause.candidate->value(action.number.at(of), cause.a);
+  }
+  /// The location among the places of the model.
+  [[nodiscard]] const diagnosis::Place& place() const {
+    const diagnosis::Place* found = place_of(places, cause.candidate->hypothesis->set, cause.candidate->location);
+    TWINDECK_ASSERT(found != nullptr);
+    return *found;
+  }
+};
+
+/// A factor on the stiffness or mass of a group, of elements or of a support.
+bool apply_scale(Extension& to, const ActionSpec& action) {
+  const Candidate& c = *to.cause.candidate;
+  const bool mass = action.kind == "scale.mass";
+  const double factor = to.value(action, "factor");
+  const std::string id = c.hypothesis->id + "_" + to.name;
+  if (c.hypothesis->set == "groups") {
+    if (scale_parameter(to.model.parameters, to.theta, to.name, factor)) return true;
+    scale_group(to.model, to.name, mass ? 1.0 : factor, mass ? factor : 1.0, id);
+    return true;
+  }
+  if (c.hypothesis->set == "elements" || c.hypothesis->set == "stays") {
+    scale_materials(to.model, to.place().elements, mass ? 1.0 : factor, mass ? factor : 1.0, id);
+    return true;
+  }
+  if (c.hypothesis->set == "supports" || c.hypothesis->set == "foundations") {
+    for (fe::Spring& spring : to.model.springs)
+      if (of_support(to.model, spring, to.name) && spring.rotation == (c.hypothesis->set == "foundations"))
+        spring.stiffness *= factor;
+    return true;
+  }
+  return false;
+}
+
+/// A spring between two nodes, "17,23", along their line. @return false if they stand in one place
+bool add_tie(fe::Model& model, const std::string& name, double stiffness) {
+  const auto comma = name.find(',');
+  fe::Spring tie;
+  tie.name = "tie_" + name.substr(0, comma) + "_" + name.substr(comma + 1);
+  tie.group = "tie";
+  tie.node = node_position(model, name.substr(0, comma));
+  tie.node2 = node_position(model, name.substr(comma + 1));
+  const Eigen::Vector3d along =
+      model.nodes[static_cast<std::size_t>(tie.node2)].x_m - model.nodes[static_cast<std::size_t>(tie.node)].x_m;
+  if (!(along.norm() > 0.0)) return false;
+  tie.direction = along.normalized();
+  tie.stiffness = stiffness;
+  model.springs.push_back(tie);
+  return true;
+}
+
+/// Dampers moved, taken away, or with another law.
+void apply_damper(Extension& to, const ActionSpec& action) {
+  const auto acts_on = [&](const fe::Spring& s) { return ("," + to.name + ",").find("," + s.name + ",") != std::string::npos; };
+  if (action.kind == "damper.move") {
+    const diagnosis::Place& place = to.place();
+    const auto& places = to.cause.candidate->places;
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+      for (fe::Spring& spring : to.model.springs)
+        if ("damper:" + spring.name == places[i]->id)
+          spring.node = static_cast<int>(place.attributes.at("node_" + std::to_string(i)));
+    return;
+  }
+  if (action.kind == "damper.absent") {
+    std::erase_if(to.model.springs, acts_on);
+    return;
+  }
+  for (fe::Spring& spring : to.model.springs) {
+    if (!acts_on(spring)) continue;
+    if (action.kind == "damper.damping") spring.damping *= to.value(action, "factor");
+    if (action.kind == "damper.series" || action.kind == "damper.friction") {
+      spring.stiffness = to.value(action, "stiffness");
+      spring.series = true;
+    }
+    if (action.kind == "damper.friction") spring.friction_N = to.value(action, "threshold");
+  }
+}
+
 /// Puts one action into a finite element model. @return whether a model folder can say it
 bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& places, const Cause& cause,
            const ActionSpec& action) {
   const Candidate& c = *cause.candidate;
-  const auto value = [&](const char* name) { return c.value(action.number.at(name), cause.a); };
-  const std::string name = c.location.substr(c.location.find(':') + 1);
-  if (action.kind == "scale.stiffness" || action.kind == "scale.mass") {
-    const bool mass = action.kind == "scale.mass";
-    const double factor = value("factor");
-    if (c.hypothesis->set == "groups") {
-      if (scale_parameter(model.parameters, theta, name, factor)) return true;
-      scale_group(model, name, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
-      return true;
-    }
-    if (c.hypothesis->set == "elements" || c.hypothesis->set == "stays") {
-      const diagnosis::Place* place = place_of(places, c.hypothesis->set, c.location);
-      TWINDECK_ASSERT(place != nullptr);
-      scale_materials(model, place->elements, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
-      return true;
-    }
-    if (c.hypothesis->set == "supports" || c.hypothesis->set == "foundations") {
-      for (fe::Spring& spring : model.springs)
-        if (of_support(model, spring, name) && spring.rotation == (c.hypothesis->set == "foundations"))
-          spring.stiffness *= factor;
-      return true;
-    }
+  Extension to{model, theta, places, cause, c.location.substr(c.location.find(':') + 1)};
+  const std::string& kind = action.kind;
+  if (kind == "scale.stiffness" || kind == "scale.mass") return apply_scale(to, action);
+  if (kind == "element.spring" && c.places.size() != 1)
+    return c.hypothesis->set == "pairs(nodes)" && add_tie(model, to.name, to.value(action, "stiffness"));
+  if (kind == "support.move")
+    move_support(model, to.place(), to.name, to.value(action, "position"));
+  else if (kind == "element.spring")
+    add_prop(model, node_position(model, to.name), action, to.value(action, "stiffness"));
+  else if (kind == "mass.add")
+    model.masses.push_back({"added_mass", node_position(model, to.name), to.value(action, "mass"), Eigen::Vector3d::Zero()});
+  else if (kind == "element.oscillator")
+    add_oscillator(model, node_position(model, to.name), to.value(action, "mass"), to.value(action, "frequency"));
+  else if (kind.starts_with("damper."))
+    apply_damper(to, action);
+  else
     return false;
-  }
-  if (action.kind == "support.move") {
-    const diagnosis::Place* place = place_of(places, c.hypothesis->set, c.location);
-    TWINDECK_ASSERT(place != nullptr);
-    move_support(model, *place, name, value("position"));
-    return true;
-  }
-  if (action.kind == "element.spring" && c.places.size() == 1) {
-    add_prop(model, node_position(model, name), action, value("stiffness"));
-    return true;
-  }
-  if (action.kind == "mass.add") {
-    model.masses.push_back({"added_mass", node_position(model, name), value("mass"), Eigen::Vector3d::Zero()});
-    return true;
-  }
-  if (action.kind == "element.oscillator") {
-    add_oscillator(model, node_position(model, name), value("mass"), value("frequency"));
-    return true;
-  }
-  if (action.kind == "element.spring" && c.hypothesis->set == "pairs(nodes)") {
-    const auto comma = name.find(',');
-    fe::Spring tie;
-    tie.name = "tie_" + name.substr(0, comma) + "_" + name.substr(comma + 1);
-    tie.group = "tie";
-    tie.node = node_position(model, name.substr(0, comma));
-    tie.node2 = node_position(model, name.substr(comma + 1));
-    const Eigen::Vector3d along =
-        model.nodes[static_cast<std::size_t>(tie.node2)].x_m - model.nodes[static_cast<std::size_t>(tie.node)].x_m;
-    if (!(along.norm() > 0.0)) return false;
-    tie.direction = along.normalized();
-    tie.stiffness = value("stiffness");
-    model.springs.push_back(tie);
-    return true;
-  }
-  if (action.kind.starts_with("damper.")) {
-    const auto acts_on = [&](const fe::Spring& s) { return ("," + name + ",").find("," + s.name + ",") != std::string::npos; };
-    if (action.kind == "damper.move") {
-      const diagnosis::Place* place = place_of(places, c.hypothesis->set, c.location);
-      TWINDECK_ASSERT(place != nullptr);
-      for (std::size_t i = 0; i + 1 < c.places.size(); ++i)
-        for (fe::Spring& spring : model.springs)
-          if ("damper:" + spring.name == c.places[i]->id)
-            spring.node = static_cast<int>(place->attributes.at("node_" + std::to_string(i)));
-      return true;
-    }
-    if (action.kind == "damper.absent") {
-      std::erase_if(model.springs, acts_on);
-      return true;
-    }
-    for (fe::Spring& spring : model.springs) {
-      if (!acts_on(spring)) continue;
-      if (action.kind == "damper.damping") spring.damping *= value("factor");
-      if (action.kind == "damper.series" || action.kind == "damper.friction") {
-        spring.stiffness = value("stiffness");
-        spring.series = true;
-      }
-      if (action.kind == "damper.friction") spring.friction_N = value("threshold");
-    }
-    return true;
-  }
-  return false;
+  return true;
 }
 
 bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& cause, const ActionSpec& action) {

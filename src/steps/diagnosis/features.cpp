@@ -1,3 +1,5 @@
+#include "steps/diagnosis/features.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "model_io/load_cases.hpp"
-#include "steps/diagnosis/catalogue.hpp"
 #include "steps/measured/feature_rows.hpp"
 #include "steps/measured/measured_tables.hpp"
 

@@ -26,10 +26,4 @@ struct DiagnosedModel {
 [[nodiscard]] std::shared_ptr<DiagnosedModel> prepare_model(const LoadedModel& loaded, const std::vector<Channel>& channels,
                                                             double sensor_tolerance_m);
 
-/// Writes `folder` as a model that every step accepts, with the parameters of the extended fit and the causes put in as far as
-/// a model folder can say them; extension.toml lists each cause with its numbers and whether the model holds it. Causes on the
-/// measurement's side leave the model as it is and correct channels.csv beside it.
-void write_extended_model(const DiagnosedModel& model, const diagnosis::Places& places, const diagnosis::Diagnosis& result,
-                          const std::filesystem::path& folder);
-
 }  // namespace twindeck::steps

@@ -14,6 +14,12 @@ namespace twindeck::steps {
 
 namespace {
 
+constexpr std::size_t kToldBlocks = 5;  ///< of the residual test: those that stand out most
+constexpr double kNatsForAName = 5.0;   ///< 1/2 s² + ln(prior) - 2 > 3: what a name needs, with 2 nats for its unknowns
+constexpr double kVisibleSigma = 1.0;   ///< standard deviations: a shorter signature is less than the noise
+constexpr double kNoSignature = 1e-6;   ///< standard deviations: of an entry that does nothing here
+constexpr int kMagnitudeHalvings = 12;  ///< of a magnitude's range: to 1 part in 4096
+
 using diagnosis::Diagnosis;
 using diagnosis::Inference;
 using diagnosis::Row;
@@ -87,6 +93,57 @@ nlohmann::ordered_json listed_sentences(const Sentences& sentences) {
           {"next", sentences.next}};
 }
 
+nlohmann::ordered_json residual_json(const Diagnosis& result, double alpha) {
+  nlohmann::ordered_json json = {{"statistic", result.residual.statistic},
+                                 {"dof", result.residual.dof},
+                                 {"p_value", result.residual.p_value},
+                                 {"block_p_value", result.residual.block_p_value},
+                                 {"alpha", alpha},
+                                 {"stage", result.after_extension ? "after extension" : "before"},
+                                 {"blocks", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < std::min(result.residual.blocks.size(), kToldBlocks); ++i) {
+    const auto& block = result.residual.blocks[i];
+    json["blocks"].push_back({{"name", block.name},
+                              {"rows", block.rows},
+                              {"statistic", block.statistic},
+                              {"dof", block.dof},
+                              {"p_value", block.p_value}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json effect_json(const diagnosis::Effect& effect, const Told& told) {
+  nlohmann::ordered_json one;
+  one["cause"] = effect.cause.candidate->hypothesis->id;
+  one["location"] = effect.cause.candidate->location;
+  one["cluster"] = effect.cluster;
+  one["probability"] = effect.probability;
+  one["log_odds"] = effect.log_odds;
+  one["split_by"] = effect.split_by;
+  one["parameters"] = listed_parameters(effect.parameters);
+  add_place_and_rivals(effect, told, one);
+  one["sentence"] = effect.sentence;
+  one["remedy"] = effect.remedy;
+  return one;
+}
+
+nlohmann::ordered_json gain_json(const Diagnosis& result) {
+  const diagnosis::Gain gain = told_gain(result);
+  nlohmann::ordered_json json = {{"held_out", gain.held_out},
+                                 {"rows", gain.rows},
+                                 {"before", gain.before},
+                                 {"after", gain.after},
+                                 {"reduction_pct", gain.reduction_pct},
+                                 {"interval_pct", {gain.low_pct, gain.high_pct}},
+                                 {"level", 0.90}};
+  if (const auto explained = explained_gain(result)) {
+    json["modes_measured"] = explained->measured;
+    json["modes_explained_before"] = explained->before;
+    json["modes_explained_after"] = explained->after;
+  }
+  return json;
+}
+
 }  // namespace
 
 void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const Told& told,
@@ -94,28 +151,14 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                      const std::string& threshold_from, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
-  json["verdict"] = result.verdict;
+  json["verdict"] = name_of(result.verdict);
   json["message"] = result.message;
   json["sentences"] = listed_sentences(told.sentences);
   json["detection"] = {{"log_odds", result.log_odds},
                        {"threshold", result.threshold},
                        {"alpha", result.alpha},
                        {"threshold_from", threshold_from}};
-  json["residual_test"] = {{"statistic", result.residual.statistic},
-                           {"dof", result.residual.dof},
-                           {"p_value", result.residual.p_value},
-                           {"block_p_value", result.residual.block_p_value},
-                           {"alpha", residual_alpha},
-                           {"stage", result.after_extension ? "after extension" : "before"},
-                           {"blocks", nlohmann::ordered_json::array()}};
-  for (std::size_t i = 0; i < std::min<std::size_t>(result.residual.blocks.size(), 5); ++i) {
-    const auto& block = result.residual.blocks[i];
-    json["residual_test"]["blocks"].push_back({{"name", block.name},
-                                               {"rows", block.rows},
-                                               {"statistic", block.statistic},
-                                               {"dof", block.dof},
-                                               {"p_value", block.p_value}});
-  }
+  json["residual_test"] = residual_json(result, residual_alpha);
   json["scatter"] = nlohmann::ordered_json::array();
   for (const auto& s : result.scatter)
     json["scatter"].push_back(
@@ -128,20 +171,7 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
                                {"candidates", finding.candidates},
                                {"split_by", finding.split_by}});
   json["effects"] = nlohmann::ordered_json::array();
-  for (const auto& effect : result.effects) {
-    nlohmann::ordered_json one;
-    one["cause"] = effect.cause.candidate->hypothesis->id;
-    one["location"] = effect.cause.candidate->location;
-    one["cluster"] = effect.cluster;
-    one["probability"] = effect.probability;
-    one["log_odds"] = effect.log_odds;
-    one["split_by"] = effect.split_by;
-    one["parameters"] = listed_parameters(effect.parameters);
-    add_place_and_rivals(effect, told, one);
-    one["sentence"] = effect.sentence;
-    one["remedy"] = effect.remedy;
-    json["effects"].push_back(one);
-  }
+  for (const auto& effect : result.effects) json["effects"].push_back(effect_json(effect, told));
   json["measurement_corrections"] = nlohmann::ordered_json::array();
   for (const Correction& c : told.corrections)
     json["measurement_corrections"].push_back(
@@ -150,19 +180,7 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
   for (const auto& at : result.localisation)
     json["localisation"].push_back(
         {{"location", at.location}, {"score", at.score}, {"words", told.places.at(at.location).words}});
-  const diagnosis::Gain gain = told_gain(result);
-  json["gain"] = {{"held_out", gain.held_out},
-                  {"rows", gain.rows},
-                  {"before", gain.before},
-                  {"after", gain.after},
-                  {"reduction_pct", gain.reduction_pct},
-                  {"interval_pct", {gain.low_pct, gain.high_pct}},
-                  {"level", 0.90}};
-  if (const auto explained = explained_gain(result)) {
-    json["gain"]["modes_measured"] = explained->measured;
-    json["gain"]["modes_explained_before"] = explained->before;
-    json["gain"]["modes_explained_after"] = explained->after;
-  }
+  json["gain"] = gain_json(result);
   if (result.form) add_form(*result.form, json);
   json["measure_next"] = told.measure_next;
   const auto listed = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
@@ -197,7 +215,7 @@ void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invi
                       const std::filesystem::path& file) {
   io::CsvWriter csv({"cause", "location", "log_odds", "screen", "stage", "signature_sigma", "status"});
   for (const auto& scored : result.ranking) {
-    const bool fitted = scored.log_odds > -1e299;
+    const bool fitted = scored.weighed();
     csv.row({scored.candidate->hypothesis->id, scored.candidate->location,
              fitted ? std::optional<double>(scored.log_odds) : std::nullopt, scored.screen, scored.stage,
              scored.signature.norm(), fitted ? "fitted" : "screened"});
@@ -280,19 +298,18 @@ void write_misfit(const Inference& inference, const Diagnosis& result, const std
   csv.save(file);
 }
 
-void write_plan(const Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
-                const std::filesystem::path& file) {
-  io::CsvWriter csv(
-      {"cause", "location", "unknown", "smallest", "unit", "sigma", "best_imitation", "separation_sigma", "status"});
-  const diagnosis::Fit base = inference.fit({}, {});
-  struct Seen {
-    const diagnosis::Candidate* candidate;
-    VectorXd a, signature;
-    double smallest;
-  };
+namespace {
+
+/// The strongest signature that the screen tries of an entry.
+struct Seen {
+  const diagnosis::Candidate* candidate;
+  VectorXd a, signature;
+};
+
+std::vector<Seen> strongest_signatures(const Inference& inference, const diagnosis::Fit& base) {
   std::vector<Seen> seen;
   for (const auto& candidate : inference.candidates()) {
-    Seen best{candidate.get(), {}, {}, 0.0};
+    Seen best{candidate.get(), {}, {}};
     for (const VectorXd& a : candidate->starts) {
       const VectorXd s = inference.signature(base, *candidate, a);
       if (s.size() > 0 && (best.signature.size() == 0 || s.norm() > best.signature.norm())) {
@@ -302,46 +319,66 @@ void write_plan(const Inference& inference, const std::vector<diagnosis::Invisib
     }
     if (best.signature.size() > 0) seen.push_back(best);
   }
-  for (Seen& one : seen) {
+  return seen;
+}
+
+/// Smallest magnitude of the first unknown whose signature is as long as `needed`: from nothing (a factor of 1, else the lower
+/// bound) to the tried magnitude, by bisection.
+double smallest_magnitude(const Inference& inference, const diagnosis::Fit& base, const Seen& one, double needed) {
+  const diagnosis::Candidate& candidate = *one.candidate;
+  const bool factor = candidate.hypothesis->unknowns[0].name == "factor";
+  const double neutral =
+      factor && candidate.low[0] < 0.0 && candidate.high[0] > 0.0 ? 0.0 : (candidate.log[0] ? candidate.low[0] : 0.0);
+  double near = factor && candidate.log[0] ? 0.0 : neutral, far = one.a[0];
+  for (int i = 0; i < kMagnitudeHalvings; ++i) {
+    VectorXd a = one.a;
+    a[0] = 0.5 * (near + far);
+    const VectorXd s = inference.signature(base, candidate, a);
+    (s.size() > 0 && s.norm() > needed ? far : near) = a[0];
+  }
+  VectorXd a = one.a;
+  a[0] = far;
+  return candidate.physical(a, 0);
+}
+
+/// The entry of another family that comes nearest to one, and how far it stays away, in standard deviations.
+std::pair<std::string, double> best_imitation(const Seen& one, const std::vector<Seen>& seen) {
+  const double sigma = one.signature.norm();
+  double separation = sigma;
+  std::string imitation;
+  for (const Seen& other : seen) {
+    if (other.candidate->hypothesis == one.candidate->hypothesis || other.signature.norm() < kNoSignature) continue;
+    const double along = one.signature.dot(other.signature) / other.signature.norm();
+    const double rest = std::sqrt(std::max(sigma * sigma - along * along, 0.0));
+    if (rest < separation) {
+      separation = rest;
+      imitation = other.candidate->id();
+    }
+  }
+  return {imitation, separation};
+}
+
+}  // namespace
+
+void write_plan(const Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
+                const std::filesystem::path& file) {
+  io::CsvWriter csv(
+      {"cause", "location", "unknown", "smallest", "unit", "sigma", "best_imitation", "separation_sigma", "status"});
+  const diagnosis::Fit base = inference.fit({}, {});
+  const std::vector<Seen> seen = strongest_signatures(inference, base);
+  for (const Seen& one : seen) {
     const auto& spec = one.candidate->hypothesis->unknowns;
-    // A name needs 1/2 s² - ln(1/prior) - 2 > 3: the signature that a cause must have here.
-    const double needed = std::sqrt(2.0 * (5.0 - one.candidate->log_prior));
+    const double needed = std::sqrt(2.0 * (kNatsForAName - one.candidate->log_prior));
     const double sigma = one.signature.norm();
     std::optional<double> smallest;
     std::string status = "visible";
-    if (sigma < 1.0)
+    if (sigma < kVisibleSigma)
       status = "these data cannot see it";
-    else if (!spec.empty()) {
-      // Along the first unknown from nothing (a factor of 1, else its lower bound) to the tried magnitude, by bisection.
-      const double neutral = spec[0].name == "factor" && one.candidate->low[0] < 0.0 && one.candidate->high[0] > 0.0
-                                 ? 0.0
-                                 : (one.candidate->log[0] ? one.candidate->low[0] : 0.0);
-      double near = spec[0].name == "factor" && one.candidate->log[0] ? 0.0 : neutral, far = one.a[0];
-      if (sigma < needed)
-        status = "too small at the tried magnitude";
-      else {
-        for (int i = 0; i < 12; ++i) {
-          VectorXd a = one.a;
-          a[0] = 0.5 * (near + far);
-          const VectorXd s = inference.signature(base, *one.candidate, a);
-          (s.size() > 0 && s.norm() > needed ? far : near) = a[0];
-        }
-        VectorXd a = one.a;
-        a[0] = far;
-        smallest = one.candidate->physical(a, 0);
-      }
-    }
-    double separation = sigma;
-    std::string imitation;
-    for (const Seen& other : seen) {
-      if (other.candidate->hypothesis == one.candidate->hypothesis || other.signature.norm() < 1e-6) continue;
-      const double along = one.signature.dot(other.signature) / other.signature.norm();
-      const double rest = std::sqrt(std::max(sigma * sigma - along * along, 0.0));
-      if (rest < separation) {
-        separation = rest;
-        imitation = other.candidate->id();
-      }
-    }
+    else if (!spec.empty() && sigma < needed)
+      status = "too small at the tried magnitude";
+    else if (!spec.empty())
+      smallest = smallest_magnitude(inference, base, one, needed);
+    const auto [imitation, separation] = best_imitation(one, seen);
     csv.row({one.candidate->hypothesis->id, one.candidate->location, spec.empty() ? "" : spec[0].name, smallest,
              spec.empty() ? "" : spec[0].unit, sigma, imitation, separation, status});
   }

@@ -1,9 +1,13 @@
+#include "steps/diagnosis/run.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Core>
 #include <chrono>
 #include <set>
 
+#include "diagnosis/form_diagnosis.hpp"
+#include "steps/diagnosis/extension.hpp"
 #include "steps/diagnosis/measurement_corrections.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
@@ -26,8 +30,8 @@ void say_form(const diagnosis::FormReport& form, StepContext& context) {
 }
 
 /// The last lines of the step.
-void say_sentences(const std::string& verdict, const Sentences& sentences, StepContext& context) {
-  context.say("verdict: " + verdict);
+void say_sentences(diagnosis::Verdict verdict, const Sentences& sentences, StepContext& context) {
+  context.say("verdict: " + name_of(verdict));
   context.say("  what is wrong: " + sentences.what);
   context.say("  why: " + sentences.why);
   context.say("  how sure: " + sentences.how_sure);

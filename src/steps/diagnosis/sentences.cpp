@@ -150,7 +150,7 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
   const double limit = sidak_limit(static_cast<std::size_t>(before.size()));
   const auto beyond = (before.array().abs() > limit).count();
   const std::string most = block_words(*worst, inference, result, before, after);
-  if (result.verdict == "none" && beyond == 0)
+  if (result.verdict == diagnosis::Verdict::none && beyond == 0)
     return fmt::format("Nothing that chance does not allow. The largest deviation: {}.", most);
   return fmt::format("{}. Of {} measured values {} lie further off than the {:.1f} standard deviations that chance allows.",
                      capitalised(most), number_in_words(static_cast<double>(before.size()), kCountDigits), beyond, limit);
@@ -182,11 +182,11 @@ std::string with_intervals(const Effect& effect) {
 }
 
 std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
-  if (result.verdict == "none")
+  if (result.verdict == diagnosis::Verdict::none)
     return "No cause is needed: the model with its parameters inside their bounds explains the measurement.";
   if (result.effects.empty()) return ended(capitalised(result.message));
-  std::string text =
-      (result.verdict == "unknown" ? "Not known. What comes nearest: " : "") + with_intervals(result.effects.front());
+  std::string text = (result.verdict == diagnosis::Verdict::unknown ? "Not known. What comes nearest: " : "") +
+                     with_intervals(result.effects.front());
   std::vector<std::string> others;
   for (std::size_t i = 1; i < result.effects.size(); ++i)
     others.push_back(ids.in_text(result.effects[i].cause.candidate->id()));
@@ -214,12 +214,12 @@ std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
 }
 
 std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
-  if (result.verdict == "none")
+  if (result.verdict == diagnosis::Verdict::none)
     return fmt::format("The best cause of the catalogue has log odds {:.1f} against none; a name needs {:.1f}.",
                        result.log_odds, result.threshold);
   if (result.effects.empty()) return "No cause of the catalogue is likely enough to be named.";
   std::string text;
-  if (result.verdict == "unknown")
+  if (result.verdict == diagnosis::Verdict::unknown)
     text = fmt::format("Not sure: {}. ",
                        result.after_extension && result.residual.dof > 0
                            ? fmt::format("with it in the model misfit is left (chi-squared {} on {} degrees of freedom)",
@@ -228,7 +228,8 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   const Effect& first = result.effects.front();
   text += fmt::format("Weighed against all other causes of the catalogue and against none, the {}cause has probability {}. ",
                       result.effects.size() > 1 ? "first " : "", probability_words(first.probability));
-  if (result.verdict == "unknown" && first.rivals.empty()) return text + "It is not the whole of what is wrong.";
+  if (result.verdict == diagnosis::Verdict::unknown && first.rivals.empty())
+    return text + "It is not the whole of what is wrong.";
   return text + rivals_words(first, ids);
 }
 
@@ -336,7 +337,8 @@ std::vector<std::string> measure_next(const Diagnosis& result, const PlaceWords&
                                  ids.in_text(effect.cause.candidate->id()), p.at_high_bound ? "a lower" : "an upper"));
     }
   }
-  if (result.verdict == "unknown" && !result.localisation.empty()) next.push_back(left_over_words(result, places));
+  if (result.verdict == diagnosis::Verdict::unknown && !result.localisation.empty())
+    next.push_back(left_over_words(result, places));
   std::map<std::string, std::vector<std::string>> lacking;
   for (const auto& none : invisible)
     if (none.reason.find("this model") == std::string::npos) lacking[none.reason].push_back(none.hypothesis);
@@ -356,7 +358,7 @@ Sentences sentences_of(const Inference& inference, const Diagnosis& result, cons
   const auto rivalled = std::find_if(result.effects.begin(), result.effects.end(),
                                      [](const Effect& e) { return e.cluster.size() > 1 && !e.split_by.empty(); });
   const bool open = !next.empty() && !next.front().starts_with("Cannot be asked");
-  if (result.verdict == "unknown" && !result.localisation.empty())
+  if (result.verdict == diagnosis::Verdict::unknown && !result.localisation.empty())
     out.next = left_over_words(result, places);
   else if (rivalled != result.effects.end())
     out.next = fmt::format("To tell {} from its nearest rival, measure {}.",

@@ -9,9 +9,11 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "diagnosis/null_calibration.hpp"
 #include "io/csv.hpp"
 #include "matching/mode_name.hpp"
 #include "steps/diagnosis/catalogue.hpp"
+#include "steps/diagnosis/features.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
 #include "steps/measured/measured_tables.hpp"
@@ -84,7 +86,7 @@ void reduce(const diagnosis::PlaceOptions& place_options, const BasisSize& size,
   structure.load_tests = load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
   diagnosis::ReductionOptions reduction;
   reduction.modes = size.modes;
-  // Fits end far from where the basis is made (full_model): parameters on bounds, workmanship off by several deviations.
+  // Fits end far from where the basis is made (full_model): parameters on bounds, element scatter off by several deviations.
   reduction.parameter_vectors = 60;
   reduction.least_correction = 2.5e-4;
   reduction.element_change = 0.1;
@@ -201,7 +203,7 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   if (config.nulls <= 0) return {diagnosis::analytic_threshold(inference, config.alpha), "analytic tail"};
   diagnosis::SearchOptions search = config.search;
   search.most_refined = static_cast<int>(config.most_refined);
-  const auto nulls = diagnosis::run_nulls(
+  const auto nulls = diagnosis::run_null_calibration(
       *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, search, static_cast<int>(config.nulls),
       context.seed + 17, [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); },
       bound_modes(config, inputs));

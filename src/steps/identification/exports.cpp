@@ -8,7 +8,9 @@
 #include <map>
 
 #include "io/atomic.hpp"
+#include "records/record.hpp"
 #include "records/universal.hpp"
+#include "records/write_universal.hpp"
 
 namespace twindeck::steps {
 

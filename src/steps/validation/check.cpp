@@ -1,3 +1,5 @@
+#include "steps/validation/check.hpp"
+
 #include <cmath>
 #include <numbers>
 

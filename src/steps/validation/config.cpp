@@ -1,3 +1,5 @@
+#include "steps/validation/config.hpp"
+
 #include "steps/shared/limits.hpp"
 #include "steps/validation/validation.hpp"
 

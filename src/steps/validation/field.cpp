@@ -1,3 +1,5 @@
+#include "steps/validation/field.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,6 +14,17 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Segments of the spectra: longer ones are fewer, and their coherence scatters more. The limits below rest on this length.
+constexpr double kSegment_s = 64.0;
+/// Limits of 20 seeds of 600 s, three standard deviations of the mean at the worst of 60 points; shorter work scatters more.
+constexpr double kLimitSeeds = 20.0, kLimitDuration_s = 600.0;
+constexpr double kAlongLimit = 0.05, kVerticalLimit = 0.02;       ///< [-] of the standard deviation of v' and of w'
+constexpr double kSpectrumLimit = 0.015, kCoherenceLimit = 0.05;  ///< [-] RMS over frequencies; over pairs and frequencies
+
+}  // namespace
+
 FieldStatistics::FieldStatistics(std::string event, const wind::Simulator& along, const wind::Simulator& vertical, long seeds)
     : event_(std::move(event)), simulators_{&along, &vertical}, seeds_(static_cast<std::size_t>(seeds)) {
   // No wave at or above the cutoff: every stride-th sample tells all.
@@ -19,8 +32,7 @@ FieldStatistics::FieldStatistics(std::string event, const wind::Simulator& along
   const double cutoff = static_cast<double>(along.n_waves() + 1) * along.spacing_Hz();
   stride_ = std::max<Index>(1, static_cast<Index>(rate / (2.0 * cutoff)));
   rate_Hz_ = rate / static_cast<double>(stride_);
-  // 64 s, on which the limits of the verification rest: longer segments are fewer, and their coherence scatters more.
-  const auto segment = 2 * static_cast<Index>(std::llround(32.0 * rate_Hz_));
+  const auto segment = 2 * static_cast<Index>(std::llround(0.5 * kSegment_s * rate_Hz_));
   segment_ = std::min<Index>({1024, segment, along.n_samples() / stride_ / 8 * 2});
   const Index n = along.field().size();
   for (Index i = 0; i < 8 && i < n; ++i)
@@ -44,10 +56,9 @@ void FieldStatistics::add(long seed, const MatrixXd& gusts) {
 
 std::vector<FieldCheck> FieldStatistics::checks() const {
   std::vector<FieldCheck> out;
-  // Limits of 20 seeds of 600 s (three standard deviations of the mean at the worst of 60 points); shorter work scatters more.
   const wind::Simulator& any = *simulators_[0];
-  const double scatter = std::sqrt(20.0 * 600.0 * any.spacing_Hz() / static_cast<double>(seeds_.size()));
-  const std::array<double, 2> limit = {0.05, 0.02};
+  const double scatter = std::sqrt(kLimitSeeds * kLimitDuration_s * any.spacing_Hz() / static_cast<double>(seeds_.size()));
+  const std::array<double, 2> limit = {kAlongLimit, kVerticalLimit};
   for (std::size_t c = 0; c < 2; ++c) {
     const wind::FieldDefinition& field = simulators_[c]->field();
     const std::string letter = wind::paper_letter(field.component);
@@ -91,9 +102,9 @@ std::vector<FieldCheck> FieldStatistics::checks() const {
         }
       }
     }
-    out.push_back({event_, "psd_" + letter + "_relative_error", 0.0, std::sqrt(error), 0.015 * scatter});
+    out.push_back({event_, "psd_" + letter + "_relative_error", 0.0, std::sqrt(error), kSpectrumLimit * scatter});
     out.push_back({event_, "coherence_" + letter + "_error", 0.0,
-                   std::sqrt(difference / static_cast<double>(std::max<Index>(pairs, 1))), 0.05 * scatter});
+                   std::sqrt(difference / static_cast<double>(std::max<Index>(pairs, 1))), kCoherenceLimit * scatter});
   }
   return out;
 }

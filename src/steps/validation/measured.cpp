@@ -1,3 +1,5 @@
+#include "steps/validation/measured.hpp"
+
 #include <algorithm>
 #include <filesystem>
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "steps/validation/field.hpp"
 #include "steps/validation/validation.hpp"
 
 /// What s8_validation writes.
@@ -18,11 +19,6 @@ namespace twindeck::steps {
 /// 1), empty without a measured side. The bounds are those of the mean over seeds.
 void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
                const ValidationConfig& config, const std::filesystem::path& folder);
-
-/// statements.csv: `statement,found,verdict`: what section 6 says about Table 13, hit or miss on ours; no rows where the
-/// simulations NS1 to NS3, the events August and April or the channels M1 to M8 are not all there with a measured side.
-void write_statements(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
-                      const std::filesystem::path& folder);
 
 /// comfort.csv: `event,run,direction,deck,station_m,peak_m_s2,peak_low_m_s2,peak_high_m_s2,limit_m_s2,verdict`: the aerodynamic
 /// node with the largest mean peak, against the comfort limits.
@@ -39,28 +35,5 @@ void write_hybrid(const BridgeInWind& bridge, const std::filesystem::path& folde
 
 /// checks.csv: `check,channel,reference_m_s2,found_m_s2,difference_pct,allowed_pct,verdict`.
 void write_time_checks(const std::vector<TimeCheck>& checks, const std::filesystem::path& folder);
-
-/// Collects what the samples have, seed by seed in any order; one instance an event.
-class FieldStatistics {
- public:
-  FieldStatistics(std::string event, const wind::Simulator& along, const wind::Simulator& vertical, long seeds);
-  /// @param gusts  (n_samples × 2 n_points) v' of every point, then w'; may be called by several threads, for different seeds
-  void add(long seed, const Eigen::MatrixXd& gusts);
-  /// Standard deviation (mean and worst point), spectrum (rms over frequencies), coherence (rms over pairs and frequencies).
-  [[nodiscard]] std::vector<FieldCheck> checks() const;
-
- private:
-  struct Seed {
-    Eigen::VectorXd mean_square;                         ///< (2 n_points)
-    std::array<Eigen::VectorXd, 2> density;              ///< mean over points
-    std::array<std::vector<Eigen::MatrixXcd>, 2> cross;  ///< of the chosen points
-  };
-  std::string event_;
-  std::array<const wind::Simulator*, 2> simulators_;
-  Eigen::Index stride_, segment_;
-  double rate_Hz_;
-  std::vector<Eigen::Index> chosen_;
-  std::vector<Seed> seeds_;
-};
 
 }  // namespace twindeck::steps

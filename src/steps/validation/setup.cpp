@@ -1,3 +1,5 @@
+#include "steps/validation/setup.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,3 +1,5 @@
+#include "steps/validation/statements.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -54,7 +54,7 @@ std::string parameters_of(const diagnosis::Effect& effect) {
 }
 
 void print_evidence(const FormCase& hidden, const diagnosis::Diagnosis& result) {
-  fmt::print("{}: {}\n", result.verdict, result.message);
+  fmt::print("{}: {}\n", name_of(result.verdict), result.message);
   for (const diagnosis::Effect& effect : result.effects)
     fmt::print("  named {}: {}\n", fmt::join(effect.cluster, " or "), parameters_of(effect));
   int place = 0;

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "blind/form/measurement.hpp"
+#include "diagnosis/form_diagnosis.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/model.hpp"
 #include "test_places.hpp"
@@ -99,12 +100,11 @@ void score_size(const FormCase& hidden, const diagnosis::Diagnosis& result, Form
 }
 
 bool is_complete(const diagnosis::Diagnosis& result) {
-  static const std::set<std::string> verdicts = {"none", "named", "ambiguous", "unknown"};
   const bool whole = std::all_of(result.effects.begin(), result.effects.end(), [](const diagnosis::Effect& effect) {
     return effect.cause.candidate != nullptr && !effect.cluster.empty() && !effect.sentence.empty();
   });
-  return verdicts.contains(result.verdict) && result.form && result.form->frequency.level > 0.0 &&
-         std::isfinite(result.form->gain.low) && !result.message.empty() && whole;
+  return result.form && result.form->frequency.level > 0.0 && std::isfinite(result.form->gain.low) && !result.message.empty() &&
+         whole;
 }
 
 }  // namespace
@@ -138,10 +138,10 @@ FormCase make_form_case(std::uint64_t seed, std::optional<double> level) {
 }
 
 void score_answer(const FormCase& hidden, const diagnosis::Diagnosis& result, FormScore& score) {
-  score.verdict = result.verdict;
+  score.verdict = name_of(result.verdict);
   score.log_odds = result.log_odds;
   score.complete = is_complete(result);
-  score.answered = result.verdict == "named" || result.verdict == "ambiguous";
+  score.answered = result.verdict == diagnosis::Verdict::named || result.verdict == diagnosis::Verdict::ambiguous;
   std::vector<std::string> answers;
   for (const diagnosis::Effect& effect : result.effects) {
     answers.insert(answers.end(), effect.cluster.begin(), effect.cluster.end());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "aero/analytic_derivatives.hpp"
 #include "aero/flutter_derivatives.hpp"
 
 namespace {

@@ -8,6 +8,9 @@
 #include <functional>
 #include <numbers>
 
+#include "aero/analytic_derivatives.hpp"
+#include "aero/derivative_table.hpp"
+
 namespace {
 
 using namespace twindeck;

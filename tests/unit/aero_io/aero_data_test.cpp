@@ -10,6 +10,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "aero/derivative_table.hpp"
 #include "aero/laws.hpp"
 #include "core/error.hpp"
 #include "test_places.hpp"

@@ -117,7 +117,7 @@ TEST(FormScoring, CountsAnAnswerByItsSet) {
   hidden.hidden.sought = {{"mass"}, {"node:3"}, {}, 0.0};
   hidden.hidden.size_name = "";
   diagnosis::Diagnosis result;
-  result.verdict = "ambiguous";
+  result.verdict = diagnosis::Verdict::ambiguous;
   result.message = "one of two";
   result.effects.resize(1);
   result.effects[0].cluster = {"osc@node:3", "mass@node:3"};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "aero/analytic_derivatives.hpp"
 #include "buffeting/loads.hpp"
 
 namespace twindeck::buffeting {

@@ -80,7 +80,7 @@ TEST(Mirror, LeftAndRightAreAnsweredByEither) {
       std::erase_if(features.rows, [](const auto& row) { return row.channel == 0 || row.channel == 2; });
     const Examined e = diagnosed(chain, features, catalogue());
     ASSERT_FALSE(e.result.effects.empty()) << e.result.message;
-    EXPECT_EQ(e.result.verdict, "ambiguous");
+    EXPECT_EQ(e.result.verdict, diagnosis::Verdict::ambiguous);
     const auto& first = e.result.effects.front();
     const auto holds = [&](const std::string& id) {
       return std::find(first.cluster.begin(), first.cluster.end(), id) != first.cluster.end();

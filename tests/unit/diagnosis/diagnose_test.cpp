@@ -46,7 +46,7 @@ TEST(Diagnose, NothingIsFoundInNothing) {
   for (int i = 0; i < 12; ++i) {
     std::mt19937_64 random(static_cast<std::uint64_t>(40 + i));
     const Examined e = diagnosed(chain, chain.measure(chain.scattered(random), &random), hypotheses);
-    EXPECT_EQ(e.result.verdict, "none") << i << ": " << e.result.message;
+    EXPECT_EQ(e.result.verdict, diagnosis::Verdict::none) << i << ": " << e.result.message;
     EXPECT_LE(e.result.gain.low_pct, 0.0);
   }
 }
@@ -80,8 +80,8 @@ TEST(Diagnose, WithoutTheTrueFamilyTheAnswerIsUnknown) {
     auto without = hypotheses;
     std::erase_if(without, [](const auto& h) { return h.id == "tie"; });
     const Examined e = diagnosed(chain, features, without);
-    if (e.result.verdict == "unknown") ++unknown;
-    if (!e.result.effects.empty() && e.result.verdict != "unknown" && e.result.residual.p_value > 0.05)
+    if (e.result.verdict == diagnosis::Verdict::unknown) ++unknown;
+    if (!e.result.effects.empty() && e.result.verdict != diagnosis::Verdict::unknown && e.result.residual.p_value > 0.05)
       ++named_with_a_passing_test;
   }
   EXPECT_GE(with_the_family, 9);

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "chain.hpp"
+#include "steps/diagnosis/features.hpp"
 #include "steps/diagnosis/setup.hpp"
 #include "steps/measured/measured_tables.hpp"
 #include "test_places.hpp"

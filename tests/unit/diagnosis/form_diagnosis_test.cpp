@@ -1,5 +1,7 @@
 // A diagnosis whose model may be wrong in form. Oracles: exchanged channels are the same rows under other names; data of the
 // model itself; a truth with a spring that the model lacks.
+#include "diagnosis/form_diagnosis.hpp"
+
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
@@ -69,7 +71,7 @@ TEST(DiagnoseWithForm, SaysNoneOfDataOfTheModelItself) {
   for (unsigned i = 0; i < 6; ++i) {
     std::mt19937_64 random(40 + i);
     const auto result = with_form(examine(chain, all_rows(chain.measure(chain.scattered(random), &random)), hypotheses));
-    EXPECT_EQ(result.verdict, "none") << i << ": " << result.message;
+    EXPECT_EQ(result.verdict, diagnosis::Verdict::none) << i << ": " << result.message;
     ASSERT_TRUE(result.form);
     EXPECT_LT(result.form->frequency.level, 0.01) << i;  // the model is exact but for scatter
     EXPECT_NE(result.message.find("form error about"), std::string::npos);

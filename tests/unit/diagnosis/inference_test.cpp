@@ -122,7 +122,7 @@ TEST(Inference, FitDoesNotDependOnItsStart) {
 }
 
 TEST(Inference, DoublingAllDeviationsDividesTheOddsByAboutFour) {
-  // Rows without errors and next to no workmanship, so that the odds are half the fall of chi², which goes with 1/sigma².
+  // Rows without errors and next to no element scatter, so that the odds are half the fall of chi², which goes with 1/sigma².
   const Chain chain({.masses = 10, .parameters = false});
   ChainTruth truth = chain.as_modelled();
   truth.spring[4] = 0.8;

@@ -48,7 +48,7 @@ TEST(Sentences, ASoftSpringIsToldWithItsPlaceSizeProbabilityAndGain) {
   truth.spring[5] = 0.6;
   const Spoken spoken = speak(chain, chain.measure(truth));
   const diagnosis::Diagnosis& result = spoken.examined.result;
-  ASSERT_EQ(result.verdict, "named");
+  ASSERT_EQ(result.verdict, diagnosis::Verdict::named);
   const auto& effect = result.effects.front();
   EXPECT_TRUE(spoken.sentences.why.starts_with("The group g5 has 0.")) << spoken.sentences.why;
   EXPECT_NE(spoken.sentences.why.find("With 90 %: factor " + steps::number_in_words(effect.parameters[0].low) + " to " +
@@ -86,7 +86,7 @@ TEST(Sentences, WhatIsWrongIsTheQuantityThatIsFurthestOff) {
 TEST(Sentences, NothingWrongIsSaid) {
   const Chain chain({.masses = 8, .modes = 6});
   const Spoken spoken = speak(chain, chain.measure(chain.as_modelled()));
-  ASSERT_EQ(spoken.examined.result.verdict, "none");
+  ASSERT_EQ(spoken.examined.result.verdict, diagnosis::Verdict::none);
   EXPECT_TRUE(spoken.sentences.what.starts_with("Nothing that chance does not allow."));
   EXPECT_NE(spoken.sentences.how_much_better.find("no gain"), std::string::npos);
   // What cannot be asked is one line, however many families it is.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
+#include "diagnosis/form_diagnosis.hpp"
 #include "diagnosis/form_frame.hpp"
 
 namespace twindeck::tests {
@@ -110,7 +111,7 @@ TEST(States, NothingChangedIsNone) {
     const ChainTruth truth = chain.scattered(random);
     const auto result =
         asked(examine(chain, two_states(chain.measure(truth, &random), chain.measure(truth, &random)), catalogue()));
-    EXPECT_EQ(result.verdict, "none") << i << ": " << result.message;
+    EXPECT_EQ(result.verdict, diagnosis::Verdict::none) << i << ": " << result.message;
   }
 }
 
@@ -125,7 +126,7 @@ TEST(States, FindsWhatWasCut) {
   ASSERT_FALSE(result.effects.empty()) << result.message;
   EXPECT_TRUE(in_a_set(result, "stiffness@group:g6"));
   EXPECT_EQ(result.effects.front().cause.candidate->state, "after");
-  EXPECT_NE(result.verdict, "none");
+  EXPECT_NE(result.verdict, diagnosis::Verdict::none);
   if (result.effects.front().cause.candidate->id() == "stiffness@group:g6") {
     EXPECT_LT(result.effects.front().parameters[0].low, 0.4);
     EXPECT_GT(result.effects.front().parameters[0].high, 0.4);
@@ -162,7 +163,7 @@ TEST(States, FindsSeveralPartsThatChangedTogether) {
   const Examined e = examine(chain, two_states(chain.measure(before, &random), chain.measure(after, &random)),
                              catalogue({"stiffness", "gain", "pol"}));
   const auto result = asked(e);
-  EXPECT_NE(result.verdict, "none") << result.message;
+  EXPECT_NE(result.verdict, diagnosis::Verdict::none) << result.message;
   for (int storey = 0; storey < 3; ++storey) {
     const std::string id = "stiffness@group:g" + std::to_string(storey);
     bool found = false;
@@ -172,7 +173,7 @@ TEST(States, FindsSeveralPartsThatChangedTogether) {
       EXPECT_LT(effect.parameters[0].low, ratio[storey]) << id;
       EXPECT_GT(effect.parameters[0].high, ratio[storey]) << id;
     }
-    EXPECT_TRUE(found) << id << ": " << result.verdict << ", " << result.message;
+    EXPECT_TRUE(found) << id << ": " << name_of(result.verdict) << ", " << result.message;
   }
 }
 

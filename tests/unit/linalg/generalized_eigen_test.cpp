@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "linalg/inertia.hpp"
+
 namespace {
 
 using twindeck::linalg::Cholesky;

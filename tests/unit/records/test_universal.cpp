@@ -4,8 +4,11 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "records/record.hpp"
+#include "records/scan_universal.hpp"
 #include "records/universal.hpp"
 #include "records/universal_lines.hpp"
+#include "records/write_universal.hpp"
 #include "scratch.hpp"
 
 namespace twindeck::records {

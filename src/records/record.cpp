@@ -1,3 +1,5 @@
+#include "records/record.hpp"
+
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -8,7 +10,10 @@
 #include "io/npy.hpp"
 #include "io/regular_file.hpp"
 #include "records/mat_file.hpp"
-#include "records/record.hpp"
+#include "records/scan_hdf5.hpp"
+#include "records/scan_mat.hpp"
+#include "records/scan_text.hpp"
+#include "records/scan_universal.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;

@@ -1,10 +1,10 @@
+#include "diagnosis/predictor.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include "diagnosis/predictor.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -15,18 +15,25 @@ using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
+constexpr double kUsualDamping_pct = 0.5;       ///< structural, of a mode that was not measured: steel decks have 0.3 to 0.8
+constexpr double kLeastDamping_pct = 0.02;      ///< of a mode under white excitation, whose variance grows as 1 / damping
+constexpr double kLeastDampingPart = 1e-3;      ///< [-] of the structural damping: causes cannot take away all of it
+constexpr double kLeastFrequencyFactor = 0.05;  ///< [-] that an amplitude can leave of a frequency: its logarithm stays finite
+constexpr double kNearlyVertical = 0.9;  ///< [-] vertical part of a channel's direction from which "beside" is taken from x
+constexpr double kNoDirection = 1e-6;    ///< [-] length below which a channel has no direction beside its own
+
 }  // namespace
 
 double Predictor::structural_damping(const std::string& label) const {
   const auto& labels = map_.damping_modes_;
   const auto at = std::find(labels.begin(), labels.end(), label);
-  if (at == labels.end()) return 0.5;
+  if (at == labels.end()) return kUsualDamping_pct;
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
     const Nuisance& v = map_.nuisances()[j];
     if (v.kind == Nuisance::Kind::mode_damping && v.index == static_cast<int>(at - labels.begin()))
       return std::exp(v.mean + v.deviation * base_.x[static_cast<Index>(j)]);
   }
-  return 0.5;
+  return kUsualDamping_pct;
 }
 
 void Predictor::read_channels() {
@@ -42,9 +49,10 @@ void Predictor::read_channels() {
     const int channel = c.channels[0];
     const double angle = c.value(action.number.at("angle"), a) * std::numbers::pi / 180.0;
     const Eigen::Vector3d d = map_.features().direction[static_cast<std::size_t>(channel)];
-    Eigen::Vector3d beside = std::abs(d.z()) < 0.9 ? Eigen::Vector3d(-d.y(), d.x(), 0.0) : Eigen::Vector3d(1.0, 0.0, 0.0);
+    Eigen::Vector3d beside =
+        std::abs(d.z()) < kNearlyVertical ? Eigen::Vector3d(-d.y(), d.x(), 0.0) : Eigen::Vector3d(1.0, 0.0, 0.0);
     beside -= beside.dot(d) * d;
-    if (beside.norm() < 1e-6) return;
+    if (beside.norm() < kNoDirection) return;
     beside.normalize();
     Eigen::RowVectorXd other = Eigen::RowVectorXd::Zero(channel_rows_.cols());
     for (int k = 0; k < 3; ++k) other += beside[k] * map_.model().sensors.row(4 * channel + 1 + k);
@@ -85,59 +93,75 @@ VectorXcd Predictor::shape_at(const std::vector<int>& channels, const SolvedStat
   return motion(state).col(mode)(channels);
 }
 
-void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, Index mode, const VectorXcd&) {
-  const double f = state.modes.frequency_Hz(mode);
-  const bool complex_rows = !measured.imag_rows.empty();
-  VectorXcd h = shape_at(measured.real_channels, state, mode);
-  const auto count = static_cast<Index>(measured.real_rows.size());
-  Complex turn = 1.0;
-  if (!complex_rows) {  // measured as real: the model's shape turned to be as real as it can
+/// The model's shape as its channels show it, scaled to the measured one by weighted least squares on all rows of the shape.
+struct Predictor::ScaledShape {
+  bool complex_rows;                    ///< measured with imaginary parts
+  VectorXcd real_part, imaginary_part;  ///< at the channels of the real and of the imaginary rows, not scaled
+  Complex turn = 1.0;                   ///< of a shape that was measured as real: to be as real as it can
+  Complex scale = 1.0;
+};
+
+Predictor::ScaledShape Predictor::scaled_shape(const MeasuredMode& measured, const SolvedState& state, Index mode) {
+  ScaledShape out;
+  out.complex_rows = !measured.imag_rows.empty();
+  VectorXcd& h = out.real_part;
+  h = shape_at(measured.real_channels, state, mode);
+  if (!out.complex_rows) {
     const Complex square = (h.transpose() * h)(0);
-    turn = std::exp(Complex(0.0, -0.5 * std::arg(square)));
-    h *= turn;
+    out.turn = std::exp(Complex(0.0, -0.5 * std::arg(square)));
+    h *= out.turn;
   }
-  VectorXcd hi = complex_rows ? shape_at(measured.imag_channels, state, mode) : VectorXcd();
-  // Scale by weighted least squares on all rows of the shape.
+  VectorXcd& hi = out.imaginary_part;
+  if (out.complex_rows) hi = shape_at(measured.imag_channels, state, mode);
   Complex numerator = 0.0;
   double denominator = 0.0;
-  for (Index k = 0; k < count; ++k) {
+  for (Index k = 0; k < std::ssize(measured.real_rows); ++k) {
     const int row = measured.real_rows[static_cast<std::size_t>(k)];
     const double weight = 1.0 / map_.covariance_(row, row);
-    numerator += weight * map_.values_[row] * (complex_rows ? std::conj(h[k]) : Complex(h[k].real()));
-    denominator += weight * (complex_rows ? std::norm(h[k]) : h[k].real() * h[k].real());
+    numerator += weight * map_.values_[row] * (out.complex_rows ? std::conj(h[k]) : Complex(h[k].real()));
+    denominator += weight * (out.complex_rows ? std::norm(h[k]) : h[k].real() * h[k].real());
   }
   for (Index k = 0; k < hi.size(); ++k) {
     const int row = measured.imag_rows[static_cast<std::size_t>(k)];
     const double weight = 1.0 / map_.covariance_(row, row);
     numerator += weight * Complex(0.0, map_.values_[row]) * std::conj(hi[k]);
   }
-  Complex scale = denominator > 0.0 ? numerator / denominator : Complex(1.0);
-  if (!complex_rows) scale = scale.real();
-  double norm = 0.0;
-  for (Index k = 0; k < count; ++k) {
-    const int row = measured.real_rows[static_cast<std::size_t>(k)];
-    out_.g[row] = (scale * h[k]).real();
-    norm += out_.g[row] * out_.g[row];
-  }
-  for (Index k = 0; k < hi.size(); ++k) out_.g[measured.imag_rows[static_cast<std::size_t>(k)]] = (scale * hi[k]).imag();
+  out.scale = denominator > 0.0 ? numerator / denominator : Complex(1.0);
+  if (!out.complex_rows) out.scale = out.scale.real();
+  return out;
+}
+
+void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, Index mode) {
+  const ScaledShape shape = scaled_shape(measured, state, mode);
+  const VectorXcd& h = shape.real_part;
+  const VectorXcd& hi = shape.imaginary_part;
+  const auto count = std::ssize(measured.real_rows);
   VectorXcd y(count), model(count);
   for (Index k = 0; k < count; ++k) {
-    y[k] = map_.values_[measured.real_rows[static_cast<std::size_t>(k)]];
-    model[k] = complex_rows ? (scale * h[k]).real() : h[k].real();
+    const int row = measured.real_rows[static_cast<std::size_t>(k)];
+    out_.g[row] = (shape.scale * h[k]).real();
+    y[k] = map_.values_[row];
+    model[k] = shape.complex_rows ? (shape.scale * h[k]).real() : h[k].real();
   }
+  for (Index k = 0; k < hi.size(); ++k) out_.g[measured.imag_rows[static_cast<std::size_t>(k)]] = (shape.scale * hi[k]).imag();
   out_.mac[static_cast<std::size_t>(&measured - map_.modes_.data())] = likeness(model, y)[0];
   if (!with_jacobian_) return;
   for (Index k = 0; k < count; ++k) {
     const int row = measured.real_rows[static_cast<std::size_t>(k)];
     out_.scales(row, scale_) = out_.g[row];
-    if (complex_rows) out_.scales(row, scale_ + 1) = (Complex(0, 1) * scale * h[k]).real();
+    if (shape.complex_rows) out_.scales(row, scale_ + 1) = (Complex(0, 1) * shape.scale * h[k]).real();
   }
   for (Index k = 0; k < hi.size(); ++k) {
     const int row = measured.imag_rows[static_cast<std::size_t>(k)];
     out_.scales(row, scale_) = out_.g[row];
-    out_.scales(row, scale_ + 1) = (Complex(0, 1) * scale * hi[k]).imag();
+    out_.scales(row, scale_ + 1) = (Complex(0, 1) * shape.scale * hi[k]).imag();
   }
-  scale_ += complex_rows ? 2 : 1;
+  scale_ += shape.complex_rows ? 2 : 1;
+  differentiate_shape(measured, state, mode, shape);
+}
+
+void Predictor::differentiate_shape(const MeasuredMode& measured, SolvedState& state, Index mode, const ScaledShape& shape) {
+  const double f = state.modes.frequency_Hz(mode);
   const ModeDerivative& d = derivative(state, mode);
   const auto& position = changes(state).position;
   const auto n = static_cast<Index>(state.columns.size());
@@ -153,7 +177,7 @@ void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, 
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const Complex late = std::exp(Complex(0.0, -2.0 * std::numbers::pi * f * channel_delay_s_[channels[k]]));
       for (std::size_t j = 0; j < position.size(); ++j) {
-        const Complex value = scale * turn * late * change(static_cast<Index>(k), static_cast<Index>(j));
+        const Complex value = shape.scale * shape.turn * late * change(static_cast<Index>(k), static_cast<Index>(j));
         out_.jacobian(rows[k], position[j]) = imaginary ? value.imag() : value.real();
       }
     }
@@ -168,27 +192,22 @@ void Predictor::predict_shape(const MeasuredMode& measured, SolvedState& state, 
   }
 }
 
-void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position) {
-  const int chosen = out_.paired[position];
-  if (chosen < 0) {
-    out_.valid = false;  // fewer computed modes than measured ones
-    return;
-  }
-  SolvedState& state = solved(measured.condition);
+Predictor::AddedToMode Predictor::added_to(const MeasuredMode& measured, const SolvedState& state, Index mode) const {
   const Condition& condition = map_.features().conditions[static_cast<std::size_t>(measured.condition)];
-  const Complex s = state.modes.s[chosen];
-  VectorXcd phi = state.modes.shapes.col(chosen);
-  double shift = 0.0, added_pct = 0.0;
+  const Complex s = state.modes.s[mode];
+  const VectorXcd phi = state.modes.shapes.col(mode);
+  AddedToMode added;
   each_action("frequency.amplitude", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     if (!c.mode.empty() && c.mode != measured.label) return;
     const double amplitude = condition.amplitude_m.value_or(0.0);
-    shift += std::log(std::max(1.0 + c.value(action.number.at("curvature"), a) * amplitude * amplitude, 0.05));
+    added.frequency +=
+        std::log(std::max(1.0 + c.value(action.number.at("curvature"), a) * amplitude * amplitude, kLeastFrequencyFactor));
   });
   each_action("damping.add", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-    if (c.mode.empty() || c.mode == measured.label) added_pct += 100.0 * c.value(action.number.at("ratio"), a);
+    if (c.mode.empty() || c.mode == measured.label) added.damping_pct += 100.0 * c.value(action.number.at("ratio"), a);
   });
   each_action("wind.damping", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-    added_pct += 100.0 * c.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
+    added.damping_pct += 100.0 * c.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
   });
   each_action("person.oscillator", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     const double people = condition.people.value_or(0.0);
@@ -202,36 +221,36 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
                  zp = c.value(action.number.at("damping"), a);
     const Complex transfer = (2.0 * zp * wp * s + wp * wp) / (s * s + 2.0 * zp * wp * s + wp * wp);
     const Complex change = -0.5 * ratio * (transfer - 1.0);  // ds/s for a mass that follows by `transfer` instead of rigidly
-    shift += change.real();
-    added_pct += -100.0 * change.imag();
+    added.frequency += change.real();
+    added.damping_pct += -100.0 * change.imag();
   });
-  out_.frequency_Hz[position] = state.modes.frequency_Hz(chosen) * std::exp(shift);
-  if (measured.frequency >= 0) out_.g[measured.frequency] = std::log(out_.frequency_Hz[position]);
-  const std::string damping_name = map_.damping_name(measured.label, measured.condition);
-  const double own = structural_damping(damping_name);
-  const double total = std::max(own + 100.0 * state.modes.damping(chosen) + added_pct, 1e-3 * own);
-  if (measured.damping >= 0) out_.g[measured.damping] = std::log(total);
-  if (with_jacobian_ && (measured.frequency >= 0 || measured.damping >= 0)) {
-    const ModeDerivative& d = derivative(state, chosen);
-    const auto& position_of = changes(state).position;
-    for (std::size_t j = 0; j < position_of.size(); ++j) {
-      const Complex ds = d.s[static_cast<Index>(j)];
-      const double relative = (ds / s).real();
-      if (measured.frequency >= 0) out_.jacobian(measured.frequency, position_of[j]) = relative;
-      if (measured.damping >= 0)
-        out_.jacobian(measured.damping, position_of[j]) =
-            100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total;
-    }
-    if (measured.damping >= 0) {
-      for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
-        const Nuisance& v = map_.nuisances_[j];
-        if (v.kind == Nuisance::Kind::mode_damping && map_.damping_modes_[static_cast<std::size_t>(v.index)] == damping_name)
-          out_.jacobian(measured.damping, static_cast<Index>(j)) = v.deviation * own / total;
-      }
+  return added;
+}
+
+void Predictor::differentiate_mode(const MeasuredMode& measured, SolvedState& state, Index mode,
+                                   const std::string& damping_name, double own_pct, double total_pct) {
+  const Complex s = state.modes.s[mode];
+  const ModeDerivative& d = derivative(state, mode);
+  const auto& position_of = changes(state).position;
+  for (std::size_t j = 0; j < position_of.size(); ++j) {
+    const Complex ds = d.s[static_cast<Index>(j)];
+    const double relative = (ds / s).real();
+    if (measured.frequency >= 0) out_.jacobian(measured.frequency, position_of[j]) = relative;
+    if (measured.damping >= 0)
+      out_.jacobian(measured.damping, position_of[j]) =
+          100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total_pct;
+  }
+  if (measured.damping >= 0) {
+    for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
+      const Nuisance& v = map_.nuisances_[j];
+      if (v.kind == Nuisance::Kind::mode_damping && map_.damping_modes_[static_cast<std::size_t>(v.index)] == damping_name)
+        out_.jacobian(measured.damping, static_cast<Index>(j)) = v.deviation * own_pct / total_pct;
     }
   }
-  if (measured.real_rows.empty()) return;
-  int shape_of = chosen;
+}
+
+int Predictor::mode_of_shape(const MeasuredMode& measured, std::size_t position) const {
+  int shape_of = out_.paired[position];
   each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
     std::vector<std::size_t> same;
     for (std::size_t m = 0; m < map_.modes_.size(); ++m)
@@ -245,83 +264,117 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
       break;
     }
   });
-  if (shape_of >= 0) predict_shape(measured, state, shape_of, state.modes.shapes.col(shape_of));
+  return shape_of;
+}
+
+void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position) {
+  const int chosen = out_.paired[position];
+  if (chosen < 0) {
+    out_.valid = false;  // fewer computed modes than measured ones
+    return;
+  }
+  SolvedState& state = solved(measured.condition);
+  const AddedToMode added = added_to(measured, state, chosen);
+  out_.frequency_Hz[position] = state.modes.frequency_Hz(chosen) * std::exp(added.frequency);
+  if (measured.frequency >= 0) out_.g[measured.frequency] = std::log(out_.frequency_Hz[position]);
+  const std::string damping_name = map_.damping_name(measured.label, measured.condition);
+  const double own = structural_damping(damping_name);
+  const double total = std::max(own + 100.0 * state.modes.damping(chosen) + added.damping_pct, kLeastDampingPart * own);
+  if (measured.damping >= 0) out_.g[measured.damping] = std::log(total);
+  if (with_jacobian_ && (measured.frequency >= 0 || measured.damping >= 0))
+    differentiate_mode(measured, state, chosen, damping_name, own, total);
+  if (measured.real_rows.empty()) return;
+  const int shape_of = mode_of_shape(measured, position);
+  if (shape_of >= 0) predict_shape(measured, state, shape_of);
+}
+
+Index Predictor::level_of(int c, bool floor) const {
+  for (std::size_t j = 0; j < map_.nuisances_.size(); ++j)
+    if (map_.nuisances_[j].kind == Nuisance::Kind::level && map_.nuisances_[j].index == 2 * c + (floor ? 1 : 0))
+      return static_cast<Index>(j);
+  return -1;
+}
+
+std::vector<double> Predictor::excitation_weights(int c, const SolvedState& state) const {
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
+  std::vector<double> weight;
+  for (Index i = 0; i < state.modes.s.size(); ++i) {  // white excitation: variance of acceleration of a mode ~ omega / zeta
+    std::string label;
+    for (std::size_t m = 0; m < map_.modes_.size(); ++m)
+      if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) &&
+          of_condition_.at(map_.modes_[m].condition) == &state && map_.same_state(map_.modes_[m].condition, c))
+        label = map_.modes_[m].label;
+    double zeta_pct =
+        (label.empty() ? kUsualDamping_pct : structural_damping(map_.damping_name(label, c))) + 100.0 * state.modes.damping(i);
+    each_action("wind.damping", condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+      zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
+    });
+    weight.push_back(std::abs(state.modes.s[i]) / std::max(zeta_pct, kLeastDamping_pct) *
+                     wind_weight(condition, state, i, label));
+  }
+  return weight;
+}
+
+void Predictor::predict_floor(std::size_t r) {
+  const Row& row = map_.features().rows[r];
+  const auto at = static_cast<Index>(r);
+  const Index j = level_of(row.condition, true);
+  const Nuisance& level = map_.nuisances_[static_cast<std::size_t>(j)];
+  double g = level.deviation * base_.x[j];
+  each_action("channel.floor", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+    if (candidate.channels[0] == row.channel) g += std::log(candidate.value(action.number.at("factor"), a));
+  });
+  each_action("channel.gain", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+    if (candidate.channels[0] == row.channel) g += 2.0 * std::log(candidate.value(action.number.at("factor"), a));
+  });
+  out_.g[at] = g;
+  if (with_jacobian_) out_.jacobian(at, j) = level.deviation;
+}
+
+void Predictor::predict_rms(std::size_t r, SolvedState& state, const std::vector<double>& weight) {
+  const Row& row = map_.features().rows[r];
+  const auto at = static_cast<Index>(r);
+  double variance = 0.0;
+  VectorXd slope = VectorXd::Zero(with_jacobian_ ? static_cast<Index>(map_.nuisances_.size()) : 0);
+  for (Index i = 0; i < state.modes.s.size(); ++i) {
+    const Complex h = motion(state)(row.channel, i);
+    variance += weight[static_cast<std::size_t>(i)] * std::norm(h);
+    if (!with_jacobian_) continue;
+    const ModeDerivative& d = derivative(state, i);
+    const auto& position_of = changes(state).position;
+    const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows_.row(row.channel)(state.columns);
+    const Eigen::RowVectorXcd dh = sensor.cast<Complex>() * d.shapes.topRows(sensor.size());
+    for (std::size_t j = 0; j < position_of.size(); ++j) {
+      const auto k = static_cast<Index>(j);
+      slope[position_of[j]] += weight[static_cast<std::size_t>(i)] *
+                               (2.0 * (std::conj(h) * dh[k]).real() + std::norm(h) * (d.s[k] / state.modes.s[i]).real());
+    }
+  }
+  double gain = 1.0;
+  each_action("channel.limit", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+    if (candidate.channels[0] == row.channel) gain *= candidate.value(action.number.at("factor"), a);
+  });
+  const Index j = level_of(row.condition, false);
+  const Nuisance& level = map_.nuisances_[static_cast<std::size_t>(j)];
+  out_.g[at] = 0.5 * std::log(std::max(variance, 1e-300)) + std::log(gain) + level.deviation * base_.x[j];
+  if (!with_jacobian_) return;
+  out_.jacobian.row(at) = slope.transpose() / (2.0 * std::max(variance, 1e-300));
+  out_.jacobian(at, j) = level.deviation;
+  for (std::size_t k = 0; k < map_.nuisances_.size(); ++k)
+    if (map_.nuisances_[k].kind == Nuisance::Kind::gain && map_.nuisances_[k].index == row.channel)
+      out_.jacobian(at, static_cast<Index>(k)) = map_.nuisances_[k].deviation;
 }
 
 void Predictor::predict_load(int c) {
-  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
-  bool records = false;
-  for (const Row& row : map_.features().rows) records = records || (row.condition == c && row.type == RowType::rms);
-  const auto level_of = [&](bool floor) -> Index {
-    for (std::size_t j = 0; j < map_.nuisances_.size(); ++j)
-      if (map_.nuisances_[j].kind == Nuisance::Kind::level && map_.nuisances_[j].index == 2 * c + (floor ? 1 : 0))
-        return static_cast<Index>(j);
-    return -1;
-  };
-  const auto level = [&](Index j) { return map_.nuisances_[static_cast<std::size_t>(j)].deviation * base_.x[j]; };
+  const auto& rows = map_.features().rows;
+  const bool records =
+      std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.condition == c && row.type == RowType::rms; });
   SolvedState* state = records ? &solved(c) : nullptr;
-  std::vector<double> weight;
-  if (state != nullptr) {  // white excitation: variance of acceleration of a mode ~ omega / zeta
-    for (Index i = 0; i < state->modes.s.size(); ++i) {
-      std::string label;
-      for (std::size_t m = 0; m < map_.modes_.size(); ++m)
-        if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) &&
-            of_condition_.at(map_.modes_[m].condition) == state && map_.same_state(map_.modes_[m].condition, c))
-          label = map_.modes_[m].label;
-      double zeta_pct =
-          (label.empty() ? 0.5 : structural_damping(map_.damping_name(label, c))) + 100.0 * state->modes.damping(i);
-      each_action("wind.damping", condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-        zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
-      });
-      weight.push_back(std::abs(state->modes.s[i]) / std::max(zeta_pct, 0.02) * wind_weight(condition, *state, i, label));
-    }
-  }
-  for (std::size_t r = 0; r < map_.features().rows.size(); ++r) {
-    const Row& row = map_.features().rows[r];
-    const auto at = static_cast<Index>(r);
-    if (row.condition != c) continue;
-    if (row.type == RowType::psd_floor) {
-      const Index j = level_of(true);
-      double g = level(j);
-      each_action("channel.floor", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-        if (candidate.channels[0] == row.channel) g += std::log(candidate.value(action.number.at("factor"), a));
-      });
-      each_action("channel.gain", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-        if (candidate.channels[0] == row.channel) g += 2.0 * std::log(candidate.value(action.number.at("factor"), a));
-      });
-      out_.g[at] = g;
-      if (with_jacobian_) out_.jacobian(at, j) = map_.nuisances_[static_cast<std::size_t>(j)].deviation;
-    }
-    if (row.type != RowType::rms) continue;
-    double variance = 0.0;
-    Eigen::VectorXd slope = Eigen::VectorXd::Zero(with_jacobian_ ? static_cast<Index>(map_.nuisances_.size()) : 0);
-    double gain = 1.0;
-    for (Index i = 0; i < state->modes.s.size(); ++i) {
-      const Complex h = motion(*state)(row.channel, i);
-      variance += weight[static_cast<std::size_t>(i)] * std::norm(h);
-      if (!with_jacobian_) continue;
-      const ModeDerivative& d = derivative(*state, i);
-      const auto& position_of = changes(*state).position;
-      const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows_.row(row.channel)(state->columns);
-      const Eigen::RowVectorXcd dh = sensor.cast<Complex>() * d.shapes.topRows(sensor.size());
-      for (std::size_t j = 0; j < position_of.size(); ++j) {
-        const auto k = static_cast<Index>(j);
-        slope[position_of[j]] += weight[static_cast<std::size_t>(i)] *
-                                 (2.0 * (std::conj(h) * dh[k]).real() + std::norm(h) * (d.s[k] / state->modes.s[i]).real());
-      }
-    }
-    each_action("channel.limit", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-      if (candidate.channels[0] == row.channel) gain *= candidate.value(action.number.at("factor"), a);
-    });
-    const Index j = level_of(false);
-    out_.g[at] = 0.5 * std::log(std::max(variance, 1e-300)) + std::log(gain) + level(j);
-    if (with_jacobian_) {
-      out_.jacobian.row(at) = slope.transpose() / (2.0 * std::max(variance, 1e-300));
-      out_.jacobian(at, j) = map_.nuisances_[static_cast<std::size_t>(j)].deviation;
-      for (std::size_t k = 0; k < map_.nuisances_.size(); ++k)
-        if (map_.nuisances_[k].kind == Nuisance::Kind::gain && map_.nuisances_[k].index == row.channel)
-          out_.jacobian(at, static_cast<Index>(k)) = map_.nuisances_[k].deviation;
-    }
+  const std::vector<double> weight = records ? excitation_weights(c, *state) : std::vector<double>{};
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].condition != c) continue;
+    if (rows[r].type == RowType::psd_floor) predict_floor(r);
+    if (rows[r].type == RowType::rms) predict_rms(r, *state, weight);
   }
 }
 
@@ -340,7 +393,7 @@ void Predictor::predict_stays() {
         for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
           const Nuisance& v = map_.nuisances_[j];
           if (v.kind != Nuisance::Kind::stay_pull || v.index != static_cast<int>(i)) continue;
-          g += 0.5 * v.deviation * base_.x[static_cast<Index>(j)];  // f ~ sqrt(pull)
+          g += 0.5 * v.deviation * base_.x[static_cast<Index>(j)];  // f ~ sqrt(force)
           if (with_jacobian_) out_.jacobian(at, static_cast<Index>(j)) = 0.5 * v.deviation;
         }
         const Condition& condition = map_.features().conditions[static_cast<std::size_t>(row.condition)];
@@ -348,7 +401,7 @@ void Predictor::predict_stays() {
           if (c.places[0] == &stay) g += std::log(c.value(action.number.at("factor"), a));
         });
         each_action("stay.pull", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-          if (c.places[0] == &stay) g += 0.5 * std::log(c.value(action.number.at("factor"), a));  // f ~ sqrt(pull)
+          if (c.places[0] == &stay) g += 0.5 * std::log(c.value(action.number.at("factor"), a));  // f ~ sqrt(force)
         });
       }
     }

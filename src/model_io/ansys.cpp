@@ -1,14 +1,22 @@
+#include "model_io/ansys.hpp"
+
 #include <fmt/format.h>
 
 #include <fstream>
 #include <map>
 
 #include "core/error.hpp"
-#include "model_io/ansys.hpp"
+#include "model_io/ansys_blocks.hpp"
+#include "model_io/ansys_equations.hpp"
 #include "model_io/ansys_ignored.hpp"
+#include "model_io/ansys_mesh.hpp"
 #include "model_io/ansys_parts.hpp"
+#include "model_io/ansys_properties.hpp"
+#include "model_io/ansys_selection.hpp"
+#include "model_io/ansys_supports.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/inp_cards.hpp"
+#include "model_io/model_toml.hpp"
 
 namespace twindeck::model_io {
 namespace ansys {

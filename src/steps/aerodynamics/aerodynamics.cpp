@@ -1,3 +1,5 @@
+#include "steps/aerodynamics/aerodynamics.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 
 #include "core/angle.hpp"
 #include "io/csv.hpp"
-#include "steps/aerodynamics/aerodynamics.hpp"
 #include "steps/aerodynamics/outputs.hpp"
 #include "transient/reduced_basis.hpp"
 

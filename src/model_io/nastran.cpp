@@ -1,3 +1,5 @@
+#include "model_io/nastran.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,9 +10,14 @@
 #include "core/error.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/inp_cards.hpp"
-#include "model_io/nastran.hpp"
+#include "model_io/model_toml.hpp"
+#include "model_io/nastran_elements.hpp"
+#include "model_io/nastran_grids.hpp"
 #include "model_io/nastran_ignored.hpp"
+#include "model_io/nastran_masses.hpp"
 #include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_springs.hpp"
+#include "model_io/nastran_supports.hpp"
 #include "model_io/nastran_units.hpp"
 
 namespace twindeck::model_io {

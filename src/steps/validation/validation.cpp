@@ -1,3 +1,5 @@
+#include "steps/validation/validation.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +12,7 @@
 #include "core/parallel.hpp"
 #include "steps/aerodynamics/turbulence_sets.hpp"
 #include "steps/validation/outputs.hpp"
-#include "steps/validation/validation.hpp"
+#include "steps/validation/statements.hpp"
 
 namespace twindeck::steps {
 
@@ -26,11 +28,14 @@ struct Prepared {
   transient::Newmark newmark;
 };
 
+/// Spacing of frequencies where the bridge has its modes, and above them.
+constexpr double kFine_Hz = 4e-3, kFineUpTo_Hz = 3.0, kCoarse_Hz = 4e-2;
+
 /// Frequencies to the cutoff. The trapezoid rule over a resonance of damping xi errs by exp(-2 pi xi f / spacing): 0.3 % for
 /// the first mode at 0.5 %, and less for the wider ones above it.
 Eigen::VectorXd spectral_frequencies(double cutoff_Hz) {
   std::vector<double> f;
-  for (double x = 4e-3; x < cutoff_Hz; x += x < 3.0 ? 4e-3 : 4e-2) f.push_back(x);
+  for (double x = kFine_Hz; x < cutoff_Hz; x += x < kFineUpTo_Hz ? kFine_Hz : kCoarse_Hz) f.push_back(x);
   return Eigen::Map<const Eigen::VectorXd>(f.data(), static_cast<Index>(f.size()));
 }
 

@@ -1,3 +1,5 @@
+#include "fe/assembly.hpp"
+
 #include "fe/assembly_pattern.hpp"
 #include "fe/assembly_terms.hpp"
 #include "fe/structure_parts.hpp"

@@ -1,3 +1,5 @@
+#include "diagnosis/null_calibration.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -28,9 +30,10 @@ class Normal {
 
 }  // namespace
 
-NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter,
-                     const std::vector<Hypothesis>& catalogue, const SearchOptions& search, int count, std::uint64_t seed,
-                     const std::function<void(int)>& progress, const std::map<std::string, int>& bound) {
+NullCalibration run_null_calibration(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter,
+                                     const std::vector<Hypothesis>& catalogue, const SearchOptions& search, int count,
+                                     std::uint64_t seed, const std::function<void(int)>& progress,
+                                     const std::map<std::string, int>& bound) {
   const Instantiated entries = instantiate(catalogue, model, features);
   FeatureMap original(model, features, scatter);
   original.bind_modes(bound);
@@ -38,7 +41,7 @@ NullResult run_nulls(const ReducedModel& model, const FeatureSet& features, cons
   const Inference nominal(original, entries.candidates);
   const Fit as_measured = nominal.fit({}, {});
   const ScreenTable table = as_measured.all.valid ? nominal.screen_table(as_measured) : ScreenTable{};
-  NullResult result;
+  NullCalibration result;
   result.log_odds.assign(static_cast<std::size_t>(count), 0.0);
   result.chi_squared.assign(static_cast<std::size_t>(count), 0.0);
   int done = 0;

@@ -1,3 +1,5 @@
+#include "model_io/inp.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,9 +7,14 @@
 
 #include "core/error.hpp"
 #include "model_io/folder_parts.hpp"
-#include "model_io/inp.hpp"
+#include "model_io/inp_assign.hpp"
+#include "model_io/inp_attachments.hpp"
 #include "model_io/inp_elements.hpp"
+#include "model_io/inp_links.hpp"
+#include "model_io/inp_materials.hpp"
+#include "model_io/inp_mesh.hpp"
 #include "model_io/inp_parts.hpp"
+#include "model_io/model_toml.hpp"
 
 namespace twindeck::model_io {
 namespace {

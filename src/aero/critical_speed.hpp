@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aero/follow_mode.hpp"
+
+namespace twindeck::aero {
+
+/// Where a mode's damping passes through zero from above.
+struct CriticalPoint {
+  int mode = 0;
+  double speed_m_s = 0.0, frequency_Hz = 0.0;
+  double still_air_frequency_Hz = 0.0;
+  ComplexMode motion;
+};
+/// First sign change along a branch, refined until the bracket is below 1e-10 of the speed. Empty if damping stays positive.
+[[nodiscard]] std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, const Branch& branch);
+/// The lowest critical point of the branches.
+[[nodiscard]] std::optional<CriticalPoint> lowest_critical_point(const AeroelasticSystem& system,
+                                                                 const std::vector<Branch>& branches);
+
+/// Data that explain a critical speed (by yaw rule): location of the vertical motion of the mode, growth of its lift damping.
+struct GallopingCharacter {
+  std::string deck;            ///< with the larger sum of z² L
+  double theta_rms_rad = 0.0;  ///< yaw on that deck, weighted with z² L
+  double deck_share = 0.0;     ///< of that deck in the sum of z² L
+  double exponent = 0.0;       ///< p = d ln|h1*| / d ln V*, of the sum over strips, at the critical point
+};
+[[nodiscard]] GallopingCharacter galloping_character(const AeroelasticSystem& system, const ComplexMode& motion,
+                                                     double speed_m_s);
+
+/// Speed of static divergence, |Λ - V² S| = 0: the lowest, or empty if there is none.
+[[nodiscard]] std::optional<double> divergence_speed(const AeroelasticSystem& system);
+
+/// Den Hartog's criterion on one coordinate by quasi-steady theory, with h1 = C_L' + C_D:
+///   V = 4 ω ξ / (-ρ sum B h1 z² L); empty where the sum does not excite.
+[[nodiscard]] std::optional<double> den_hartog_speed(const AeroelasticSystem& system, Eigen::Index coordinate);
+
+}  // namespace twindeck::aero

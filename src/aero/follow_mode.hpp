@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "aero/aeroelastic_system.hpp"
+#include "core/error.hpp"
+
+namespace twindeck::aero {
+
+/// A free vibration q = Re(vector e^(λt)).
+struct ComplexMode {
+  std::complex<double> lambda;
+  Eigen::VectorXcd vector;                     ///< (m) of unit length
+  [[nodiscard]] double frequency_Hz() const;   ///< Im λ/2π: of the oscillation itself
+  [[nodiscard]] double damping_ratio() const;  ///< -Re λ/|λ|, negative when it grows
+};
+
+/// Oscillating modes without wind, by |λ|, from the full state-space matrix (dashpots and Maxwell units included).
+[[nodiscard]] std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure);
+
+/// All eigenvalues of the state-space matrix with self-excited forces frozen at one frequency. @return (2m + n_maxwell)
+[[nodiscard]] Eigen::VectorXcd state_space_eigenvalues(const AeroelasticSystem& system, double speed_m_s, double omega_rad_s);
+
+/// One mode, tracked over the wind speed.
+struct Branch {
+  int mode = 0;  ///< position among still_air_modes, from 1
+  double still_air_frequency_Hz = 0.0;
+  std::vector<double> speed_m_s;
+  std::vector<ComplexMode> points;
+  Status status;  ///< not converged: where the mode was lost (it stopped oscillating, for instance)
+};
+
+/// Mode tracking through ascending speeds (p-K iteration: forces are those of harmonic motion at Im λ, so that the critical
+/// speed, where λ is imaginary, is exact). At each speed Newton's iteration on (λ² + λC + Λ - λCa - Ka) v = 0 from the mode at
+/// the speed before, forces renewed with Im λ; a step that loses the shape (MAC below one half) is halved.
+[[nodiscard]] Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air, int mode,
+                                 const std::vector<double>& speed_m_s);
+/// The mode at one speed, from a mode at a lower one. @return empty if it cannot be tracked
+[[nodiscard]] std::optional<ComplexMode> mode_at(const AeroelasticSystem& system, const ComplexMode& from,
+                                                 double from_speed_m_s, double speed_m_s);
+
+}  // namespace twindeck::aero

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference.hpp"
+
+namespace twindeck::diagnosis {
+
+struct EffectParameter {
+  std::string name, unit;
+  double value = 0.0, low = 0.0, high = 0.0;
+  bool at_low_bound = false, at_high_bound = false;  ///< the interval reaches the prior's end: a one-sided limit
+};
+
+/// 90 % intervals of the unknowns of one of the fit's causes, by the profile likelihood of each unknown, widened by
+/// the remaining misfit (Birge 1932).
+[[nodiscard]] std::vector<EffectParameter> effect_parameters(const Inference& inference, const Fit& fit, std::size_t which);
+
+}  // namespace twindeck::diagnosis

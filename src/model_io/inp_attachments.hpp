@@ -1,0 +1,12 @@
+#pragma once
+
+#include "model_io/inp_parts.hpp"
+
+/// Inside of the library: springs, masses and supports of an .inp file.
+namespace twindeck::model_io {
+
+void attach_inp_spring(InpParts& parts, const InpCard& card);
+void attach_inp_mass(InpParts& parts, const InpCard& card);
+void attach_inp_boundary(InpParts& parts, const InpCard& card);
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "model_io/folder_parts.hpp"
+
+/// Inside of the library: nodes.csv, materials.csv, sections.csv, which the other files refer to.
+namespace twindeck::model_io {
+
+void read_nodes(const std::filesystem::path& folder, fe::Model& model, NameIndex& index);
+void read_materials(const std::filesystem::path& folder, fe::Model& model, NameIndex& index);
+void read_sections(const std::filesystem::path& folder, fe::Model& model, NameIndex& index);
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+#include "diagnosis/features.hpp"
+#include "diagnosis/structure.hpp"
+#include "steps/measured/measured_choice.hpp"
+
+namespace twindeck::steps {
+
+/// All rows of a features folder (docs/my_records.md) with their conditions and channels, quality.csv and covariance.npy where
+/// they are there.
+/// @param choice  which conditions are kept, with their rows; what is put right in them first
+/// @throws InputError  with file, line, column: see steps/measured/feature_rows.hpp, measured_tables.hpp and corrections.hpp
+[[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder, const MeasuredChoice& choice = {});
+
+/// @throws InputError  naming the line of rows.csv, for a frequency of a stay that the model lacks, or has without a pull
+void refuse_unknown_stays(const diagnosis::FeatureSet& features, const diagnosis::Places& places,
+                          const std::filesystem::path& folder);
+
+/// @param folder  of the features
+/// @param model   folder of the model, or another source, which has no load cases
+/// @throws InputError  naming the line of conditions.toml, for a condition whose `load` is no load case of the model's
+/// loads.csv
+void refuse_unknown_loads(const std::filesystem::path& folder, const std::filesystem::path& model);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "steps/validation/setup.hpp"
+
+namespace twindeck::steps {
+
+/// An RMS two ways, of the vertical acceleration at a monitoring point.
+struct TimeCheck {
+  std::string name, channel;
+  double reference_m_s2 = 0.0, found_m_s2 = 0.0, allowed_pct = 1.0;
+};
+/// `half_step`: the first event and run, one seed, at half the time step. `full_model`: the same gust forces on the reduced
+/// structure and on the whole finite element model, dampers included, from rest, both with the same Rayleigh damping and
+/// without self-excited forces (which are forces of the strips alone, the same in both); left out where full_model_check is 0.
+[[nodiscard]] std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const wind::TurbulenceSet& set,
+                                                            const ValidationConfig& config, const StepContext& context);
+
+}  // namespace twindeck::steps

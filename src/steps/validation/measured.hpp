@@ -1,0 +1,18 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "steps/shared/run_step.hpp"
+#include "steps/validation/config.hpp"
+
+namespace twindeck::steps {
+
+/// RMS of the vertical acceleration in the campaign's wind records, by event and channel [m/s²]; a channel counts for the
+/// monitoring point whose name it has. Empty for events whose condition is not named. `--campaign`, or the study's s0_campaign.
+/// @throws InputError  if the campaign is there but has no wind record of a condition that is named
+using MeasuredRms = std::map<std::pair<std::string, std::string>, double>;
+[[nodiscard]] MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config);
+
+}  // namespace twindeck::steps
