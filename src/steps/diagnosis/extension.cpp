@@ -30,6 +30,15 @@ const diagnosis::Place* place_of(const diagnosis::Places& places, const std::str
   return nullptr;
 }
 
+/// What a location called after an element is made of: a zone, or a half of a zone or group.
+const diagnosis::Place* element_place(const diagnosis::Places& places, const std::string& id) {
+  if (!id.starts_with("element:")) return nullptr;
+  for (const auto& [set, list] : places.sets)
+    for (const diagnosis::Place& place : list)
+      if (place.id == id) return &place;
+  return nullptr;
+}
+
 int node_position(const fe::Model& model, const std::string& id) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (std::to_string(model.nodes[i].id) == id) return static_cast<int>(i);
@@ -148,12 +157,16 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const diagnosis::Places& pl
   if (action.kind == "scale.stiffness" || action.kind == "scale.mass") {
     const bool mass = action.kind == "scale.mass";
     const double factor = value("factor");
+    if (const diagnosis::Place* part = element_place(places, c.location); part != nullptr) {
+      scale_materials(model, part->elements, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
+      return true;
+    }
     if (c.hypothesis->set == "groups") {
       if (scale_parameter(model.parameters, theta, name, factor)) return true;
       scale_group(model, name, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
       return true;
     }
-    if (c.hypothesis->set == "elements" || c.hypothesis->set == "stays") {
+    if (c.hypothesis->set == "stays") {
       const diagnosis::Place* place = place_of(places, c.hypothesis->set, c.location);
       TWINDECK_ASSERT(place != nullptr);
       scale_materials(model, place->elements, mass ? 1.0 : factor, mass ? factor : 1.0, c.hypothesis->id + "_" + name);
