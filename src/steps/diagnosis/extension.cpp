@@ -31,6 +31,15 @@ const diagnosis::Place* place_of(const diagnosis::Places& places, const std::str
   return nullptr;
 }
 
+/// What a location called after an element is made of: a zone, or a half of a zone or group.
+const diagnosis::Place* element_place(const diagnosis::Places& places, const std::string& id) {
+  if (!id.starts_with("element:")) return nullptr;
+  for (const auto& [set, list] : places.sets)
+    for (const diagnosis::Place& place : list)
+      if (place.id == id) return &place;
+  return nullptr;
+}
+
 int node_position(const fe::Model& model, const std::string& id) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (std::to_string(model.nodes[i].id) == id) return static_cast<int>(i);
@@ -165,12 +174,16 @@ bool apply_scale(Extension& to, const ActionSpec& action) {
   const bool mass = action.kind == "scale.mass";
   const double factor = to.value(action, "factor");
   const std::string id = c.hypothesis->id + "_" + to.name;
+  if (const diagnosis::Place* part = element_place(to.places, c.location); part != nullptr) {
+    scale_materials(to.model, part->elements, mass ? 1.0 : factor, mass ? factor : 1.0, id);
+    return true;
+  }
   if (c.hypothesis->set == "groups") {
     if (scale_parameter(to.model.parameters, to.theta, to.name, factor)) return true;
     scale_group(to.model, to.name, mass ? 1.0 : factor, mass ? factor : 1.0, id);
     return true;
   }
-  if (c.hypothesis->set == "elements" || c.hypothesis->set == "stays") {
+  if (c.hypothesis->set == "stays") {
     scale_materials(to.model, to.place().elements, mass ? 1.0 : factor, mass ? factor : 1.0, id);
     return true;
   }

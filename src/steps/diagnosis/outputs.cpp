@@ -65,6 +65,7 @@ void add_place_and_rivals(const diagnosis::Effect& effect, const Told& told, nlo
   const PlaceInWords place = told.places.at(effect.cause.candidate->location);
   json["state"] = effect.state;
   json["place"] = {{"words", place.words}, {"x_m", place.x_m.x()}, {"y_m", place.x_m.y()}, {"z_m", place.x_m.z()}};
+  if (effect.within_m > 0.0) json["place"]["within_m"] = effect.within_m;
   json["rivals"] = nlohmann::ordered_json::array();
   for (const diagnosis::Rival& rival : effect.rivals)
     json["rivals"].push_back(

@@ -244,9 +244,9 @@ PlaceInWords PlaceWords::nodes(const std::vector<std::string>& names) const {
 }
 
 PlaceInWords PlaceWords::zone(const std::string& location, const std::string& name) const {
-  const auto set = places_.sets.find("elements");
-  if (set != places_.sets.end() && model_ != nullptr) {
-    for (const diagnosis::Place& place : set->second) {
+  for (const auto& [set, list] : places_.sets) {  // zones, and the halves of zones and groups
+    if (model_ == nullptr) break;
+    for (const diagnosis::Place& place : list) {
       if (place.id != location) continue;
       std::map<std::string, int> counts;
       for (const int e : place.elements) ++counts[model_->elements[static_cast<std::size_t>(e)].group];

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/form_diagnosis.hpp"
+#include "diagnosis/refinement.hpp"
 #include "steps/diagnosis/extension.hpp"
 #include "steps/diagnosis/measurement_corrections.hpp"
 #include "steps/diagnosis/outputs.hpp"
@@ -89,7 +90,7 @@ diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::Fea
 Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   Eigen::setNbThreads(1);  // small matrices, and sums must not depend on threads
   const auto begin = std::chrono::steady_clock::now();
-  const DiagnosisInputs inputs = read_diagnosis_inputs(config, context);
+  DiagnosisInputs inputs = read_diagnosis_inputs(config, context);
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
   std::vector<std::string> unmeasured;
   map.bind_modes(bound_modes(config, inputs, &unmeasured));
@@ -108,14 +109,16 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   const bool form = with_form(config, inputs.features);  // its rules have thresholds of their own
   const Threshold threshold =
       form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
-  const diagnosis::DiagnoseOptions options = options_of(config, threshold);
+  diagnosis::Refinement refinement(inputs.structure, inputs.places, *inputs.reduced, inputs.features);
+  diagnosis::DiagnoseOptions options = options_of(config, threshold);
+  options.refinement = &refinement;
   diagnosis::Diagnosis result = form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
                                      : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
   const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,
                           inputs.places);
-  const IdsInWords ids = ids_in_words(places, inference);
+  const IdsInWords ids = ids_in_words(places, inference, result.ranking);
   put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
   write_tables(inference, inputs, entries, result, context.out);

@@ -178,7 +178,10 @@ std::string with_intervals(const Effect& effect) {
   for (const EffectParameter& p : effect.parameters)
     if (effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos)
       words.push_back(interval_words(p));
-  return ended(effect.sentence + in_state) + (words.empty() ? "" : fmt::format(" With 90 %: {}.", fmt::join(words, "; ")));
+  const std::string within =
+      effect.within_m > 0.0 ? fmt::format(" The place is known to {} m.", number_in_words(effect.within_m)) : "";
+  return ended(effect.sentence + in_state) + within +
+         (words.empty() ? "" : fmt::format(" With 90 %: {}.", fmt::join(words, "; ")));
 }
 
 std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
@@ -282,13 +285,15 @@ double sidak_limit(std::size_t n) {
   return high;
 }
 
-IdsInWords ids_in_words(const PlaceWords& places, const Inference& inference) {
+IdsInWords ids_in_words(const PlaceWords& places, const Inference& inference, const std::vector<diagnosis::Scored>& ranking) {
   IdsInWords ids;
-  for (const auto& candidate : inference.candidates()) {
-    const std::string words = places.at(candidate->location).words;
-    ids.add_location(candidate->location, words);
-    ids.add_cause(candidate->id(), candidate->hypothesis->title, candidate->location == "global" ? "" : words);
-  }
+  const auto add = [&](const diagnosis::Candidate& candidate) {
+    const std::string words = places.at(candidate.location).words;
+    ids.add_location(candidate.location, words);
+    ids.add_cause(candidate.id(), candidate.hypothesis->title, candidate.location == "global" ? "" : words);
+  };
+  for (const auto& candidate : inference.candidates()) add(*candidate);
+  for (const diagnosis::Scored& scored : ranking) add(*scored.candidate);
   for (const auto& [name, set] : inference.map().model().sets)
     for (const diagnosis::ReducedPlace& place : set) ids.add_location(place.id, places.at(place.id).words);
   return ids;

@@ -19,7 +19,9 @@ struct Sentences {
 };
 
 /// Words for every location and cause that the entries of a diagnosis name.
-[[nodiscard]] IdsInWords ids_in_words(const PlaceWords& places, const diagnosis::Inference& inference);
+/// @param ranking  of the result: it may name entries that were laid round the leader
+[[nodiscard]] IdsInWords ids_in_words(const PlaceWords& places, const diagnosis::Inference& inference,
+                                      const std::vector<diagnosis::Scored>& ranking = {});
 
 /// Puts the sentences and measurements of the effects, and the message, into words for people: their ids and locations become
 /// places, their numbers get three digits.

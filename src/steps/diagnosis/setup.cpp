@@ -81,7 +81,8 @@ struct BasisSize {
 
 /// Places and reduced model of the model as it is now.
 void reduce(const diagnosis::PlaceOptions& place_options, const BasisSize& size, DiagnosisInputs& inputs) {
-  diagnosis::Structure structure = inputs.model->structure();
+  diagnosis::Structure& structure = inputs.structure;
+  structure = inputs.model->structure();
   inputs.places = diagnosis::find_places(structure, place_options);
   structure.load_tests = load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
   diagnosis::ReductionOptions reduction;

@@ -20,6 +20,7 @@ namespace twindeck::steps {
 /// Everything that a diagnosis works on, made from files once.
 struct DiagnosisInputs {
   std::shared_ptr<DiagnosedModel> model;
+  diagnosis::Structure structure;  ///< borrows from `model`
   diagnosis::Places places;
   std::unique_ptr<diagnosis::ReducedModel> reduced;
   diagnosis::FeatureSet features;
