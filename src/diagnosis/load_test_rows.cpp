@@ -106,7 +106,8 @@ void Predictor::predict_load_tests(int c) {
   test.answer = factor.solve(load);
   test.q = VectorXd::Zero(map_.model().size());
   test.q(state.columns) = test.answer.head(n);
-  test.slopes = factor.solve(load_slopes(test));
+  test.slopes = load_slopes(test);
+  if (test.slopes.size() > 0) test.slopes = factor.solve(test.slopes).eval();  // without unknowns there is nothing to solve for
   for (std::size_t r = 0; r < features.rows.size(); ++r)
     if (features.rows[r].condition == c && is_static(features.rows[r].type)) predict_static_row(test, r);
 }
