@@ -256,7 +256,7 @@ FoundMass find_hidden_mass(std::size_t i, bool with_refinement) {
   // A mass on a spring that is stiff enough says the same (prefer_mass_to_bound).
   out.alone = std::all_of(effect.cluster.begin(), effect.cluster.end(),
                           [&](const std::string& id) { return id == cause.id() || id == "osc@" + cause.location; });
-  out.text = fmt::format("{} ({:.1f} nats, {} effects): {}", result.verdict, effect.log_odds, result.effects.size(),
+  out.text = fmt::format("{} ({:.1f} nats, {} effects): {}", name_of(result.verdict), effect.log_odds, result.effects.size(),
                          fmt::join(effect.cluster, " "));
   if (!effect.parameters.empty()) out.text += fmt::format(", {:.0f}", effect.parameters[0].value);
   return out;
@@ -309,7 +309,7 @@ TEST(Refinement, NothingIsLaidWhereNothingIsDetected) {
     std::mt19937_64 random(seed);
     Refined refined(girder.structure(), girder.places(12, 12), truth.measured(random), families_of_girders());
     const Index before = refined.reduced.size();
-    EXPECT_EQ(refined.diagnosed(true).verdict, "none") << seed;
+    EXPECT_EQ(refined.diagnosed(true).verdict, Verdict::none) << seed;
     EXPECT_EQ(refined.reduced.size(), before) << seed;
   }
 }
@@ -368,7 +368,7 @@ TEST(Refinement, FindsTiesBetweenAnyTwoNodes) {
       const diagnosis::Diagnosis result = refined.diagnosed(refine);
       const bool found = !result.effects.empty() && result.effects.front().cause.candidate->id() == id;
       (refine ? after : before) += found ? 1 : 0;
-      said += fmt::format("  {}: {} {}", refine ? "after" : "before", result.verdict,
+      said += fmt::format("  {}: {} {}", refine ? "after" : "before", name_of(result.verdict),
                           result.effects.empty() ? "" : fmt::format("{}", fmt::join(result.effects.front().cluster, " ")));
     }
     std::printf("seed %u, %s%s\n", seed, id.c_str(), said.c_str());
