@@ -37,6 +37,10 @@ io::FieldTable DiagnosisConfig::fields() {
               "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is "
               "exact but for scatter; "
               "auto: on where two states are compared")
+      .boolean(
+          "refine_locations", refine_locations,
+          "look at the nodes, ties and halves of zones round the leading cause before it is named; takes about three times "
+          "as long")
       .choice("stays", stays, {"auto", "as_modelled"},
               "auto: stays that the model has as bars become cables in several elements where that explains measured modes "
               "which the model "

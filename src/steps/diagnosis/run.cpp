@@ -111,7 +111,7 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
       form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
   diagnosis::Refinement refinement(inputs.structure, inputs.places, *inputs.reduced, inputs.features);
   diagnosis::DiagnoseOptions options = options_of(config, threshold);
-  options.refinement = &refinement;
+  if (config.refine_locations) options.refinement = &refinement;
   diagnosis::Diagnosis result = form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
                                      : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};

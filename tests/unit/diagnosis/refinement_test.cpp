@@ -309,7 +309,7 @@ TEST(Refinement, NothingIsLaidWhereNothingIsDetected) {
     std::mt19937_64 random(seed);
     Refined refined(girder.structure(), girder.places(12, 12), truth.measured(random), families_of_girders());
     const Index before = refined.reduced.size();
-    EXPECT_EQ(refined.diagnosed(true).verdict, Verdict::none) << seed;
+    EXPECT_EQ(refined.diagnosed(true).verdict, diagnosis::Verdict::none) << seed;
     EXPECT_EQ(refined.reduced.size(), before) << seed;
   }
 }
