@@ -35,6 +35,7 @@ def draw(study: Study):
     edges.set_xlabel("values on an edge")
     for axis, aim in ((frequencies, RMS_AIM_PCT), (forces, FORCE_AIM_PCT), (edges, EDGE_AIM)):
         axis.axvline(aim, color=WARN, linewidth=0.9, linestyle=(0, (4, 3)))
+        axis.margins(x=0.12)
         axis.set_xlim(left=0.0)
     for axis in axes:
         axis.grid(axis="y", color=PALE, linewidth=0.5)
