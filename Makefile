@@ -65,6 +65,7 @@ build: deps ## compile into build/
 
 test: build ## unit tests, laws, verification, steps, architecture, the study and its check against the paper
 	@cmake --build $(BUILD) -j $(JOBS)
+	@$(MAKE) --no-print-directory s3 NO_BUILD=1
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 	@$(MAKE) --no-print-directory all
 
