@@ -34,7 +34,7 @@ include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: compare baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
-  smoke bench format fuzz sanitize processors calibrate calibrate-trade why new reference clean install package coverage docs FORCE
+  smoke bench format fuzz sanitize processors calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -155,6 +155,10 @@ sanitize: ## unit tests, broken inputs and the smoke chain under address, undefi
 
 coverage: deps ## lines and branches that unit tests, laws and verification reach, by room (build-coverage/coverage.md; needs gcovr)
 	@tests/coverage/run.sh $(JOBS) $(ONLY)
+
+mutants: N = 40
+mutants: deps ## make mutants N=40 SEED=7: one fault at a time in the rooms of numerics; which do the tests catch? (build-mutants/mutants.csv)
+	@/usr/bin/python3 tests/mutants/run.py $(N) $(SEED) --jobs $(JOBS)
 
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write

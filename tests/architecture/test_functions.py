@@ -8,29 +8,21 @@ Oracle: planted functions of 60 and of 61 lines, of each kind that the sources h
 """
 import pathlib
 import re
+import sys
 import tempfile
 import tomllib
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from source_text import blanked  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MAX_FUNCTION_LINES = 60
 
-BLANKED = re.compile(
-    r"//[^\n]*"  # comments
-    r"|/\*.*?\*/"
-    r'|R"(?P<mark>[^()\s\\]*)\(.*?\)(?P=mark)"'  # strings; an apostrophe after a digit separates thousands
-    r'|"(?:\\.|[^"\\\n])*"'
-    r"|(?<![0-9A-Za-z_])'(?:\\.|[^'\\\n])+'"
-    r"|^[ \t]*#(?:[^\n\\]|\\.|\\\n)*", re.S | re.M)  # preprocessor lines
 SCOPE = re.compile(r"^\s*(?:inline\s+)?namespace\b|^\s*extern\s*$|(?:^|[\s>;])(?:class|struct|union|enum)\s[^()]*$", re.S)
 LAMBDA = re.compile(r"\[[^\[\]]*\]\s*(?:\((?:[^()]|\([^()]*\))*\))?\s*(?:mutable|noexcept|->\s*[\w:<>,\s*&]+|\s)*$")
 MEMBER_IN_BRACES = re.compile(r"\)\s*(?:noexcept\s*)?:(?:[^:].*)?[\w>]\s*$", re.S)  # of a constructor: `A() : member_{…}`
 INITIALISED = re.compile(r"=[^=()]*$")
-
-
-def blanked(text):
-    """The text with comments, strings, characters and preprocessor lines replaced by spaces; lines stay where they are."""
-    return BLANKED.sub(lambda found: re.sub(r"[^\n]", " ", found.group()), text)
 
 
 def closing(text, opening):
