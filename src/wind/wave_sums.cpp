@@ -25,8 +25,15 @@ FactorPair::FactorPair(const Eigen::MatrixXd& low, const Eigen::MatrixXd& high) 
   }
 }
 
-// Two widths of the processor, here and below; neither fuses products with sums, so that both give the same bytes.
-[[gnu::target_clones("avx2", "default")]] static void unit_waves(const double* turns, double* cosine, double* sine) {
+// Two widths of the processor, here and below; neither fuses products with sums, so that both give the same bytes. The choice
+// is made before ThreadSanitizer starts, which it does not survive: there is one width there.
+#ifdef __SANITIZE_THREAD__
+#define TWINDECK_TWO_WIDTHS
+#else
+#define TWINDECK_TWO_WIDTHS [[gnu::target_clones("avx2", "default")]]
+#endif
+
+TWINDECK_TWO_WIDTHS static void unit_waves(const double* turns, double* cosine, double* sine) {
   for (int i = 0; i < kLanes; ++i) unit_wave(turns[i], cosine[i], sine[i]);
 }
 
@@ -49,9 +56,8 @@ void random_waves(std::uint64_t seed, std::uint64_t stream, Index first, bool no
   }
 }
 
-[[gnu::target_clones("avx2", "default")]] void wave_sums(const FactorPair& factor, Index j, const double* wave,
-                                                         const WaveLanes& lanes, std::complex<double> first, const Drift& lane,
-                                                         double* out) {
+TWINDECK_TWO_WIDTHS void wave_sums(const FactorPair& factor, Index j, const double* wave, const WaveLanes& lanes,
+                                   std::complex<double> first, const Drift& lane, double* out) {
   using Four = double __attribute__((vector_size(32), aligned(8), may_alias));  // sums that stay in registers
   Four low0{}, low1{}, low2{}, low3{}, high0{}, high1{}, high2{}, high3{};  // real 0-3, real 4-7, imaginary 0-3, imaginary 4-7
   const FactorPair::Entry* entry = factor.row(j);
