@@ -174,6 +174,8 @@ ConditionResult read_condition(const Campaign& campaign, const std::vector<Recor
   ConditionResult result;
   result.condition = groups.front().condition;
   for (const RecordGroup& group : groups) {
+    context.progress("reading records of condition " + result.condition, static_cast<double>(result.setups.size()),
+                     static_cast<double>(groups.size()));
     SetupResult setup;
     setup.conditioned = condition_records(campaign, group, config, config.decimation);
     for (const std::string& note : setup.conditioned.notes) context.say(note);

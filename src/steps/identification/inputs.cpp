@@ -45,12 +45,9 @@ std::vector<Conditioned> read_kind(const Campaign& campaign, const RecordChoice&
 IdentificationInputs read_identification_inputs(const IdentificationConfig& config, StepContext& context) {
   IdentificationInputs read;
   read.campaign = read_lists(context);
-  const auto conditions =
-      by_condition(record_groups(read.campaign, {config.setup, config.condition, config.kind, config.setups}));
-  for (const std::vector<RecordGroup>& groups : conditions) {
-    context.progress("reading records", static_cast<double>(read.conditions.size()), static_cast<double>(conditions.size()));
+  const RecordChoice ambient{config.setup, config.condition, config.kind, config.setups};
+  for (const std::vector<RecordGroup>& groups : by_condition(record_groups(read.campaign, ambient)))
     read.conditions.push_back(read_condition(read.campaign, groups, config, context));
-  }
   read.decays = read_kind(read.campaign, {"", config.condition, "free_decay", {}}, config,
                           config.decay_decimation > 0 ? config.decay_decimation : config.decimation, context);
   read.stays = read_kind(read.campaign, {"", "", "stay", {}}, stay_settings(config), config.stay_decimation, context);
