@@ -69,11 +69,18 @@ $(STEPS:%=$(BIN)/%): build
 	@$(if $(filter executables $(@F),$(EXECUTABLES)),:,flock $(BUILD) cmake --build $(BUILD) -j $(JOBS) --target $(@F))
 endif
 
+# All that a step reads: files of the study, what its scripts make, results of earlier steps.
+INPUTS_OF = $(STUDY_INPUTS) $(INPUTS_$(1)) $(foreach read,$(filter $(READS_$(1)),$(STEPS)),$(RESULTS)/$(read)/manifest.json)
+
 define step_rule
 .PHONY: $(firstword $(subst _, ,$(1))) $(1)
 $(firstword $(subst _, ,$(1))) $(1): $(RESULTS)/$(1)/manifest.json
-$(RESULTS)/$(1)/manifest.json: $(STUDY_INPUTS) $(wildcard $(WORKFLOW)/$(1).toml) $(INPUTS_$(1)) $(BIN)/$(1) \
-    $(foreach read,$(filter $(READS_$(1)),$(STEPS)),$(RESULTS)/$(read)/manifest.json)
+$(RESULTS)/$(1)/manifest.json: $(call INPUTS_OF,$(1)) $(wildcard $(WORKFLOW)/$(1).toml) $(BIN)/$(1)
 	@$(BIN)/$(1) --study $(WORKFLOW) --results $(RESULTS) --out $(RESULTS)/$(1) --threads $(THREADS) $$(OPTIONS_$(1))
 endef
 $(foreach step,$(STEPS),$(eval $(call step_rule,$(step))))
+
+# make check: a step whose inputs are not all there yet is asked for its configuration alone.
+MISSING = $(patsubst $(RESULTS)/%/manifest.json,%,$(filter-out $(MEASURED_STAMP) $(wildcard $(call INPUTS_OF,$(1))),$(call INPUTS_OF,$(1))))
+CHECKED = $(if $(MISSING),$(BIN)/$(1) --print-config --study $(WORKFLOW) >/dev/null && echo "$(1): configuration is valid; inputs wait for $(MISSING)", \
+  $(BIN)/$(1) --check --study $(WORKFLOW) --results $(RESULTS) --out $(RESULTS)/$(1) $(OPTIONS_$(1)))

@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
   };
   step.fields = settings.fields();
   step.flags = {{"calibrate", false, "only find the corrections that bring the named frequencies about: corrections.csv"}};
-  step.run = [&](StepContext& context) { return run_test_campaign(context, settings); };
+  step.read = [&](StepContext& context) { return read_test_campaign(context, settings); };
   return run_step(argc, argv, std::move(step));
 }

@@ -17,12 +17,9 @@ namespace {
 
 using namespace twindeck;
 
-using steps::ModelConfig;
-
-Status run(const ModelConfig& config, steps::StepContext& context) {
-  // 1. The model: generated or read, checked, prestressed, assembled; a mechanism is refused here.
-  const steps::LoadedModel loaded = steps::with_displacements(steps::load_study_model(context, config.variant),
-                                                              config.displacements, static_cast<int>(config.load_steps));
+Status run(const steps::ModelConfig& config, const steps::ReadModel& read, bool is_bridge, steps::StepContext& context) {
+  // 1. The model, prestressed and assembled; a mechanism is refused here.
+  const steps::LoadedModel loaded = steps::solvable(read);
   const fe::Model* model = loaded.fe_model();
   context.say(fmt::format("{}: {} degrees of freedom", loaded.source, loaded.system.size()));
 
@@ -39,7 +36,6 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   steps::write_stays(model, loaded.state, context.out);
   steps::write_member_forces(model, loaded.state, context.out);
   steps::write_dampers(model, context.out);
-  const bool is_bridge = !context.model && steps::read_study(context.study).model_generator == "ponte";
   steps::write_summary(model, loaded.system, is_bridge ? steps::PartOf(ponte::part_of) : steps::PartOf(), context.out);
   steps::save_model(loaded, loaded.theta, context.out / "model");
   if (context.has_flag("export-matrices")) {
@@ -56,10 +52,18 @@ Status run(const ModelConfig& config, steps::StepContext& context) {
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }
 
+steps::Computation read(const steps::ModelConfig& config, steps::StepContext& context) {
+  const steps::ReadModel model = steps::with_displacements(steps::load_study_model(context, config.variant),
+                                                           config.displacements, static_cast<int>(config.load_steps));
+  const bool is_bridge = !context.model && steps::read_study(context.study).model_generator == "ponte";
+  if (is_bridge) steps::refuse_unknown_meshes(steps::read_study(context.study), config.variant, config.meshes);
+  return [&config, &context, model, is_bridge] { return run(config, model, is_bridge, context); };
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  ModelConfig config;
+  steps::ModelConfig config;
   steps::Step step;
   step.token = "s1_model";
   step.summary = "Builds or reads the finite element model, finds its prestress and its modes.";
@@ -71,6 +75,6 @@ int main(int argc, char** argv) {
       {"export-matrices", false,
        "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv, and C.mtx where there are dampers"},
       {"export-inp", false, "also write the model for CalculiX (model.inp) and Abaqus (model_abaqus.inp)"}};
-  step.run = [&config](steps::StepContext& context) { return run(config, context); };
+  step.read = [&config](steps::StepContext& context) { return read(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

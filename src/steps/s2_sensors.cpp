@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
   };
   step.fields = config.fields();
   step.configured_inputs = {"model"};
-  step.run = [&](StepContext& context) { return run_sensors(context, config); };
+  step.read = [&](StepContext& context) { return read_sensors(context, config); };
   return run_step(argc, argv, std::move(step));
 }

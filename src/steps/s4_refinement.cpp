@@ -19,6 +19,6 @@ int main(int argc, char** argv) {
   step.fields = config.fields();
   step.flags = measured_flags();
   step.configured_inputs = {"model"};
-  step.run = [&](StepContext& context) { return run_refinement(context, config); };
+  step.read = [&](StepContext& context) { return read_refinement(context, config); };
   return run_step(argc, argv, std::move(step));
 }

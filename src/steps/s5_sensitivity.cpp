@@ -11,10 +11,9 @@ namespace {
 
 using namespace twindeck;
 
-Status run(const steps::SensitivityConfig& config, steps::StepContext& context) {
+Status run(const steps::SensitivityConfig& config, const steps::ReadModel& read, steps::StepContext& context) {
   // 1. The refined model, with the prestress of its own parameter values, frozen.
-  const steps::LoadedModel loaded = steps::load_model(context, context.results / "s4_refinement" / "model");
-  steps::check_sensitivity_config(config, loaded.system.parameters, loaded.source);
+  const steps::LoadedModel loaded = steps::solvable(read);
   if (!loaded.state.status.converged) return loaded.state.status;
 
   // 2. Sensitivities three ways: exact, by extrapolated central differences, by Eq. (6).
@@ -46,6 +45,12 @@ Status run(const steps::SensitivityConfig& config, steps::StepContext& context) 
   return found.status;
 }
 
+steps::Computation read(const steps::SensitivityConfig& config, steps::StepContext& context) {
+  const steps::ReadModel model = steps::load_model(context, context.results / "s4_refinement" / "model");
+  steps::check_sensitivity_config(config, model.parameters(), model.source);
+  return [&config, &context, model] { return run(config, model, context); };
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -57,6 +62,6 @@ int main(int argc, char** argv) {
                    "s5_sensitivity --model my_bridge --out results/my_bridge/s5_sensitivity --set n_modes=8"};
   step.fields = config.fields();
   step.configured_inputs = {"model"};
-  step.run = [&config](steps::StepContext& context) { return run(config, context); };
+  step.read = [&config](steps::StepContext& context) { return read(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

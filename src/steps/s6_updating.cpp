@@ -12,50 +12,47 @@ namespace {
 
 using namespace twindeck;
 
-Status run(const steps::UpdatingConfig& config, steps::StepContext& context) {
+Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& read, steps::StepContext& context) {
   // 1. The refined model and the measured modes.
-  const steps::LoadedModel before = steps::load_model(context, context.results / "s4_refinement" / "model");
-  const std::optional<steps::Measured> measured = steps::find_measured(context, config.condition);
-  if (!measured)
-    throw InputError({"", 0, ""}, "no measured modes were given", "give --features DIR or --modes DIR, or a study");
+  const auto& [model, measured, active, published] = read;
+  const steps::LoadedModel before = steps::solvable(model);
   if (!before.state.status.converged) return before.state.status;
   const std::vector<fe::Parameter>& parameters = before.system.parameters;
-  const std::vector<int> active = steps::active_parameters(config, before, context);
 
   // 2. Which measured mode belongs to which computed one.
   const dynamics::EigenModes modes_before =
       steps::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
   steps::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
-  const steps::Pairing pairing = steps::pair_for_updating(context, config, before, modes_before, *measured);
-  const updating::MeasuredRows rows = steps::weighed_rows(config, *measured, pairing, before, modes_before);
+  const steps::Pairing pairing = steps::pair_for_updating(context, config, before, modes_before, measured);
+  const updating::MeasuredRows rows = steps::weighed_rows(config, measured, pairing, before, modes_before);
   if (!rows.given())
-    steps::warn_of_twins(context, steps::indistinct_parameters(before, modes_before, active, *measured, pairing),
-                         measured->modes.has_shapes());
+    steps::warn_of_twins(context, steps::indistinct_parameters(before, modes_before, active, measured, pairing),
+                         measured.modes.has_shapes());
 
   // 3. The update.
   updating::UpdatingOptions options = config.options(context.seed);
-  options.elsewhere = steps::published_values(config, parameters, active, context);
+  options.elsewhere = published;
   const updating::UpdatingResult result = updating::update(
-      before.system, steps::prestress_refresh(before), active, steps::frequency_targets(*measured, pairing), options,
+      before.system, steps::prestress_refresh(before), active, steps::frequency_targets(measured, pairing), options,
       [&](int done, int of) { context.progress("starts", done, of); }, rows);
   if (result.starts.empty() || result.mode_after.empty()) return result.status;
 
   // 4. The updated model, in balance, with its modes and the same pairs.
   const steps::LoadedModel after = steps::with_values(before, result.theta);
   const dynamics::EigenModes modes_after = steps::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
-  const steps::Pairing followed = steps::followed_pairing(config, pairing, result, after, modes_after, *measured);
-  const steps::PairingAccount account = steps::account_after(context, config, followed, after, modes_after, *measured);
-  std::vector<steps::ComparisonRow> comparison = steps::compare("before", *measured, modes_before.frequency_Hz, pairing);
-  for (auto& row : steps::compare("after", *measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
+  const steps::Pairing followed = steps::followed_pairing(config, pairing, result, after, modes_after, measured);
+  const steps::PairingAccount account = steps::account_after(context, config, followed, after, modes_after, measured);
+  std::vector<steps::ComparisonRow> comparison = steps::compare("before", measured, modes_before.frequency_Hz, pairing);
+  for (auto& row : steps::compare("after", measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
 
   // 5. Tables, the model, and the outcome in words.
   steps::write_updating(parameters, active, comparison, config.common_pairs, result, context.out);
-  steps::write_mac(*measured, followed, context.out);
+  steps::write_mac(measured, followed, context.out);
   model_io::write_modes(steps::published_modes(after.fe_model(), after.system, modes_after), context.out);
   steps::save_model(before, result.theta, context.out / "model");
   for (const std::string& line : steps::report_lines(parameters, active, result)) context.say(line);
-  steps::report_weighing(context, {before, active, *measured, pairing, rows, result});
+  steps::report_weighing(context, {before, active, measured, pairing, rows, result});
   context.say(steps::summary_line(comparison, account));
   return result.status.converged ? steps::outcome(modes_after.status, account) : result.status;
 }
@@ -73,6 +70,8 @@ int main(int argc, char** argv) {
   step.fields = config.fields();
   step.flags = steps::measured_flags();
   step.configured_inputs = {"model"};
-  step.run = [&config](steps::StepContext& context) { return run(config, context); };
+  step.read = [&config](steps::StepContext& context) -> steps::Computation {
+    return [&config, &context, read = steps::read_updating(config, context)] { return run(config, read, context); };
+  };
   return steps::run_step(argc, argv, std::move(step));
 }

@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
                    "--set nodes_per_deck=60"};
   step.fields = config.fields();
   step.configured_inputs = {"model"};
-  step.run = [&](StepContext& context) { return run_aerodynamics(context, config); };
+  step.read = [&](StepContext& context) { return read_aerodynamics(context, config); };
   return run_step(argc, argv, std::move(step));
 }

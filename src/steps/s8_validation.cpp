@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
                    "--set turbulence_set='\"EN 0\"'"};
   step.fields = config.fields();
   step.configured_inputs = {"model", "campaign"};
-  step.run = [&config](steps::StepContext& context) { return steps::run_validation(context, config); };
+  step.read = [&config](steps::StepContext& context) { return steps::read_validation(context, config); };
   return steps::run_step(argc, argv, std::move(step));
 }

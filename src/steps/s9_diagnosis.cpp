@@ -20,6 +20,6 @@ int main(int argc, char** argv) {
   step.flags = {{"catalogue", true, "folder of hypotheses, one TOML file each"},
                 {"plan", false, "only say what these rows would see: plan.csv"}};
   for (const steps::Flag& flag : steps::measured_flags()) step.flags.push_back(flag);
-  step.run = [&config](steps::StepContext& context) { return steps::run_diagnosis(config, context); };
+  step.read = [&config](steps::StepContext& context) { return steps::read_diagnosis(config, context); };
   return steps::run_step(argc, argv, std::move(step));
 }

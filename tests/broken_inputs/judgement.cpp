@@ -131,4 +131,15 @@ std::vector<std::string> faults(const Case& c, const Evidence& evidence) {
   return found;
 }
 
+std::string fault_of_check(const Outcome& checked, const Outcome& ran, bool only_computing_shows_it) {
+  if (!checked.crash.empty()) return "--check: " + checked.crash;
+  const bool refused = ran.exit == 2 && !only_computing_shows_it;
+  if (checked.exit != (refused ? 2 : 0))
+    return fmt::format("--check: exit code {}, the run has {}; --check says: {}", checked.exit, ran.exit,
+                       shown(checked.stderr_text));
+  if (refused && checked.stderr_text != ran.stderr_text)
+    return fmt::format("--check says: {}, the run says: {}", shown(checked.stderr_text), shown(ran.stderr_text));
+  return "";
+}
+
 }  // namespace twindeck::broken

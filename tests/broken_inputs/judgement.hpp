@@ -30,4 +30,9 @@ struct Evidence {
 ///   - files: on failure none but <out>.unconverged (exit code 1) may appear, change or go; on success none outside --out.
 [[nodiscard]] std::vector<std::string> faults(const Case& c, const Evidence& evidence);
 
+/// What is wrong with the answer of --check: it must be the run's line and exit code where the run refuses its input, and exit
+/// code 0 otherwise. @param only_computing_shows_it  the fault is none of the files: --check takes it
+/// @return empty where the answer is right
+[[nodiscard]] std::string fault_of_check(const Outcome& checked, const Outcome& ran, bool only_computing_shows_it);
+
 }  // namespace twindeck::broken

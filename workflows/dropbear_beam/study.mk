@@ -1,7 +1,7 @@
 # Records that lie elsewhere: DATA=dir names their folder. Windows of one accelerometer are copied under results/; nothing of them is kept here.
 CAMPAIGN := $(RESULTS)/campaign
 
-$(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
+INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/slow10_test?.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
@@ -12,7 +12,7 @@ $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DAT
 INPUTS := $(RESULTS)/inputs
 BESIDE := step1 step2 step3 step4
 
-$(RESULTS)/s9_diagnosis/manifest.json: $(INPUTS)/model/model.toml $(BESIDE:%=$(RESULTS)/%/manifest.json)
+INPUTS_s9_diagnosis += $(INPUTS)/model/model.toml $(BESIDE:%=$(RESULTS)/%/manifest.json)
 
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
 	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification $(INPUTS)

@@ -2,7 +2,7 @@
 # here.
 CAMPAIGN := $(RESULTS)/campaign
 
-$(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
+INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/channels.csv $(DATA)/*.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
@@ -15,7 +15,7 @@ WEAK_FIT := $(RESULTS)/weak_fit
 STRONG := nov1987_237 oct1979_484 dec2009_498
 comma := ,
 
-$(RESULTS)/s9_diagnosis/manifest.json: $(WEAK_FIT)/manifest.json $(wildcard $(WORKFLOW)/hypotheses/*)
+INPUTS_s9_diagnosis += $(WEAK_FIT)/manifest.json $(wildcard $(WORKFLOW)/hypotheses/*)
 
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
 	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)

@@ -2,7 +2,7 @@
 # here.
 CAMPAIGN := $(RESULTS)/campaign
 
-$(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
+INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/channels.csv $(DATA)/*.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
@@ -14,7 +14,7 @@ INPUTS := $(RESULTS)/inputs
 WEAK_FIT := $(RESULTS)/weak_fit
 BESIDE := $(RESULTS)/with_form $(RESULTS)/by_rule
 
-$(RESULTS)/s9_diagnosis/manifest.json: $(WEAK_FIT)/manifest.json $(BESIDE:%=%/manifest.json) $(wildcard workflows/meloland_overpass/hypotheses/*)
+INPUTS_s9_diagnosis += $(WEAK_FIT)/manifest.json $(BESIDE:%=%/manifest.json) $(wildcard workflows/meloland_overpass/hypotheses/*)
 
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
 	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)

@@ -1,7 +1,7 @@
 # Records that lie elsewhere: DATA=dir names their folder. The motion along the table is copied under results/; nothing of it is kept here.
 CAMPAIGN := $(RESULTS)/campaign
 
-$(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
+INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/*_northridge_floor?.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
@@ -13,7 +13,7 @@ INPUTS := $(RESULTS)/inputs
 REFERENCE_FIT := $(RESULTS)/reference_fit
 WIDER := $(RESULTS)/with_sensor_scatter
 
-$(RESULTS)/s9_diagnosis/manifest.json: $(REFERENCE_FIT)/manifest.json $(WIDER)/manifest.json
+INPUTS_s9_diagnosis += $(REFERENCE_FIT)/manifest.json $(WIDER)/manifest.json
 
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py $(PRODUCT)workflows/common/shear_building.py
 	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)

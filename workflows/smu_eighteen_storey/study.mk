@@ -1,7 +1,7 @@
 # The same diagnosis within the authors' bounds, and of a model that bends as a whole too.
 BESIDE := $(RESULTS)/as_published $(RESULTS)/with_bending
 
-$(RESULTS)/s9_diagnosis/manifest.json: $(BESIDE:%=%/manifest.json)
+INPUTS_s9_diagnosis += $(BESIDE:%=%/manifest.json)
 
 $(RESULTS)/as_published/manifest.json: MODEL := $(RESULTS)/inputs/published_model
 $(RESULTS)/with_bending/manifest.json: MODEL := $(RESULTS)/inputs/bending_model

@@ -2,7 +2,7 @@
 # the diagnosis is held against. Then the changes of stiffness that it ends with, for the report.
 PUBLISHED := $(RESULTS)/as_published
 
-$(RESULTS)/s9_diagnosis/manifest.json: $(PUBLISHED)/manifest.json
+INPUTS_s9_diagnosis += $(PUBLISHED)/manifest.json
 
 $(PUBLISHED)/manifest.json: $(RESULTS)/inputs/model/model.toml $(WORKFLOW)/s9_diagnosis.toml $(WORKFLOW)/changes.py $(BIN)/s9_diagnosis
 	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $(PUBLISHED) --model $(RESULTS)/inputs/published_model \

@@ -2,7 +2,7 @@
 # them is kept here.
 CAMPAIGN := $(RESULTS)/campaign
 
-$(RESULTS)/s3_identification/manifest.json: $(CAMPAIGN)/campaign.toml
+INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
 $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/setup_*_channel_dofs.txt $(DATA)/grid.txt))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))

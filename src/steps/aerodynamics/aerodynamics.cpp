@@ -139,13 +139,10 @@ double least_damping(const DampingCurves& curves, double up_to_m_s) {
   return least;
 }
 
-}  // namespace
-
-Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config) {
-  // 1. The aerodynamic data, then the updated model with its aerodynamic nodes, modes, and the angles of attack of its shape
-  // under dead load.
-  const std::vector<DeckAerodynamics> data = read_deck_aerodynamics(config, context);
-  const LoadedModel loaded = load_model(context, context.results / "s6_updating" / "model");
+Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config, const std::vector<DeckAerodynamics>& data,
+                        const ReadModel& read) {
+  // 1. The updated model with its aerodynamic nodes, modes, and the angles of attack of its shape under dead load.
+  const LoadedModel loaded = solvable(read);
   if (!loaded.state.status.converged) return loaded.state.status;
   const WindModel model = prepare_wind_model(config, loaded);
   if (!model.modes.status.converged) return model.modes.status;
@@ -161,7 +158,6 @@ Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config) 
     sets.push_back({name, *level, sections_of(config, data, name, *level)});
     context.say(fmt::format("set {}: {} times {:.4f}", name, fitted_quantity(name), *level));
   }
-  if (sets.empty()) throw InputError({"", 0, "sets"}, "is empty", "name at least one of standin, quasi_steady");
 
   // 3. Critical speeds of every set and rule; damping over the wind speed; with the identified damping; with dampers.
   const aero::Wind wind = config.wind();
@@ -249,6 +245,17 @@ Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config) 
     }
   }
   return status;
+}
+
+}  // namespace
+
+Computation read_aerodynamics(StepContext& context, const AerodynamicsConfig& config) {
+  const std::vector<DeckAerodynamics> data = read_deck_aerodynamics(config, context);
+  const ReadModel model = load_model(context, context.results / "s6_updating" / "model");
+  static_cast<void>(aero_nodes_of(config, model.fe_model(), model.source));
+  if (config.sets.empty()) throw InputError({"", 0, "sets"}, "is empty", "name at least one of standin, quasi_steady");
+  for (const std::string& set : config.sets) static_cast<void>(sections_of(config, data, set, 1.0));
+  return [&context, &config, data, model] { return run_aerodynamics(context, config, data, model); };
 }
 
 }  // namespace twindeck::steps

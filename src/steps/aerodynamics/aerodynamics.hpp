@@ -8,6 +8,6 @@
 namespace twindeck::steps {
 
 /// The step.
-[[nodiscard]] Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config);
+[[nodiscard]] Computation read_aerodynamics(StepContext& context, const AerodynamicsConfig& config);
 
 }  // namespace twindeck::steps

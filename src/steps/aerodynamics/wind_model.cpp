@@ -117,15 +117,19 @@ std::vector<aero::SectionAero> sections_of(const AerodynamicsConfig& config, con
   return sections;
 }
 
-WindModel prepare_wind_model(const AerodynamicsConfig& config, const LoadedModel& loaded) {
-  if (!loaded.model) {
-    throw InputError({loaded.source, 0, ""}, "is a matrix model, whose decks are not known",
+AeroNodes aero_nodes_of(const AerodynamicsConfig& config, const fe::Model* model, const std::string& source) {
+  if (model == nullptr) {
+    throw InputError({source, 0, ""}, "is a matrix model, whose decks are not known",
                      "give a model folder with nodes and elements");
   }
   std::vector<std::string> groups;
   for (const DeckWind& deck : config.decks) groups.push_back(deck.cross_group);
+  return find_aero_nodes(*model, config.deck_names(), groups, static_cast<int>(config.nodes_per_deck));
+}
+
+WindModel prepare_wind_model(const AerodynamicsConfig& config, const LoadedModel& loaded) {
   WindModel out;
-  out.nodes = find_aero_nodes(*loaded.model, config.deck_names(), groups, static_cast<int>(config.nodes_per_deck));
+  out.nodes = aero_nodes_of(config, loaded.fe_model(), loaded.source);
   out.strips = strips_of(out.nodes, config.deck_names(), config.wind());
   const auto shape = motions_of(out.nodes, loaded.state.displacement);
   for (std::size_t i = 0; i < out.strips.size(); ++i) {

@@ -33,6 +33,10 @@ struct DeckAerodynamics {
                                                          const std::vector<DeckAerodynamics>& data, const std::string& set,
                                                          double level);
 
+/// The aerodynamic nodes of the configuration's decks. @param model  null for a matrix model @param source  for messages
+/// @throws InputError  for a matrix model, whose decks are not known, and as find_aero_nodes
+[[nodiscard]] AeroNodes aero_nodes_of(const AerodynamicsConfig& config, const fe::Model* model, const std::string& source);
+
 /// A model prepared for wind: aerodynamic nodes with their angle of attack from the shape under dead load, modes.
 struct WindModel {
   AeroNodes nodes;
@@ -40,7 +44,7 @@ struct WindModel {
   dynamics::EigenModes modes;
   std::vector<aero::StripMotion> motions;  ///< of the modes
 };
-/// @throws InputError  for a matrix model: its decks are not known
+/// @throws InputError  as aero_nodes_of
 [[nodiscard]] WindModel prepare_wind_model(const AerodynamicsConfig& config, const LoadedModel& loaded);
 
 /// The modes as a structure in wind, without dampers.

@@ -71,16 +71,36 @@ struct Simulated {
   VectorXd rms_displacement_m;
 };
 
-}  // namespace
+/// What the step reads.
+struct CampaignInputs {
+  VirtualBridge bridge;
+  std::vector<LayoutPoint> points;
+  std::vector<LayoutChannel> layout;
+  std::vector<RecordFile> files;
+  VectorXd theta;                   ///< corrected parameters
+  std::optional<VirtualWind> wind;  ///< where a record is of a wind event
+};
 
-Status run_test_campaign(StepContext& context, const CampaignSettings& settings) {
+/// Names in the settings that the layout and the bridge must have.
+void refuse_unknown_names(const CampaignSettings& settings, const CampaignInputs& read) {
+  for (const RecordSettings& record : settings.records) {
+    const auto is_its = [&](const LayoutPoint& point) { return point.name == record.point; };
+    if (record.kind == "free_decay" && std::none_of(read.points.begin(), read.points.end(), is_its))
+      throw InputError({"", 0, "record.point"}, "'" + record.point + "' is no point of the layout", "name a row of points.csv");
+  }
+  for (const StayTest& test : settings.stays) static_cast<void>(stay_of(read.bridge.undivided, test));
+  for (const ConditionSettings& condition : settings.conditions)
+    static_cast<void>(at_temperature(read.bridge, settings, read.theta, condition.temperature_C));
+}
+
+Status run_test_campaign(StepContext& context, const CampaignSettings& settings, const CampaignInputs& read) {
   // 1. The bridge as it is built.
-  const VirtualBridge bridge = read_virtual_bridge(context, settings);
+  const VirtualBridge bridge = numbered(read.bridge);
   if (context.has_flag("calibrate")) return write_calibration(bridge, settings, context);
-  const std::vector<LayoutPoint> points = read_points(context.input(settings.points));
-  const std::vector<LayoutChannel> layout = read_setups(context.input(settings.setups), points);
-  const std::map<double, BridgeState> states =
-      solve_states(bridge, settings, corrected_parameters(context, bridge, settings.corrections));
+  const std::vector<LayoutPoint>& points = read.points;
+  const std::vector<LayoutChannel>& layout = read.layout;
+  const std::vector<RecordFile>& files = read.files;
+  const std::map<double, BridgeState> states = solve_states(bridge, settings, read.theta);
   std::vector<ConditionModel> models;
   for (const ConditionSettings& condition : settings.conditions)
     models.push_back(condition_model(settings, condition, states.at(condition.temperature_C), points));
@@ -91,17 +111,12 @@ Status run_test_campaign(StepContext& context, const CampaignSettings& settings)
                           settings.modes, states.begin()->second.modes.frequency_Hz.tail(1)[0]));
 
   // 2. Records of the decks, each with random streams of its own, so that threads change nothing.
-  std::vector<RecordFile> files = record_files(settings, layout);
   std::vector<Simulated> simulated(settings.records.size());
-  std::optional<VirtualWind> wind;
-  for (const RecordSettings& record : settings.records) {
-    if (record.kind == "wind" && !wind) wind = read_virtual_wind(context, settings);
-  }
   parallel_for(settings.records.size(), [&](std::size_t i) {
     const RecordSettings& record = settings.records[i];
     const std::vector<LayoutChannel> channels = channels_of(layout, record.setup);
     Motion motion = record.kind == "wind"
-                        ? simulate_wind(model_of(record.condition), settings, record, *wind, channels, context.seed, i)
+                        ? simulate_wind(model_of(record.condition), settings, record, *read.wind, channels, context.seed, i)
                         : simulate(model_of(record.condition), settings, record, channels, points, context.seed, i);
     io::write_npy_single(logged_record(motion, settings, context.seed, i), context.out / files[i].file);
     simulated[i] = {std::move(motion.damper_force_N), std::move(motion.rms_displacement_m)};
@@ -141,6 +156,23 @@ Status run_test_campaign(StepContext& context, const CampaignSettings& settings)
   // 5. What a reader needs.
   write_campaign_files(settings, layout, stays, files, amplitudes, context.out);
   return {};
+}
+
+}  // namespace
+
+Computation read_test_campaign(StepContext& context, const CampaignSettings& settings) {
+  CampaignInputs read;
+  read.bridge = read_virtual_bridge(context, settings);
+  if (!context.has_flag("calibrate")) {
+    read.points = read_points(context.input(settings.points));
+    read.layout = read_setups(context.input(settings.setups), read.points);
+    read.files = record_files(settings, read.layout);
+    read.theta = corrected_parameters(context, read.bridge, settings.corrections);
+    refuse_unknown_names(settings, read);
+    for (const RecordSettings& record : settings.records)
+      if (record.kind == "wind" && !read.wind) read.wind = read_virtual_wind(context, settings);
+  }
+  return [&context, &settings, read = std::move(read)] { return run_test_campaign(context, settings, read); };
 }
 
 }  // namespace twindeck::steps

@@ -25,7 +25,8 @@ constexpr double kDeckMode = 0.5;         ///< [-] of the kinetic energy in stay
 constexpr double kNeverPaired = 1e3;      ///< a distance in ln f beyond any between two modes
 constexpr double kSensorAtNode_m = 0.05;  ///< a sensor is at a node that is this near: the layout prints centimetres
 
-/// Every [[damper]] of the configuration belongs to a type of the bridge's definition, and stands once.
+/// Every [[damper]] of the configuration belongs to a type of the bridge's definition, and stands once; where dampers are
+/// fitted, every type has one.
 void check_damper_types(const CampaignSettings& settings, const fe::Model& model) {
   const std::string prefix = "damper_";
   std::set<std::string> types, seen;
@@ -41,6 +42,10 @@ void check_damper_types(const CampaignSettings& settings, const fe::Model& model
     if (!seen.insert(damper.type).second)
       throw InputError({"", 0, "damper"}, fmt::format("type '{}' stands twice", damper.type), "give each type one table");
   }
+  if (std::none_of(settings.conditions.begin(), settings.conditions.end(), [](const auto& c) { return c.dampers; })) return;
+  for (const std::string& type : known)
+    if (!seen.contains(type))
+      throw InputError({"", 0, "damper"}, "has no table for type " + type, "add [[damper]] with its mount and friction");
 }
 
 }  // namespace
@@ -53,6 +58,10 @@ VirtualBridge read_virtual_bridge(StepContext& context, const CampaignSettings& 
   fe::validate(bridge.undivided);
   check_damper_types(settings, bridge.undivided);
   bridge.uncorrected = fe::initial_parameters(bridge.undivided);
+  return bridge;
+}
+
+VirtualBridge numbered(VirtualBridge bridge) {
   const fe::ParametricSystem system = fe::assemble(bridge.undivided, fe::find_prestress(bridge.undivided, bridge.uncorrected));
   fe::check_no_mechanism(system, bridge.uncorrected, bridge.undivided.source);
   bridge.n_deck = system.size();

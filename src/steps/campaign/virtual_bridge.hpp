@@ -18,13 +18,16 @@ namespace twindeck::steps {
 
 struct VirtualBridge {
   fe::Model undivided;          ///< of the definition, slabs uneven, stays single elements
-  Eigen::Index n_deck = 0;      ///< free dofs of `undivided`: those of the chains come after them
+  Eigen::Index n_deck = 0;      ///< free dofs of `undivided`, which `numbered` counts: those of the chains come after them
   Eigen::VectorXd uncorrected;  ///< (n_parameters) as the definition has them
 };
 
 /// Reads the definition, makes the slabs uneven, and gives members and masses zones.
 /// @throws InputError  for a definition that is not sound
 [[nodiscard]] VirtualBridge read_virtual_bridge(StepContext& context, const CampaignSettings& settings);
+
+/// The same with its free dofs counted. @throws InputError  for a mechanism
+[[nodiscard]] VirtualBridge numbered(VirtualBridge bridge);
 
 /// Parameters from corrections.csv (`parameter,factor`); all 1 if `file` is empty.
 [[nodiscard]] Eigen::VectorXd corrected_parameters(StepContext& context, const VirtualBridge& bridge, const std::string& file);

@@ -87,10 +87,7 @@ void fit_dampers(const CampaignSettings& settings, ConditionModel& out, MatrixXd
     if (!spring.group.starts_with("damper_")) continue;
     const auto kind = std::find_if(settings.dampers.begin(), settings.dampers.end(),
                                    [&](const DamperSettings& d) { return "damper_" + d.type == spring.group; });
-    if (kind == settings.dampers.end()) {
-      throw InputError({"", 0, "damper"}, "has no table for type " + spring.group.substr(7),
-                       "add [[damper]] with its mount and friction");
-    }
+    TWINDECK_ASSERT(kind != settings.dampers.end());
     transient::SlidingDamper damper;
     damper.stiffness_N_m = kind->mount_stiffness_N_m > 0.0 ? kind->mount_stiffness_N_m : spring.stiffness;
     damper.mount_damping_N_s_m = kind->mount_loss_factor * damper.stiffness_N_m / (2.0 * std::numbers::pi);
@@ -185,8 +182,7 @@ Motion simulate(const ConditionModel& model, const CampaignSettings& settings, c
   if (record.kind == "free_decay") {
     warm_up = 0;
     const auto at = std::find_if(points.begin(), points.end(), [&](const LayoutPoint& p) { return p.name == record.point; });
-    if (at == points.end())
-      throw InputError({"", 0, "record.point"}, "'" + record.point + "' is no point of the layout", "name a row of points.csv");
+    TWINDECK_ASSERT(at != points.end());
     const MatrixXd down = at_channels(*model.state, model.basis.vectors, {channel_at(*at, "vertical", "")});
     const VectorXd load = -record.mass_kg * model.state->chains.model.gravity_m_s2 * down.transpose();
     stepper.start(load.cwiseQuotient(model.basis.omega_rad_s.cwiseAbs2()), load);

@@ -92,13 +92,17 @@ void solve(const Chain& chain, double pull_N, VectorXd& omega, MatrixXd& shapes)
 
 }  // namespace
 
-StayRecord stay_record(const fe::Model& model, const StayTest& test, const CampaignSettings& settings, std::uint64_t seed,
-                       std::uint64_t stream) {
+const fe::Element& stay_of(const fe::Model& model, const StayTest& test) {
   const auto stay = std::find_if(model.elements.begin(), model.elements.end(),
                                  [&](const fe::Element& e) { return e.type == fe::ElementType::stay && e.name == test.stay; });
   if (stay == model.elements.end())
     throw InputError({"", 0, "stay_test.stay"}, "'" + test.stay + "' is no stay of the virtual bridge", "name one such as NE8");
-  const Chain chain = hang(model, *stay, test);
+  return *stay;
+}
+
+StayRecord stay_record(const fe::Model& model, const StayTest& test, const CampaignSettings& settings, std::uint64_t seed,
+                       std::uint64_t stream) {
+  const Chain chain = hang(model, stay_of(model, test), test);
   VectorXd omega;
   MatrixXd shapes;
   solve(chain, test.pull_N, omega, shapes);

@@ -66,10 +66,7 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
   AerodynamicsConfig aerodynamics = virtual_wind.aerodynamics;
   aerodynamics.direction_deg = record.direction_deg;
   const aero::Wind wind = aerodynamics.wind();
-  std::vector<std::string> groups;
-  for (const DeckWind& deck : aerodynamics.decks) groups.push_back(deck.cross_group);
-  const AeroNodes nodes = find_aero_nodes(model.state->chains.model, aerodynamics.deck_names(), groups,
-                                          static_cast<int>(aerodynamics.nodes_per_deck));
+  const AeroNodes nodes = aero_nodes_of(aerodynamics, &model.state->chains.model, settings.bridge);
   const std::vector<aero::Strip> strips = strips_of(nodes, aerodynamics.deck_names(), wind);
   const std::vector<aero::StripMotion> motions = motions_of(nodes, model.state->system.expand(model.basis.vectors));
   aero::ReducedStructure structure;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
@@ -103,23 +103,30 @@ FeatureSet read_all_features(const std::filesystem::path& folder, const Measured
   return features;
 }
 
-void refuse_unknown_stays(const FeatureSet& features, const diagnosis::Places& places, const std::filesystem::path& folder) {
-  std::map<std::string, bool> tensioned;
-  if (const auto stays = places.sets.find("stays"); stays != places.sets.end())
-    for (const diagnosis::Place& stay : stays->second)
-      tensioned[stay.id.substr(stay.id.find(':') + 1)] = stay.attributes.contains("f_cable");
+void refuse_unknown_stays(const FeatureSet& features, const fe::Model* model, const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& [name, has_pull] : tensioned) names.push_back(name);
+  if (model != nullptr)
+    for (const fe::Element& element : model->elements)
+      if (element.type == fe::ElementType::stay)
+        names.push_back(element.name.empty() ? std::to_string(element.id) : element.name);
+  std::sort(names.begin(), names.end());
   for (const Row& row : features.rows) {
-    if (row.type != RowType::stay_frequency) continue;
-    const auto found = tensioned.find(row.stay);
-    const Place place{(folder / "rows.csv").string(), row.line, "channel"};
-    if (found == tensioned.end())
-      throw InputError(place, fmt::format("'{}' is no stay of the model{}", row.stay, did_you_mean(row.stay, names)),
+    if (row.type == RowType::stay_frequency && std::find(names.begin(), names.end(), row.stay) == names.end())
+      throw InputError({(folder / "rows.csv").string(), row.line, "channel"},
+                       fmt::format("'{}' is no stay of the model{}", row.stay, did_you_mean(row.stay, names)),
                        names.empty() ? "the model has no stays; leave the row out, or stay_frequency_Hz as a whole (left_out)"
                                      : "name a stay of the model's elements.csv");
-    if (!found->second)
-      throw InputError(place,
+  }
+}
+
+void refuse_slack_stays(const FeatureSet& features, const diagnosis::Places& places, const std::filesystem::path& folder) {
+  std::set<std::string> tensioned;
+  if (const auto stays = places.sets.find("stays"); stays != places.sets.end())
+    for (const diagnosis::Place& stay : stays->second)
+      if (stay.attributes.contains("f_cable")) tensioned.insert(stay.id.substr(stay.id.find(':') + 1));
+  for (const Row& row : features.rows) {
+    if (row.type == RowType::stay_frequency && !tensioned.contains(row.stay))
+      throw InputError({(folder / "rows.csv").string(), row.line, "channel"},
                        fmt::format("stay '{}' has no pull in the model, so that its frequency is not computed", row.stay),
                        "give its pull in elements.csv and a rule of prestress in model.toml, or leave the row out");
   }

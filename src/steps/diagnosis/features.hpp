@@ -14,9 +14,12 @@ namespace twindeck::steps {
 /// @throws InputError  with file, line, column: see steps/measured/feature_rows.hpp, measured_tables.hpp and corrections.hpp
 [[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder, const MeasuredChoice& choice = {});
 
-/// @throws InputError  naming the line of rows.csv, for a frequency of a stay that the model lacks, or has without a pull
-void refuse_unknown_stays(const diagnosis::FeatureSet& features, const diagnosis::Places& places,
-                          const std::filesystem::path& folder);
+/// @param model  null for a matrix model, which has no stays @param folder  of the features
+/// @throws InputError  naming the line of rows.csv, for a frequency of a stay that the model lacks
+void refuse_unknown_stays(const diagnosis::FeatureSet& features, const fe::Model* model, const std::filesystem::path& folder);
+/// @throws InputError  likewise, for one that the model has without a pull
+void refuse_slack_stays(const diagnosis::FeatureSet& features, const diagnosis::Places& places,
+                        const std::filesystem::path& folder);
 
 /// @param folder  of the features
 /// @param model   folder of the model, or another source, which has no load cases

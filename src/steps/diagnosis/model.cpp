@@ -102,6 +102,17 @@ std::vector<std::string> nodes_of_channels(const DiagnosedModel& model) {
 
 }  // namespace
 
+Measured channels_at_points(const std::vector<Channel>& channels) {
+  Measured points;
+  points.source = "channels.csv";
+  for (const Channel& channel : channels) {
+    if (!channel.is_at_a_point()) continue;  // strain and force gauges show no displacement
+    points.channels.push_back(channel);
+    points.modes.dofs.push_back({channel.point.empty() ? channel.name : channel.point, channel.name});
+  }
+  return points;
+}
+
 std::shared_ptr<DiagnosedModel> prepare_model(const LoadedModel& loaded, const std::vector<Channel>& channels,
                                               double sensor_tolerance_m) {
   auto prepared = std::make_shared<DiagnosedModel>();
@@ -129,23 +140,14 @@ diagnosis::Structure DiagnosedModel::structure() const {
   out.sensors = [this](const Eigen::MatrixXd& vectors) {
     const auto n = static_cast<Index>(channels.size());
     Eigen::MatrixXd values = Eigen::MatrixXd::Zero(4 * n, vectors.cols());
-    std::vector<Index> at_points;  // strain and force gauges show no displacement
-    std::vector<Channel> points;
-    for (Index c = 0; c < n; ++c) {
-      const Channel& channel = channels[static_cast<std::size_t>(c)];
-      if (!channel.is_at_a_point()) continue;
-      at_points.push_back(c);
-      points.push_back(channel);
-    }
-    if (points.empty()) return values;
+    std::vector<Index> at_points;
+    for (Index c = 0; c < n; ++c)
+      if (channels[static_cast<std::size_t>(c)].is_at_a_point()) at_points.push_back(c);
+    if (at_points.empty()) return values;
+    Measured asked = channels_at_points(channels);
     for (int kind = 0; kind < 4; ++kind) {  // along the channel, then x, y, z at its place
-      Measured asked;
-      asked.source = "channels.csv";
-      asked.channels = points;
-      for (Channel& channel : asked.channels) {
-        asked.modes.dofs.push_back({channel.point.empty() ? channel.name : channel.point, channel.name});
+      for (Channel& channel : asked.channels)
         if (kind > 0) channel.direction = Eigen::Vector3d::Unit(kind - 1);
-      }
       dynamics::EigenModes modes;
       modes.shapes = vectors;
       const Eigen::MatrixXd rows = shapes_at_sensors(asked, loaded, modes, sensor_tolerance_m).real();

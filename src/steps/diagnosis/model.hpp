@@ -23,6 +23,9 @@ struct DiagnosedModel {
   [[nodiscard]] diagnosis::Structure structure() const;  ///< borrows from this
 };
 
+/// The channels that show the motion of a point, as measured degrees of freedom in their order; gauges are left out.
+[[nodiscard]] Measured channels_at_points(const std::vector<Channel>& channels);
+
 [[nodiscard]] std::shared_ptr<DiagnosedModel> prepare_model(const LoadedModel& loaded, const std::vector<Channel>& channels,
                                                             double sensor_tolerance_m);
 

@@ -85,12 +85,10 @@ diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::Fea
   return check;
 }
 
-}  // namespace
-
-Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
+Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, StepContext& context) {
   Eigen::setNbThreads(1);  // small matrices, and sums must not depend on threads
   const auto begin = std::chrono::steady_clock::now();
-  DiagnosisInputs inputs = read_diagnosis_inputs(config, context);
+  DiagnosisInputs inputs = prepare_diagnosis(config, files, context);
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
   std::vector<std::string> unmeasured;
   map.bind_modes(bound_modes(config, inputs, &unmeasured));
@@ -139,6 +137,12 @@ Status run_diagnosis(const DiagnosisConfig& config, StepContext& context) {
   say_sentences(result.verdict, told.sentences, context);
   for (const std::string& line : correction_advice(corrections)) context.say(line);
   return {};
+}
+
+}  // namespace
+
+Computation read_diagnosis(const DiagnosisConfig& config, StepContext& context) {
+  return [&config, &context, files = read_diagnosis_files(config, context)] { return run_diagnosis(config, files, context); };
 }
 
 }  // namespace twindeck::steps

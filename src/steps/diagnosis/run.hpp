@@ -5,7 +5,7 @@
 
 namespace twindeck::steps {
 
-/// Runs the whole step.
-[[nodiscard]] Status run_diagnosis(const DiagnosisConfig& config, StepContext& context);
+/// The step.
+[[nodiscard]] Computation read_diagnosis(const DiagnosisConfig& config, StepContext& context);
 
 }  // namespace twindeck::steps

@@ -4,60 +4,20 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <set>
 
 #include "core/error.hpp"
 #include "diagnosis/null_calibration.hpp"
-#include "io/csv.hpp"
 #include "matching/mode_name.hpp"
-#include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/features.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
-#include "steps/measured/measured_tables.hpp"
-#include "steps/shared/shipped_files.hpp"
-#include "steps/shared/study.hpp"
 #include "steps/shared/unit_slips.hpp"
 
 namespace twindeck::steps {
 
 namespace {
-
-std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const StepContext& context) {
-  if (const auto given = context.flag("catalogue")) return *given;
-  if (!config.catalogue.empty()) return config.catalogue;
-  const std::filesystem::path catalogue = "workflows/common/hypotheses";
-  if (!context.study.empty()) {  // of the tree that the study lies in
-    const auto beside = context.study.parent_path() / "common/hypotheses";
-    if (!std::filesystem::is_directory(catalogue) && std::filesystem::is_directory(beside)) return beside;
-  }
-  return shipped(catalogue);
-}
-
-/// @param model  null for a matrix model, which has no dampers
-std::vector<diagnosis::DamperMove> read_damper_places(const std::filesystem::path& file, const fe::Model* model) {
-  const auto table = io::CsvTable::read(file, {"alternative", "damper", "x_m", "y_m", "z_m"}, {});
-  std::vector<std::string> known;
-  if (model != nullptr)
-    for (const fe::Spring& spring : model->springs)
-      if (diagnosis::can_be_moved(spring)) known.push_back(spring.name);
-  std::vector<diagnosis::DamperMove> moves;
-  for (std::size_t r = 0; r < table.rows(); ++r) {
-    const std::string name = table.text(r, "alternative"), damper = table.text(r, "damper");
-    if (std::find(known.begin(), known.end(), damper) == known.end())
-      table.fail(
-          r, "damper",
-          fmt::format("'{}' is no damper of the model between a node and the ground{}", damper, did_you_mean(damper, known)),
-          known.empty() ? "the model has none: leave damper_places out"
-                        : fmt::format("name one of its springs.csv: {}", fmt::join(known, ", ")));
-    if (moves.empty() || moves.back().name != name) moves.push_back({name, {}, {}});
-    moves.back().dampers.push_back(damper);
-    moves.back().x_m.emplace_back(table.number(r, "x_m"), table.number(r, "y_m"), table.number(r, "z_m"));
-  }
-  return moves;
-}
 
 /// Measured frequencies of each condition.
 std::vector<MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& features) {
@@ -124,50 +84,21 @@ void swing_stays(const DiagnosisConfig& config, const diagnosis::PlaceOptions& p
 
 }  // namespace
 
-DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext& context) {
+DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, StepContext& context) {
   DiagnosisInputs inputs;
-  std::filesystem::path folder;
-  if (context.features)
-    folder = *context.features;
-  else if (!context.study.empty())
-    folder = read_study(context.study).features;
-  if (folder.empty()) throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
-  context.input(folder);
-  const MeasuredChoice choice = asked_choice(context);
-  inputs.features = read_all_features(folder, choice);
-  inputs.corrected = choice.corrections;
-  std::vector<diagnosis::Row> stay_rows;
-  for (const diagnosis::Row& row : inputs.features.rows)
-    if (row.type == diagnosis::RowType::stay_frequency) stay_rows.push_back(row);
-  choose_rows(config, inputs.features);
-  const auto catalogue = catalogue_folder(config, context);
-  inputs.catalogue = read_catalogue(std::filesystem::is_directory(catalogue) ? context.input(catalogue) : catalogue);
-  if (!config.further_causes.empty())
-    for (diagnosis::Hypothesis& h : read_catalogue(context.input(config.further_causes))) {
-      const auto same = [&](const diagnosis::Hypothesis& other) { return other.id == h.id && other.set == h.set; };
-      if (std::any_of(inputs.catalogue.begin(), inputs.catalogue.end(), same))
-        throw InputError({h.file, 1, "id"}, fmt::format("'{}' stands at {} in the catalogue already", h.id, h.set),
-                         "give it another set of places, or another id");
-      inputs.catalogue.push_back(std::move(h));
-    }
-  std::vector<Channel> channels;
-  if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
-  const auto updated = context.results / "s6_updating" / "model";
-  // A study that updates nothing is diagnosed on its own model.
-  const bool own = !context.model && !context.study.empty() && !std::filesystem::is_directory(updated) &&
-                   !read_study(context.study).model_folder.empty();
-  const LoadedModel loaded = own ? load_study_model(context, "") : load_model(context, updated);
+  inputs.features = files.features;
+  inputs.corrected = files.corrected;
+  inputs.catalogue = files.catalogue;
+  const LoadedModel loaded = solvable(files.model);
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
-  refuse_unknown_loads(folder, loaded.source);
-  inputs.load_tests = {loaded.source, folder / "channels.csv"};
-  inputs.model = prepare_model(loaded, channels, config.sensor_tolerance_m);
+  inputs.load_tests = {loaded.source, files.folder / "channels.csv"};
+  inputs.model = prepare_model(loaded, files.channels, config.sensor_tolerance_m);
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
-  if (!config.damper_places.empty())
-    place_options.moves = read_damper_places(context.input(config.damper_places), loaded.fe_model());
+  place_options.moves = files.moves;
   reduce(place_options, {static_cast<int>(config.modes), 0}, inputs);
-  refuse_unknown_stays(inputs.features, inputs.places, folder);
-  if (config.stays == "auto") swing_stays(config, place_options, stay_rows, inputs);
-  inputs.account = account_of(read_claims(folder), inputs.features, channels, inputs.places);
+  refuse_slack_stays(inputs.features, inputs.places, files.folder);
+  if (config.stays == "auto") swing_stays(config, place_options, files.stay_rows, inputs);
+  inputs.account = account_of(files.claims, inputs.features, files.channels, inputs.places);
   warn_of_unit_slips(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
   const std::size_t swinging = inputs.bar_stays ? inputs.bar_stays->stays() : 0;
   if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, swinging, inputs.features))

@@ -12,12 +12,12 @@
 #include "steps/diagnosis/extended_stays.hpp"
 #include "steps/diagnosis/load_tests.hpp"
 #include "steps/diagnosis/model.hpp"
-#include "steps/measured/corrections.hpp"
+#include "steps/diagnosis/read_files.hpp"
 #include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
 
-/// Everything that a diagnosis works on, made from files once.
+/// Everything that a diagnosis works on.
 struct DiagnosisInputs {
   std::shared_ptr<DiagnosedModel> model;
   diagnosis::Structure structure;  ///< borrows from `model`
@@ -31,7 +31,9 @@ struct DiagnosisInputs {
   std::optional<BarStaysEffect> bar_stays;  ///< where stays swing that the model had as bars; `model` has them as cables
 };
 
-[[nodiscard]] DiagnosisInputs read_diagnosis_inputs(const DiagnosisConfig& config, StepContext& context);
+/// The model reduced, with its places, and the rows that it can be compared with.
+[[nodiscard]] DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
+                                                StepContext& context);
 
 /// Threshold of the largest log odds: of a cached null calibration where the same model, rows (without their values), catalogue
 /// and rule were run before, of one run now where the configuration asks for it, else the analytic tail.

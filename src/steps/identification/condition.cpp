@@ -157,19 +157,29 @@ void check_merging(ConditionResult& result, const std::vector<Index>& references
   }
 }
 
+void refuse_long_segment(const Conditioned& conditioned, const IdentificationConfig& config) {
+  for (const Eigen::MatrixXd& record : conditioned.records) {
+    if (record.rows() >= config.welch_segment) continue;
+    throw InputError(
+        {"", 0, "welch_segment"},
+        fmt::format("is {}, longer than the record of {} samples after decimation", config.welch_segment, record.rows()),
+        "give a shorter segment");
+  }
+}
+
 }  // namespace
 
-ConditionResult identify_condition(const Campaign& campaign, const std::vector<RecordGroup>& groups,
-                                   const IdentificationConfig& config, const StepContext& context) {
+ConditionResult read_condition(const Campaign& campaign, const std::vector<RecordGroup>& groups,
+                               const IdentificationConfig& config, const StepContext& context) {
   ConditionResult result;
   result.condition = groups.front().condition;
-  std::vector<sysid::SetupModes> setups;
   for (const RecordGroup& group : groups) {
-    context.progress(fmt::format("identifying {} in condition {}", group.setup, group.condition),
-                     static_cast<double>(result.setups.size()), static_cast<double>(groups.size()));
+    context.progress("reading records of condition " + result.condition, static_cast<double>(result.setups.size()),
+                     static_cast<double>(groups.size()));
     SetupResult setup;
     setup.conditioned = condition_records(campaign, group, config, config.decimation);
     for (const std::string& note : setup.conditioned.notes) context.say(note);
+    refuse_long_segment(setup.conditioned, config);
     if (!result.setups.empty() && setup.conditioned.rate_Hz != result.setups.front().conditioned.rate_Hz) {
       throw InputError({(campaign.folder / "campaign.toml").string(), group.records.front().line, "sampling_rate_Hz"},
                        fmt::format("is {} Hz in setup {}, but {} Hz in setup {}, which it is merged with",
@@ -177,36 +187,41 @@ ConditionResult identify_condition(const Campaign& campaign, const std::vector<R
                                    groups.front().records.front().sampling_rate_Hz, groups.front().setup),
                        "bring the records to one rate, or choose one setup: --set setup=…");
     }
-    setup.spectra = average_spectra(setup.conditioned, config);
-    setup.singular = singular_spectra(setup.conditioned, config);
-    setup.found = identify_modes(setup.conditioned, config);
-    for (const sysid::PeriodicLine& line : setup.found.periodic) {
-      context.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", group.setup,
-                              line.frequency_Hz,
-                              line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
-    }
-    estimate_lags(setup.conditioned, setup.found);
     for (const CampaignChannel& channel : setup.conditioned.channels) {
       if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
     }
     result.setups.push_back(std::move(setup));
   }
-  for (const SetupResult& setup : result.setups) {
-    setups.push_back(
-        {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
-  }
-  const std::vector<Index> references = common_references(result);
-  if (result.setups.size() > 1 && references.empty()) {
+  if (result.setups.size() > 1 && common_references(result).empty()) {
     throw InputError(
         {(campaign.folder / "channels.csv").string(), 0, "reference"},
         fmt::format("no reference channel is in each of the {} setups of condition {}", result.setups.size(), result.condition),
         "mark the sensors that stayed in place, or choose one setup: --set setup=…");
   }
+  return result;
+}
+
+void identify_condition(ConditionResult& result, const IdentificationConfig& config, const StepContext& context) {
+  std::vector<sysid::SetupModes> setups;
+  for (SetupResult& setup : result.setups) {
+    const std::string& name = setup.conditioned.setup;
+    context.progress(fmt::format("identifying {} in condition {}", name, result.condition), static_cast<double>(setups.size()),
+                     static_cast<double>(result.setups.size()));
+    setup.spectra = average_spectra(setup.conditioned, config);
+    setup.singular = singular_spectra(setup.conditioned, config);
+    setup.found = identify_modes(setup.conditioned, config);
+    for (const sysid::PeriodicLine& line : setup.found.periodic) {
+      context.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
+                              line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
+    }
+    estimate_lags(setup.conditioned, setup.found);
+    setups.push_back({name, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
+  }
+  const std::vector<Index> references = common_references(result);
   result.modes = sysid::merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
   if (result.setups.size() > 1 && config.kind != "free_decay" && result.setups.front().conditioned.excitation.empty()) {
     check_merging(result, references, config);
   }
-  return result;
 }
 
 }  // namespace twindeck::steps

@@ -33,9 +33,16 @@ struct ConditionResult {
   std::vector<MergingCheck> checks;      ///< one a mode where there are several setups
 };
 
+/// The records of each setup made ready, none identified yet.
+/// @param groups  of one condition
+/// @throws InputError  as condition_records; for a record shorter than `welch_segment`, setups of two rates, or setups without
+/// a common reference
+[[nodiscard]] ConditionResult read_condition(const Campaign& campaign, const std::vector<RecordGroup>& groups,
+                                             const IdentificationConfig& config, const StepContext& context);
+
 /// Identifies each setup and merges them. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has
 /// the mode; standard deviations are PoSER's in either case.
-[[nodiscard]] ConditionResult identify_condition(const Campaign& campaign, const std::vector<RecordGroup>& groups,
-                                                 const IdentificationConfig& config, const StepContext& context);
+/// @param result  as read_condition gives it
+void identify_condition(ConditionResult& result, const IdentificationConfig& config, const StepContext& context);
 
 }  // namespace twindeck::steps

@@ -99,19 +99,15 @@ Index release_sample(const Eigen::MatrixXd& data, double rate_Hz) {
   return best;
 }
 
-std::vector<DecayResult> identify_free_decays(const Campaign& campaign, const std::vector<RecordGroup>& groups,
-                                              const IdentificationConfig& config, const std::vector<ConditionResult>& results,
-                                              std::uint64_t seed) {
+std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& records, const IdentificationConfig& config,
+                                              const std::vector<ConditionResult>& results, std::uint64_t seed) {
   std::vector<DecayResult> decays;
-  for (const RecordGroup& group : groups) {
-    const Index decimation = config.decay_decimation > 0 ? config.decay_decimation : config.decimation;
-    Conditioned conditioned = condition_records(campaign, group, config, decimation);
+  for (const Conditioned& conditioned : records) {
     DecayResult result;
-    result.setup = group.setup;
-    result.condition = group.condition;
+    result.setup = conditioned.setup;
+    result.condition = conditioned.condition;
     result.channels = conditioned.channels;
     result.quality = conditioned.quality;
-    result.notes = conditioned.notes;
     const Eigen::VectorXd scale = channel_rms(conditioned.records);
     const auto wanted = static_cast<Index>(std::lround(config.decay_length_s * conditioned.rate_Hz));
     const auto skipped = static_cast<Index>(std::lround(config.decay_start_s * conditioned.rate_Hz));
@@ -136,10 +132,9 @@ std::vector<DecayResult> identify_free_decays(const Campaign& campaign, const st
     const sysid::IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
     result.found = sysid::identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
     to_physical_shapes(result.found, conditioned.channels, scale);
-    const ConditionResult* ambient = condition_named(results, group.condition);
+    const ConditionResult* ambient = condition_named(results, conditioned.condition);
     for (std::size_t i = 0; i < whole.size(); ++i) {
-      read_by_amplitude(result, whole[i], conditioned.rate_Hz,
-                        group.records[i].file.lexically_relative(campaign.folder).generic_string(), config, ambient);
+      read_by_amplitude(result, whole[i], conditioned.rate_Hz, conditioned.files[i], config, ambient);
     }
     decays.push_back(std::move(result));
   }

@@ -14,8 +14,7 @@ struct DecayResult {
   std::string setup, condition;
   std::vector<CampaignChannel> channels;
   std::vector<ChannelQuality> quality;
-  std::vector<std::string> notes;  ///< of how its records were read
-  sysid::Identification found;     ///< ERA
+  sysid::Identification found;  ///< ERA
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {
     std::string mode;  ///< of the condition's modes.csv, empty where it has none
@@ -32,7 +31,7 @@ struct DecayResult {
 
 /// ERA of the records of kind free_decay, and frequency and damping by amplitude of the modes that it finds.
 /// @param results  conditions identified from ambient records, for the names of modes
-[[nodiscard]] std::vector<DecayResult> identify_free_decays(const Campaign& campaign, const std::vector<RecordGroup>& groups,
+[[nodiscard]] std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& records,
                                                             const IdentificationConfig& config,
                                                             const std::vector<ConditionResult>& results, std::uint64_t seed);
 

@@ -107,6 +107,7 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
     conditioned.inputs.push_back(campaign.channel(input_names.back()));
   }
   choose_references(conditioned, config.references);
+  static_cast<void>(config.options(conditioned.rate_Hz, conditioned.channels));  // refuses a band beyond the records'
   // Channel by channel, so that beside the record one channel more lies in memory.
   const auto ready = [&](const Eigen::MatrixXd& raw, const std::vector<Index>& chosen, const std::vector<std::string>& called,
                          const std::string& file) {
@@ -123,8 +124,8 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
   for (const CampaignRecord& record : group.records) {
     const auto [raw, notes] = read_record(campaign, record);
     conditioned.notes.insert(conditioned.notes.end(), notes.begin(), notes.end());
-    const auto quality =
-        channel_quality(raw, record.channels, record.setup, record.file.lexically_relative(campaign.folder).generic_string());
+    conditioned.files.push_back(record.file.lexically_relative(campaign.folder).generic_string());
+    const auto quality = channel_quality(raw, record.channels, record.setup, conditioned.files.back());
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
     refuse_unusable(quality, conditioned.channels, config.largest_clipping);
     refuse_unusable(quality, conditioned.inputs, config.largest_clipping);
@@ -220,8 +221,8 @@ sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const Id
   const Eigen::VectorXd scale = channel_rms(conditioned.records);
   signal::CrossSpectra average;
   for (const Eigen::MatrixXd& record : conditioned.records) {
-    const signal::CrossSpectra one = signal::cross_spectra(record * scale.cwiseInverse().asDiagonal(), conditioned.rate_Hz,
-                                                           {std::min<Index>(config.welch_segment, record.rows()), 0.5});
+    const signal::CrossSpectra one =
+        signal::cross_spectra(record * scale.cwiseInverse().asDiagonal(), conditioned.rate_Hz, {config.welch_segment, 0.5});
     const auto weight = static_cast<double>(one.n_segments);
     if (average.density.empty()) average.density.assign(one.density.size(), Eigen::MatrixXcd::Zero(scale.size(), scale.size()));
     for (std::size_t f = 0; f < one.density.size(); ++f) average.density[f] += weight * one.density[f];
@@ -235,14 +236,7 @@ sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const Id
 signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationConfig& config) {
   signal::PowerSpectra average;
   for (const Eigen::MatrixXd& record : conditioned.records) {
-    const Index segment = std::min<Index>(config.welch_segment, record.rows());
-    if (segment < config.welch_segment) {
-      throw InputError(
-          {"", 0, "welch_segment"},
-          fmt::format("is {}, longer than the record of {} samples after decimation", config.welch_segment, segment),
-          "give a shorter segment");
-    }
-    const signal::PowerSpectra one = signal::power_spectra(record, conditioned.rate_Hz, {segment, 0.5});
+    const signal::PowerSpectra one = signal::power_spectra(record, conditioned.rate_Hz, {config.welch_segment, 0.5});
     const double weight = static_cast<double>(one.n_segments);
     average.frequency_Hz = one.frequency_Hz;
     average.density = average.n_segments == 0 ? Eigen::MatrixXd(weight * one.density)

@@ -57,12 +57,14 @@ struct Conditioned {
   std::vector<Eigen::MatrixXd> excitation;  ///< of the inputs, one a record
   double rate_Hz = 0.0;                     ///< after decimation
   std::string setup, condition;
+  std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
   std::vector<std::string> notes;       ///< what the user should know of how the records were read
 };
 
 /// Reads, judges, repairs as asked, detrends and decimates.
-/// @throws InputError  for a gap that is not to be filled, a dead or clipped channel, an unknown reference, no response channel
+/// @throws InputError  for a gap that is not to be filled, a dead or clipped channel, an unknown reference, no response
+/// channel, a band beyond the records'
 [[nodiscard]] Conditioned condition_records(const Campaign& campaign, const RecordGroup& group,
                                             const IdentificationConfig& config, Eigen::Index decimation);
 

@@ -24,9 +24,9 @@ double two_sided_quantile(double level) {
   return 0.5 * (low + high);
 }
 
-const StaySettings* settings_of(const RecordGroup& group, const Conditioned& conditioned, const IdentificationConfig& config) {
+const StaySettings* settings_of(const Conditioned& conditioned, const IdentificationConfig& config) {
   const auto at = std::find_if(config.stays.begin(), config.stays.end(), [&](const StaySettings& stay) {
-    return stay.name == group.setup || stay.name == conditioned.channels.front().point ||
+    return stay.name == conditioned.setup || stay.name == conditioned.channels.front().point ||
            stay.name == conditioned.channels.front().name;
   });
   return at == config.stays.end() ? nullptr : &*at;
@@ -34,8 +34,7 @@ const StaySettings* settings_of(const RecordGroup& group, const Conditioned& con
 
 }  // namespace
 
-std::vector<StayResult> identify_stays(const Campaign& campaign, const std::vector<RecordGroup>& groups,
-                                       const IdentificationConfig& config) {
+IdentificationConfig stay_settings(const IdentificationConfig& config) {
   IdentificationConfig own = config;
   own.references.clear();
   own.exclude.clear();
@@ -45,17 +44,20 @@ std::vector<StayResult> identify_stays(const Campaign& campaign, const std::vect
   own.lowest_Hz = 0.0;
   own.highest_Hz = 0.0;
   own.periodic.largest_damping = 0.0;  // a taut string's modes are multiples with next to no damping, and no machine's lines
+  return own;
+}
+
+std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records, const IdentificationConfig& config) {
+  const IdentificationConfig own = stay_settings(config);
   std::vector<StayResult> stays;
-  for (const RecordGroup& group : groups) {
-    const Conditioned conditioned = condition_records(campaign, group, own, config.stay_decimation);
+  for (const Conditioned& conditioned : records) {
     const sysid::Identification found = identify_modes(conditioned, own);
     StayResult result;
-    const StaySettings* settings = settings_of(group, conditioned, config);
-    result.stay = settings != nullptr ? settings->name : group.setup;
-    result.condition = group.condition;
+    const StaySettings* settings = settings_of(conditioned, config);
+    result.stay = settings != nullptr ? settings->name : conditioned.setup;
+    result.condition = conditioned.condition;
     result.length_m = settings != nullptr ? settings->length_m : 0.0;
     result.quality = conditioned.quality;
-    result.notes = conditioned.notes;
     std::vector<double> frequencies;
     for (const sysid::Cluster& mode : found.modes) frequencies.push_back(mode.frequency_Hz);
     std::vector<sysid::Harmonic> harmonics;

@@ -15,7 +15,6 @@ struct StayResult {
   std::string stay, condition;
   double length_m = 0.0;  ///< 0 where not configured
   std::vector<ChannelQuality> quality;
-  std::vector<std::string> notes;  ///< of how its records were read
   struct Mode {
     int harmonic = 0;
     double frequency_Hz = 0.0, frequency_std_Hz = 0.0, damping_ratio = 0.0, damping_ratio_std = 0.0;
@@ -25,9 +24,12 @@ struct StayResult {
   sysid::StayFit fit;       ///< with length 1 m where the length is not known: c and lambda² hold all the same
 };
 
+/// The settings that records of stays are read and identified with.
+[[nodiscard]] IdentificationConfig stay_settings(const IdentificationConfig& config);
+
 /// Identifies records of kind stay and numbers their modes as harmonics. A stay is named as in [[stay_length]] by its setup,
-/// point or channel; otherwise by its setup.
-[[nodiscard]] std::vector<StayResult> identify_stays(const Campaign& campaign, const std::vector<RecordGroup>& groups,
+/// point or channel; otherwise by its setup. @param records  of one stay each
+[[nodiscard]] std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records,
                                                      const IdentificationConfig& config);
 
 /// stays.csv: `stay,condition,harmonic,frequency_Hz,frequency_std_Hz,damping_ratio_pct,damping_ratio_std_pct`.

@@ -24,20 +24,21 @@ struct ModelPoints {
   std::vector<std::array<Index, 6>> row;  ///< rows of the expanded shapes; -1 where the node lacks the direction
 };
 
-ModelPoints points_of(const LoadedModel& model) {
+/// @param model  null for a matrix model, whose points are those of its `dofs`
+ModelPoints points_of(const fe::Model* model, const std::vector<fe::DofLabel>& dofs) {
   ModelPoints points;
-  if (model.model) {
-    for (std::size_t i = 0; i < model.model->nodes.size(); ++i) {
-      points.node.push_back(std::to_string(model.model->nodes[i].id));
-      points.x_m.push_back(model.model->nodes[i].x_m);
+  if (model != nullptr) {
+    for (std::size_t i = 0; i < model->nodes.size(); ++i) {
+      points.node.push_back(std::to_string(model->nodes[i].id));
+      points.x_m.push_back(model->nodes[i].x_m);
       const auto first = static_cast<Index>(6 * i);
       points.row.push_back({first, first + 1, first + 2, first + 3, first + 4, first + 5});
     }
     return points;
   }
   std::map<std::string, std::size_t> at;
-  for (std::size_t i = 0; i < model.system.dofs.size(); ++i) {
-    const fe::DofLabel& dof = model.system.dofs[i];
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const fe::DofLabel& dof = dofs[i];
     const auto [where, is_new] = at.try_emplace(dof.node, points.node.size());
     if (is_new) {
       points.node.push_back(dof.node);
@@ -98,8 +99,7 @@ struct ChannelPart {
 };
 
 /// The parts of each measured degree of freedom.
-std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const LoadedModel& model, double tolerance_m) {
-  const ModelPoints points = points_of(model);
+std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const ModelPoints& points, double tolerance_m) {
   std::vector<std::vector<ChannelPart>> out(measured.modes.dofs.size());
   for (std::size_t i = 0; i < measured.modes.dofs.size(); ++i) {
     const modal::ShapeDof& dof = measured.modes.dofs[i];
@@ -129,11 +129,17 @@ std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const Loa
   return out;
 }
 
+ModelPoints points_of(const LoadedModel& model) { return points_of(model.fe_model(), model.system.dofs); }
+
 }  // namespace
+
+void refuse_unplaced_channels(const Measured& measured, const ReadModel& model, double tolerance_m) {
+  static_cast<void>(placed(measured, points_of(model.fe_model(), model.matrices.dofs), tolerance_m));
+}
 
 Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& model, const dynamics::EigenModes& modes,
                                    double tolerance_m) {
-  const std::vector<std::vector<ChannelPart>> parts = placed(measured, model, tolerance_m);
+  const std::vector<std::vector<ChannelPart>> parts = placed(measured, points_of(model), tolerance_m);
   const Eigen::MatrixXd values = model.system.expand(modes.shapes);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(parts), modes.shapes.cols());
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -142,7 +148,7 @@ Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& 
 }
 
 Eigen::MatrixXd sensor_vectors(const Measured& measured, const LoadedModel& model, double tolerance_m) {
-  const std::vector<std::vector<ChannelPart>> parts = placed(measured, model, tolerance_m);
+  const std::vector<std::vector<ChannelPart>> parts = placed(measured, points_of(model), tolerance_m);
   Eigen::MatrixXd chosen =
       Eigen::MatrixXd::Zero(model.model ? model.system.expansion.rows() : model.system.size(), std::ssize(parts));
   for (std::size_t i = 0; i < parts.size(); ++i)

@@ -17,6 +17,9 @@ namespace twindeck::steps {
 [[nodiscard]] Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const LoadedModel& model,
                                                  const dynamics::EigenModes& modes, double tolerance_m);
 
+/// @throws InputError  as above, before anything is solved
+void refuse_unplaced_channels(const Measured& measured, const ReadModel& model, double tolerance_m);
+
 /// The same as vectors over the model's free degrees of freedom: channel c shows c' phi.
 /// @return [-] (n × n_measured_dofs)
 /// @throws InputError  as above

@@ -9,6 +9,10 @@
 
 namespace twindeck::steps {
 
+void refuse_unknown_meshes(const Study& study, const std::string& variant, const std::vector<std::string>& meshes) {
+  for (const std::string& mesh : meshes) static_cast<void>(ponte::generate(study.model_file, variant, mesh));
+}
+
 void write_mesh_convergence(const Study& study, const std::string& variant, const std::vector<std::string>& meshes, int n_modes,
                             const std::filesystem::path& file) {
   constexpr int beyond = 5;  // solved for beyond the modes shown, so that one that moves up is among them

@@ -47,6 +47,12 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
   return pairing;
 }
 
+void check_pairing(const Measured& measured, const ReadModel& model, const std::vector<std::string>& published,
+                   const Place& place, long n_modes, double sensor_tolerance_m) {
+  if (measured.modes.has_shapes()) return refuse_unplaced_channels(measured, model, sensor_tolerance_m);
+  static_cast<void>(pair_as_published(measured, n_modes, published, place));
+}
+
 void warn_of_unmeasured(StepContext& context, const Pairing& pairing) {
   if (pairing.unmeasured.empty()) return;
   context.warn(fmt::format("pairs: {} {} not among the measured modes and {} passed over", fmt::join(pairing.unmeasured, ", "),

@@ -36,6 +36,11 @@ struct Pairing {
 [[nodiscard]] Pairing pair_as_published(const Measured& measured, Eigen::Index n_numerical,
                                         const std::vector<std::string>& published, const Place& place);
 
+/// What of the pairing can be refused before anything is solved. @param n_modes  that will be computed
+/// @throws InputError  as pair_as_published, or as pair_at_sensors where shapes were measured
+void check_pairing(const Measured& measured, const ReadModel& model, const std::vector<std::string>& published,
+                   const Place& place, long n_modes, double sensor_tolerance_m);
+
 /// Names the pairs of a list that were passed over.
 void warn_of_unmeasured(StepContext& context, const Pairing& pairing);
 

@@ -42,13 +42,13 @@ io::FieldTable RefinementConfig::fields() {
 
 namespace {
 
-/// The refined model: the generator's variant, or what there is when the model is the user's own.
-LoadedModel refined_model(StepContext& context, const RefinementConfig& config, const LoadedModel& initial,
-                          std::optional<Study>& study) {
-  if (!context.study.empty()) study = read_study(context.study);
-  const bool generated = !context.model && study && !study->model_generator.empty();
-  return generated ? load_study_model(context, config.variant) : initial;
-}
+/// What the step reads.
+struct RefinementInputs {
+  ReadModel initial;
+  std::optional<Study> generated;    ///< the study whose generator writes the model; a model of the user's own has none
+  std::optional<ReadModel> refined;  ///< the generator's variant
+  std::optional<Measured> measured;
+};
 
 /// Measured modes that take part: those of the published pairs where such a list is used, otherwise all.
 std::vector<bool> compared_modes(const Measured& measured, const Pairing& refined) {
@@ -57,18 +57,19 @@ std::vector<bool> compared_modes(const Measured& measured, const Pairing& refine
   return keep;
 }
 
+Place place_of_pairs(const StepContext& context) { return {(context.study / "s4_refinement.toml").string(), 0, "pairs"}; }
+
 Pairing pair_refined(const StepContext& context, const RefinementConfig& config, const Measured& measured,
                      const SolvedModel& refined, const matching::PairingOptions& options) {
   if (measured.modes.has_shapes())
     return pair_at_sensors(measured, refined.loaded, refined.modes, options, config.sensor_tolerance_m);
   if (config.pairs.empty()) return pair_by_order(measured, refined.modes.frequency_Hz.size());
-  const Place place{(context.study / "s4_refinement.toml").string(), 0, "pairs"};
-  return pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place);
+  return pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place_of_pairs(context));
 }
 
-PairingAccount compare_with_measurement(StepContext& context, const RefinementConfig& config, const SolvedModel& initial,
+PairingAccount compare_with_measurement(StepContext& context, const RefinementConfig& config,
+                                        const std::optional<Measured>& measured, const SolvedModel& initial,
                                         const SolvedModel& refined) {
-  const std::optional<Measured> measured = find_measured(context, config.condition);
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
   const Measured some = measured.value_or(Measured{});
   warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
@@ -98,13 +99,10 @@ PairingAccount compare_with_measurement(StepContext& context, const RefinementCo
   return account;
 }
 
-}  // namespace
-
-Status run_refinement(StepContext& context, const RefinementConfig& config) {
-  // 1. Initial and refined model, with their modes.
-  LoadedModel initial_model = load_model(context, context.results / "s1_model" / "model");
-  std::optional<Study> study;
-  LoadedModel refined_source = refined_model(context, config, initial_model, study);
+Status run_refinement(StepContext& context, const RefinementConfig& config, const RefinementInputs& read) {
+  // 1. Initial and refined model, with their modes. A model of the user's own is both.
+  LoadedModel initial_model = solvable(read.initial);
+  LoadedModel refined_source = read.refined ? solvable(*read.refined) : initial_model;
   const auto n = static_cast<int>(
       std::min<Eigen::Index>(config.n_modes, std::min(initial_model.system.size(), refined_source.system.size())));
   const SolvedModel initial = solve_modes(std::move(initial_model), n);
@@ -113,12 +111,12 @@ Status run_refinement(StepContext& context, const RefinementConfig& config) {
   save_model(refined.loaded, refined.loaded.theta, context.out / "model");
 
   // 2. Against the measurement.
-  const PairingAccount account = compare_with_measurement(context, config, initial, refined);
+  const PairingAccount account = compare_with_measurement(context, config, read.measured, initial, refined);
 
   // 3. What each as-built change does.
   ChangeStudy changes;
-  if (!context.model && study && !study->model_generator.empty()) {
-    changes = study_changes(study->model_file, study->model_mesh, n, static_cast<int>(config.extra_modes),
+  if (read.generated) {
+    changes = study_changes(read.generated->model_file, read.generated->model_mesh, n, static_cast<int>(config.extra_modes),
                             [&](int done, int of) { context.progress("as-built changes", done, of); });
   }
   write_changes(changes, context.out);
@@ -126,6 +124,25 @@ Status run_refinement(StepContext& context, const RefinementConfig& config) {
     if (!status.converged) return status;
   }
   return outcome({}, account);
+}
+
+}  // namespace
+
+Computation read_refinement(StepContext& context, const RefinementConfig& config) {
+  RefinementInputs read;
+  read.initial = load_model(context, context.results / "s1_model" / "model");
+  if (!context.model && !context.study.empty()) {
+    const Study study = read_study(context.study);
+    if (!study.model_generator.empty()) {
+      read.generated = study;
+      read.refined = load_study_model(context, config.variant);
+    }
+  }
+  read.measured = find_measured(context, config.condition);
+  if (read.measured)
+    check_pairing(*read.measured, read.refined ? *read.refined : read.initial, config.pairs, place_of_pairs(context),
+                  config.n_modes, config.sensor_tolerance_m);
+  return [&context, &config, read = std::move(read)] { return run_refinement(context, config, read); };
 }
 
 }  // namespace twindeck::steps

@@ -53,6 +53,6 @@ struct ChangeStudy {
 void write_changes(const ChangeStudy& study, const std::filesystem::path& folder);
 
 /// The step: everything between the command line and the manifest.
-[[nodiscard]] Status run_refinement(StepContext& context, const RefinementConfig& config);
+[[nodiscard]] Computation read_refinement(StepContext& context, const RefinementConfig& config);
 
 }  // namespace twindeck::steps

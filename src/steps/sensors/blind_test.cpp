@@ -78,12 +78,7 @@ BlindTestResult blind_test(const SensorsConfig& config, const VectorXd& frequenc
   std::vector<const ScoredSetup*> chosen;
   for (const std::string& name : config.blind_setups) {
     const auto at = std::find_if(setups.begin(), setups.end(), [&](const ScoredSetup& s) { return s.name == name; });
-    if (at == setups.end()) {
-      std::vector<std::string> known;
-      for (const ScoredSetup& s : setups) known.push_back(s.name);
-      throw InputError({"", 0, "blind.setups"}, "'" + name + "' is no setup" + did_you_mean(name, known),
-                       "name setups of the layout, DC1 … or a search");
-    }
+    TWINDECK_ASSERT(at != setups.end());
     chosen.push_back(&*at);
   }
   BlindTestResult result;

@@ -110,7 +110,23 @@ ScoredSetup from_file(const std::string& name, const std::vector<LayoutChannel>&
   return setup;
 }
 
+/// Setups that are searched for, in this order.
+const std::vector<std::string> kSearches = {"effective_independence", "greatest_determinant", "least_R_k"};
+
+std::string free_name(long i) { return "DC" + std::to_string(i + 1); }
+
 }  // namespace
+
+void refuse_unknown_blind_setups(const SensorsConfig& config, const std::vector<LayoutChannel>& setups) {
+  std::vector<std::string> known = setup_names(setups);
+  for (long i = 0; i < std::min(config.free_setups, config.draws); ++i) known.push_back(free_name(i));
+  known.insert(known.end(), kSearches.begin(), kSearches.end());
+  for (const std::string& name : config.blind_setups) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError({"", 0, "blind.setups"}, "'" + name + "' is no setup" + did_you_mean(name, known),
+                       "name setups of the layout, DC1 … or a search");
+  }
+}
 
 std::vector<LayoutChannel> candidate_channels(const std::vector<LayoutPoint>& points) {
   std::vector<LayoutChannel> candidates;
@@ -151,7 +167,7 @@ std::vector<ScoredSetup> score_setups(const SensorsConfig& config, const std::ve
   }
   std::sort(free.begin(), free.end());
   for (long i = 0; i < std::min<long>(config.free_setups, std::ssize(free)); ++i) {
-    ScoredSetup setup = named("DC" + std::to_string(i + 1), "dec", free[static_cast<std::size_t>(i)].second, candidates);
+    ScoredSetup setup = named(free_name(i), "dec", free[static_cast<std::size_t>(i)].second, candidates);
     setup.score = free[static_cast<std::size_t>(i)].first;
     summarise(setup, drawn);
     out.push_back(setup);
@@ -162,11 +178,11 @@ std::vector<ScoredSetup> score_setups(const SensorsConfig& config, const std::ve
   const auto determinant = [](const MatrixXd& part) { return sensors::log_determinant(part); };
   const auto decoupling = [](const MatrixXd& part) { return -sensors::decoupling_score(part); };
   const std::vector<Index> independent = sensors::effective_independence(scaled, count).rows;
-  out.push_back(named("effective_independence", "search", independent, candidates));
+  out.push_back(named(kSearches[0], "search", independent, candidates));
   // The determinant is zero for fewer sensors than modes, so that a greedy start from nothing is blind; it starts where
   // Kammer's ends.
-  out.push_back(named("greatest_determinant", "search", sensors::greedy_exchange(scaled, count, determinant, independent).rows,
-                      candidates));
+  out.push_back(
+      named(kSearches[1], "search", sensors::greedy_exchange(scaled, count, determinant, independent).rows, candidates));
   // Exchange ends at a layout that no single exchange betters, of which there are many: it starts from nothing, from Kammer's,
   // and from every setup above that has as many channels.
   sensors::Layout least = sensors::greedy_exchange(scaled, count, decoupling);
@@ -178,7 +194,7 @@ std::vector<ScoredSetup> score_setups(const SensorsConfig& config, const std::ve
     sensors::Layout found = sensors::greedy_exchange(scaled, count, decoupling, start);
     if (found.worth > least.worth) least = std::move(found);
   }
-  out.push_back(named("least_R_k", "search", least.rows, candidates));
+  out.push_back(named(kSearches[2], "search", least.rows, candidates));
   for (ScoredSetup& setup : out) {
     setup.score = score(setup.rows);
     setup.log_determinant = sensors::log_determinant(rows_of(scaled, setup.rows));

@@ -51,6 +51,9 @@ struct ScoredSetup {
                                                     const std::vector<LayoutChannel>& setups, const Eigen::MatrixXd& phi,
                                                     std::uint64_t seed);
 
+/// @throws InputError  for a setup of the blind test that score_setups will not score
+void refuse_unknown_blind_setups(const SensorsConfig& config, const std::vector<LayoutChannel>& setups);
+
 /// One setup of the blind test: identified as if nothing were known.
 struct BlindTest {
   std::string setup;
@@ -66,11 +69,12 @@ struct BlindTestResult {
 /// Section 3.1: white noise all over the bridge, independent from candidate to candidate; the model's modes by the trapezoidal
 /// rule, every `downsample`-th sample, frames, SSI of each frame at all orders, criteria of stabilisation, cleaning over all
 /// frames.
-/// @param frequency_Hz (n_modes)
+/// @param frequency_Hz (n_modes) @param setups  scored; those that the configuration names are tested
 [[nodiscard]] BlindTestResult blind_test(const SensorsConfig& config, const Eigen::VectorXd& frequency_Hz,
                                          const std::vector<ScoredSetup>& setups, const Eigen::MatrixXd& phi,
                                          std::uint64_t seed);
 
-[[nodiscard]] Status run_sensors(StepContext& context, const SensorsConfig& config);
+/// The step.
+[[nodiscard]] Computation read_sensors(StepContext& context, const SensorsConfig& config);
 
 }  // namespace twindeck::steps

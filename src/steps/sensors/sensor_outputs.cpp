@@ -154,29 +154,23 @@ void write_blind_test(const SensorsConfig& config, const BlindTestResult& result
   psd.save(folder / "blind_psd.csv");
 }
 
-}  // namespace
+/// What the step reads.
+struct SensorsInputs {
+  std::vector<LayoutPoint> points;
+  std::vector<LayoutChannel> setups, candidates;
+  ReadModel model;
+  std::vector<int> nodes;  ///< of the model, one a point
+};
 
-Status run_sensors(StepContext& context, const SensorsConfig& config) {
-  // 1. Candidates, and the model's modes there.
-  const std::vector<LayoutPoint> points = read_points(context.input(config.points));
-  const std::vector<LayoutChannel> setups = read_setups(context.input(config.setups), points);
-  const std::vector<LayoutChannel> candidates = candidate_channels(points);
-  if (config.channels > std::ssize(candidates))
-    throw InputError({"", 0, "channels"},
-                     fmt::format("is {}, but {} has {} candidates", config.channels, config.points, candidates.size()),
-                     "ask for fewer channels, or give more points");
-  const LoadedModel loaded = load_model(context, context.results / "s1_model" / "model");
-  if (!loaded.model)
-    throw InputError({loaded.source, 0, ""}, "is a matrix model, whose points have no place",
-                     "give a model of finite elements");
+Status run_sensors(StepContext& context, const SensorsConfig& config, const SensorsInputs& read) {
+  // 1. The model's modes at the candidates.
+  const auto& [points, setups, candidates, model, nodes] = read;
+  const LoadedModel loaded = solvable(model);
   dynamics::ModalSolver solver(loaded.system);
   const dynamics::EigenModes modes = solver.solve_available(loaded.theta, static_cast<int>(config.n_modes));
   if (!modes.status.converged) return modes.status;
   refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
   const MatrixXd full = loaded.system.expand(modes.shapes);
-  std::vector<Eigen::Vector3d> places;
-  for (const LayoutPoint& point : points) places.push_back(point.x_m);
-  const std::vector<int> nodes = nodes_at(*loaded.model, places, config.tolerance_m);
   MatrixXd translations(3 * std::ssize(points), config.n_modes);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     translations.middleRows(3 * static_cast<Index>(i), 3) = full.middleRows(6 * nodes[i], 3);
@@ -197,6 +191,29 @@ Status run_sensors(StepContext& context, const SensorsConfig& config) {
   write_auto_mac(scored, phi, context.out);
   write_blind_test(config, blind, scored, modes.frequency_Hz, phi, context.out);
   return {};
+}
+
+}  // namespace
+
+Computation read_sensors(StepContext& context, const SensorsConfig& config) {
+  SensorsInputs read;
+  read.points = read_points(context.input(config.points));
+  read.setups = read_setups(context.input(config.setups), read.points);
+  read.candidates = candidate_channels(read.points);
+  if (config.channels > std::ssize(read.candidates))
+    throw InputError({"", 0, "channels"},
+                     fmt::format("is {}, but {} has {} candidates", config.channels, config.points, read.candidates.size()),
+                     "ask for fewer channels, or give more points");
+  refuse_unknown_blind_setups(config, read.setups);
+  read.model = load_model(context, context.results / "s1_model" / "model");
+  const fe::Model* model = read.model.fe_model();
+  if (model == nullptr)
+    throw InputError({read.model.source, 0, ""}, "is a matrix model, whose points have no place",
+                     "give a model of finite elements");
+  std::vector<Eigen::Vector3d> places;
+  for (const LayoutPoint& point : read.points) places.push_back(point.x_m);
+  read.nodes = nodes_at(*model, places, config.tolerance_m);
+  return [&context, &config, read = std::move(read)] { return run_sensors(context, config, read); };
 }
 
 }  // namespace twindeck::steps

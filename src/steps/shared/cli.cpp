@@ -21,6 +21,7 @@ std::string bare(const std::string& flag) { return flag.substr(std::min(flag.fin
 std::string help_footer(const Step& step) {
   std::string footer = "Examples:\n";
   for (const std::string& example : step.examples) footer += "  " + example + "\n";
+  footer += "  " + step.examples.front() + " --check\n";
   footer += "\nExit codes: 0 done; 1 not converged (see <out>.unconverged/); 2 bad input; 3 a mistake of the program.";
   return footer;
 }
@@ -87,6 +88,9 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
       ->check(CLI::Range(1, 1024));
   app.add_flag("--accept-unconverged", line.accept_unconverged, "publish results that did not converge, marked as such");
   app.add_flag("--quiet", line.quiet, "print errors only");
+  app.add_flag("--check", line.check,
+               "read and validate all inputs, tell what would run and how long it took last time, and end: nothing is computed "
+               "or written");
   app.add_flag("--print-config", print_config, "print the resolved configuration as TOML and end");
   CLI::Option* describe =
       app.add_option("--describe", key,

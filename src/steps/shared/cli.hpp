@@ -22,6 +22,7 @@ struct CommandLine {
   int threads = 0;  ///< 0: one per processor
   bool quiet = false;
   bool accept_unconverged = false;
+  bool check = false;
   std::vector<std::string> sets;                           ///< key=value, in order
   std::vector<std::pair<std::string, std::string>> flags;  ///< step-specific options: name without dashes, value
 };

@@ -14,12 +14,22 @@
 
 namespace twindeck::steps {
 
-LoadedModel from_model(fe::Model model) {
+namespace {
+
+/// @throws InputError  for an invalid model (fe::validate)
+ReadModel valid(fe::Model model) {
+  ReadModel read;
+  read.source = model.source;
+  read.structure = std::make_shared<const fe::Structure>(std::move(model));
+  return read;
+}
+
+LoadedModel prestressed(const ReadModel& read) {
   LoadedModel loaded;
-  loaded.source = model.source;
-  loaded.theta = fe::initial_parameters(model);
-  loaded.structure = std::make_shared<const fe::Structure>(std::move(model));
+  loaded.source = read.source;
+  loaded.structure = read.structure;
   loaded.model = std::shared_ptr<const fe::Model>(loaded.structure, &loaded.structure->model());
+  loaded.theta = fe::initial_parameters(*loaded.model);
   loaded.state = loaded.structure->prestress(loaded.theta);
   loaded.system = loaded.structure->system(loaded.state);
   // A prestress is found on the structure without its stays, which refuses a mechanism already.
@@ -29,40 +39,52 @@ LoadedModel from_model(fe::Model model) {
   return loaded;
 }
 
-LoadedModel read_model_folder(const std::filesystem::path& folder) {
-  if (!model_io::is_matrix_model(folder)) return with_sound_matrices(from_model(model_io::read_model(folder)));
+}  // namespace
+
+LoadedModel from_model(fe::Model model) { return prestressed(valid(std::move(model))); }
+
+LoadedModel solvable(const ReadModel& read) {
+  if (read.structure) return with_sound_matrices(prestressed(read));
   LoadedModel loaded;
-  loaded.source = folder.string();
-  loaded.system = model_io::read_matrix_model(folder);
+  loaded.source = read.source;
+  loaded.system = read.matrices;
   loaded.theta = loaded.system.initial();
   return with_sound_matrices(std::move(loaded));
 }
 
-LoadedModel import_inp(StepContext& context, const std::filesystem::path& file) {
+ReadModel read_model_folder(const std::filesystem::path& folder) {
+  if (!model_io::is_matrix_model(folder)) return valid(model_io::read_model(folder));
+  ReadModel read;
+  read.source = folder.string();
+  read.matrices = model_io::read_matrix_model(folder);
+  return read;
+}
+
+ReadModel import_inp(StepContext& context, const std::filesystem::path& file) {
   context.input(file);
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
   model_io::InpModel imported = model_io::is_ansys_deck(file) ? model_io::read_ansys(file) : model_io::read_inp(file);
   for (const std::string& note : imported.notes) context.say(note);
-  return with_sound_matrices(from_model(std::move(imported.model)));
+  return valid(std::move(imported.model));
 }
 
-LoadedModel import_nastran(StepContext& context, const std::filesystem::path& file) {
+ReadModel import_nastran(StepContext& context, const std::filesystem::path& file) {
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
   model_io::NastranModel imported = model_io::read_nastran(file);
   for (const std::filesystem::path& read : imported.files) context.input(read);
   for (const std::string& note : imported.notes) context.say(note);
-  return with_sound_matrices(from_model(std::move(imported.model)));
+  return valid(std::move(imported.model));
 }
 
-LoadedModel import_file(StepContext& context, const std::filesystem::path& file) {
+ReadModel import_file(StepContext& context, const std::filesystem::path& file) {
   return model_io::is_nastran_file(file) ? import_nastran(context, file) : import_inp(context, file);
 }
 
-LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
+ReadModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
   const std::filesystem::path folder = context.model.value_or(default_folder);
   if (std::filesystem::is_regular_file(folder)) return import_file(context, folder);
   if (!std::filesystem::is_directory(folder)) {
@@ -74,7 +96,7 @@ LoadedModel load_model(StepContext& context, const std::filesystem::path& defaul
   return read_model_folder(context.input(folder));
 }
 
-LoadedModel load_study_model(StepContext& context, const std::string& variant) {
+ReadModel load_study_model(StepContext& context, const std::string& variant) {
   if (context.model) return load_model(context, *context.model);
   if (context.study.empty()) {
     throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
@@ -86,15 +108,15 @@ LoadedModel load_study_model(StepContext& context, const std::string& variant) {
                      "give [model] generator and file, or folder, or a model folder by --model DIR");
   }
   if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
-  return with_sound_matrices(from_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh)));
+  return valid(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
 }
 
-LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps) {
-  if (displacements == "as_model" || !loaded.model) return loaded;
-  fe::Model model = std::move(*loaded.model);
+ReadModel with_displacements(ReadModel read, const std::string& displacements, int load_steps) {
+  if (displacements == "as_model" || !read.structure) return read;
+  fe::Model model = read.structure->model();
   model.prestress.displacements = displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
   model.prestress.load_steps = load_steps;
-  return with_sound_matrices(from_model(std::move(model)));
+  return valid(std::move(model));
 }
 
 void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {

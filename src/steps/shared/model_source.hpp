@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fe/assembly.hpp"
 #include "fe/model.hpp"
@@ -12,6 +13,18 @@
 #include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
+
+/// A model as its files hold it: valid, neither prestressed nor solved. `solvable` makes it ready.
+struct ReadModel {
+  std::shared_ptr<const fe::Structure> structure;  ///< null for a matrix model
+  fe::ParametricSystem matrices;                   ///< of a matrix model
+  std::string source;                              ///< folder or generator, for messages
+  /// Null for a matrix model.
+  [[nodiscard]] const fe::Model* fe_model() const { return structure ? &structure->model() : nullptr; }
+  [[nodiscard]] const std::vector<fe::Parameter>& parameters() const {
+    return structure ? structure->model().parameters : matrices.parameters;
+  }
+};
 
 /// A model ready to be solved, from any source.
 struct LoadedModel {
@@ -29,31 +42,35 @@ struct LoadedModel {
 /// @throws InputError  for an invalid model, or a mechanism
 [[nodiscard]] LoadedModel from_model(fe::Model model);
 
+/// The same of a model that was read. What a step reads calls it in its computation alone.
+/// @throws InputError  for a mechanism, or matrices that cannot belong to a structure (model_check.hpp)
+[[nodiscard]] LoadedModel solvable(const ReadModel& read);
+
 /// Reads a model folder, of finite elements or of matrices.
-[[nodiscard]] LoadedModel read_model_folder(const std::filesystem::path& folder);
+[[nodiscard]] ReadModel read_model_folder(const std::filesystem::path& folder);
 
 /// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp), or a deck of ANSYS (model_io/ansys.hpp), and reports what it
 /// cannot use.
-[[nodiscard]] LoadedModel import_inp(StepContext& context, const std::filesystem::path& file);
+[[nodiscard]] ReadModel import_inp(StepContext& context, const std::filesystem::path& file);
 
 /// Reads a Nastran deck (model_io/nastran.hpp), registers the files that it includes, and reports what it cannot use.
-[[nodiscard]] LoadedModel import_nastran(StepContext& context, const std::filesystem::path& file);
+[[nodiscard]] ReadModel import_nastran(StepContext& context, const std::filesystem::path& file);
 
 /// Reads a file of another program: Nastran, else .inp or ANSYS.
-[[nodiscard]] LoadedModel import_file(StepContext& context, const std::filesystem::path& file);
+[[nodiscard]] ReadModel import_file(StepContext& context, const std::filesystem::path& file);
 
 /// The model that a step works on: `--model DIR` (or a file of another program) if given, otherwise the folder that an earlier
 /// step wrote, with its files registered as inputs.
 /// @throws InputError  naming the step to run first if there is neither
-[[nodiscard]] LoadedModel load_model(StepContext& context, const std::filesystem::path& default_folder);
+[[nodiscard]] ReadModel load_model(StepContext& context, const std::filesystem::path& default_folder);
 
 /// The study's own model (study.toml [model]): a variant of the generator, or a folder or .inp file, which have no variants.
 /// `--model DIR` takes precedence over both.
-[[nodiscard]] LoadedModel load_study_model(StepContext& context, const std::string& variant);
+[[nodiscard]] ReadModel load_study_model(StepContext& context, const std::string& variant);
 
-/// The same model in equilibrium under its dead load with displacements "linear" or "large" (fe::Displacements); "as_model", or
-/// a matrix model: as it is.
-[[nodiscard]] LoadedModel with_displacements(LoadedModel loaded, const std::string& displacements, int load_steps);
+/// The same model, to be in equilibrium under its dead load with displacements "linear" or "large" (fe::Displacements);
+/// "as_model", or a matrix model: as it is.
+[[nodiscard]] ReadModel with_displacements(ReadModel read, const std::string& displacements, int load_steps);
 
 /// Writes the model as a model folder, with `theta` as its values, and the load cases of the folder that it came from.
 void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder);

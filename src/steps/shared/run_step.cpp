@@ -16,6 +16,7 @@
 #include "model_io/model_folder.hpp"
 #include "steps/shared/cli.hpp"
 #include "steps/shared/configured_inputs.hpp"
+#include "steps/shared/plan.hpp"
 #include "steps/shared/run_step_memory.hpp"
 #include "steps/shared/run_step_signals.hpp"
 #include "steps/shared/run_step_threads.hpp"
@@ -129,12 +130,17 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
   configured.apply(step, context);
   context.threads = set_threads(line.threads);
   keep_freed_memory();
+  const CleanInterrupt interrupt(io::FolderReplacement::partial_place(out));  // first, so that no moment is uncovered
+  const Computation computation = step.read(context);
+  if (line.check) {
+    if (!line.quiet) std::fputs(plan_of(step, context, out).c_str(), stdout);
+    return 0;
+  }
 
   // 2. The step computes and writes beside its place.
-  const CleanInterrupt interrupt(io::FolderReplacement::partial_place(out));  // first, so that no moment is uncovered
   io::FolderReplacement replacement(out);
   context.out = replacement.partial();
-  const Status status = step.run(context);
+  const Status status = computation();
 
   // 3. The manifest comes last.
   io::Manifest manifest = manifest_of(status, step, context);

@@ -13,13 +13,13 @@
 
 namespace twindeck::steps {
 
-/// Input of a step's `run`. Files are written into `out`, a temporary folder that replaces the earlier results only when
-/// the step has finished.
+/// Input of a step. Files are written into `out`, a temporary folder that replaces the earlier results only when the step has
+/// finished.
 class StepContext {
  public:
   std::filesystem::path study;    ///< workflows/<study>; empty when the step runs on a user's own data
   std::filesystem::path results;  ///< root that inputs of earlier steps are read from: results/<study>
-  std::filesystem::path out;      ///< where to write (temporary)
+  std::filesystem::path out;      ///< where to write (temporary); empty while the inputs are read
   std::optional<std::filesystem::path> model, campaign, modes, features;  ///< --model DIR …
   std::optional<std::string> flag(const std::string& name) const;         ///< step-specific options
   bool has_flag(const std::string& name) const;
@@ -48,6 +48,9 @@ class StepContext {
   std::string token_;
 };
 
+/// What a step does once its inputs are read: it solves, and writes into StepContext::out.
+using Computation = std::function<Status()>;
+
 /// A step-specific option of the command line.
 struct Flag {
   std::string name;
@@ -66,13 +69,14 @@ struct Step {
   /// Folders that the configuration may name too: "model", "campaign". The command line takes precedence.
   std::vector<std::string> configured_inputs;
   std::vector<Flag> flags;
-  std::function<Status(StepContext&)> run;
+  /// Reads and validates all inputs, and returns the computation on them. It solves and writes nothing: --check ends after it.
+  std::function<Computation(StepContext&)> read;
 };
 
 /// The command line contract of every step: --study --out --results --threads --set --seed --quiet --model --campaign
-/// --modes --features --accept-unconverged --help --version --print-config --describe [key]. Reads <study>/<token>.toml if
-/// it exists, runs, writes manifest.json last and renames. Exit codes: 0 done, 1 not converged (written to
-/// <out>.unconverged), 2 bad input, 3 our own mistake; each failure is one line on stderr.
+/// --modes --features --accept-unconverged --check --help --version --print-config --describe [key]. Reads
+/// <study>/<token>.toml if it exists, runs, writes manifest.json last and renames. Exit codes: 0 done, 1 not converged (written
+/// to <out>.unconverged), 2 bad input, 3 our own mistake; each failure is one line on stderr.
 int run_step(int argc, char** argv, Step step);
 
 }  // namespace twindeck::steps

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/csv.hpp"
+#include "steps/updating/weighing.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -126,8 +127,8 @@ LoadedModel with_values(const LoadedModel& loaded, const Eigen::VectorXd& theta)
   return changed;
 }
 
-std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedModel& loaded, StepContext& context) {
-  const std::vector<fe::Parameter>& parameters = loaded.system.parameters;
+std::vector<int> active_parameters(const UpdatingConfig& config, const ReadModel& model, StepContext& context) {
+  const std::vector<fe::Parameter>& parameters = model.parameters();
   std::vector<std::string> known;
   for (const fe::Parameter& parameter : parameters) known.push_back(parameter.name);
   const bool from_s5 = config.parameters_from == "s5_sensitivity";
@@ -142,7 +143,7 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedMod
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end()) {
       throw InputError({"", 0, "parameters"},
-                       fmt::format("'{}' is no parameter of {}{}", name, loaded.source, did_you_mean(name, known)),
+                       fmt::format("'{}' is no parameter of {}{}", name, model.source, did_you_mean(name, known)),
                        "list parameters of the model");
     }
     const auto p = static_cast<int>(at - known.begin());
@@ -150,13 +151,13 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedMod
       throw InputError({"", 0, "parameters"}, fmt::format("names '{}' twice", name), "list each parameter once");
     }
     if (!has_range(parameters[static_cast<std::size_t>(p)])) {
-      throw InputError({loaded.source, 0, name}, "is fixed (its bounds coincide), but is listed for updating",
+      throw InputError({model.source, 0, name}, "is fixed (its bounds coincide), but is listed for updating",
                        "give it a range in the model, or take it off the list");
     }
     active.push_back(p);
   }
   if (active.empty()) {
-    throw InputError({loaded.source, 0, "parameter"}, "no parameter to update: none is listed or selected, or none has a range",
+    throw InputError({model.source, 0, "parameter"}, "no parameter to update: none is listed or selected, or none has a range",
                      "define parameters with lower < upper in model.toml");
   }
   return active;
@@ -186,6 +187,20 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
         parse_quantity(table.text(row, "final_value") + " " + plain(unit), plain(own), {table.file().string(), 0, name});
   }
   return {values};
+}
+
+UpdatingInputs read_updating(const UpdatingConfig& config, StepContext& context) {
+  UpdatingInputs read;
+  read.model = load_model(context, context.results / "s4_refinement" / "model");
+  std::optional<Measured> measured = find_measured(context, config.condition);
+  if (!measured)
+    throw InputError({"", 0, ""}, "no measured modes were given", "give --features DIR or --modes DIR, or a study");
+  read.measured = std::move(*measured);
+  check_pairing(read.measured, read.model, config.pairs, {"", 0, "pairs"}, config.n_modes, config.sensor_tolerance_m);
+  if (config.weighs_shapes()) refuse_unweighable_shapes(read.measured);
+  read.active = active_parameters(config, read.model, context);
+  read.published = published_values(config, read.model.parameters(), read.active, context);
+  return read;
 }
 
 Pairing pair_for_updating(StepContext& context, const UpdatingConfig& config, const LoadedModel& loaded,

@@ -55,7 +55,7 @@ struct UpdatingConfig {
 
 /// Positions of the parameters to update: as listed, as s5_sensitivity selected them, or all that have a range.
 /// @throws InputError  for a name that is no parameter, is listed twice or has no range
-[[nodiscard]] std::vector<int> active_parameters(const UpdatingConfig& config, const LoadedModel& loaded, StepContext& context);
+[[nodiscard]] std::vector<int> active_parameters(const UpdatingConfig& config, const ReadModel& model, StepContext& context);
 
 /// Values of the updated parameters in somebody else's result: `parameter,unit,final_value`, in units of its own; a parameter
 /// that it does not name stays at its initial value. Empty where none is given.
@@ -63,6 +63,16 @@ struct UpdatingConfig {
 [[nodiscard]] std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config,
                                                             const std::vector<fe::Parameter>& parameters,
                                                             const std::vector<int>& active, StepContext& context);
+
+/// What the step reads.
+struct UpdatingInputs {
+  ReadModel model;  ///< the refined one
+  Measured measured;
+  std::vector<int> active;                 ///< see active_parameters
+  std::vector<Eigen::VectorXd> published;  ///< see published_values
+};
+/// @throws InputError  also where no modes were measured
+[[nodiscard]] UpdatingInputs read_updating(const UpdatingConfig& config, StepContext& context);
 
 /// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order. Warns of pairs of
 /// a list that are not measured, and of one factor between all frequencies.

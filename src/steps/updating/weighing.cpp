@@ -41,6 +41,8 @@ double largest_component(const Measured& measured, Index mode) {
   return largest;
 }
 
+}  // namespace
+
 void refuse_unweighable_shapes(const Measured& measured) {
   if (!measured.modes.has_shapes())
     throw InputError({measured.source, 0, "shape"}, "holds no measured shape, which `residuals` asks for",
@@ -49,8 +51,6 @@ void refuse_unweighable_shapes(const Measured& measured) {
     throw InputError({measured.source, 0, "shapes.csv"}, "has no standard deviations, so that shapes can't be weighed",
                      "give the modes as a features folder (--features), whose rows.csv has them");
 }
-
-}  // namespace
 
 updating::MeasuredRows weighed_rows(const UpdatingConfig& config, const Measured& measured, const Pairing& pairing,
                                     const LoadedModel& loaded, const dynamics::EigenModes& modes) {
@@ -67,7 +67,6 @@ updating::MeasuredRows weighed_rows(const UpdatingConfig& config, const Measured
     own_error[static_cast<std::size_t>(t)] = config.frequency_model_error * row.value;
   }
   if (config.weighs_shapes()) {
-    refuse_unweighable_shapes(measured);
     rows.channels = sensor_vectors(measured, loaded, config.sensor_tolerance_m);
     for (const matching::ModePair& pair : pairing.pairs)
       rows.span.push_back(close_modes(modes.frequency_Hz, pair.numerical, config.cluster_gap));

@@ -12,10 +12,12 @@
 /// An update that weighs frequencies and shapes by the covariance of the measurement: its rows, and what became of them.
 namespace twindeck::steps {
 
+/// @throws InputError  where no shape was measured, or none has a standard deviation
+void refuse_unweighable_shapes(const Measured& measured);
+
 /// The rows of the paired modes with their covariance, and the model's own error added to it. Modes closer to a pair's computed
 /// one than `cluster_gap` span its shape together.
 /// @return rows that are not given() where the configuration asks for Eq. (5)
-/// @throws InputError  where shapes are asked for and none was measured, or none has a standard deviation
 [[nodiscard]] updating::MeasuredRows weighed_rows(const UpdatingConfig& config, const Measured& measured,
                                                   const Pairing& pairing, const LoadedModel& loaded,
                                                   const dynamics::EigenModes& modes);

@@ -9,6 +9,7 @@
 
 #include "buffeting/loads.hpp"
 #include "io/csv.hpp"
+#include "steps/aerodynamics/turbulence_sets.hpp"
 #include "steps/validation/validation.hpp"
 
 namespace twindeck::steps {
@@ -18,7 +19,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-AerodynamicsConfig read_aerodynamics(const ValidationConfig& config, StepContext& context) {
+AerodynamicsConfig read_step_7(const ValidationConfig& config, StepContext& context) {
   if (config.aerodynamics.empty() && context.study.empty()) {
     throw InputError({"", 0, "aerodynamics"}, "neither a study nor a configuration of step 7 was given",
                      "give --study, or --set aerodynamics=s7_aerodynamics.toml");
@@ -101,15 +102,29 @@ Sensors find_sensors(const LoadedModel& loaded, const WindModel& model, const Ma
   return out;
 }
 
-BridgeInWind prepare_bridge_in_wind(const ValidationConfig& config, StepContext& context) {
+ValidationInputs read_validation_inputs(const ValidationConfig& config, StepContext& context) {
+  if (config.events.empty() || config.runs.empty()) {
+    throw InputError({"", 0, config.events.empty() ? "event" : "run"}, "none is given", "add [[event]] and [[run]] tables");
+  }
+  ValidationInputs read;
+  read.turbulence = read_turbulence_set(context.input(config.turbulence_file), config.turbulence_set);
+  read.aerodynamics = read_step_7(config, context);
+  read.aerodynamics.n_modes = config.n_modes;
+  for (const ValidationRun& run : config.runs) static_cast<void>(deployment_of(read.aerodynamics, run.model));
+  read.model = load_model(context, context.results / "s6_updating" / "model");
+  const std::vector<DeckAerodynamics> data = read_deck_aerodynamics(read.aerodynamics, context);
+  static_cast<void>(aero_nodes_of(read.aerodynamics, read.model.fe_model(), read.model.source));
+  read.sections = sections_of(read.aerodynamics, data, config.set, fitted_level(context, config.set));
+  read.measured = measured_rms(context, config);
+  return read;
+}
+
+BridgeInWind prepare_bridge_in_wind(const ValidationConfig& config, const ValidationInputs& read) {
   BridgeInWind out;
-  out.aerodynamics = read_aerodynamics(config, context);
-  out.aerodynamics.n_modes = config.n_modes;
-  out.loaded = load_model(context, context.results / "s6_updating" / "model");
-  const std::vector<DeckAerodynamics> data = read_deck_aerodynamics(out.aerodynamics, context);
+  out.aerodynamics = read.aerodynamics;
+  out.loaded = solvable(read.model);
   out.model = prepare_wind_model(out.aerodynamics, out.loaded);
-  out.level = fitted_level(context, config.set);
-  out.sections = sections_of(out.aerodynamics, data, config.set, out.level);
+  out.sections = read.sections;
   Reduction reduction;
   reduction.dampers = config.dampers;
   reduction.static_shapes = config.static_shapes;

@@ -6,6 +6,7 @@
 
 #include "steps/aerodynamics/aerodynamics.hpp"
 #include "steps/validation/config.hpp"
+#include "steps/validation/measured.hpp"
 #include "wind/simulation.hpp"
 #include "wind/turbulence.hpp"
 
@@ -25,18 +26,27 @@ struct Sensors {
 };
 [[nodiscard]] Sensors find_sensors(const LoadedModel& loaded, const WindModel& model, const Eigen::MatrixXd& vectors);
 
+/// What the step reads.
+struct ValidationInputs {
+  wind::TurbulenceSet turbulence;
+  AerodynamicsConfig aerodynamics;          ///< of step 7
+  ReadModel model;                          ///< the updated one
+  std::vector<aero::SectionAero> sections;  ///< of the set, at the level that step 7 fitted
+  MeasuredRms measured;
+};
+[[nodiscard]] ValidationInputs read_validation_inputs(const ValidationConfig& config, StepContext& context);
+
 /// The updated bridge prepared for turbulent wind.
 struct BridgeInWind {
   LoadedModel loaded;
   AerodynamicsConfig aerodynamics;
   std::vector<aero::SectionAero> sections;
-  double level = 1.0;
   WindModel model;
   DampedModel reduced;  ///< with dampers or without, modes and static shapes
   Sensors sensors;
   double frozen_omega = 0.0;  ///< of mode 1: at which derivatives are taken in time
 };
-[[nodiscard]] BridgeInWind prepare_bridge_in_wind(const ValidationConfig& config, StepContext& context);
+[[nodiscard]] BridgeInWind prepare_bridge_in_wind(const ValidationConfig& config, const ValidationInputs& read);
 
 /// The deployment that a run names. @throws InputError for an unknown model
 [[nodiscard]] aero::Deployment deployment_of(const AerodynamicsConfig& config, const std::string& model);

@@ -10,7 +10,6 @@
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"
 #include "core/parallel.hpp"
-#include "steps/aerodynamics/turbulence_sets.hpp"
 #include "steps/validation/outputs.hpp"
 #include "steps/validation/statements.hpp"
 
@@ -63,22 +62,15 @@ Prepared prepare(const BridgeInWind& bridge, const ValidationConfig& config, con
           transient::Newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), config.step_s)};
 }
 
-}  // namespace
-
-Status run_validation(StepContext& context, const ValidationConfig& config) {
+Status run_validation(StepContext& context, const ValidationConfig& config, const ValidationInputs& read) {
   // 1. The bridge, reduced, and the turbulence.
-  if (config.events.empty() || config.runs.empty()) {
-    throw InputError({"", 0, config.events.empty() ? "event" : "run"}, "none is given", "add [[event]] and [[run]] tables");
-  }
-  const wind::TurbulenceSet set = read_turbulence_set(context.input(config.turbulence_file), config.turbulence_set);
-  const BridgeInWind bridge = prepare_bridge_in_wind(config, context);
+  const wind::TurbulenceSet& set = read.turbulence;
+  const BridgeInWind bridge = prepare_bridge_in_wind(config, read);
   if (!bridge.loaded.state.status.converged) return bridge.loaded.state.status;
   if (!bridge.model.modes.status.converged) return bridge.model.modes.status;
   context.say(fmt::format("{} coordinates for {} degrees of freedom, {} aerodynamic nodes, {} dampers",
                           bridge.reduced.structure.size(), bridge.loaded.system.size(), bridge.model.strips.size(),
                           bridge.reduced.dampers));
-
-  const MeasuredRms measured = measured_rms(context, config);
 
   // 2. Events one after the other, seeds in parallel: every seed draws its own wind and runs all simulations in it.
   wind::SimulationOptions options;
@@ -122,13 +114,19 @@ Status run_validation(StepContext& context, const ValidationConfig& config) {
   }
 
   // 3. Tables.
-  write_rms(results, bridge, measured, config, context.out);
-  write_statements(results, bridge, measured, context.out);
+  write_rms(results, bridge, read.measured, config, context.out);
+  write_statements(results, bridge, read.measured, context.out);
   write_comfort(results, bridge, config, context.out);
   write_wind_check(checks, context.out);
   write_hybrid(bridge, context.out);
   write_time_checks(check_time_integration(bridge, set, config, context), context.out);
   return status;
+}
+
+}  // namespace
+
+Computation read_validation(StepContext& context, const ValidationConfig& config) {
+  return [&context, &config, read = read_validation_inputs(config, context)] { return run_validation(context, config, read); };
 }
 
 }  // namespace twindeck::steps

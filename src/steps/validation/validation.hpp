@@ -21,6 +21,7 @@ struct RunResult {
   Status status;
 };
 
-[[nodiscard]] Status run_validation(StepContext& context, const ValidationConfig& config);
+/// The step.
+[[nodiscard]] Computation read_validation(StepContext& context, const ValidationConfig& config);
 
 }  // namespace twindeck::steps

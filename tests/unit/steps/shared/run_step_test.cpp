@@ -42,9 +42,11 @@ class RunStep : public testing::Test {
     step.fields.number("length", length, "m", io::positive(), "of the span")
         .integer("search.starts", starts, {1, 100}, "searches")
         .text("name", name, "of it");
-    step.run = [&](StepContext&) -> Status {
-      work();
-      return {};
+    step.read = [&](StepContext&) -> Computation {
+      return [&]() -> Status {
+        work();
+        return {};
+      };
     };
     std::vector<std::string> words = {"s4_refinement", "--out", (folder_ / "out").string(), "--quiet", "--threads", "4"};
     if (more.empty()) more = {"--study", (folder_ / "study").string()};

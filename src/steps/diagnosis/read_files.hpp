@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "diagnosis/catalogue.hpp"
+#include "diagnosis/features.hpp"
+#include "diagnosis/structure.hpp"
+#include "steps/diagnosis/config.hpp"
+#include "steps/diagnosis/evidence.hpp"
+#include "steps/measured/corrections.hpp"
+#include "steps/measured/measured.hpp"
+#include "steps/shared/model_source.hpp"
+
+namespace twindeck::steps {
+
+/// What a diagnosis reads, before anything is solved.
+struct DiagnosisFiles {
+  std::filesystem::path folder;           ///< of the features
+  diagnosis::FeatureSet features;         ///< the rows in use
+  std::vector<diagnosis::Row> stay_rows;  ///< all frequencies of stays, in use or not
+  std::vector<Correction> corrected;      ///< what of the features --correct has put right
+  std::vector<Channel> channels;
+  std::vector<Claim> claims;
+  std::vector<diagnosis::Hypothesis> catalogue;
+  ReadModel model;
+  std::vector<diagnosis::DamperMove> moves;
+};
+
+/// @throws InputError  for a file that is not sound, and for a name in one of them that the others do not have
+[[nodiscard]] DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, StepContext& context);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,57 @@
+#include "steps/identification/inputs.hpp"
+
+#include <filesystem>
+
+#include "steps/identification/stays.hpp"
+
+namespace twindeck::steps {
+
+namespace {
+
+/// data/<study>/campaign where somebody has put records of their own, else what s0_campaign wrote.
+std::filesystem::path default_campaign(const StepContext& context) {
+  const std::filesystem::path own = std::filesystem::path("data") / context.study.lexically_normal().filename() / "campaign";
+  const bool is_there = !context.study.empty() && std::filesystem::exists(own / "campaign.toml");
+  return is_there ? own : context.results / "s0_campaign";
+}
+
+/// Registered are the lists and records, and nothing else that lies there.
+Campaign read_lists(StepContext& context) {
+  const auto folder = context.campaign ? *context.campaign : default_campaign(context);
+  if (!std::filesystem::exists(folder)) context.input(folder);
+  Campaign campaign = read_campaign(folder);
+  for (const std::string& warning : campaign.warnings) context.say(warning);
+  for (const char* name : {"campaign.toml", "channels.csv", "conditions.toml"}) {
+    if (std::filesystem::exists(folder / name)) context.input(folder / name);
+  }
+  for (const CampaignRecord& record : campaign.records) {
+    if (std::filesystem::exists(record.file)) context.input(record.file);
+  }
+  return campaign;
+}
+
+std::vector<Conditioned> read_kind(const Campaign& campaign, const RecordChoice& choice, const IdentificationConfig& config,
+                                   Eigen::Index decimation, const StepContext& context) {
+  std::vector<Conditioned> records;
+  for (const RecordGroup& group : record_groups(campaign, choice, true)) {
+    records.push_back(condition_records(campaign, group, config, decimation));
+    for (const std::string& note : records.back().notes) context.say(note);
+  }
+  return records;
+}
+
+}  // namespace
+
+IdentificationInputs read_identification_inputs(const IdentificationConfig& config, StepContext& context) {
+  IdentificationInputs read;
+  read.campaign = read_lists(context);
+  const RecordChoice ambient{config.setup, config.condition, config.kind, config.setups};
+  for (const std::vector<RecordGroup>& groups : by_condition(record_groups(read.campaign, ambient)))
+    read.conditions.push_back(read_condition(read.campaign, groups, config, context));
+  read.decays = read_kind(read.campaign, {"", config.condition, "free_decay", {}}, config,
+                          config.decay_decimation > 0 ? config.decay_decimation : config.decimation, context);
+  read.stays = read_kind(read.campaign, {"", "", "stay", {}}, stay_settings(config), config.stay_decimation, context);
+  return read;
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "steps/identification/condition.hpp"
+
+namespace twindeck::steps {
+
+/// What the step reads: the lists of a campaign, and its records made ready for identification.
+struct IdentificationInputs {
+  Campaign campaign;
+  std::vector<ConditionResult> conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified
+  std::vector<Conditioned> decays, stays;
+};
+
+/// Reads a campaign: `--campaign`, else data/<study>/campaign, else what s0_campaign wrote.
+/// @throws InputError  as read_campaign, record_groups, read_condition and condition_records
+[[nodiscard]] IdentificationInputs read_identification_inputs(const IdentificationConfig& config, StepContext& context);
+
+}  // namespace twindeck::steps
