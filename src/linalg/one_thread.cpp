@@ -2,16 +2,16 @@
 
 #include <dlfcn.h>
 
-#include <Eigen/Core>
-
 namespace twindeck::linalg {
 
 void use_one_thread() {
-  // Looked up at run time: which BLAS serves CHOLMOD is the system's choice, and only OpenBLAS has this function.
-  using SetThreads = void (*)(int);
-  static const auto set_threads = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-  if (set_threads != nullptr) set_threads(1);
-  Eigen::setNbThreads(1);
+  // Looked up at run time: which BLAS serves CHOLMOD is the system's choice, and only OpenBLAS has this function. Once, since
+  // OpenBLAS keeps the number in a variable that all threads share.
+  [[maybe_unused]] static const bool limited = [] {
+    void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+    if (symbol != nullptr) reinterpret_cast<void (*)(int)>(symbol)(1);
+    return symbol != nullptr;
+  }();
 }
 
 namespace {

@@ -3,7 +3,8 @@
 namespace twindeck::linalg {
 
 /// Limits OpenBLAS to one thread. A sum that is split between threads is rounded differently, and results must not depend on
-/// the number of threads. Does nothing if the BLAS is not OpenBLAS. Cheap; may be called repeatedly.
+/// the number of threads. Does nothing if the BLAS is not OpenBLAS. Cheap; may be called repeatedly and from several threads:
+/// the first call sets the limit. Eigen needs none: no source that includes it is compiled with OpenMP.
 void use_one_thread();
 
 /// During its lifetime, OpenMP regions that the calling thread enters run on that thread alone. CHOLMOD opens a region of four

@@ -7,7 +7,6 @@
 /// case in N campaigns.
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -167,7 +166,6 @@ int dry_run(const twindeck::blind::Bench& bench, const std::vector<std::string>&
 }  // namespace
 
 int main(int argc, char** argv) {
-  Eigen::setNbThreads(1);
   std::signal(SIGTERM, stop);
   std::signal(SIGINT, stop);
   const bool nulls = argc > 1 && std::string(argv[1]) == "--nulls";

@@ -3,7 +3,6 @@
 /// interval lies wholly on the wrong side of its target, 2 for a tier that is none.
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <cstdlib>
 
 #include "blind/records.hpp"
@@ -33,7 +32,6 @@ std::vector<ScoreLine> time_lines() {
 
 int main(int argc, char** argv) {
   using namespace twindeck::blind;
-  Eigen::setNbThreads(1);
   const std::string tier = argc > 3 ? argv[3] : "records";
   if (tier != "records" && tier != "time") {
     fmt::print(stderr, "blind_records: '{}' is no tier, expected records or time\n", tier);

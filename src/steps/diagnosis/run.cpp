@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <chrono>
 #include <set>
 
@@ -86,7 +85,6 @@ diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::Fea
 }
 
 Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, StepContext& context) {
-  Eigen::setNbThreads(1);  // small matrices, and sums must not depend on threads
   const auto begin = std::chrono::steady_clock::now();
   DiagnosisInputs inputs = prepare_diagnosis(config, files, context);
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);

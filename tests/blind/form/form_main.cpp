@@ -7,7 +7,6 @@
 /// Seeds 9000 to 9099 were looked at while the bench was written: they count for nothing.
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
@@ -123,7 +122,6 @@ int run(int count, std::uint64_t first, const std::string& csv) {
 
 int main(int argc, char** argv) {
   using namespace twindeck::blind::form;
-  Eigen::setNbThreads(1);
   if (argc > 2 && std::string(argv[1]) == "--explain") {
     for (int i = 2; i < argc; ++i) explain_form_case(static_cast<std::uint64_t>(std::atoll(argv[i])));
     return 0;

@@ -3,7 +3,6 @@
 /// wholly on the wrong side of its target. blind_modes --explain SEED …: every mode of single records.
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -114,7 +113,6 @@ void explain(std::uint64_t seed) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Eigen::setNbThreads(1);
   if (argc > 2 && std::string(argv[1]) == "--explain") {
     for (int i = 2; i < argc; ++i) explain(std::strtoull(argv[i], nullptr, 10));
     return 0;
