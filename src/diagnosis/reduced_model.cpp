@@ -389,9 +389,10 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     reduced_set.resize(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Place& place = list[i];
-      const auto reduce = [&, i] {
+      const auto* columns = whole ? nullptr : &own.at(set)[i];
+      const auto reduce = [&, i, columns] {
         reduced_set[i] = reduced(place, rows_of_v, factor, total_mass_kg);
-        if (!whole) reduced_set[i].columns = own.at(set)[i];
+        if (columns != nullptr) reduced_set[i].columns = *columns;
       };
       jobs.push_back({place.stiffness.nonZeros() + place.mass.nonZeros(), reduce});
     }
