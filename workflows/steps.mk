@@ -80,6 +80,10 @@ $(RESULTS)/$(1)/manifest.json: $(call INPUTS_OF,$(1)) $(wildcard $(WORKFLOW)/$(1
 endef
 $(foreach step,$(STEPS),$(eval $(call step_rule,$(step))))
 
+# A step replaces its folder as a whole. Interrupted a moment later, make would delete the manifest that is there by then and leave a folder
+# that no step takes for its own.
+.PRECIOUS: $(STEP_MANIFESTS) $(foreach step,$(STEPS),$(filter %/manifest.json,$(INPUTS_$(step)))) $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json
+
 # make check: a step whose inputs are not all there yet is asked for its configuration alone.
 MISSING = $(patsubst $(RESULTS)/%/manifest.json,%,$(filter-out $(MEASURED_STAMP) $(wildcard $(call INPUTS_OF,$(1))),$(call INPUTS_OF,$(1))))
 CHECKED = $(if $(MISSING),$(BIN)/$(1) --print-config --study $(WORKFLOW) >/dev/null && echo "$(1): configuration is valid; inputs wait for $(MISSING)", \

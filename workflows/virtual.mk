@@ -5,6 +5,7 @@ VIRTUAL := $(if $(wildcard $(WORKFLOW)_virtual/study.toml),$(STUDY)_virtual)
 ifneq ($(VIRTUAL),)
 VIRTUAL_DIAGNOSIS := results/$(VIRTUAL)/s9_diagnosis/manifest.json
 SCORE := results/$(VIRTUAL)/score/score.json
+.PRECIOUS: $(VIRTUAL_DIAGNOSIS)
 
 $(VIRTUAL_DIAGNOSIS): $(wildcard workflows/$(VIRTUAL)/*.toml $(WORKFLOW)/hypotheses/*.toml) $(BIN)/s9_diagnosis \
     $(RESULTS)/s3_identification/manifest.json $(RESULTS)/s4_refinement/manifest.json

@@ -82,6 +82,26 @@ class Kills(unittest.TestCase):
             for name, wanted in outputs.items():
                 self.assertEqual(digest(folder / name), wanted, folder / name)
 
+    def test_make_deletes_no_manifest_when_it_is_interrupted(self):
+        """A step that has replaced its folder and not ended yet: here a program that waits then."""
+        bin_folder, results = self.folder / "bin", self.folder / "interrupted"
+        bin_folder.mkdir()
+        waiting = bin_folder / "s1_model"
+        waiting.write_text(f"#!/bin/sh\nmkdir -p {results}/s1_model\necho '{{}}' >{results}/s1_model/manifest.json\nsleep 60\n")
+        waiting.chmod(0o755)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                manifest = results / "s1_model" / "manifest.json"
+                manifest.unlink(missing_ok=True)
+                process = subprocess.Popen(["make", "--no-print-directory", "s1", "STUDY=smoke", "NO_BUILD=1", f"BIN={bin_folder}", f"RESULTS={results}",
+                                            f"WORKFLOW={self.workflow}"], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                           start_new_session=True)
+                while not manifest.exists() and process.poll() is None:
+                    time.sleep(0.01)
+                os.killpg(process.pid, number)
+                process.wait(timeout=60)
+                self.assertTrue(manifest.exists())
+
     def test_results_stay_whole_and_make_goes_on(self):
         chance = random.Random(SEED)
         results = self.folder / "killed"
