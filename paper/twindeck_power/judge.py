@@ -81,7 +81,9 @@ class Judge:
 
     def _ratchet(self, study, cells, claims, found: Caught) -> None:
         held = held_cells([c for c in cells if c.kind not in CARRIED], claims, own_numbers(study))
-        for cell, old, _ in check_ratchet(study, held, whole=False).moved:
+        ratchet = check_ratchet(study, held, whole=False)
+        # What has an entry in ratchet_moves.csv is held where that entry says it is.
+        for cell, old in [*((cell, old) for cell, old, _ in ratchet.moved), *ratchet.again]:
             before, now, paper = number(old), number(cell.value), number(cell.paper)
             if before is None or now is None:
                 found.ratchet[cell.name] = BEYOND

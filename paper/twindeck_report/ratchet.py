@@ -52,6 +52,7 @@ class Ratchet:
     excused: list = field(default_factory=list)  # [(name, old, new, reason)]
     moved: list = field(default_factory=list)  # [(Held, old, what is wrong)] that nothing excuses
     stale: list = field(default_factory=list)  # lines: entries of ratchet_moves.csv that excuse nothing
+    again: list = field(default_factory=list)  # [(Held, excused value)] that moved on from what an entry excuses; `stale` has a line for each
 
     @property
     def told(self) -> str:
@@ -111,6 +112,7 @@ def check_ratchet(study: Study, held: list, whole: bool = True) -> Ratchet:
             result.stale.append(f"{cell.name}: the entry says that it was {move['old'] or 'empty'}, the baseline says {old or 'empty'}")
         elif move and not _is(cell, move["new"], cell.value):
             result.stale.append(f"{cell.name}: the entry says that it is {move['new'] or 'empty'} now, it is {cell.value or 'empty'}")
+            result.again.append((cell, move["new"]))
         elif move:
             result.excused.append((cell.name, old, cell.value, move["reason"]))
         else:

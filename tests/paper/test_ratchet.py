@@ -8,7 +8,8 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 
 import made_up_study  # noqa: E402
 from made_up_case import CheckCase  # noqa: E402
-from twindeck_report.ratchet import Held, what_moved  # noqa: E402
+from twindeck_report.ratchet import Held, check_ratchet, what_moved  # noqa: E402
+from twindeck_report.study import Study  # noqa: E402
 
 
 class Ratchet(CheckCase):
@@ -67,6 +68,10 @@ class Ratchet(CheckCase):
             code, _, err = self.run_command("verify")
             self.assertEqual(code, 1)
             self.assertIn(words, err)
+        self.moves((*cell, "0.25", "0.27", "another mesh of the decks"))
+        study = Study("made_up", self.results, self.data, self.workflow)
+        again = check_ratchet(study, [Held(*cell, "virtual", "0.255")], whole=False).again
+        self.assertEqual([(held.name, excused) for held, excused in again], [("table_03 row DC1 column R_k", "0.27")])
         self.moves((*cell, "0.25", "0.255", "because"))
         self.assertEqual(self.run_command("verify")[0], 2, "a reason is a sentence")
 
