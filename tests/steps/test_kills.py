@@ -23,6 +23,15 @@ SEED = int(os.environ.get("TWINDECK_KILLS_SEED", "1"))
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
 
 
+def alive(group):
+    """Whether a process of this group runs."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 def digest(file):
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
@@ -69,6 +78,8 @@ class Kills(unittest.TestCase):
         except ProcessLookupError:
             pass
         process.wait(timeout=60)
+        while alive(process.pid):  # make has ended; a step that was asked to may still be at it
+            time.sleep(0.01)
 
     def whole(self, results):
         """Every step's folder that is there holds what its manifest says, and nothing else."""
