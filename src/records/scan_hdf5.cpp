@@ -77,7 +77,11 @@ std::string what_is_missing(hid_t dataset, std::uint64_t values, std::uint64_t i
   const H5D_layout_t layout = H5Pget_layout(settings.get());
   if (layout == H5D_VIRTUAL || H5Pget_external_count(settings.get()) > 0) return "keeps its values in other files";
   const std::uint64_t stored = H5Dget_storage_size(dataset);
+  hsize_t whole_file = 0;
+  const Handle file(H5Iget_file_id(dataset), H5Fclose);
   if (stored == 0) return "was never written";
+  // The library takes as much memory for a chunk as the file says that the chunk takes.
+  if (H5Fget_filesize(file.get(), &whole_file) < 0 || stored > whole_file) return "takes more bytes than the file has";
   if (layout != H5D_CHUNKED) return values > stored / item ? "has fewer values than it says" : "";
   hsize_t chunk[2] = {1, 1}, size[2] = {1, 1}, found = 0;
   const Handle space(H5Dget_space(dataset), H5Sclose);

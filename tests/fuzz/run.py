@@ -26,7 +26,7 @@ TIMEOUT_S = 10     # of one input: sound ones take milliseconds
 LARGEST_KB = 64    # of an input: what a reader does wrong, it does on small files
 FINDINGS = 5       # of one target in one run; then it goes on no further
 KEPT_KB = 4        # of an input that is kept in the repository, but for the first ones
-ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
+ENVIRONMENT = {"ASAN_OPTIONS": f"suppressions={ROOT / 'tests/sanitize/address.supp'}:detect_leaks=1:allocator_may_return_null=1:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
                "LSAN_OPTIONS": f"suppressions={ROOT / 'tests/sanitize/leaks.supp'}:print_suppressions=0",
                "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 

@@ -191,6 +191,15 @@ TEST(Damaged, BytesChangedAtRandomAreRefusedOrRead) {
   }
 }
 
+TEST(Damaged, Hdf5ChunkThatTakesMoreThanTheFileIsRefusedBeforeItIsRead) {
+  // A file found by make fuzz: one chunk of 4 GB, for which the library would ask for as much memory.
+  const Scratch scratch;
+  std::filesystem::copy_file(std::filesystem::path(TWINDECK_SOURCE_DIR) / "tests/fuzz/corpus/record_hdf5/chunk_beyond_the_file",
+                             scratch.file("chunk.h5"));
+  EXPECT_NE(refusal(scratch.file("chunk.h5")).find("takes more bytes than the file has"), std::string::npos)
+      << refusal(scratch.file("chunk.h5"));
+}
+
 TEST(Damaged, PipesAndDevicesAreRefused) {
   const Scratch scratch;
   ASSERT_EQ(::mkfifo(scratch.file("pipe.csv").c_str(), 0600), 0);
