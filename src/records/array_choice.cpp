@@ -63,17 +63,17 @@ bool is_step(const std::string& name) {
 
 ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::string& file) {
   ArrayChoice choice;
-  Index largest = 0;
+  double largest = 0.0;  // a damaged file may say sizes whose product is beyond whole numbers
   std::size_t best = 0;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
-    const Index size = arrays[i].rows * arrays[i].columns;
-    if (size == 1) choice.scalars.push_back(i);
+    const double size = static_cast<double>(arrays[i].rows) * static_cast<double>(arrays[i].columns);
+    if (size == 1.0) choice.scalars.push_back(i);
     if (size > largest && !is_time(arrays[i].name)) {
       largest = size;
       best = i;
     }
   }
-  if (largest < 16) {
+  if (largest < 16.0) {
     throw InputError({file, 0, ""}, "holds no array of numbers of sixteen values or more",
                      "store the samples as a two-dimensional array of real numbers");
   }
