@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
 #include "records/record.hpp"
+#include "records/survives.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
@@ -253,17 +254,29 @@ RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
   return info;
 }
 
+Handle opened(const fs::path& file) { return {H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose}; }
+
+/// All arrays, cells and attributes.
+void look_through(hid_t file, Found& found) { H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit_object, &found); }
+
 }  // namespace
 
 RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
   const QuietErrors quiet;
-  const Handle handle(H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  // The library before 1.14 ends the whole program on some damaged files (github.com/HDFGroup/hdf5, issue 2529 and its kin).
+  const bool sound = survives([&] {
+    const Handle handle = opened(file);
+    Found ignored;
+    if (handle) look_through(handle.get(), ignored);
+  });
+  if (!sound) refuse(file.string(), "is damaged so that the HDF5 library breaks down on it", "copy it again, or write it anew");
+  const Handle handle = opened(file);
   if (!handle) refuse(file.string(), "is no HDF5 file that can be opened", "it may be cut off; copy it again");
   Found found;
   std::string beginning(10, '\0');
   std::ifstream(file, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   found.matlab = beginning == "MATLAB 7.3";
-  H5Ovisit(handle.get(), H5_INDEX_NAME, H5_ITER_NATIVE, visit_object, &found);
+  look_through(handle.get(), found);
   const ArrayChoice choice = choose_arrays(found.arrays, file.string());
   for (const std::size_t at : choice.data) {
     if (found.problems[at].empty()) continue;

@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <random>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "io/npy.hpp"
 #include "records/inspect.hpp"
+#include "records/survives.hpp"
 #include "refusal.hpp"
 #include "same_samples.hpp"
 #include "universal_writer.hpp"
@@ -198,6 +202,22 @@ TEST(Damaged, Hdf5ChunkThatTakesMoreThanTheFileIsRefusedBeforeItIsRead) {
                              scratch.file("chunk.h5"));
   EXPECT_NE(refusal(scratch.file("chunk.h5")).find("takes more bytes than the file has"), std::string::npos)
       << refusal(scratch.file("chunk.h5"));
+}
+
+TEST(Damaged, Hdf5FileThatBreaksTheLibraryIsRefused) {
+  // Found by make fuzz: HDF5 1.10.8 copies to address zero. A later library may read the file or refuse it; none may end this
+  // program.
+  const Scratch scratch;
+  std::filesystem::copy_file(std::filesystem::path(TWINDECK_SOURCE_DIR) / "tests/fuzz/corpus/record_hdf5/breaks_the_library",
+                             scratch.file("broken.h5"));
+  EXPECT_NE(refusal(scratch.file("broken.h5")).find("broken.h5"), std::string::npos);
+}
+
+TEST(Survives, WhatEndsByItselfAndWhatThrowsButNoCrash) {
+  EXPECT_TRUE(survives([] {}));
+  EXPECT_TRUE(survives([] { throw std::runtime_error("the caller sees it"); }));
+  EXPECT_FALSE(survives([] { std::raise(SIGSEGV); }));
+  EXPECT_FALSE(survives([] { std::abort(); }));
 }
 
 TEST(Damaged, PipesAndDevicesAreRefused) {
