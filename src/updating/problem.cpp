@@ -3,6 +3,8 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -10,6 +12,9 @@
 
 namespace twindeck::updating {
 namespace {
+
+constexpr double rounding_of_cost = 1e-10;  // relative; computed frequencies differ by 1e-12 from one processor to another
+constexpr double ridge = 1e-8;              // on the linearised problem's normal matrix, as Ceres' own smallest damping
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -51,7 +56,13 @@ Point evaluate(const ResidualFunction& function, int n_residuals, const Eigen::V
   return point;
 }
 
-// Reports accepted steps and ends the round when a component meets a bound that it was not on.
+// A refused step of which the linearised problem expected less than the cost's rounding.
+bool is_lost_in_rounding(const ceres::IterationSummary& step) {
+  if (!step.step_is_valid || step.relative_decrease == 0.0) return false;
+  return std::abs(step.cost_change / step.relative_decrease) <= rounding_of_cost * step.cost;
+}
+
+// Reports accepted steps. Ends the round when a component meets a bound that it was not on, and when rounding refuses a step.
 class RoundWatcher : public ceres::IterationCallback {
  public:
   RoundWatcher(const Eigen::VectorXd& x, std::function<double(const Eigen::VectorXd&)> projected, const Box& box,
@@ -66,7 +77,9 @@ class RoundWatcher : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     tried = summary.iteration;
-    if (summary.iteration == 0 || !summary.step_is_successful) return ceres::SOLVER_CONTINUE;
+    if (summary.iteration == 0) return ceres::SOLVER_CONTINUE;
+    if (!summary.step_is_successful)
+      return is_lost_in_rounding(summary) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
     ++accepted_steps;
     if (accepted_) {
       accepted_({first_iteration_ + summary.iteration, summary.cost, projected_(x_), summary.step_norm,
@@ -145,7 +158,6 @@ std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals,
 // the gradient alone releases too many: a component with a small inward gradient whose bounded Gauss-Newton step keeps it in
 // place spoils each projected dogleg step, and the trust region collapses.
 std::vector<bool> stay_on_bound(const Point& point, const Box& box, double tolerance) {
-  constexpr double ridge = 1e-8;  // as Ceres' own smallest damping
   const std::vector<int> now = on_bound(point.x, box, tolerance);
   const Eigen::VectorXd step = bounded_gauss_newton_step(point.residual, point.jacobian, point.x, box, ridge);
   const std::vector<int> then = on_bound(point.x + step, box, tolerance);
@@ -159,6 +171,20 @@ void snap_to_bounds(Eigen::VectorXd& x, const std::vector<bool>& is_held, const 
     if (!is_held[static_cast<std::size_t>(i)]) continue;
     x(i) = x(i) - box.lower(i) < box.upper(i) - x(i) ? box.lower(i) : box.upper(i);
   }
+}
+
+// The next point where the cost cannot judge a step any more: what the bounded Gauss-Newton step would gain is less than the
+// rounding of the cost, so that a trust region would collapse on noise. There the projected gradient judges: the step counts
+// if it at least halves it. Empty where the cost still judges, or where the step does not help.
+std::optional<Point> step_below_rounding(const ResidualFunction& function, const Point& from, double projected, const Box& box,
+                                         double bound_tolerance) {
+  const Eigen::VectorXd step = bounded_gauss_newton_step(from.residual, from.jacobian, from.x, box, ridge);
+  const double gain = -(from.gradient().dot(step) + 0.5 * (from.jacobian * step).squaredNorm());
+  if (gain > rounding_of_cost * from.cost()) return {};
+  Point to = evaluate(function, static_cast<int>(from.residual.size()), (from.x + step).cwiseMax(box.lower).cwiseMin(box.upper));
+  if (!to.valid || to.cost() > (1.0 + rounding_of_cost) * from.cost()) return {};
+  if (projected_gradient(to.x, to.gradient(), box, bound_tolerance).norm() > 0.5 * projected) return {};
+  return to;
 }
 
 }  // namespace
@@ -185,6 +211,15 @@ BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals,
       result.converged = true;
       result.message = "projected gradient below its tolerance";
       return result;
+    }
+    if (const auto next = step_below_rounding(function, point, result.projected_gradient, box, options.bound_tolerance);
+        next && result.iterations < options.max_iterations) {
+      const double length = (next->x - result.x).norm();
+      result.x = next->x;
+      ++result.iterations;
+      const double gradient_there = projected_gradient(next->x, next->gradient(), box, options.bound_tolerance).norm();
+      if (accepted) accepted({result.iterations, next->cost(), gradient_there, length, options.trust_radius, next->x});
+      continue;
     }
     if (last_accepted == 0 && !predict) {
       result.message = "no step lowers the cost although the projected gradient is above its tolerance";

@@ -44,7 +44,8 @@ struct BoundedResult {
 /// constants of the round (SubsetManifold); the bounded linearised problem predicts them (bounded_quadratic.hpp). A round ends
 /// as soon as a component meets a bound. The next round predicts the constants anew and releases those whose multiplier will
 /// change sign. The norm of the projected gradient alone decides convergence, not the verdict of Ceres. The cost never rises
-/// from one accepted step to the next.
+/// from one accepted step to the next, but for its rounding: where a step would gain less than that, the projected gradient
+/// judges it, so that the search ends at the same point on every processor.
 /// @param accepted  called for each accepted step, may be empty
 [[nodiscard]] BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start,
                                             const Box& box, const BoundedOptions& options,
