@@ -181,7 +181,8 @@ std::optional<Point> step_below_rounding(const ResidualFunction& function, const
   const Eigen::VectorXd step = bounded_gauss_newton_step(from.residual, from.jacobian, from.x, box, ridge);
   const double gain = -(from.gradient().dot(step) + 0.5 * (from.jacobian * step).squaredNorm());
   if (gain > rounding_of_cost * from.cost()) return {};
-  Point to = evaluate(function, static_cast<int>(from.residual.size()), (from.x + step).cwiseMax(box.lower).cwiseMin(box.upper));
+  Point to =
+      evaluate(function, static_cast<int>(from.residual.size()), (from.x + step).cwiseMax(box.lower).cwiseMin(box.upper));
   if (!to.valid || to.cost() > (1.0 + rounding_of_cost) * from.cost()) return {};
   if (projected_gradient(to.x, to.gradient(), box, bound_tolerance).norm() > 0.5 * projected) return {};
   return to;
