@@ -231,6 +231,16 @@ std::vector<Cluster> without_mixtures(const std::vector<DiagramPole>& diagram, c
   return kept;
 }
 
+/// Both clusters are found, beside each other, at the stated share of all orders.
+bool is_beside(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const Cluster& cluster,
+               const Cluster& other, const AutomaticRule& rule) {
+  std::set<int> present;
+  for (const std::size_t i : other.members) present.insert(diagram[i].pole.order);
+  const auto both = std::count_if(cluster.members.begin(), cluster.members.end(),
+                                  [&](std::size_t i) { return present.contains(diagram[i].pole.order); });
+  return static_cast<double>(both) >= rule.share_beside * static_cast<double>(orders.size());
+}
+
 }  // namespace
 
 std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
@@ -280,12 +290,13 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
     clusters.push_back(summarise(diagram, members));
   }
   // A mode that a second cluster follows beside the first, nearer than half its bandwidth and of the same shape, is one mode.
+  // Two poles at nearly all orders, however, are two modes.
   std::vector<Cluster> distinct;
   for (Cluster& cluster : clusters) {
     const bool again = std::any_of(distinct.begin(), distinct.end(), [&](const Cluster& larger) {
       const double half_bandwidth = larger.damping_ratio * larger.frequency_Hz;
       return std::abs(cluster.frequency_Hz - larger.frequency_Hz) < half_bandwidth &&
-             std::norm(cluster.shape.dot(larger.shape)) > 0.8;
+             std::norm(cluster.shape.dot(larger.shape)) > 0.8 && !is_beside(diagram, orders, cluster, larger, rule);
     });
     if (!again) distinct.push_back(std::move(cluster));
   }

@@ -10,6 +10,7 @@ struct AutomaticRule {
   double collinearity = 0.5;  ///< least modal phase collinearity of a pole
   double share = 0.4;         ///< least share of the orders from its first one on at which a mode is found,
   double share_of_all = 0.3;  ///< least share of all orders, and at least four orders
+  double share_beside = 0.5;  ///< least share of all orders at which two poles of like shape are two modes
   /// For each channel how often displacement is differentiated (2 for acceleration). A velocity channel beside accelerations
   /// then does not count as a phase shift of 90 degrees. Empty: all channels are equal.
   std::vector<int> derivatives;
@@ -37,11 +38,11 @@ struct AutomaticRule {
 /// by 2-means of ln d; the cut of the agglomerative clustering (average linkage, never two poles of one order) is the 95 %
 /// quantile of the physical ones' distances. Each order without a pole in a cluster then adds its nearest pole, if it is within
 /// twice the cut of the cluster's centre. Clusters at too few orders are dropped. Of two clusters nearer than half a bandwidth
-/// with a MAC above 0.8 the smaller is dropped. A cluster is also dropped if the nearest pole of the next order, within the
-/// cut, is the first pole of another cluster: it is the same mode at orders that do not yet separate it from a neighbour. At
-/// last mixtures are dropped: a cluster whose frequency lies between those of two clusters that more orders carry, and whose
-/// shape lies in the span of theirs, is the two of them at orders that do not separate them; at most of its orders one of the
-/// two is missing, and both go on above its last one.
+/// with a MAC above 0.8 the smaller is dropped, unless both are found at half of the orders. A cluster is also dropped if the
+/// nearest pole of the next order, within the cut, is the first pole of another cluster: it is the same mode at orders that do
+/// not yet separate it from a neighbour. At last mixtures are dropped: a cluster whose frequency lies between those of two
+/// clusters that more orders carry, and whose shape lies in the span of theirs, is the two of them at orders that do not
+/// separate them; at most of its orders one of the two is missing, and both go on above its last one.
 /// @param orders  ascending @return ascending in frequency; marks `mode` in the diagram
 /// Reference: Reynders, Houbrechts and De Roeck (2012), Mechanical Systems and Signal Processing 29, 228-250.
 [[nodiscard]] std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,

@@ -17,10 +17,11 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6);
   if (options.selection == Selection::paper)
     return options.largest_deviation <= 0.0 || deviation.frequency_Hz <= options.largest_deviation * f;
-  if (seconds <= 0.0)
-    return options.largest_bandwidth_share <= 0.0 || deviation.frequency_Hz <= options.largest_bandwidth_share * zeta * f;
+  const double share = options.largest_bandwidth_share;
+  if (share > 0.0 && deviation.frequency_Hz > share * zeta * f) return false;
+  if (seconds <= 0.0 || options.largest_law_ratio <= 0.0) return true;
   const double law = f * std::sqrt(zeta / (2.0 * std::numbers::pi * f * seconds));
-  return options.largest_law_ratio <= 0.0 || deviation.frequency_Hz <= options.largest_law_ratio * law;
+  return deviation.frequency_Hz <= options.largest_law_ratio * law && deviation.damping_ratio <= zeta;
 }
 
 /// Another mode, better settled, that this one can't be told from.
@@ -125,8 +126,17 @@ void add_deviations(Identification& result, const Observability& observability, 
 }  // namespace
 
 void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
-                   const PeriodicRule& rule) {
+                   const PeriodicRule& rule, const std::vector<PeriodicLine>& known) {
+  const auto is_known = [&](const PeriodicLine& line) {
+    return std::any_of(known.begin(), known.end(), [&](const PeriodicLine& other) {
+      return std::abs(other.frequency_Hz - line.frequency_Hz) < rule.largest_spread * line.frequency_Hz;
+    });
+  };
   result.periodic = periodic_lines(result.periodic, records, rate_Hz, rule);
+  std::erase_if(result.periodic, is_known);
+  result.periodic.insert(result.periodic.end(), known.begin(), known.end());
+  std::sort(result.periodic.begin(), result.periodic.end(),
+            [](const PeriodicLine& p, const PeriodicLine& q) { return p.frequency_Hz < q.frequency_Hz; });
   std::vector<bool> stays(result.modes.size(), true);
   for (std::size_t m = 0; m < stays.size(); ++m) {
     const Cluster& mode = result.modes[m];

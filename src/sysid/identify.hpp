@@ -31,10 +31,10 @@ struct IdentifyOptions {
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many
   /// times
   ///     f sqrt(zeta / (2 pi N_c)),   N_c the cycles in the record,
-  /// the lower limit for a record of this length (Au 2014): its pole recurs, but it hardly contributes to the motion. 0 keeps
-  /// all.
+  /// the lower limit for a record of this length (Au 2014): its pole recurs, but it hardly contributes to the motion. It is
+  /// also dropped if its damping ratio is not larger than its standard deviation. 0 keeps all.
   double largest_law_ratio = 10.0;
-  /// Automatic selection of free decays: dropped if it exceeds this share of the half bandwidth zeta f. 0 keeps all.
+  /// Automatic selection: dropped if it exceeds this share of the half bandwidth zeta f. 0 keeps all.
   double largest_bandwidth_share = 0.5;
 
   [[nodiscard]] std::vector<int> orders() const;
@@ -72,8 +72,9 @@ struct Identification {
 /// Tells lines of periodic forces from modes: `periodic` keeps the candidates that the records show to be lines. Modes at such
 /// a frequency are dropped if their damping does not differ from that of a line by more than two standard deviations.
 /// @param records  those identified (n_samples × n_outputs), channels scaled alike
+/// @param known  lines that are no longer in these records; they stay in `periodic`
 void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
-                   const PeriodicRule& rule);
+                   const PeriodicRule& rule, const std::vector<PeriodicLine>& known = {});
 
 /// Drops the modes that the data do not determine, by the rules of the options. The automatic selection also treats pairs that
 /// the data cannot tell apart (frequencies within three standard deviations of their difference, MAC above 0.8): it drops the

@@ -60,6 +60,17 @@ bool may_be_one(const Comparison& shapes, double df_Hz, double deviation_Hz, dou
   return df_Hz <= 3.0 * deviation_Hz && 1.0 - shapes.mac <= rule.noise * shapes.noise;
 }
 
+/// How unlikely it is to meet this difference in one and the same mode: minus twice the logarithm of its density, frequencies
+/// normal and 1 - MAC exponential with their deviations. Close modes that a setup orders otherwise are so told apart by
+/// whichever is known better, and a badly known mode is near to none. Floors: what deviations from few blocks and the choice of
+/// an order leave out.
+double unlikelihood(const Comparison& shapes, double df_Hz, double deviation_Hz, double frequency_Hz) {
+  constexpr double kFrequencyFloor = 0.001;  // of the frequency
+  constexpr double kShapeFloor = 0.02;       // of 1 - MAC
+  const double sigma = std::hypot(deviation_Hz / frequency_Hz, kFrequencyFloor), mean = shapes.noise + kShapeFloor;
+  return std::pow(df_Hz / frequency_Hz / sigma, 2) + 2.0 * (std::log(sigma) + (1.0 - shapes.mac) / mean + std::log(mean));
+}
+
 /// Groups of modes of different setups, nearest pairs first.
 std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups, const MergingRule& rule) {
   std::vector<Candidate> all;
@@ -81,7 +92,7 @@ std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups
       const double deviation_Hz =
           std::hypot(first.deviations[all[a].mode].frequency_Hz, second.deviations[all[b].mode].frequency_Hz);
       if (may_be_one(shapes, df_Hz, deviation_Hz, df, rule))
-        pairs.push_back({df + 0.1 * rule.frequency * (1.0 - shapes.mac), a, b});
+        pairs.push_back({unlikelihood(shapes, df_Hz, deviation_Hz, p.frequency_Hz), a, b});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
@@ -139,30 +150,56 @@ double entry_variance(const ModeDeviation& deviation, Index i) {
   return variance > 0.0 ? std::exp2(std::round(std::log2(variance))) : 0.0;
 }
 
-/// Factors that bring each member's references to one common shape.
+/// Motion of the references in units of its deviation: below some three, nobody knows the sign of a setup's shape.
+double reference_signal(const SetupModes& setup, std::size_t mode, const std::vector<Index>& references) {
+  constexpr double kFloor = 0.02;  // of the shape's norm: what a close mode leaves in it beyond its deviation
+  double square = 0.0;
+  for (const Index reference : references) {
+    const Index at = position(setup, reference);
+    const double variance =
+        entry_variance(setup.deviations[mode], at) + kFloor * kFloor * setup.modes[mode].shape.squaredNorm();
+    square += std::norm(setup.modes[mode].shape[at]) / variance;
+  }
+  return std::sqrt(square);
+}
+
+/// Factors that bring each member's references to one common shape. Zero for a setup whose references hardly move; if no two
+/// are left, one setup stands for the shape alone: that with the strongest references.
 std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, const std::vector<Candidate>& members,
                                          const std::vector<Index>& references) {
   if (members.size() < 2) return {1.0};
+  constexpr double kLeastSignal = 3.0;
   const auto n_refs = static_cast<Index>(references.size()), n = static_cast<Index>(members.size());
   Eigen::MatrixXcd shapes(n_refs, n);
   Eigen::MatrixXd weights(n_refs, n);
+  Eigen::VectorXd signal(n);
   for (Index k = 0; k < n; ++k) {
     const Candidate& member = members[static_cast<std::size_t>(k)];
     const SetupModes& setup = setups[member.setup];
+    signal[k] = reference_signal(setup, member.mode, references);
     for (Index r = 0; r < n_refs; ++r) {
       const Index at = position(setup, references[static_cast<std::size_t>(r)]);
       shapes(r, k) = setup.modes[member.mode].shape[at];
       weights(r, k) = 1.0 / std::max(entry_variance(setup.deviations[member.mode], at), 1e-8);
     }
   }
+  std::vector<std::complex<double>> factors(members.size(), 0.0);
+  if ((signal.array() >= kLeastSignal).count() < 2) {
+    Index strongest = 0;
+    signal.maxCoeff(&strongest);
+    factors[static_cast<std::size_t>(strongest)] = 1.0;
+    return factors;
+  }
+  for (Index k = 0; k < n; ++k) {
+    if (signal[k] < kLeastSignal) shapes.col(k).setZero();
+  }
   Eigen::MatrixXcd unit = shapes;
   for (Index k = 0; k < n; ++k) unit.col(k) /= std::max(unit.col(k).norm(), 1e-300);
   const Eigen::VectorXcd common = Eigen::JacobiSVD<Eigen::MatrixXcd>(unit, Eigen::ComputeThinU).matrixU().col(0);
-  std::vector<std::complex<double>> factors;
   for (Index k = 0; k < n; ++k) {
     const Eigen::VectorXcd weighted = weights.col(k).asDiagonal() * shapes.col(k);
     const double norm = shapes.col(k).dot(weighted).real();
-    factors.push_back(norm > 0.0 ? weighted.dot(common) / norm : std::complex<double>(0.0));
+    if (norm > 0.0) factors[static_cast<std::size_t>(k)] = weighted.dot(common) / norm;
   }
   return factors;
 }
@@ -173,6 +210,7 @@ void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candi
   Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(n_channels);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(n_channels), real = weight, imag = weight;
   for (std::size_t k = 0; k < members.size(); ++k) {
+    if (factors[k] == 0.0) continue;
     const SetupModes& setup = setups[members[k].setup];
     const Cluster& mode = setup.modes[members[k].mode];
     const ModeDeviation& deviation = setup.deviations[members[k].mode];

@@ -38,9 +38,10 @@ struct MergedMode {
 /// Merging after identification (PoSER). Modes of different setups are paired by frequency and by the MAC over common channels,
 /// the nearest first, at most one of each setup. Each setup's shape, of unit norm, is scaled by the complex factor that fits
 /// its reference channels to the common reference shape (leading singular vector of all, least squares weighted by the
-/// covariances), so that the gain of a setup has no effect. Entries that several setups measured are averaged with weights
-/// 1/variance. Frequency and damping are averaged with weights 1/(sigma_s² + tau²), tau² the variance between setups beyond
-/// their own (DerSimonian and Laird 1986). A mode of one setup only is kept.
+/// covariances), so that the gain of a setup has no effect. Where a mode hardly moves the references of a setup, their sign and
+/// scale are unknown: its other channels stay NaN rather than wrong. Entries that several setups measured are averaged with
+/// weights 1/variance. Frequency and damping are averaged with weights 1/(sigma_s² + tau²), tau² the variance between setups
+/// beyond their own (DerSimonian and Laird 1986). A mode of one setup only is kept.
 /// @param n_channels  of the list of all @param references  positions in it, present in every setup
 /// @throws InputError  if a setup lacks a reference, or no reference is given for several setups
 /// Reference: Reynders, Magalhaes, Roeck and Cunha (2009), IMAC 27 (merging strategies).

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
 #include <set>
 
 #include "core/statistics.hpp"
@@ -44,15 +47,20 @@ std::vector<PeriodicLine> undamped_poles(const std::vector<std::vector<Pole>>& p
 
 namespace {
 
+constexpr double kIndependent = 10.0;  // the band is this many times 1/(length of the record): some twenty independent values
+constexpr double kNarrowest = 0.001;   // of the frequency: a machine's speed wanders by some hundredths of a per cent
+
+double band_of(const PeriodicLine& line, Index n_samples, double rate_Hz) {
+  return std::max(kIndependent * rate_Hz / static_cast<double>(n_samples), kNarrowest * line.frequency_Hz);
+}
+
 /// E|a|⁴ / (E|a|²)² of the envelope around a frequency, mean over the records.
 double envelope_kurtosis(const PeriodicLine& line, const std::vector<Eigen::MatrixXd>& records, double rate_Hz) {
-  constexpr double kIndependent = 10.0;  // the band is this many times 1/(length of the record): some twenty independent values
-  constexpr double kNarrowest = 0.001;   // of the frequency: a machine's speed wanders by some hundredths of a per cent
-  constexpr double kSettled = 0.5;       // of 1/band: the filter has settled that far from either end
+  constexpr double kSettled = 0.5;  // of 1/band: the filter has settled that far from either end
   double sum = 0.0, samples = 0.0;
   for (const Eigen::MatrixXd& record : records) {
     const auto n = static_cast<double>(record.rows());
-    const double band_Hz = std::max(kIndependent * rate_Hz / n, kNarrowest * line.frequency_Hz);
+    const double band_Hz = band_of(line, record.rows(), rate_Hz);
     const auto end = static_cast<Index>(kSettled * rate_Hz / band_Hz);
     const Eigen::VectorXcd a = modal_coordinate(record, rate_Hz, line.shape, line.frequency_Hz, band_Hz);
     if (a.size() - 2 * end < 8) continue;
@@ -69,7 +77,79 @@ int multiple_of(double frequency_Hz, double base_Hz, double tolerance) {
   return whole >= 1.0 && std::abs(ratio - whole) < tolerance * whole ? static_cast<int>(whole) : 0;
 }
 
+/// exp(i phase) of a line, sample by sample.
+Eigen::ArrayXcd phasor_of(const PeriodicLine& line, const Eigen::MatrixXd& record, double rate_Hz) {
+  const Eigen::ArrayXcd a =
+      modal_coordinate(record, rate_Hz, line.shape, line.frequency_Hz, band_of(line, record.rows(), rate_Hz)).array();
+  return a / a.abs().max(1e-300);
+}
+
+/// What each channel holds of a phasor, as an amplitude (n_outputs).
+Eigen::VectorXcd coherent_part(const Eigen::MatrixXd& record, const Eigen::ArrayXcd& phasor) {
+  return 2.0 / static_cast<double>(record.rows()) *
+         (record.transpose().cast<std::complex<double>>() * phasor.conjugate().matrix());
+}
+
+/// Power of what turns with the phasor over the median of what turns by a few 1/(length of the record) faster or slower. For
+/// noise the ratio is above 20 once in 10^6.
+double prominence(const Eigen::MatrixXd& record, const Eigen::ArrayXcd& phasor) {
+  constexpr int kNearest = 3, kFarthest = 12;  // in 1/(length of the record)
+  std::vector<double> beside;
+  const auto n = static_cast<double>(record.rows());
+  for (int k = -kFarthest; k <= kFarthest; ++k) {
+    if (std::abs(k) < kNearest) continue;
+    Eigen::ArrayXcd shifted = phasor;
+    const double turn = 2.0 * std::numbers::pi * k / n;
+    for (Index t = 0; t < shifted.size(); ++t) shifted[t] *= std::polar(1.0, turn * static_cast<double>(t));
+    beside.push_back(coherent_part(record, shifted).squaredNorm());
+  }
+  return coherent_part(record, phasor).squaredNorm() / std::max(median(beside), 1e-300);
+}
+
+void subtract(Eigen::MatrixXd& record, const Eigen::ArrayXcd& phasor) {
+  Eigen::MatrixXd waves(record.rows(), 2);
+  waves << phasor.real().matrix(), phasor.imag().matrix();
+  const Eigen::MatrixXd amplitudes = (waves.transpose() * waves).ldlt().solve(waves.transpose() * record);
+  record.noalias() -= waves * amplitudes;
+}
+
+bool is_among(const std::vector<PeriodicLine>& lines, double frequency_Hz, double spread) {
+  return std::any_of(lines.begin(), lines.end(), [&](const PeriodicLine& line) {
+    return std::abs(line.frequency_Hz - frequency_Hz) < spread * frequency_Hz;
+  });
+}
+
 }  // namespace
+
+std::vector<PeriodicLine> without_lines(std::vector<Eigen::MatrixXd>& records, const std::vector<PeriodicLine>& lines,
+                                        double rate_Hz, double highest_Hz, const PeriodicRule& rule) {
+  std::vector<PeriodicLine> all = lines;
+  for (const PeriodicLine& line : lines) {
+    std::vector<Eigen::ArrayXcd> base;
+    for (Eigen::MatrixXd& record : records) {
+      base.push_back(phasor_of(line, record, rate_Hz));
+      subtract(record, base.back());
+    }
+    for (int k = 2; k * line.frequency_Hz <= highest_Hz; ++k) {
+      PeriodicLine multiple{k * line.frequency_Hz, 0.0, Eigen::VectorXcd(), 1.0, k * line.multiple};
+      // One that is a line by itself has its own phase, and is subtracted with it.
+      if (is_among(all, multiple.frequency_Hz, rule.largest_spread)) continue;
+      std::vector<Eigen::ArrayXcd> phasors;
+      double prominent = std::numeric_limits<double>::infinity();
+      for (std::size_t r = 0; r < records.size(); ++r) {
+        phasors.push_back(base[r].pow(k));
+        prominent = std::min(prominent, prominence(records[r], phasors.back()));
+      }
+      if (prominent < rule.least_prominence) continue;
+      multiple.shape = coherent_part(records.front(), phasors.front()).normalized();
+      for (std::size_t r = 0; r < records.size(); ++r) subtract(records[r], phasors[r]);
+      all.push_back(std::move(multiple));
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const PeriodicLine& p, const PeriodicLine& q) { return p.frequency_Hz < q.frequency_Hz; });
+  return all;
+}
 
 std::vector<PeriodicLine> periodic_lines(const std::vector<PeriodicLine>& candidates,
                                          const std::vector<Eigen::MatrixXd>& records, double rate_Hz,

@@ -20,6 +20,8 @@ struct PeriodicRule {
   /// [-] the same where the frequency is a multiple of a line that is already found: prior knowledge, weaker evidence.
   double largest_kurtosis_of_multiple = 1.5;
   double multiple = 0.001;  ///< [-] relative distance from a multiple
+  /// [-] least power of what turns with a multiple of a line's phase, over the median of what turns beside it
+  double least_prominence = 20.0;
 };
 
 /// A line, or a candidate for one.
@@ -43,5 +45,15 @@ struct PeriodicLine {
 [[nodiscard]] std::vector<PeriodicLine> periodic_lines(const std::vector<PeriodicLine>& candidates,
                                                        const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
                                                        const PeriodicRule& rule);
+
+/// Takes the lines out of the records, and finds their multiples. The turning phase of a line is read in a narrow band around
+/// it from all channels together. Of each channel the part that turns with this phase, or with a multiple of it, is subtracted
+/// by least squares: two numbers a channel, so that modes near the line keep what is theirs. A multiple counts as a line if
+/// what turns with it stands out from what turns somewhat faster and slower.
+/// @param records  (n_samples × n_outputs) each, changed @param highest_Hz  of a multiple
+/// @return the lines and the multiples that were not among them, ascending in frequency
+[[nodiscard]] std::vector<PeriodicLine> without_lines(std::vector<Eigen::MatrixXd>& records,
+                                                      const std::vector<PeriodicLine>& lines, double rate_Hz, double highest_Hz,
+                                                      const PeriodicRule& rule);
 
 }  // namespace twindeck::sysid

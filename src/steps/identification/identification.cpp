@@ -181,6 +181,21 @@ void to_physical_shapes(sysid::Identification& found, const std::vector<Campaign
   }
 }
 
+namespace {
+
+sysid::Identification identify_ambient(const std::vector<Eigen::MatrixXd>& scaled, const Conditioned& conditioned,
+                                       const IdentificationConfig& config, const sysid::IdentifyOptions& options) {
+  signal::BlockCorrelations blocks;
+  for (const Eigen::MatrixXd& record : scaled) {
+    blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
+  }
+  return config.method == "data"
+             ? sysid::identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
+             : sysid::identify(blocks, conditioned.rate_Hz, options);
+}
+
+}  // namespace
+
 sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationConfig& config) {
   const sysid::IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
   // Channels on one scale, so that a large or a distant one does not hide the others and units do not matter.
@@ -200,16 +215,17 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
     found = sysid::identify_input_output(input * input_scale.cwiseInverse().asDiagonal(), scaled.front(), conditioned.rate_Hz,
                                          options);
   } else {
-    signal::BlockCorrelations blocks;
-    for (const Eigen::MatrixXd& record : scaled) {
-      blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
-    }
-    found = config.method == "data"
-                ? sysid::identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
-                : sysid::identify(blocks, conditioned.rate_Hz, options);
+    found = identify_ambient(scaled, conditioned, config, options);
   }
   if (options.selection == sysid::Selection::automatic && conditioned.excitation.empty()) {
     sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic);
+    if (!found.periodic.empty()) {
+      // A line beside a mode pulls the mode's poles to itself at small orders: once more, without the lines.
+      const std::vector<sysid::PeriodicLine> lines =
+          sysid::without_lines(scaled, found.periodic, conditioned.rate_Hz, options.limits.highest_Hz, options.periodic);
+      found = identify_ambient(scaled, conditioned, config, options);
+      sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic, lines);
+    }
   } else {
     found.periodic.clear();  // candidates that nobody judged
   }

@@ -143,8 +143,9 @@ ModeScore score(const RandomRecords& truth, const IdentifiedRecords& found) {
     const ModeOutcome& outcome = result.modes[r];
     if (!outcome.settled) continue;
     ++result.settled;
-    if (!outcome.recalled()) continue;
+    if (outcome.found < 0) continue;
     ++result.recalled;
+    if (outcome.mac >= kSameShape) ++result.alike;
     const sysid::MergedMode& mode = found.modes[static_cast<std::size_t>(outcome.found)];
     result.frequency_error.push_back((mode.frequency_Hz - truth.modes[r].frequency_Hz) / mode.deviation.frequency_Hz);
     result.damping_error.push_back((mode.damping_ratio - truth.modes[r].damping_ratio) / mode.deviation.damping_ratio);
@@ -164,6 +165,7 @@ void ModeTotals::add(const RandomRecords& truth, const ModeScore& one) {
   ++records;
   settled += one.settled;
   recalled += one.recalled;
+  alike += one.alike;
   spurious += static_cast<int>(one.spurious.size());
   lines += static_cast<int>(truth.machine_Hz.size());
   flagged += one.flagged;
@@ -184,6 +186,8 @@ bool print_totals(const ModeTotals& totals) {
                n == 0 ? "no case" : verdict(high < target));
   };
   share("modes that the records settle: found", totals.recalled, totals.settled, 0.98);
+  fmt::print("  {:<50} {:>5}/{:<5} {:>6.2f} %\n", "of these with a MAC of 0.8 and more", totals.alike, totals.recalled,
+             totals.recalled > 0 ? 100.0 * totals.alike / totals.recalled : 0.0);
   constexpr double kSpurious = 0.05;
   const auto [low, high] = exact_count_interval(totals.spurious);
   const double n = std::max(1, totals.records);

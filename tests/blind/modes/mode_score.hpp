@@ -31,8 +31,7 @@ struct ModeOutcome {
   /// within 0.5 %, or four of its standard deviations where that is more, but 2.5 % at most, the nearest first, one to one.
   int found = -1;
   double mac = 0.0;
-  /// Found with a MAC of at least 0.8.
-  [[nodiscard]] bool recalled() const { return found >= 0 && mac >= 0.8; }
+  [[nodiscard]] bool recalled() const { return found >= 0; }
 };
 
 struct ModeScore {
@@ -40,6 +39,7 @@ struct ModeScore {
   std::vector<int> spurious;            ///< identified modes that answer to no true one
   int flagged = 0;                      ///< lines of the machine that are marked in one setup at least (within 0.1 %)
   int settled = 0, recalled = 0;        ///< true modes that are settled; of these those found
+  int alike = 0;                        ///< of those found with a MAC of at least 0.8
   std::vector<double> frequency_error;  ///< of those, over their standard deviations
   std::vector<double> damping_error;
 };
@@ -50,7 +50,7 @@ struct ModeScore {
 
 /// What a run asks of all records together.
 struct ModeTotals {
-  int records = 0, settled = 0, recalled = 0, spurious = 0, lines = 0, flagged = 0;
+  int records = 0, settled = 0, recalled = 0, alike = 0, spurious = 0, lines = 0, flagged = 0;
   std::vector<double> frequency_error, damping_error;
   void add(const RandomRecords& truth, const ModeScore& score);
 };

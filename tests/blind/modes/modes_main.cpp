@@ -1,6 +1,7 @@
 /// blind_modes N [first seed [file]]: identifies the records of N random structures by the automatic rule, scores the modes
 /// against the truth, prints rates with exact 95 % intervals and writes one row a record. Exit code 1 when an interval lies
 /// wholly on the wrong side of its target. blind_modes --explain SEED …: every mode of single records.
+/// blind_modes --poles SEED HZ: the poles of all orders near a frequency.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -50,7 +51,7 @@ std::string line_of(const Scored& s) {
 
 void write_csv(const std::vector<Scored>& all, const std::filesystem::path& file) {
   io::CsvWriter csv({"seed", "modes", "closest_pair_pct", "channels", "setups", "duration_min", "noise_dB", "excitation",
-                     "moving_share", "machine_lines", "settled", "recalled", "found", "spurious", "lines_marked",
+                     "moving_share", "machine_lines", "settled", "recalled", "alike", "found", "spurious", "lines_marked",
                      "frequency_error_squared", "damping_error_squared", "time_s"});
   const auto squares = [](const std::vector<double>& errors) {
     double sum = 0.0;
@@ -60,9 +61,9 @@ void write_csv(const std::vector<Scored>& all, const std::filesystem::path& file
   for (const Scored& s : all) {
     const RandomRecords& t = s.truth;
     csv.row({std::to_string(t.seed), t.modes.size(), t.closest_pct, static_cast<std::size_t>(t.n_channels), t.setups.size(),
-             t.minutes, t.noise_dB, t.excitation, t.moving, t.machine_Hz.size(), s.score.settled, s.score.recalled, s.found,
-             s.score.spurious.size(), s.score.flagged, squares(s.score.frequency_error), squares(s.score.damping_error),
-             s.seconds});
+             t.minutes, t.noise_dB, t.excitation, t.moving, t.machine_Hz.size(), s.score.settled, s.score.recalled,
+             s.score.alike, s.found, s.score.spurious.size(), s.score.flagged, squares(s.score.frequency_error),
+             squares(s.score.damping_error), s.seconds});
   }
   std::filesystem::create_directories(file.parent_path());
   csv.save(file);
@@ -79,8 +80,15 @@ void explain(std::uint64_t seed) {
     for (const auto& [setup, at] : mode.members) {
       const sysid::Identification& one = found.setups[setup];
       const auto& members = one.modes[at].members;
-      text += fmt::format("  S{}: {} orders {}-{}", setup + 1, members.size(), one.diagram[members.front()].pole.order,
-                          one.diagram[members.back()].pole.order);
+      text += fmt::format("  S{}: {:.4f} {} orders {}-{}", setup + 1, one.modes[at].frequency_Hz, members.size(),
+                          one.diagram[members.front()].pole.order, one.diagram[members.back()].pole.order);
+      if (found.setups.size() == 1) continue;
+      // The shape of this setup alone beside the true ones that are near.
+      for (const TrueMode& near : truth.modes) {
+        if (std::abs(near.frequency_Hz / mode.frequency_Hz - 1.0) < 0.02)
+          text += fmt::format(" ({:.4f} {:.2f})", near.frequency_Hz,
+                              known_mac(near.shape(truth.setups[setup].channels), one.modes[at].shape));
+      }
     }
     return text;
   };
@@ -110,11 +118,37 @@ void explain(std::uint64_t seed) {
   }
 }
 
+// Every pole near a frequency, order by order, with the true mode that its shape is nearest to.
+void print_poles(std::uint64_t seed, double f_Hz) {
+  const RandomRecords truth = random_records(seed);
+  const IdentifiedRecords found = identify_records(truth);
+  constexpr double kReach = 0.08;  // of the frequency
+  for (std::size_t s = 0; s < found.setups.size(); ++s) {
+    const auto& channels = truth.setups[s].channels;
+    fmt::print("setup S{}\n order       f_Hz  std_Hz  damping_pct  mode  MAC to the true modes near\n", s + 1);
+    for (const sysid::DiagramPole& p : found.setups[s].diagram) {
+      if (std::abs(p.pole.frequency_Hz / f_Hz - 1.0) > kReach) continue;
+      fmt::print("{:>6} {:>10.4f} {:>7.4f} {:>12.2f} {:>5} ", p.pole.order, p.pole.frequency_Hz, p.frequency_std_Hz,
+                 100.0 * p.pole.damping_ratio, p.mode);
+      for (const TrueMode& mode : truth.modes) {
+        if (std::abs(mode.frequency_Hz / f_Hz - 1.0) > kReach) continue;
+        const Eigen::VectorXd shape = mode.shape(channels).cwiseQuotient(found.scale[s]);
+        fmt::print(" {:.4f}: {:.2f}", mode.frequency_Hz, known_mac(shape, p.pole.shape));
+      }
+      fmt::print("\n");
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc > 2 && std::string(argv[1]) == "--explain") {
     for (int i = 2; i < argc; ++i) explain(std::strtoull(argv[i], nullptr, 10));
+    return 0;
+  }
+  if (argc == 4 && std::string(argv[1]) == "--poles") {
+    print_poles(std::strtoull(argv[2], nullptr, 10), std::strtod(argv[3], nullptr));
     return 0;
   }
   const int count = argc > 1 ? std::atoi(argv[1]) : 20;

@@ -56,5 +56,32 @@ TEST(AutomaticClusters, AModeBetweenTwoOthersWithAShapeOfItsOwnStays) {
   EXPECT_EQ(modes_with(half), 4U);
 }
 
+/// Two poles of like shape (MAC 0.88), a quarter of a bandwidth apart, from an order on.
+std::size_t modes_of_a_close_pair(int first_order) {
+  signal::test::Noise random(9);
+  const Eigen::VectorXd first = Eigen::VectorXd::Unit(kChannelsOfDiagram, 0),
+                        second = first + 0.37 * Eigen::VectorXd::Unit(kChannelsOfDiagram, 1);
+  std::vector<DiagramPole> diagram;
+  std::vector<int> orders;
+  for (int order = 2; order <= 60; order += 2) {
+    orders.push_back(order);
+    for (int k = 0; k < 2; ++k) {
+      if (k == 1 && order < first_order) continue;
+      Pole pole;
+      pole.order = order;
+      pole.frequency_Hz = (k == 0 ? 2.0 : 2.01) * (1.0 + 0.0001 * random());
+      pole.damping_ratio = 0.01;
+      pole.shape = scattered(k == 0 ? first : second, 0.003, random);
+      diagram.push_back({pole});
+    }
+  }
+  return automatic_clusters(diagram, orders, {}).size();
+}
+
+TEST(AutomaticClusters, TwoPolesOfLikeShapeAtMostOrdersAreTwoModes) {
+  EXPECT_EQ(modes_of_a_close_pair(20), 2U);
+  EXPECT_EQ(modes_of_a_close_pair(40), 1U);
+}
+
 }  // namespace
 }  // namespace twindeck::sysid

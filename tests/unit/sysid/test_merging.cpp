@@ -62,6 +62,23 @@ TEST(MergePoser, AModeOfOneSetupIsKeptAndMarked) {
   EXPECT_FALSE(std::isnan(merged[1].shape[1].real()));
 }
 
+// References that hardly move settle neither sign nor scale of the other setup: its own channel stays unknown.
+TEST(MergePoser, WhereTheReferencesAreQuietTheShapeIsNotPutTogether) {
+  std::vector<SetupModes> setups = {identified(0, 1.0), identified(1, 1.0)};
+  for (SetupModes& setup : setups) {
+    Cluster& mode = setup.modes[1];
+    mode.shape[0] = 0.01;
+    mode.shape[1] = -0.01;
+    mode.shape.normalize();
+  }
+  const auto merged = merge_poser(setups, 5, {0, 3}, {});
+  ASSERT_EQ(merged.size(), setups[0].modes.size());
+  EXPECT_EQ(merged[1].members.size(), 2U);
+  // One setup stands for it: channel 1 is of the first, channel 2 of the other.
+  EXPECT_NE(std::isnan(merged[1].shape[1].real()), std::isnan(merged[1].shape[2].real()));
+  EXPECT_FALSE(std::isnan(merged[0].shape[2].real()));
+}
+
 TEST(MergePoser, ASetupWithoutTheReferenceIsRefused) {
   std::vector<SetupModes> setups = {identified(0, 1.0), identified(1, 1.0)};
   setups[1].channels = {0, 4, 2};

@@ -67,5 +67,28 @@ TEST(Periodic, AModeTakenForACandidateHasTheKurtosisOfNoise) {
   EXPECT_EQ(periodic_lines({candidate}, {record_with_machine(0.5)}, 20.0, {}).size(), 1U);
 }
 
+// A machine of known lines is added to a record and taken out again: what is left is the record without it. Only the first line
+// is told; its multiple is found by its phase.
+TEST(Periodic, WithoutItsLinesTheRecordIsAsIfTheMachineStoodStill) {
+  const Eigen::MatrixXd still = record_with_machine(0.0), running = record_with_machine(0.5);
+  const double line = (running - still).norm();
+  std::vector<Eigen::MatrixXd> records = {running};
+  const PeriodicLine known{kLine_Hz, 0.0, Eigen::Vector4cd(0.3, 1.0, -0.5, 0.7)};
+  const std::vector<PeriodicLine> all = without_lines(records, {known}, 20.0, 8.0, {});
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[1].multiple, 2);
+  EXPECT_NEAR(all[1].frequency_Hz, 2.0 * kLine_Hz, 1e-9);
+  EXPECT_LT((records.front() - still).norm(), 0.05 * line);  // the phase is known to some hundredths: noise lies in its band
+}
+
+// In a record without a machine nothing turns with a multiple: what is taken out is the little that fits by chance.
+TEST(Periodic, NoMultipleIsFoundInNoise) {
+  const Eigen::MatrixXd still = record_with_machine(0.0);
+  std::vector<Eigen::MatrixXd> records = {still};
+  const PeriodicLine none{kLine_Hz, 0.0, Eigen::Vector4cd(0.3, 1.0, -0.5, 0.7)};
+  EXPECT_EQ(without_lines(records, {none}, 20.0, 8.0, {}).size(), 1U);
+  EXPECT_LT((records.front() - still).norm(), 0.05 * still.norm());
+}
+
 }  // namespace
 }  // namespace twindeck::sysid
