@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "steps/identification/channel_lag.hpp"
+#include "steps/identification/limits.hpp"
 
 namespace twindeck::steps {
 
@@ -157,29 +158,36 @@ void check_merging(ConditionResult& result, const std::vector<Index>& references
   }
 }
 
-void refuse_long_segment(const Conditioned& conditioned, const IdentificationConfig& config) {
-  for (const Eigen::MatrixXd& record : conditioned.records) {
-    if (record.rows() >= config.welch_segment) continue;
-    throw InputError(
-        {"", 0, "welch_segment"},
-        fmt::format("is {}, longer than the record of {} samples after decimation", config.welch_segment, record.rows()),
-        "give a shorter segment");
-  }
+/// The records of one setup with the limits that they carry.
+SetupResult read_setup(const Campaign& campaign, const RecordGroup& group, const IdentificationConfig& config,
+                       StepContext& context) {
+  SetupResult setup;
+  setup.conditioned = condition_records(campaign, group, config, config.decimation);
+  for (const std::string& note : setup.conditioned.notes) context.say(note);
+  auto [limits, note] = carried_by(setup.conditioned, config);
+  setup.limits = std::move(limits);
+  if (!note.empty()) context.warn(note);
+  return setup;
 }
 
 }  // namespace
 
 ConditionResult read_condition(const Campaign& campaign, const std::vector<RecordGroup>& groups,
-                               const IdentificationConfig& config, const StepContext& context) {
+                               const IdentificationConfig& config, StepContext& context) {
   ConditionResult result;
+  std::vector<std::string> left_out;
   result.condition = groups.front().condition;
   for (const RecordGroup& group : groups) {
     context.progress("reading records of condition " + result.condition, static_cast<double>(result.setups.size()),
                      static_cast<double>(groups.size()));
     SetupResult setup;
-    setup.conditioned = condition_records(campaign, group, config, config.decimation);
-    for (const std::string& note : setup.conditioned.notes) context.say(note);
-    refuse_long_segment(setup.conditioned, config);
+    try {
+      setup = read_setup(campaign, group, config, context);
+    } catch (const UnusableRecord& problem) {
+      if (&group == &groups.back() && result.setups.empty()) throw;
+      left_out.push_back(fmt::format("setup {} of condition {} is left out: {}", group.setup, group.condition, problem.what()));
+      continue;
+    }
     if (!result.setups.empty() && setup.conditioned.rate_Hz != result.setups.front().conditioned.rate_Hz) {
       throw InputError({(campaign.folder / "campaign.toml").string(), group.records.front().line, "sampling_rate_Hz"},
                        fmt::format("is {} Hz in setup {}, but {} Hz in setup {}, which it is merged with",
@@ -191,6 +199,14 @@ ConditionResult read_condition(const Campaign& campaign, const std::vector<Recor
       if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
     }
     result.setups.push_back(std::move(setup));
+  }
+  for (const std::string& warning : left_out) context.warn(warning);
+  if (config.highest_Hz == 0.0) {
+    const double rate_Hz = result.setups.front().conditioned.rate_Hz;
+    context.say(
+        fmt::format("condition {}: modes are looked for up to {:.4g} Hz, 0.8 of the Nyquist frequency; where the sensors "
+                    "see less, give band.highest",
+                    result.condition, 0.4 * rate_Hz));
   }
   if (result.setups.size() > 1 && common_references(result).empty()) {
     throw InputError(
@@ -207,9 +223,9 @@ void identify_condition(ConditionResult& result, const IdentificationConfig& con
     const std::string& name = setup.conditioned.setup;
     context.progress(fmt::format("identifying {} in condition {}", name, result.condition), static_cast<double>(setups.size()),
                      static_cast<double>(result.setups.size()));
-    setup.spectra = average_spectra(setup.conditioned, config);
-    setup.singular = singular_spectra(setup.conditioned, config);
-    setup.found = identify_modes(setup.conditioned, config);
+    setup.spectra = average_spectra(setup.conditioned, setup.limits);
+    setup.singular = singular_spectra(setup.conditioned, setup.limits);
+    setup.found = identify_modes(setup.conditioned, setup.limits);
     for (const sysid::PeriodicLine& line : setup.found.periodic) {
       context.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
                               line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
@@ -220,7 +236,10 @@ void identify_condition(ConditionResult& result, const IdentificationConfig& con
   const std::vector<Index> references = common_references(result);
   result.modes = sysid::merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
   if (result.setups.size() > 1 && config.kind != "free_decay" && result.setups.front().conditioned.excitation.empty()) {
-    check_merging(result, references, config);
+    const auto fewest =
+        std::min_element(result.setups.begin(), result.setups.end(),
+                         [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
+    check_merging(result, references, fewest->limits);
   }
 }
 

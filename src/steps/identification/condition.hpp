@@ -12,6 +12,7 @@ namespace twindeck::steps {
 /// One setup of a condition, identified.
 struct SetupResult {
   Conditioned conditioned;
+  IdentificationConfig limits;  ///< the configuration as far as its records carry it
   sysid::Identification found;
   signal::PowerSpectra spectra;
   sysid::SingularSpectra singular;
@@ -33,12 +34,13 @@ struct ConditionResult {
   std::vector<MergingCheck> checks;      ///< one a mode where there are several setups
 };
 
-/// The records of each setup made ready, none identified yet.
+/// The records of each setup made ready, none identified yet. A setup whose records cannot be used is left out with a warning,
+/// as long as another is left.
 /// @param groups  of one condition
-/// @throws InputError  as condition_records; for a record shorter than `welch_segment`, setups of two rates, or setups without
-/// a common reference
+/// @throws InputError  as condition_records; for setups of two rates, or without a common reference @throws UnusableRecord  if
+/// no setup is left
 [[nodiscard]] ConditionResult read_condition(const Campaign& campaign, const std::vector<RecordGroup>& groups,
-                                             const IdentificationConfig& config, const StepContext& context);
+                                             const IdentificationConfig& config, StepContext& context);
 
 /// Identifies each setup and merges them. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has
 /// the mode; standard deviations are PoSER's in either case.

@@ -73,15 +73,17 @@ void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vect
     if (!is_used) continue;
     const std::string without = "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'";
     if (q.dead) {
-      throw InputError({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples), without);
+      throw UnusableRecord({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples),
+                           without);
     }
     const double share = static_cast<double>(q.clipped) / static_cast<double>(q.samples);
     if (share > clipping) {
-      throw InputError({q.record, 0, q.channel},
-                       fmt::format("stands at its largest or smallest value over {} of {} samples ({:.3g} %), expected at most "
-                                   "{:.3g} %: it was driven past its range",
-                                   q.clipped, q.samples, 100.0 * share, 100.0 * clipping),
-                       without + fmt::format(", or allow it (--set largest_clipping={:.2g})", 1.1 * share));
+      throw UnusableRecord(
+          {q.record, 0, q.channel},
+          fmt::format("stands at its largest or smallest value over {} of {} samples ({:.3g} %), expected at most "
+                      "{:.3g} %: it was driven past its range",
+                      q.clipped, q.samples, 100.0 * share, 100.0 * clipping),
+          without + fmt::format(", or allow it (--set largest_clipping={:.2g})", 1.1 * share));
     }
   }
 }
@@ -123,14 +125,23 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
   };
   for (const CampaignRecord& record : group.records) {
     const auto [raw, notes] = read_record(campaign, record);
+    const std::string file = record.file.lexically_relative(campaign.folder).generic_string();
+    const auto quality = channel_quality(raw, record.channels, record.setup, file);
+    try {
+      refuse_unusable(quality, conditioned.channels, config.largest_clipping);
+      refuse_unusable(quality, conditioned.inputs, config.largest_clipping);
+      Eigen::MatrixXd responses = ready(raw, columns, names, record.file.string());
+      if (!input_columns.empty())
+        conditioned.excitation.push_back(ready(raw, input_columns, input_names, record.file.string()));
+      conditioned.records.push_back(std::move(responses));
+    } catch (const UnusableRecord& problem) {
+      if (conditioned.records.empty() && &record == &group.records.back()) throw;
+      conditioned.notes.push_back(fmt::format("{} is left out: {}", file, problem.what()));
+      continue;
+    }
     conditioned.notes.insert(conditioned.notes.end(), notes.begin(), notes.end());
-    conditioned.files.push_back(record.file.lexically_relative(campaign.folder).generic_string());
-    const auto quality = channel_quality(raw, record.channels, record.setup, conditioned.files.back());
+    conditioned.files.push_back(file);
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
-    refuse_unusable(quality, conditioned.channels, config.largest_clipping);
-    refuse_unusable(quality, conditioned.inputs, config.largest_clipping);
-    conditioned.records.push_back(ready(raw, columns, names, record.file.string()));
-    if (!input_columns.empty()) conditioned.excitation.push_back(ready(raw, input_columns, input_names, record.file.string()));
   }
   return conditioned;
 }

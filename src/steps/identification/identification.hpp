@@ -62,9 +62,10 @@ struct Conditioned {
   std::vector<std::string> notes;       ///< what the user should know of how the records were read
 };
 
-/// Reads, judges, repairs as asked, detrends and decimates.
-/// @throws InputError  for a gap that is not to be filled, a dead or clipped channel, an unknown reference, no response
-/// channel, a band beyond the records'
+/// Reads, judges, repairs as asked, detrends and decimates. A record that cannot be used is left out with a note, as long as
+/// another of the group is left.
+/// @throws UnusableRecord  if none is left: a gap that is not to be filled, a dead or clipped channel
+/// @throws InputError  for an unknown reference, no response channel, a band beyond the records'
 [[nodiscard]] Conditioned condition_records(const Campaign& campaign, const RecordGroup& group,
                                             const IdentificationConfig& config, Eigen::Index decimation);
 

@@ -1,6 +1,7 @@
 #include "steps/identification/inputs.hpp"
 
 #include <filesystem>
+#include <optional>
 
 #include "steps/identification/stays.hpp"
 
@@ -30,12 +31,37 @@ Campaign read_lists(StepContext& context) {
   return campaign;
 }
 
+/// Goes on without what cannot be used, and keeps why.
+class LeftOut {
+ public:
+  template <typename Read>
+  void attempt(const std::string& what, const Read& read) {
+    try {
+      read();
+    } catch (const UnusableRecord& problem) {
+      if (!first_) first_ = problem;
+      warnings_.push_back(what + " is left out: " + problem.what());
+    }
+  }
+  /// Warns of each, or refuses with the first where nothing else is left to identify.
+  void report(StepContext& context, bool nothing_left) const {
+    if (nothing_left && first_) throw *first_;
+    for (const std::string& warning : warnings_) context.warn(warning);
+  }
+
+ private:
+  std::optional<UnusableRecord> first_;
+  std::vector<std::string> warnings_;
+};
+
 std::vector<Conditioned> read_kind(const Campaign& campaign, const RecordChoice& choice, const IdentificationConfig& config,
-                                   Eigen::Index decimation, const StepContext& context) {
+                                   Eigen::Index decimation, const StepContext& context, LeftOut& left_out) {
   std::vector<Conditioned> records;
   for (const RecordGroup& group : record_groups(campaign, choice, true)) {
-    records.push_back(condition_records(campaign, group, config, decimation));
-    for (const std::string& note : records.back().notes) context.say(note);
+    left_out.attempt("setup " + group.setup, [&] {
+      records.push_back(condition_records(campaign, group, config, decimation));
+      for (const std::string& note : records.back().notes) context.say(note);
+    });
   }
   return records;
 }
@@ -45,12 +71,16 @@ std::vector<Conditioned> read_kind(const Campaign& campaign, const RecordChoice&
 IdentificationInputs read_identification_inputs(const IdentificationConfig& config, StepContext& context) {
   IdentificationInputs read;
   read.campaign = read_lists(context);
+  LeftOut left_out;
   const RecordChoice ambient{config.setup, config.condition, config.kind, config.setups};
-  for (const std::vector<RecordGroup>& groups : by_condition(record_groups(read.campaign, ambient)))
-    read.conditions.push_back(read_condition(read.campaign, groups, config, context));
+  for (const std::vector<RecordGroup>& groups : by_condition(record_groups(read.campaign, ambient))) {
+    left_out.attempt("condition " + groups.front().condition,
+                     [&] { read.conditions.push_back(read_condition(read.campaign, groups, config, context)); });
+  }
   read.decays = read_kind(read.campaign, {"", config.condition, "free_decay", {}}, config,
-                          config.decay_decimation > 0 ? config.decay_decimation : config.decimation, context);
-  read.stays = read_kind(read.campaign, {"", "", "stay", {}}, stay_settings(config), config.stay_decimation, context);
+                          config.decay_decimation > 0 ? config.decay_decimation : config.decimation, context, left_out);
+  read.stays = read_kind(read.campaign, {"", "", "stay", {}}, stay_settings(config), config.stay_decimation, context, left_out);
+  left_out.report(context, read.conditions.empty());
   return read;
 }
 

@@ -88,7 +88,7 @@ long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, 
       while (end < data.rows() && !std::isfinite(data(end, c))) ++end;
       const long gap = end - t;
       if (gap > longest || t == 0 || end == data.rows()) {
-        throw InputError(
+        throw UnusableRecord(
             {record, 0, channels[static_cast<std::size_t>(c)]},
             fmt::format("has a gap of {} samples from sample {} on, expected none over {} and none at an end", gap, t, longest),
             "cut the record, leave the channel out (--set exclude=…), or allow it (--set longest_gap=…)");

@@ -6,7 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace twindeck::steps {
+
+/// A record that is sound as a file, but cannot be identified: too short, a dead or clipped channel, a long gap. Where the step
+/// has other records it goes on without this one, and says so.
+class UnusableRecord : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// What is wrong with a channel of a record as it was read.
 struct ChannelQuality {
@@ -26,7 +35,7 @@ struct ChannelQuality {
                                                           const std::string& setup, const std::string& record);
 
 /// Bridges gaps of at most `longest` samples by a straight line. @return samples filled
-/// @throws InputError  naming channel and sample if a longer gap is left, or one at an end of the record
+/// @throws UnusableRecord  naming channel and sample if a longer gap is left, or one at an end of the record
 long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, long longest, const std::string& record);
 
 /// quality.csv: `setup,record,channel,samples,missing,longest_gap,clipped,mean,rms,drift_rms,dead,lag_s,lag_std_s`.
