@@ -163,11 +163,12 @@ mutants: N = 40
 mutants: deps ## make mutants N=40 SEED=7: one fault at a time in the rooms of numerics; which do the tests catch? (build-mutants/mutants.csv)
 	@/usr/bin/python3 tests/mutants/run.py $(N) $(SEED) --jobs $(JOBS)
 
-calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml) and write them into bridge.toml
-	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --out results/calibration --write
+TRIAL ?= all_posts_5m
+calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml, TRIAL=all_posts_5m, FROM=values.csv of an earlier fit) and write them into bridge.toml
+	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --trial $(TRIAL) $(FROM:%=--from %) --out results/calibration --write
 
 calibrate-trade: build ## frequencies against cable forces against masses: every trial of data/$(STUDY)/calibration.toml, in $(PAPER)/calibration_trade.csv
-	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --mesh coarse --out results/calibration_trade --trials
+	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --mesh quick --search-mesh quick --out results/calibration_trade --trials
 	@cp results/calibration_trade/trade.csv $(PAPER)/calibration_trade.csv
 
 format: ## lay the C++ sources out as .clang-format says (Debian: clang-format)

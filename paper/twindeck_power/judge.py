@@ -77,7 +77,8 @@ class Judge:
             if rms.value is not None and (rule.table, "", rule.column) not in self.known and (rule.table, rule.column) not in self.shown:
                 found.paper[f"{rule.table} column {rule.column} rms"] = rms.value / rule.limit
         orders = check_orders(study, {table: tolerances.keys[table] for table in tables}, skip_missing=True)
-        found.paper |= {f"order {o.name}": BEYOND for o in orders if not o.holds and o.name not in self.failing}
+        found.paper |= {f"order {o.name}": BEYOND for o in orders
+                        if not o.holds and o.name not in self.failing and ("orders", o.name, "") not in self.known}
 
     def _ratchet(self, study, cells, claims, found: Caught) -> None:
         held = held_cells([c for c in cells if c.kind not in CARRIED], claims, own_numbers(study))

@@ -71,10 +71,11 @@ class CheckResult:
 
     def second_line(self) -> str:
         stale = f"; {len(self.stale)} stale or missing files" if self.stale else ""
-        kept = sum(order.holds for order in self.orders)
+        kept, known = sum(order.holds for order in self.orders), sum(order.verdict == "known" for order in self.orders)
+        known = f" ({known} does not for a stated reason)" if known == 1 else f" ({known} do not for stated reasons)" if known else ""
         computed = sum(c.ours is not None for c in self.claims)
         return (f"{self.counts.apart}; {computed} of {len(self.claims)} claims of the text computed; {sum(r.inside for r in self.rms)} of "
-                f"{len(self.rms)} rms limits, {kept} of {len(self.orders)} orders hold; {sum(n.passes for n in self.nulls)} of {len(self.nulls)} "
+                f"{len(self.rms)} rms limits, {kept} of {len(self.orders)} orders hold{known}; {sum(n.passes for n in self.nulls)} of {len(self.nulls)} "
                 f"columns shown because their null passes{stale}")
 
     def summary(self) -> str:
@@ -96,14 +97,14 @@ def run_check(study: Study) -> CheckResult:
     shown = {(v.table, v.column) for v in nulls if v.passes}
     rms = [Rms(rule, rms_of(cells, rule.table, rule.column)) for rule in tolerances.rms if (rule.table, rule.column) not in shown]
     claims = check_claims(study) if not missing else []
+    orders = check_orders(study, tolerances.keys) if not missing else []
     if missing:
         verdicts_without_list(cells)
     else:
-        apply_known_deviations(study, cells, claims, rms)
+        apply_known_deviations(study, cells, claims, rms, orders)
     held = held_cells(cells, claims, own_numbers(study))
     result = CheckResult(sorted(cells, key=lambda c: (c.shown, c.verdict in ("inside", "known"), -c.used_pct)), rms,
-                         check_orders(study, tolerances.keys) if not missing else [], claims,
-                         check_statements(study) if not missing else [], nulls, count(cells, claims), held,
+                         orders, claims, check_statements(study) if not missing else [], nulls, count(cells, claims, orders), held,
                          check_ratchet(study, held, whole=not missing), find_stale(study, tolerances) + changed_inputs(study), missing,
                          lacking(study, tolerances), counts(study, tolerances, cells))
     result.held_back = [f"{cell.name}: {wrong}; list it in ratchet_moves.csv with the reason if it has to" for cell, _, wrong in result.ratchet.moved]
@@ -120,7 +121,9 @@ def _failures(study: Study, result: CheckResult) -> list:
     lines += [f"{r.rule.table} column {r.rule.column}: root mean square deviation {percent(r.value)}, at most "
               f"{percent(r.rule.limit)} allowed" for r in result.rms if r.verdict == "outside" and r.rule.table not in result.missing]
     lines += [f"{r.rule.table} column {r.rule.column}: root mean square deviation: {back}" for r in result.rms if r.verdict == "stale entry"]
-    lines += [f"order {o.name}: does not hold ({o.found}): {o.statement}" for o in result.orders if not o.holds]
+    lines += [f"order {o.name}: does not hold ({o.found}): {o.statement}" for o in result.orders if o.verdict == "does not hold"]
+    lines += [f"order {o.name}: listed in known_deviations.toml but it holds again ({o.found}); take the entry out"
+              for o in result.orders if o.verdict == "stale entry"]
     lines += result.uncovered
     lines += [f"claim {c.name}: ours {c.shown}, paper {c.paper}" for c in result.claims if c.verdict == "outside"]
     lines += [f"claim {c.name}: {back}" for c in result.claims if c.verdict == "stale entry"]

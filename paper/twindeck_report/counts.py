@@ -16,6 +16,7 @@ class Counts:
     inputs: int  # compared, but carried over from the paper or arithmetic on it
     repetitions: int  # compared, but the number of another cell
     shown: int  # beside the paper's, no claim of agreement
+    known_orders: int = 0  # orders that do not hold for a stated reason
 
     @property
     def independent(self) -> int:
@@ -24,7 +25,8 @@ class Counts:
     @property
     def told(self) -> str:
         kinds = ", ".join(f"{n} {kind}" for kind, n in self.kinds.items()) or "none"
-        return (f"{self.independent} independent computed numbers compared ({kinds}): {self.inside} inside, {self.known} known deviations, "
+        orders = f" and {self.known_orders} known order{'s' if self.known_orders > 1 else ''}" if self.known_orders else ""
+        return (f"{self.independent} independent computed numbers compared ({kinds}): {self.inside} inside, {self.known} known deviations{orders}, "
                 f"{self.failing} failing; {self.null_too} of those inside a null would meet as well")
 
     @property
@@ -32,8 +34,8 @@ class Counts:
         return f"apart from them {self.inputs} inputs carried over, {self.repetitions} repetitions, {self.shown} shown beside the paper's"
 
 
-def count(cells: list, claims: list) -> Counts:
-    """Cells of the tables and claims of the text together."""
+def count(cells: list, claims: list, orders: list = ()) -> Counts:
+    """Cells of the tables and claims of the text together; orders that are known not to hold beside them."""
     judged = [c for c in [*cells, *claims] if c.verdict in ("inside", "outside", "known", "stale entry")]
     own = [c for c in judged if c.independent]
     found = Counter(c.kind for c in own)
@@ -41,4 +43,5 @@ def count(cells: list, claims: list) -> Counts:
     return Counts({kind: found[kind] for kind in KINDS if found[kind]}, verdicts["inside"], verdicts["known"],
                   verdicts["outside"] + verdicts["stale entry"], sum(c.null_passes and c.verdict == "inside" for c in own),
                   sum(c.kind in CARRIED for c in judged), sum(bool(c.repeats) and c.kind not in CARRIED for c in judged),
-                  sum(c.verdict in ("shown", "shown, not compared") for c in [*cells, *claims]))
+                  sum(c.verdict in ("shown", "shown, not compared") for c in [*cells, *claims]),
+                  sum(o.verdict == "known" for o in orders))

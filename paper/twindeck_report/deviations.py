@@ -63,7 +63,7 @@ def markdown(result: CheckResult) -> str:
     lines += table(NULLS, [[_short(str(text)) for text in null_row(v)] for v in result.nulls])
     lines += ["## Orderings and signs that carry conclusions", ""]
     lines += table(["order", "statement", "found", "verdict", "basis"],
-                   [[o.name, o.statement, o.found, "holds" if o.holds else "does not hold", o.basis] for o in result.orders])
+                   [[o.name, o.statement, o.found, o.verdict, o.known or o.basis] for o in result.orders])
     lines += ["## Claims of the text", ""]
     lines += table(["claim", "where", "unit", "paper", "ours", "kind", "verdict", "basis"],
                    [[c.name, c.source, c.unit, c.paper, c.shown, c.kind, c.verdict, c.basis] for c in result.claims])
@@ -96,7 +96,7 @@ def _short(text: str) -> str:
 def junit(result: CheckResult) -> ElementTree.ElementTree:
     cases = [(c.table, f"{c.row} {c.column}", c.verdict in ("inside", "known", "shown"), explain(c)) for c in result.cells]
     cases += [(r.rule.table, f"rms {r.rule.column}", r.verdict in ("inside", "known"), percent(r.value)) for r in result.rms]
-    cases += [("orders", o.name, o.holds, o.found) for o in result.orders]
+    cases += [("orders", o.name, o.verdict in ("holds", "known"), o.found) for o in result.orders]
     cases += [("claims", c.name, c.verdict in ("inside", "known"), c.shown) for c in result.claims if c.allowed is not None]
     cases += [("ratchet", c.name, False, problem) for c, _, problem in result.ratchet.moved]
     cases += [("ratchet", line, False, line) for line in result.ratchet.stale]

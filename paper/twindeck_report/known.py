@@ -1,20 +1,22 @@
 """known_deviations.toml: numbers that are outside their tolerance for a stated reason. The list cannot grow into an excuse: at most a
 tenth of the independent computed numbers that are compared (cells and claims of the text), no identity, and an entry goes as soon as its
-number is back inside. An entry on a column's rms limit has `rms = true` in place of a row."""
+number is back inside. An entry on a column's rms limit has `rms = true` in place of a row; one on an order of orders.toml has
+`table = "orders"` and the order's name as its row."""
 from .errors import InputError
 from .study import Study
 
 LARGEST_SHARE = 0.1
 
 
-def apply_known_deviations(study: Study, cells: list, claims: list, rms: list) -> None:
+def apply_known_deviations(study: Study, cells: list, claims: list, rms: list, orders: list) -> None:
     """Gives every cell its verdict: inside, outside, known, `stale entry` (listed, but inside), or shown (never judged). A cell that
-    repeats another's number is excused with that one."""
+    repeats another's number is excused with that one. Claims, rms limits and orders get the reason of their entry."""
     path = study.data / "known_deviations.toml"
     entries = entries_of(study)
     by_name = {(c.table, c.row, c.column): c for c in cells if not c.shown}
     by_claim = {c.name: c for c in claims if c.allowed is not None}
     by_rms = {(r.rule.table, r.rule.column): r for r in rms}
+    by_order = {o.name: o for o in orders}
     listed = {}
     for i, entry in enumerate(entries, 1):
         where = f"{path}: deviation {i}"
@@ -22,6 +24,8 @@ def apply_known_deviations(study: Study, cells: list, claims: list, rms: list) -
             _know_claim(where, entry, by_claim)
         elif entry.get("rms"):
             _know_rms(where, entry, by_rms)
+        elif entry["table"] == "orders":
+            _know_order(where, entry, by_order)
         else:
             cell = by_name.get((entry["table"], entry["row"], entry["column"]))
             if cell is None:
@@ -50,6 +54,12 @@ def _know_rms(where: str, entry: dict, by_rms: dict) -> None:
     by_rms[entry["table"], entry["column"]].known = entry["reason"]
 
 
+def _know_order(where: str, entry: dict, by_order: dict) -> None:
+    if entry["row"] not in by_order:
+        raise InputError(f"{where}: order {entry['row']!r}: orders.toml has no order of that name")
+    by_order[entry["row"]].known = entry["reason"]
+
+
 def _verdict(cell, known: bool) -> str:
     if cell.shown:
         return "shown"
@@ -65,11 +75,16 @@ def verdicts_without_list(cells: list) -> None:
 
 
 def entries_of(study: Study) -> list:
-    """On cells, on claims of the text (table = "claims", row = the claim), and on rms limits (rms = true)."""
+    """On cells, on claims of the text (table = "claims", row = the claim), on rms limits (rms = true) and on orders (table = "orders",
+    row = the order's name; `column` is empty in what is returned)."""
     path = study.data / "known_deviations.toml"
     entries = study.read_toml(path).get("deviation", [])
     for i, entry in enumerate(entries, 1):
-        for key in ("table", "column", "reason") if entry.get("rms") is True else ("table", "row", "column", "reason"):
+        rms, order = entry.get("rms") is True, entry.get("table") == "orders"
+        for key in ("table", *([] if rms else ["row"]), *([] if order else ["column"]), "reason"):
             if not isinstance(entry.get(key), str) or not entry[key].strip():
-                raise InputError(f"{path}: deviation {i}: no {key}; each entry has table, row (or rms = true), column and reason")
-    return entries
+                raise InputError(f"{path}: deviation {i}: no {key}; each entry has table, row (or rms = true), column and reason; one on an "
+                                 "order has table = \"orders\", row and reason")
+        if order and ("column" in entry or rms):
+            raise InputError(f"{path}: deviation {i}: an order has neither column nor rms; name it by table = \"orders\" and row")
+    return [{"column": "", **entry} for entry in entries]

@@ -7,13 +7,20 @@ from .errors import InputError
 from .study import Study
 
 
-@dataclass(frozen=True)
+@dataclass
 class Order:
     name: str
     statement: str
     basis: str
     holds: bool
     found: str  # the numbers that decide
+    known: str = ""  # why it may not hold
+
+    @property
+    def verdict(self) -> str:
+        if self.known:
+            return "stale entry" if self.holds else "known"
+        return "holds" if self.holds else "does not hold"
 
 
 def check_orders(study: Study, keys: dict, skip_missing: bool = False) -> list:

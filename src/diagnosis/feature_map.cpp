@@ -22,6 +22,14 @@ constexpr double kWorst = 6.0;
 /// are 0.4 to 1.8 % off in frequency, that is up to some 3 % in flexibility.
 constexpr double kStaticForm = 0.03;
 
+constexpr double kCloseModes = 0.06;  ///< [-] relative gap of frequencies from which shapes are taken as known each for itself
+/// [rad] angle by which errors turn two shapes into each other, times the relative gap of their frequencies: errors of a mode's
+/// part of stiffness and mass of 1.5 %.
+constexpr double kTurnTimesGap = 0.015;
+/// [rad] however close two modes are. From 45 degrees on each shape is more like the other mode's and has its name; of angles
+/// that are alike probable up to there the standard deviation is pi / (4 sqrt 3).
+constexpr double kLargestTurn = 0.25 * std::numbers::pi * std::numbers::inv_sqrt3;
+
 }  // namespace
 
 FeatureMap::FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter)
@@ -114,7 +122,7 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
       if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz) || a.real_rows.size() != b.real_rows.size())
         continue;
       const double gap = b.frequency_Hz / a.frequency_Hz - 1.0;
-      if (gap > 0.06 || a.real_rows.empty()) continue;
+      if (gap > kCloseModes || a.real_rows.empty()) continue;
       Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
       double norm_a = 0.0, norm_b = 0.0;
       for (const int r : a.real_rows) norm_a += values_[r] * values_[r];
@@ -124,7 +132,7 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
         u[a.real_rows[k]] = values_[b.real_rows[k]] * ratio;
         u[b.real_rows[k]] = -values_[a.real_rows[k]] / ratio;
       }
-      covariance_ += std::pow(0.015 / std::max(gap, 0.005), 2) * u * u.transpose();
+      covariance_ += std::pow(std::min(kTurnTimesGap / gap, kLargestTurn), 2) * u * u.transpose();
     }
   }
 }

@@ -80,7 +80,7 @@ struct GroundCables {
   double mast_z_m;
 };
 
-/// A point of a deck, at the station nearest to s.
+/// A point of a deck: a damper at the station nearest to s, an accelerometer at the nearest row of slab nodes.
 struct DeckPoint {
   std::string name, deck;
   bool outer_edge;

@@ -204,7 +204,7 @@ fe::Model build(const BridgeDefinition& definition, const std::string& title) {
   build_stays(builder, definition, decks, mast);
   build_dampers(builder, definition, decks);
   for (const DeckPoint& point : definition.monitoring_points) {
-    const DeckNodes::Line& line = decks.at(point.deck).station_near(point.s_m);
+    const DeckNodes::Line& line = decks.at(point.deck).line_near(point.s_m);  // sensors stand between posts too
     builder.model.monitoring_points[point.name] = point.outer_edge ? line.across.back() : line.across.front();
   }
   add_aerodynamic_nodes(builder.model, definition, decks);

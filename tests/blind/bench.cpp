@@ -23,7 +23,7 @@ using Eigen::Index;
 
 const std::filesystem::path kRoot = TWINDECK_SOURCE_DIR;
 
-/// The bridge on a mesh of its own: bridge.toml with another [mesh].
+/// The bridge on a mesh of its own: bridge.toml with other slab elements.
 fe::Model bridge(int along) {
   std::ifstream in(kRoot / "data/ponte_del_mare/bridge.toml");
   std::stringstream text;
@@ -32,7 +32,6 @@ fe::Model bridge(int along) {
   const auto set = [&](const std::string& key, int value) {
     toml = std::regex_replace(toml, std::regex("\n" + key + " *= *[0-9]+"), "\n" + key + " = " + std::to_string(value));
   };
-  set("panels_per_stay_spacing", 4);
   set("shells_across", 4);
   set("shells_per_panel_along", along);
   set("members_per_panel", 1);
@@ -163,15 +162,15 @@ void take_nominal(Bench& bench) {
 Bench make_bench() {
   Bench bench;
   bench.catalogue = steps::read_catalogue(kRoot / "workflows/common/hypotheses");
-  const fe::Model coarse = bridge(1);
+  const fe::Model coarse = bridge(2);
   bench.channels = sixteen_channels(coarse);
   diagnosis::PlaceOptions options;
   options.max_zones = 16;
   options.max_nodes = 12;
-  bench.diagnosing = make_side(1, bench.channels, options);
+  bench.diagnosing = make_side(2, bench.channels, options);
   options.zone_centres = positions(bench.diagnosing.places.sets.at("elements"));
   options.node_positions = positions(bench.diagnosing.places.sets.at("nodes"));
-  bench.truth = make_side(2, bench.channels, options);
+  bench.truth = make_side(4, bench.channels, options);
   bench.rows = campaign(bench);
   take_nominal(bench);
   return bench;

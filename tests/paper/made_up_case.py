@@ -53,10 +53,10 @@ class CheckCase(unittest.TestCase):
         return old
 
     def know(self, *cells):
-        """Each (table, row, column), or (table, None, column) for a limit on the root mean square."""
+        """Each (table, row, column), (table, None, column) for a limit on the root mean square, or ("orders", name, None)."""
         (self.data / "known_deviations.toml").write_text("".join(
-            f'[[deviation]]\ntable = "{t}"\n' + (f'row = "{r}"\n' if r else "rms = true\n") + f'column = "{c}"\nreason = "a made-up reason"\n'
-            for t, r, c in cells))
+            f'[[deviation]]\ntable = "{t}"\n' + (f'row = "{r}"\n' if r else "rms = true\n") + (f'column = "{c}"\n' if c else "")
+            + 'reason = "a made-up reason"\n' for t, r, c in cells))
 
     def remake_with(self, step, file, key, row, column, factor):
         """Moves one result of a step, as a model that differs there would give it, and makes the tables again."""

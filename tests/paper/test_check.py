@@ -233,6 +233,37 @@ class PaperCheck(CheckCase):
         self.assertEqual(code, 1)
         self.assertIn("order the preliminary model is too soft: does not hold", err)
 
+    def test_an_order_can_be_known_and_goes_stale(self):
+        """The made-up preliminary model is too soft, and says so of itself until the rule asks for the opposite."""
+        order = "the preliminary model is too soft"
+        self.edit(self.data / "orders.toml", 'sign = "negative"', 'sign = "positive"')
+        self.assertEqual(self.run_command("verify")[0], 1)
+        self.know(("orders", order, None))
+        code, out, err = self.run_command("verify")
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("0 known deviations and 1 known order, 0 failing", out)
+        self.assertIn("10 of 11 orders hold (1 does not for a stated reason)", out)
+        self.assertRegex((self.results / "report/deviations.md").read_text(encoding="utf-8"), rf"\| {order} \|.*\| known \| a made-up reason \|")
+        self.assertEqual(self.run_command("report")[0], 0)
+        page = (self.results / "report/report.html").read_text(encoding="utf-8")
+        self.assertRegex(page, r'does not hold \(known\)</td>\s*<td class="note">a made-up reason</td>')
+        self.edit(self.data / "orders.toml", 'sign = "positive"', 'sign = "negative"')
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertRegex(err, rf"\Apaper check: order {order}: listed in known_deviations.toml but it holds again \(mean -\S+\); take the entry out\n\Z")
+
+    def test_an_entry_on_an_order_is_as_strict_as_the_others(self):
+        for cells, words in ([("orders", "an order of nobody", None)], "order 'an order of nobody': orders.toml has no order of that name"), \
+                            ([("orders", "densities fall", "value")], "an order has neither column nor rms"), \
+                            ([("orders", None, None)], "an order"), ([("table_02", "3", None)], "no column"):
+            self.know(*cells)
+            code, _, err = self.run_command("verify")
+            self.assertEqual(code, 2)
+            self.assertIn(words, err)
+        names = re.findall(r'^name = "(.*)"$', (self.data / "orders.toml").read_text(encoding="utf-8"), re.M)
+        self.know(*[("orders", name, None) for name in names[:8]])
+        self.assertIn("8 entries; at most a tenth of the 73 independent computed numbers", self.run_command("verify")[2])
+
     def test_claims(self):
         """What cannot be computed is said and left empty; what is computed can fail; what is virtual is shown."""
         self.assertEqual(self.run_command("verify")[0], 0)

@@ -42,7 +42,7 @@ def draw(study: Study):
         axis.tick_params(labelsize=8)
     for axis in (frequencies, masses):
         axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, frameon=False, fontsize=7.5, handletextpad=0.2)
-    frequencies.set_yticks(at, [f"{row.trial} ({row.mesh} mesh)" if row.mesh != "coarse" else row.trial for row in rows.itertuples()])
+    frequencies.set_yticks(at, [f"{row.trial} ({row.mesh} mesh)" if row.mesh != "quick" else row.trial for row in rows.itertuples()])
     frequencies.set_ylim(-0.6, len(rows) - 0.4)
     figure.tight_layout()
     return figure, rows

@@ -2,6 +2,8 @@
 // the middle mass, where the damper is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "chain.hpp"
 #include "diagnosis/predictor.hpp"
 
@@ -65,6 +67,32 @@ TEST(Pairing, OneNameIsOneModeWhereTheStructureIsTheSame) {
   const double low = 0.98 * hertz(f, 3);  // nearer to the fourth mode, which the calm day knows by another name
   f.rows.push_back({RowType::frequency, "3", -1, "", 1, low, 0.01 * low, false});
   EXPECT_EQ(paired(chain, f), (std::vector<int>{0, 1, 2, 3, 2}));
+}
+
+/// Standard deviation of the angle by which the shapes of modes 1 and 2 may be turned into each other where their frequencies
+/// are `gap` apart: what the covariance of the shapes has more than with frequencies far apart.
+double turn_left_open(const Chain& chain, double gap) {
+  const auto shapes_of = [&](double ratio) {
+    FeatureSet f = chain.measure(chain.as_modelled());
+    const auto second = std::find_if(f.rows.begin(), f.rows.end(),
+                                     [](const auto& row) { return row.type == RowType::frequency && row.mode == "2"; });
+    second->value = ratio * f.rows.front().value;
+    second->std = 0.003 * second->value;
+    double squares = 0.0;
+    for (const auto& row : f.rows)
+      if (row.type == RowType::shape) squares += row.value * row.value;
+    return std::pair(diagnosis::FeatureMap(chain.reduced(), f, {}).covariance().trace(), squares);
+  };
+  const auto [close, squares] = shapes_of(1.0 + gap);
+  return std::sqrt((close - shapes_of(2.0).first) / squares);
+}
+
+TEST(Pairing, ShapesOfCloseModesAreLeftOpenUpToTheAngleFromWhichTheirNamesChange) {
+  // Oracle: angles of a uniform law within 45 degrees deviate by pi / (4 sqrt 3); a mode that is turned further is the other.
+  const Chain chain({.masses = 9, .modes = 2});
+  EXPECT_NEAR(turn_left_open(chain, 0.05), 0.3, 1e-9);
+  const double most = std::numbers::pi / (4.0 * std::sqrt(3.0));
+  for (const double gap : {0.03, 0.005, 1e-4}) EXPECT_NEAR(turn_left_open(chain, gap), most, 1e-9) << gap;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // The study's bridge at its full size. Oracles: counts and places that the paper prints (27,093 degrees of freedom, 30
-// aerodynamic nodes a deck, the yaw limits of Table 14), symmetry, and equal masses of coarse and fine meshes.
+// aerodynamic nodes a deck, the yaw limits of Table 14), places of the records' channels, symmetry, and equal masses of coarse
+// and fine meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "core/error.hpp"
 #include "fe/dead_load.hpp"
 #include "fe/structure.hpp"
+#include "io/csv.hpp"
 #include "ponte/generator.hpp"
 #include "test_places.hpp"
 
@@ -83,6 +85,19 @@ TEST(FullBridge, PutsThirtyAerodynamicNodesOnEachDeckBetweenTheEndStays) {
     EXPECT_EQ(nodes.size(), 30u);
   }
   EXPECT_EQ(full().monitoring_points.size(), 68u);  // and M1 to M8
+}
+
+TEST(FullBridge, PutsAccelerometersWhereTheirRecordsComeFrom) {
+  // Oracle: the places in the records' own table. Rows of slab nodes are at most 0.38 m apart, so half of that is allowed.
+  const auto channels = io::CsvTable::read(
+      std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/features/channels.csv",
+      {"channel", "x_m", "y_m", "z_m"}, {"point", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"});
+  ASSERT_EQ(channels.rows(), 8u);
+  for (std::size_t row = 0; row < channels.rows(); ++row) {
+    const std::string name = channels.text(row, "channel");
+    const Eigen::Vector3d at(channels.number(row, "x_m"), channels.number(row, "y_m"), channels.number(row, "z_m"));
+    EXPECT_LT((position(full(), full().monitoring_points.at(name)) - at).norm(), 0.19) << name;
+  }
 }
 
 /// All of its weight, what lies on supports included.
