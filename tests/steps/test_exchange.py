@@ -295,9 +295,9 @@ class ImportedByHand(Folder):
         self.assertIn('name = "E"', (self.folder / "out" / "model" / "model.toml").read_text())
 
     def test_unsupported_card_names_card_and_line(self):
-        text = cantilever().replace("*Boundary\n", "*Tie, name=T\nA, B\n*Boundary\n")
-        line = text[:text.index("*Tie")].count("\n") + 1
-        self.refused(text, f"mast.inp:{line}: *TIE: unsupported card")
+        text = cantilever().replace("*Boundary\n", "*Contact Pair, name=T\nA, B\n*Boundary\n")
+        line = text[:text.index("*Contact Pair")].count("\n") + 1
+        self.refused(text, f"mast.inp:{line}: *CONTACT PAIR: unsupported card")
 
     def test_unsupported_element_type_and_section(self):
         self.refused(cantilever().replace("type=B33", "type=B38"), "unsupported element type B38")
