@@ -8,12 +8,27 @@ namespace twindeck::fe {
 
 namespace {
 
-/// Neighbours (self included) of every root node, by anything that couples two nodes.
+/// For every node, the nodes whose free degrees of freedom move it: itself, the end of its chain of links, what it is tied to.
+std::vector<std::vector<int>> carriers_of(const Model& model, const DofMap& map) {
+  std::vector<std::vector<int>> carriers(model.nodes.size());
+  for (std::size_t full = 0; full < map.rows.size(); ++full)
+    for (const DofMap::Entry& entry : map.rows[full]) carriers[full / 6].push_back(map.node_of[slot(entry.dof)]);
+  for (auto& list : carriers) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return carriers;
+}
+
+/// Neighbours (self included) of every node with free degrees of freedom, by anything that couples two nodes.
 std::vector<std::vector<int>> couple_nodes(const Model& model, const DofMap& map) {
   std::vector<std::vector<int>> neighbours(model.nodes.size());
+  const auto carriers = carriers_of(model, map);
   const auto couple = [&](const std::vector<int>& nodes) {
-    for (const int a : nodes)
-      for (const int b : nodes) neighbours[slot(map.root[slot(a)])].push_back(map.root[slot(b)]);
+    for (const int first : nodes)
+      for (const int second : nodes)
+        for (const int a : carriers[slot(first)])
+          neighbours[slot(a)].insert(neighbours[slot(a)].end(), carriers[slot(second)].begin(), carriers[slot(second)].end());
   };
   for (int node = 0; node < static_cast<int>(model.nodes.size()); ++node) couple({node});
   for (const Element& element : model.elements) couple(element.nodes);
@@ -35,22 +50,14 @@ std::vector<std::vector<int>> couple_nodes(const Model& model, const DofMap& map
 
 linalg::SparseMatrix make_pattern(const Model& model, const DofMap& map) {
   const int n = static_cast<int>(map.dofs.size());
-  std::vector<std::vector<int>> dofs_of(model.nodes.size());  // free degrees of freedom of a root node, ascending
-  std::vector<int> node_of(slot(n));
-  for (int node = 0; node < static_cast<int>(model.nodes.size()); ++node) {
-    if (map.root[slot(node)] != node) continue;
-    for (int d = 0; d < 6; ++d)
-      for (const DofMap::Entry& entry : map.rows[slot(6 * node + d)]) {
-        dofs_of[slot(node)].push_back(entry.dof);
-        node_of[slot(entry.dof)] = node;
-      }
-  }
+  std::vector<std::vector<int>> dofs_of(model.nodes.size());  // free degrees of freedom of a node, ascending
+  for (int dof = 0; dof < n; ++dof) dofs_of[slot(map.node_of[slot(dof)])].push_back(dof);
   const auto neighbours = couple_nodes(model, map);
 
   linalg::SparseMatrix pattern(n, n);
   std::vector<int> outer{0}, inner;
   for (int column = 0; column < n; ++column) {
-    for (const int node : neighbours[slot(node_of[slot(column)])])
+    for (const int node : neighbours[slot(map.node_of[slot(column)])])
       for (const int row : dofs_of[slot(node)])
         if (row >= column) inner.push_back(row);
     outer.push_back(static_cast<int>(inner.size()));

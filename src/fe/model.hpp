@@ -103,6 +103,20 @@ struct RigidLink {
   int slave = -1;
 };  ///< slave moves as a rigid body with master (6 dof)
 
+/// One displacement that follows others: u(node, direction) = sum of factor · u(term), for small displacements. Ties between
+/// meshes that do not match, averages (RBE3) and hinges are such equations.
+struct Constraint {
+  struct Term {
+    int node = -1;
+    int direction = 0;  ///< 0-5 = x y z rx ry rz
+    double factor = 0.0;
+  };
+  std::string name;
+  int node = -1;
+  int direction = 0;  ///< of the dependent displacement
+  std::vector<Term> terms;
+};
+
 struct PointMass {
   std::string group;
   int node = -1;
@@ -192,6 +206,7 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<MatrixElement> matrix_elements;
   std::vector<RigidLink> links;
+  std::vector<Constraint> constraints;
   std::vector<PointMass> masses;
   std::vector<Support> supports;
   std::vector<Parameter> parameters;

@@ -111,6 +111,26 @@ void check_springs(const Model& model) {
   }
 }
 
+void check_constraints(const Model& model) {
+  for (const Constraint& c : model.constraints) {
+    const std::string part = "constraint " + c.name;
+    require_position(model, part, "node", c.node, model.nodes.size());
+    require_position(model, part, "direction", c.direction, 6);
+    if (c.terms.empty()) refuse(model, part, "follows nothing", "name the displacements that it follows, or use a support");
+    for (const Constraint::Term& term : c.terms) {
+      require_position(model, part, "node of a term", term.node, model.nodes.size());
+      require_position(model, part, "direction of a term", term.direction, 6);
+      if (!(std::abs(term.factor) <= farthest_m))
+        refuse(model, part, fmt::format("has a factor of {:g}, expected at most {:g}", term.factor, farthest_m),
+               "give the share of the displacement that it follows");
+    }
+  }
+  if (!model.constraints.empty() && model.prestress.displacements == Displacements::large)
+    refuse(model, "constraint " + model.constraints.front().name,
+           "holds for small displacements, but the dead load is to be found with large ones",
+           "set displacements = \"linear\", or use rigid links");
+}
+
 void check_attachments(const Model& model) {
   const std::size_t n = model.nodes.size();
   for (const RigidLink& link : model.links) {
@@ -119,6 +139,7 @@ void check_attachments(const Model& model) {
     require_position(model, part, "slave", link.slave, n);
     if (link.master == link.slave) refuse(model, part, "links a node to itself", "give two different nodes");
   }
+  check_constraints(model);
   for (const PointMass& mass : model.masses) {
     require_position(model, "point mass of group '" + mass.group + "'", "node", mass.node, n);
     if (!(mass.mass_kg >= 0.0) || !(mass.inertia_kg_m2.minCoeff() >= 0.0))
@@ -219,6 +240,10 @@ void validate_geometry(const Model& model) {
   for (const MatrixElement& element : model.matrix_elements)
     for (const MatrixElement::Dof& dof : element.dofs) reach(dof.node);
   for (const RigidLink& link : model.links) reach(link.slave), reach(link.master);
+  for (const Constraint& c : model.constraints) {
+    reach(c.node);
+    for (const Constraint::Term& term : c.terms) reach(term.node);
+  }
   for (const Support& support : model.supports) reach(support.node);
   for (std::size_t i = 0; i < reached.size(); ++i)
     if (!reached[i])
@@ -227,7 +252,7 @@ void validate_geometry(const Model& model) {
 }
 
 void validate(const Model& model) {
-  if (model.nodes.empty() || (model.elements.empty() && model.springs.empty()))
+  if (model.nodes.empty() || (model.elements.empty() && model.springs.empty() && model.matrix_elements.empty()))
     refuse(model, "model",
            fmt::format("has {} nodes, {} elements and {} springs", model.nodes.size(), model.elements.size(),
                        model.springs.size()),

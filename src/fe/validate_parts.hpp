@@ -14,7 +14,8 @@ namespace twindeck::fe {
   throw InputError({model.source, 0, part}, problem, mend);
 }
 
-/// Every reference from elements, springs, links, masses, supports and prestress conditions exists; node ids are unique.
+/// Every reference from elements, springs, links, constraints, masses, supports and prestress conditions exists; node ids are
+/// unique.
 void validate_references(const Model& model);
 /// Beams and bars have length, shells have area, all nodes are connected.
 void validate_geometry(const Model& model);

@@ -14,6 +14,8 @@
 #include "model_io/inp_materials.hpp"
 #include "model_io/inp_mesh.hpp"
 #include "model_io/inp_parts.hpp"
+#include "model_io/inp_surfaces.hpp"
+#include "model_io/inp_ties.hpp"
 #include "model_io/model_toml.hpp"
 
 namespace twindeck::model_io {
@@ -24,13 +26,14 @@ using Reader = void (*)(InpParts&, const InpCard&);
 /// Cards in the order in which they must be understood: what defines, then what refers to it.
 const std::vector<std::map<std::string, Reader>>& passes() {
   static const std::vector<std::map<std::string, Reader>> readers = {
-      {{"NODE", read_inp_nodes},
-       {"ELEMENT", read_inp_elements},
+      {{"NODE", read_inp_nodes}},
+      {{"ELEMENT", read_inp_elements},
        {"MATERIAL", read_inp_material},
        {"ELASTIC", read_inp_elastic},
        {"DENSITY", read_inp_density},
        {"ORIENTATION", read_inp_orientation}},
       {{"NSET", read_inp_set}, {"ELSET", read_inp_set}, {"EQUATION", read_inp_equation}},
+      {{"SURFACE", read_inp_surface}},
       {{"BEAM SECTION", assign_inp_section},
        {"BEAM GENERAL SECTION", assign_inp_section},
        {"SHELL SECTION", assign_inp_section},
@@ -40,7 +43,6 @@ const std::vector<std::map<std::string, Reader>>& passes() {
        {"DASHPOT", attach_inp_spring},
        {"MASS", attach_inp_mass},
        {"ROTARY INERTIA", attach_inp_mass},
-       {"BOUNDARY", attach_inp_boundary},
        {"RIGID BODY", attach_inp_rigid_body},
        {"MPC", attach_inp_mpc}}};
   return readers;
@@ -48,11 +50,11 @@ const std::vector<std::map<std::string, Reader>>& passes() {
 
 /// Say nothing about the structure: headings, output requests, the bounds of parts and steps.
 const std::vector<std::string>& silent_cards() {
-  static const std::vector<std::string> cards = {"HEADING",        "PREPRINT",      "RESTART",   "OUTPUT",   "NODE OUTPUT",
-                                                 "ELEMENT OUTPUT", "NODE PRINT",    "NODE FILE", "EL PRINT", "EL FILE",
-                                                 "CONTACT OUTPUT", "ENERGY OUTPUT", "PART",      "END PART", "ASSEMBLY",
-                                                 "END ASSEMBLY",   "END INSTANCE",  "STEP",      "END STEP", "STATIC",
-                                                 "FREQUENCY",      "FILE FORMAT"};
+  static const std::vector<std::string> cards = {"HEADING",        "PREPRINT",      "RESTART",      "OUTPUT",     "NODE OUTPUT",
+                                                 "ELEMENT OUTPUT", "NODE PRINT",    "NODE FILE",    "EL PRINT",   "EL FILE",
+                                                 "CONTACT OUTPUT", "ENERGY OUTPUT", "PART",         "END PART",   "ASSEMBLY",
+                                                 "END ASSEMBLY",   "INSTANCE",      "END INSTANCE", "STEP",       "END STEP",
+                                                 "STATIC",         "FREQUENCY",     "FILE FORMAT",  "NORMAL MODE"};
   return cards;
 }
 
@@ -67,21 +69,17 @@ bool is_in(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-void refuse_unknown(const InpFile& file) {
+void refuse_unknown(const InpFile& file, const InpPlan& plan) {
   std::vector<std::string> known = silent_cards();
+  known.insert(known.end(), {"BOUNDARY", "TIE"});
   for (const auto& pass : passes()) {
     for (const auto& [keyword, reader] : pass) known.push_back(keyword);
   }
-  int instances = 0;
   std::string above;
-  for (const InpCard& card : file.cards()) {
+  for (const InpReading& reading : plan.readings) {
+    const InpCard& card = *reading.card;
     if (card.keyword == "TRANSVERSE SHEAR STIFFNESS" && above == "BEAM GENERAL SECTION") {
       // read together with its section
-    } else if (card.keyword == "INSTANCE") {
-      if (++instances > 1 || !card.data.empty()) {
-        file.fail(card, card.line, "a second instance, or one that is moved, is not supported",
-                  "write the model as one part (flat input)");
-      }
     } else if (card.keyword == "USER ELEMENT" && upper_case(card.get("TYPE")) == "US3") {
       // announces the three-node shell US3, which *ELEMENT lists
     } else if (card.keyword == "INCLUDE") {
@@ -94,21 +92,81 @@ void refuse_unknown(const InpFile& file) {
   }
 }
 
-void note_loads(InpParts& parts) {
+void note_loads(InpParts& parts, const InpPlan& plan) {
   std::map<std::string, long> first;
-  for (const InpCard& card : parts.file.cards()) {
-    if (is_in(noted_cards(), card.keyword)) first.emplace(card.keyword, card.line);
+  for (const InpReading& reading : plan.readings) {
+    if (is_in(noted_cards(), reading.card->keyword)) first.emplace(reading.card->keyword, reading.card->line);
   }
   for (const auto& [keyword, line] : first) {
     parts.notes.push_back(fmt::format("*{} (line {}) does not enter stiffness or mass and is left out", keyword, line));
   }
 }
 
+/// Supports of the step whose modes are asked for.
+void attach_supports(InpParts& parts, const InpPlan& plan) {
+  const std::vector<const InpCard*> in_force = boundaries_in_force(parts.file);
+  for (const InpReading& reading : plan.readings) {
+    if (std::find(in_force.begin(), in_force.end(), reading.card) == in_force.end()) continue;
+    parts.scope = reading.scope;
+    attach_inp_boundary(parts, *reading.card);
+  }
+}
+
+/// Ties, when sections, links and equations are known.
+void attach_ties(InpParts& parts, const InpPlan& plan) {
+  for (const InpReading& reading : plan.readings) {
+    if (reading.card->keyword != "TIE") continue;
+    parts.scope = reading.scope;
+    attach_inp_tie(parts, *reading.card);
+  }
+}
+
+/// Nodes that nothing joins: points of reference, of orientations, of plots. Without one a model that holds is refused later.
+void drop_unused_nodes(InpParts& parts) {
+  fe::Model& model = parts.model;
+  std::vector<int> now(model.nodes.size(), -1);
+  const auto use = [&](int node) {
+    if (node >= 0) now[static_cast<std::size_t>(node)] = 0;
+  };
+  for (const fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), use);
+  for (const fe::Spring& s : model.springs) use(s.node), use(s.node2);
+  for (const fe::RigidLink& link : model.links) use(link.master), use(link.slave);
+  for (const fe::Constraint& c : model.constraints) {
+    use(c.node);
+    for (const fe::Constraint::Term& term : c.terms) use(term.node);
+  }
+  for (const fe::PointMass& mass : model.masses) use(mass.node);
+  std::vector<fe::Node> kept;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i] < 0) continue;
+    now[i] = static_cast<int>(kept.size());
+    kept.push_back(model.nodes[i]);
+  }
+  if (kept.size() == now.size()) return;
+  parts.notes.push_back(fmt::format("nodes that no element, link or tie uses are left out: {}", now.size() - kept.size()));
+  const auto move = [&](int& node) {
+    if (node >= 0) node = now[static_cast<std::size_t>(node)];
+  };
+  model.nodes = std::move(kept);
+  for (fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), move);
+  for (fe::Spring& s : model.springs) move(s.node), move(s.node2);
+  for (fe::RigidLink& link : model.links) move(link.master), move(link.slave);
+  for (fe::Constraint& c : model.constraints) {
+    move(c.node);
+    for (fe::Constraint::Term& term : c.terms) move(term.node);
+  }
+  for (fe::PointMass& mass : model.masses) move(mass.node);
+  for (fe::Support& support : model.supports) move(support.node);
+  std::erase_if(model.supports, [](const fe::Support& support) { return support.node < 0; });
+  for (auto& [id, position] : parts.node_position) move(position);
+  std::erase_if(parts.node_position, [](const auto& entry) { return entry.second < 0; });
+}
+
 void name_points(InpParts& parts) {
   for (const auto& [key, set] : parts.node_sets) {
     if (set.members.size() != 1) continue;
     if (const auto node = parts.node_position.find(set.members.front()); node != parts.node_position.end()) {
-      parts.model.monitoring_points.emplace(set.name, node->second);
+      parts.model.monitoring_points.emplace(parts.set_name(parts.node_sets, set), node->second);
     }
   }
 }
@@ -117,25 +175,34 @@ void name_points(InpParts& parts) {
 
 InpModel read_inp(const std::filesystem::path& path) {
   const InpFile file = InpFile::read(path);
-  refuse_unknown(file);
+  InpPlan plan = plan_readings(file);
+  refuse_unknown(file, plan);
   InpParts parts(file);
+  parts.scopes = plan.scopes;
+  parts.notes = plan.notes;
   parts.model.source = path.string();
   for (const auto& pass : passes()) {
-    for (const InpCard& card : file.cards()) {
+    for (const InpReading& reading : plan.readings) {
+      const InpCard& card = *reading.card;
       if (card.keyword == "HEADING" && !card.data.empty()) parts.model.title = card.data.front().fields.front();
+      parts.scope = reading.scope;
       if (const auto reader = pass.find(card.keyword); reader != pass.end()) reader->second(parts, card);
     }
     if (!parts.elements.empty()) parts.last_element_id = std::max(parts.last_element_id, parts.elements.rbegin()->first);
   }
+  attach_supports(parts, plan);
   attach_inp_equations(parts);
+  attach_ties(parts, plan);
+  settle_inp_constraints(parts);
   for (const auto& [id, element] : parts.elements) {
     if (element.used == 0)
       file.fail(*element.card, element.line, fmt::format("element {} has no section, spring or mass card", id),
                 "give its set one");
   }
-  if (parts.model.elements.empty())
+  if (parts.model.elements.empty() && parts.model.springs.empty())
     throw InputError({path.string(), 0, ""}, "holds no element", "expected *ELEMENT cards with their sections");
-  note_loads(parts);
+  note_loads(parts, plan);
+  drop_unused_nodes(parts);
   name_points(parts);
   auto beside = path;
   beside.replace_extension(".toml");

@@ -28,7 +28,7 @@ bool same_numbers(const fe::Section& a, const fe::Section& b) {
 int add_section(InpParts& parts, const InpCard& card, fe::Section section) {
   const InpSet& set = parts.set(parts.element_sets, card, card.line, card.get("ELSET"));
   const auto first = set.members.empty() ? parts.elements.end() : parts.elements.find(set.members.front());
-  const std::string base = first == parts.elements.end() ? set.name : parts.group_of(card, first->second);
+  const std::string base = first == parts.elements.end() ? set.name : parts.group_set(card, first->second).name;
   auto& sections = parts.model.sections;
   for (int count = 1;; ++count) {
     section.name = count == 1 ? base : fmt::format("{}_{}", base, count);
@@ -125,15 +125,16 @@ void add_beams(InpParts& parts, const InpCard& card, const Eigen::Vector3d& n1, 
 }
 
 Eigen::Vector3d first_axis(InpParts& parts, const InpCard& card) {
-  if (card.data.size() < 2) return {0.0, 0.0, -1.0};
-  Eigen::Vector3d n1;
-  for (int i = 0; i < 3; ++i) n1[i] = parts.file.number_or(card, card.data[1], static_cast<std::size_t>(i), 0.0);
-  return n1;
+  Eigen::Vector3d n1(0.0, 0.0, -1.0);
+  for (int i = 0; i < 3 && card.data.size() > 1; ++i)
+    n1[i] = parts.file.number_or(card, card.data[1], static_cast<std::size_t>(i), 0.0);
+  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
+  return scope.turned() ? Eigen::Vector3d(scope.rotation * n1) : n1;
 }
 
 /// The two shear moduli of an orthotropic beam hold in its own axes, so that *ORIENTATION has to name them.
 void check_orientation(InpParts& parts, const InpCard& card, const fe::Element& e) {
-  const auto found = parts.orientations.find(upper_case(parts.file.required(card, "ORIENTATION")));
+  const auto found = parts.orientations.find(parts.find_key(parts.orientations, parts.file.required(card, "ORIENTATION")));
   if (found == parts.orientations.end()) {
     parts.file.fail(card, card.line, fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")),
                     "define it by *ORIENTATION");
@@ -149,9 +150,24 @@ void check_orientation(InpParts& parts, const InpCard& card, const fe::Element& 
   }
 }
 
+/// Whether the card's elements are B33, Euler's beam, which is rigid in shear.
+bool is_euler_beam(InpParts& parts, const InpCard& card) {
+  const InpSet& set = parts.set(parts.element_sets, card, card.line, card.get("ELSET"));
+  std::size_t euler = 0;
+  for (const long id : set.members) {
+    const auto element = parts.elements.find(id);
+    if (element != parts.elements.end() && element->second.type == "B33") ++euler;
+  }
+  if (euler > 0 && euler < set.members.size())
+    parts.file.fail(card, card.line, "its set mixes B33, which is rigid in shear, with other beams",
+                    "give the B33 a set and a section of their own");
+  return euler > 0;
+}
+
 void assign_beam(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE", "ORIENTATION"});
-  const std::string profile = upper_case(parts.file.required(card, "SECTION"));
+  std::string profile = upper_case(parts.file.required(card, "SECTION"));
+  if (profile == "RECTANGULAR" || profile == "CIRCULAR") profile.resize(4);  // "RECT", "CIRC"
   const std::size_t size = profile_size(profile);
   if (size == 0) {
     parts.file.fail(card, card.line, fmt::format("unsupported SECTION={}{}", profile, did_you_mean(profile, profile_names())),
@@ -172,6 +188,7 @@ void assign_beam(InpParts& parts, const InpCard& card) {
   const fe::Material& m = parts.model.materials[static_cast<std::size_t>(material)];
   fe::Section section = profile_section(profile, values, m.poisson_ratio, problem);
   if (!problem.empty()) parts.file.fail(card, line.line, problem, "check the dimensions of the " + profile);
+  if (is_euler_beam(parts, card)) section.shear_area_y_m2 = section.shear_area_z_m2 = 0.0;
   const bool orthotropic = second != parts.second_shear_moduli.end();
   if (orthotropic) section = contracted_beam(section, m.shear_modulus_Pa, second->second);
   const std::size_t before = parts.model.elements.size();

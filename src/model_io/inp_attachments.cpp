@@ -23,12 +23,20 @@ std::vector<const InpLine*> filled_lines(const InpCard& card) {
 
 InpOrientation axes_of(const InpParts& parts, const InpCard& card) {
   if (!card.has("ORIENTATION")) return InpOrientation::Identity();
-  const auto found = parts.orientations.find(upper_case(card.get("ORIENTATION")));
+  const auto found = parts.orientations.find(parts.find_key(parts.orientations, card.get("ORIENTATION")));
   if (found == parts.orientations.end()) {
     parts.file.fail(card, card.line, fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")),
                     "define it by *ORIENTATION");
   }
   return found->second;
+}
+
+/// Whether the card stands in an instance that is rotated: directions given by number are not sure there.
+bool is_turned(const InpParts& parts) { return parts.scopes[static_cast<std::size_t>(parts.scope)].turned(); }
+
+[[noreturn]] void refuse_turned(const InpParts& parts, const InpCard& card, long line) {
+  parts.file.fail(card, line, "names a direction by its number in an instance that is rotated, which is not read",
+                  "write the card at the level of the assembly, or give a spring an ORIENTATION");
 }
 
 /// Degree of freedom 1-6 as 0-5.
@@ -60,6 +68,7 @@ void attach_inp_spring(InpParts& parts, const InpCard& card) {
   const bool dashpot = card.keyword == "DASHPOT";
   (void)parts.file.required(card, "ELSET");
   const InpOrientation axes = axes_of(parts, card);
+  const bool sure = !is_turned(parts) || card.has("ORIENTATION");
   const auto lines = filled_lines(card);
   for (const InpElement* element : parts.elements_of(card)) {
     if (inp_kind(element->type) != (dashpot ? InpKind::dashpot : InpKind::spring)) {
@@ -93,6 +102,7 @@ void attach_inp_spring(InpParts& parts, const InpCard& card) {
       s.direction.normalize();
     } else {
       const int dof = dof_of(parts, card, *lines[0], 0);
+      if (!sure) refuse_turned(parts, card, lines[0]->line);
       if (element->nodes.size() > 1 && lines[0]->fields.size() > 1 && dof_of(parts, card, *lines[0], 1) != dof) {
         parts.file.fail(card, lines[0]->line, "joins two different degrees of freedom, which is not supported",
                         "give the same one for both nodes");
@@ -124,6 +134,8 @@ void attach_inp_mass(InpParts& parts, const InpCard& card) {
   } else {
     mass.mass_kg = parts.file.number(card, *lines[0], 0);
   }
+  const auto& inertia = mass.inertia_kg_m2;
+  if (is_turned(parts) && (inertia[0] != inertia[1] || inertia[0] != inertia[2])) refuse_turned(parts, card, lines[0]->line);
   if (mass.mass_kg < 0.0 || mass.inertia_kg_m2.minCoeff() < 0.0)
     parts.file.fail(card, lines[0]->line, "must not be negative", "check the sign");
   for (const InpElement* element : parts.elements_of(card)) {
@@ -158,7 +170,9 @@ void attach_inp_boundary(InpParts& parts, const InpCard& card) {
                         "supports hold at zero");
       }
     }
-    const bool set = !InpFile::is_integer(line.fields[0]);
+    const bool whole = fixed[0] == fixed[1] && fixed[0] == fixed[2] && fixed[3] == fixed[4] && fixed[3] == fixed[5];
+    if (is_turned(parts) && !whole) refuse_turned(parts, card, line.line);
+    const bool set = !parts.is_number(line.fields[0]);
     for (const long id : parts.nodes_of(card, line, 0)) {
       const int node = parts.node(card, line.line, id);
       auto& supports = parts.model.supports;

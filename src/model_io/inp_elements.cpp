@@ -38,6 +38,15 @@ int inp_node_count(const std::string& type) {
   return found == types().end() ? 0 : found->second.nodes;
 }
 
+std::string inp_linear_type(const std::string& type) {
+  if (type.starts_with("C3D20") || type.starts_with("C3D27")) return "C3D8 (hexahedra)";
+  if (type.starts_with("C3D10") || type.starts_with("C3D15")) return "C3D8 (hexahedra in place of tetrahedra and wedges)";
+  if (type.starts_with("S8") || type.starts_with("S9")) return "S4";
+  if (type.starts_with("STRI65") || type.starts_with("S6")) return "S3";
+  if (type.starts_with("T3D3")) return "T3D2";
+  return "";
+}
+
 const std::vector<std::string>& inp_element_types() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;

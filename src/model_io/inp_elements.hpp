@@ -12,6 +12,8 @@ enum class InpKind { none, beam, truss, shell, solid, spring, dashpot, mass };
 [[nodiscard]] InpKind inp_kind(const std::string& type);
 /// Number of nodes that the type has; 0 for a type that is not supported.
 [[nodiscard]] int inp_node_count(const std::string& type);
+/// The linear type to use in place of a quadratic one ("C3D8 (hexahedra)" for "C3D20R"); "" for any other type.
+[[nodiscard]] std::string inp_linear_type(const std::string& type);
 [[nodiscard]] const std::vector<std::string>& inp_element_types();
 /// "B31, B32 …" for messages.
 [[nodiscard]] std::string inp_element_type_list();

@@ -109,7 +109,9 @@ void read_inp_orientation(InpParts& parts, const InpCard& card) {
   axes.row(0) = a.normalized();
   axes.row(2) = z.normalized();
   axes.row(1) = axes.row(2).cross(axes.row(0));
-  parts.orientations[upper_case(parts.file.required(card, "NAME"))] = axes;
+  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
+  if (scope.turned()) axes = (axes * scope.rotation.transpose()).eval();
+  parts.orientations[parts.key_here(parts.file.required(card, "NAME"))] = axes;
 }
 
 }  // namespace twindeck::model_io

@@ -9,25 +9,74 @@
 namespace twindeck::model_io {
 namespace {
 
-void add_to_set(std::map<std::string, InpSet>& sets, const std::string& name, long member) {
-  InpSet& set = sets[upper_case(name)];
+/// Adds to the set of that name in the scope at hand.
+void add_to_set(const InpParts& parts, std::map<std::string, InpSet>& sets, const std::string& name, long member) {
+  InpSet& set = sets[parts.key_here(name)];
   if (set.name.empty()) set.name = name;
+  set.scope = parts.scope;
   set.members.push_back(member);
+}
+
+/// Scope of the instance "BEAM-2" of a reference "BEAM-2.17", or -1.
+int instance_of(const std::vector<InpScope>& scopes, const std::string& reference) {
+  for (std::size_t i = 1; i < scopes.size(); ++i) {
+    const std::string prefix = upper_case(scopes[i].name) + ".";
+    if (upper_case(reference).starts_with(prefix)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// Scope of the instance that INSTANCE= names, else the one at hand.
+int instance_named(const InpParts& parts, const InpCard& card) {
+  const std::string wanted = card.get("INSTANCE");
+  if (wanted.empty() || parts.scopes.size() == 1) return parts.scope;
+  std::vector<std::string> known;
+  for (std::size_t i = 1; i < parts.scopes.size(); ++i) {
+    if (upper_case(parts.scopes[i].name) == upper_case(wanted)) return static_cast<int>(i);
+    known.push_back(parts.scopes[i].name);
+  }
+  parts.file.fail(card, card.line, fmt::format("no instance is called '{}'{}", wanted, did_you_mean(wanted, known)),
+                  "name one of the instances above");
+}
+
+/// What is added to the numbers of a range that begins with `first`: those of the only instance where the assembly has no such
+/// number.
+long generate_offset(const InpParts& parts, const InpCard& card, const InpLine& line, int scope, bool of_nodes) {
+  const auto offset = [&](int in) {
+    const InpScope& of = parts.scopes[static_cast<std::size_t>(in)];
+    return of_nodes ? of.node_offset : of.element_offset;
+  };
+  if (scope > 0 || parts.scopes.size() == 1) return offset(scope);
+  const long id = parts.file.integer(card, line, 0) + offset(0);
+  const auto node = parts.scope_of_node.find(id);
+  const auto element = parts.elements.find(id);
+  const bool known = of_nodes ? node != parts.scope_of_node.end() && node->second == 0
+                              : element != parts.elements.end() && element->second.scope == 0;
+  if (known) return offset(0);
+  if (parts.scopes.size() == 2) return offset(1);
+  parts.file.fail(card, line.line,
+                  fmt::format("{} {} is not defined in the assembly", of_nodes ? "node" : "element", line.fields[0]),
+                  "name the instance by INSTANCE= on the card");
 }
 
 }  // namespace
 
 void read_inp_nodes(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"NSET"});
+  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
   for (const InpLine& line : card.data) {
     fe::Node node;
-    node.id = parts.file.integer(card, line, 0);
-    for (int i = 0; i < 3; ++i) node.x_m[i] = parts.file.number_or(card, line, static_cast<std::size_t>(i) + 1, 0.0);
+    const long written = parts.file.integer(card, line, 0);
+    node.id = written + scope.node_offset;
+    Eigen::Vector3d x;
+    for (int i = 0; i < 3; ++i) x[i] = parts.file.number_or(card, line, static_cast<std::size_t>(i) + 1, 0.0);
+    node.x_m = scope.turned() ? Eigen::Vector3d(scope.rotation * x + scope.shift_m) : Eigen::Vector3d(x + scope.shift_m);
     if (!parts.node_position.emplace(node.id, static_cast<int>(parts.model.nodes.size())).second) {
-      parts.file.fail(card, line.line, fmt::format("node {} is defined twice", node.id), "keep one of the two lines");
+      parts.file.fail(card, line.line, fmt::format("node {} is defined twice", written), "keep one of the two lines");
     }
     parts.model.nodes.push_back(node);
-    if (card.has("NSET")) add_to_set(parts.node_sets, card.get("NSET"), node.id);
+    parts.scope_of_node.emplace(node.id, parts.scope);
+    if (card.has("NSET")) add_to_set(parts, parts.node_sets, card.get("NSET"), node.id);
   }
 }
 
@@ -36,6 +85,9 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
   const std::string type = upper_case(parts.file.required(card, "TYPE"));
   const int wanted = inp_node_count(type);
   if (wanted == 0) {
+    if (const std::string linear = inp_linear_type(type); !linear.empty())
+      parts.file.fail(card, card.line, fmt::format("{} has nodes between its corners, which is not read", type),
+                      "mesh with linear elements: " + linear);
     parts.file.fail(card, card.line,
                     fmt::format("unsupported element type {}{}", type, did_you_mean(type, inp_element_types())),
                     "supported are " + inp_element_type_list());
@@ -45,10 +97,15 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
   for (const InpLine& line : card.data) {
     std::size_t field = 0;
     if (!open) {
-      element = {parts.file.integer(card, line, 0), type, {}, &card, line.line, 0};
+      element = {};
+      element.id = parts.file.integer(card, line, 0) + parts.scopes[static_cast<std::size_t>(parts.scope)].element_offset;
+      element.scope = parts.scope;
+      element.type = type;
+      element.card = &card;
+      element.line = line.line;
       field = 1;
     }
-    for (; field < line.fields.size(); ++field) element.nodes.push_back(parts.file.integer(card, line, field));
+    for (; field < line.fields.size(); ++field) element.nodes.push_back(parts.node_id(card, line, field));
     open = static_cast<int>(element.nodes.size()) < wanted;
     if (open) continue;
     if (static_cast<int>(element.nodes.size()) > wanted) {
@@ -59,7 +116,7 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
     if (!parts.elements.emplace(element.id, element).second) {
       parts.file.fail(card, element.line, fmt::format("element {} is defined twice", element.id), "keep one of the two");
     }
-    if (card.has("ELSET")) add_to_set(parts.element_sets, card.get("ELSET"), element.id);
+    if (card.has("ELSET")) add_to_set(parts, parts.element_sets, card.get("ELSET"), element.id);
   }
   if (open) {
     parts.file.fail(card, element.line,
@@ -73,6 +130,14 @@ void read_inp_set(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {of_nodes ? "NSET" : "ELSET", "GENERATE", "INTERNAL", "INSTANCE", "UNSORTED"});
   auto& sets = of_nodes ? parts.node_sets : parts.element_sets;
   const std::string name = parts.file.required(card, of_nodes ? "NSET" : "ELSET");
+  // INSTANCE= says whose numbers stand below; the set itself belongs to where the card stands.
+  const int here = parts.scope, numbered = instance_named(parts, card);
+  const auto id_of = [&](const InpLine& line, std::size_t field) {
+    parts.scope = numbered;
+    const long id = of_nodes ? parts.node_id(card, line, field) : parts.element_id(card, line, field);
+    parts.scope = here;
+    return id;
+  };
   for (const InpLine& line : card.data) {
     if (card.has("GENERATE")) {
       const long first = parts.file.integer(card, line, 0), last = parts.file.integer(card, line, 1);
@@ -81,38 +146,91 @@ void read_inp_set(InpParts& parts, const InpCard& card) {
         parts.file.fail(card, line.line, fmt::format("'{}, {}, {}' is no range: first, last, step", first, last, step),
                         "first must not lie above last, step is 1 or more");
       }
-      for (long id = first; id <= last; id += step) add_to_set(sets, name, id);
+      const long offset = generate_offset(parts, card, line, numbered, of_nodes);
+      for (long id = first; id <= last; id += step) add_to_set(parts, sets, name, id + offset);
       continue;
     }
     for (std::size_t i = 0; i < line.fields.size(); ++i) {
       if (line.fields[i].empty()) continue;
-      if (InpFile::is_integer(line.fields[i])) {
-        add_to_set(sets, name, parts.file.integer(card, line, i));
+      if (parts.is_number(line.fields[i])) {
+        add_to_set(parts, sets, name, id_of(line, i));
         continue;
       }
+      parts.scope = numbered;
       const std::vector<long> members = parts.set(sets, card, line.line, line.fields[i]).members;  // a copy: the map may move
-      for (const long member : members) add_to_set(sets, name, member);
+      parts.scope = here;
+      for (const long member : members) add_to_set(parts, sets, name, member);
     }
   }
 }
 
+std::string InpParts::key_in(int in, const std::string& name) const {
+  const std::string& instance = scopes[static_cast<std::size_t>(in)].name;
+  return upper_case(instance.empty() ? name : instance + "." + name);
+}
+
+bool InpParts::is_number(const std::string& field) const {
+  const int instance = instance_of(scopes, field);
+  return InpFile::is_integer(instance < 0 ? field : field.substr(scopes[static_cast<std::size_t>(instance)].name.size() + 1));
+}
+
+long InpParts::node_id(const InpCard& card, const InpLine& line, std::size_t field) const {
+  const std::string text = field < line.fields.size() ? line.fields[field] : "";
+  const int instance = instance_of(scopes, text);
+  const int in = instance < 0 ? scope : instance;
+  const InpLine rest{line.line, {instance < 0 ? text : text.substr(scopes[static_cast<std::size_t>(in)].name.size() + 1)}};
+  const long written = instance < 0 ? file.integer(card, line, field) : file.integer(card, rest, 0);
+  const long id = written + scopes[static_cast<std::size_t>(in)].node_offset;
+  const auto is_of = [&](long node, int where) {
+    const auto found = scope_of_node.find(node);
+    return found != scope_of_node.end() && found->second == where;
+  };
+  if (is_of(id, in)) return id;
+  // A deck of one instance may leave its name out.
+  if (in == 0 && scopes.size() == 2 && is_of(written + scopes[1].node_offset, 1)) return written + scopes[1].node_offset;
+  no_node(card, line.line, id);
+}
+
+long InpParts::element_id(const InpCard& card, const InpLine& line, std::size_t field) const {
+  const int instance = instance_of(scopes, line.fields[field]);
+  const int in = instance < 0 ? scope : instance;
+  const InpLine rest{
+      line.line,
+      {instance < 0 ? line.fields[field] : line.fields[field].substr(scopes[static_cast<std::size_t>(in)].name.size() + 1)}};
+  const long written = instance < 0 ? file.integer(card, line, field) : file.integer(card, rest, 0);
+  const long id = written + scopes[static_cast<std::size_t>(in)].element_offset;
+  const auto found = elements.find(id);
+  if (in > 0 || scopes.size() == 1 || (found != elements.end() && found->second.scope == in)) return id;
+  if (scopes.size() == 2) return written + scopes[1].element_offset;
+  file.fail(card, line.line, fmt::format("element {} is not defined in the assembly", written),
+            "write INSTANCE.number for an element of an instance, or INSTANCE= on the card");
+}
+
+std::string InpParts::node_name(long id) const {
+  for (const InpScope& in : scopes) {
+    if (in.node_offset > 0 && id > in.node_offset && id <= in.node_offset + in.last_node)
+      return fmt::format("{} of {}", id - in.node_offset, in.name.empty() ? "the assembly" : "instance " + in.name);
+  }
+  return std::to_string(id);
+}
+
 int InpParts::node(const InpCard& card, long line, long id) const {
   const auto found = node_position.find(id);
-  if (found == node_position.end()) {
-    file.fail(card, line, fmt::format("node {} is not defined by any *NODE", id), "define it, or correct the number");
-  }
+  if (found == node_position.end()) no_node(card, line, id);
   return found->second;
+}
+
+void InpParts::no_node(const InpCard& card, long line, long id) const {
+  const bool several = scope == 0 && scopes.size() > 2;
+  file.fail(card, line, fmt::format("node {} is not defined by any *NODE", node_name(id)),
+            several ? "define it, or write INSTANCE.number for a node of an instance" : "define it, or correct the number");
 }
 
 const InpSet& InpParts::set(const std::map<std::string, InpSet>& sets, const InpCard& card, long line,
                             const std::string& name) const {
-  auto found = sets.find(upper_case(name));
-  if (const auto point = name.find('.'); found == sets.end() && point != std::string::npos) {
-    found = sets.find(upper_case(name.substr(point + 1)));
-  }
-  if (found != sets.end()) return found->second;
+  if (const std::string key = find_key(sets, name); !key.empty()) return sets.at(key);
   std::vector<std::string> known;
-  for (const auto& [key, set] : sets) known.push_back(set.name);
+  for (const auto& [key, set] : sets) known.push_back(set_name(sets, set));
   file.fail(card, line, fmt::format("no set is called '{}'{}", name, did_you_mean(name, known)),
             "define it by *NSET or *ELSET, or on the *NODE or *ELEMENT card");
 }
@@ -121,13 +239,35 @@ std::vector<long> InpParts::nodes_of(const InpCard& card, const InpLine& line, s
   if (field >= line.fields.size() || line.fields[field].empty()) {
     file.fail(card, line.line, fmt::format("field {} is missing, expected a node or a set of nodes", field + 1), "name it");
   }
-  if (InpFile::is_integer(line.fields[field])) return {file.integer(card, line, field)};
+  if (is_number(line.fields[field])) return {node_id(card, line, field)};
   return set(node_sets, card, line.line, line.fields[field]).members;
 }
 
+const InpSet& InpParts::group_set(const InpCard& card, const InpElement& element) const {
+  const bool by_element = element.card->has("ELSET");
+  const InpCard& by = by_element ? *element.card : card;
+  if (by_element) return element_sets.at(key_in(element.scope, by.get("ELSET")));
+  return set(element_sets, by, by.line, by.get("ELSET"));
+}
+
 std::string InpParts::group_of(const InpCard& card, const InpElement& element) const {
-  const InpCard& by = element.card->has("ELSET") ? *element.card : card;
-  return set(element_sets, by, by.line, by.get("ELSET")).name;
+  return set_name(element_sets, group_set(card, element));
+}
+
+std::string InpParts::set_name(const std::map<std::string, InpSet>& sets, const InpSet& set) const {
+  if (set.scope == 0) return set.name;
+  int same = 0;
+  for (std::size_t i = 0; i < scopes.size(); ++i) same += sets.contains(key_in(static_cast<int>(i), set.name)) ? 1 : 0;
+  return same > 1 ? scopes[static_cast<std::size_t>(set.scope)].name + "." + set.name : set.name;
+}
+
+std::set<long> InpParts::turning_nodes() const {
+  std::set<long> nodes;
+  for (const auto& [id, element] : elements) {
+    const InpKind kind = inp_kind(element.type);
+    if (kind == InpKind::beam || kind == InpKind::shell) nodes.insert(element.nodes.begin(), element.nodes.end());
+  }
+  return nodes;
 }
 
 const InpCard* InpParts::card_after(const InpCard& card) const {

@@ -2,18 +2,21 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "fe/model.hpp"
 #include "model_io/inp_cards.hpp"
+#include "model_io/inp_scopes.hpp"
 
 /// Inside of the library: what an .inp file says, collected card by card in the numbers and names of the file; resolved into an
 /// fe::Model when all cards have been read, since an element may stand before its section and a set before its nodes.
 namespace twindeck::model_io {
 
 struct InpElement {
-  long id = 0;
+  long id = 0;       ///< in the model's numbers, as everywhere below (InpScope)
+  int scope = 0;     ///< where its card was read
   std::string type;  ///< "B31", in upper case
   std::vector<long> nodes;
   const InpCard* card = nullptr;
@@ -23,6 +26,7 @@ struct InpElement {
 
 struct InpSet {
   std::string name;  ///< as first written
+  int scope = 0;     ///< where it was defined
   std::vector<long> members;
 };
 
@@ -38,6 +42,20 @@ struct InpEquation {
   std::vector<Term> terms;
 };
 
+/// A part of a surface: a face of a solid, a shell, or the edge of one.
+struct InpFacet {
+  std::vector<long> nodes;  ///< 4, 3, or 2 of an edge, in order around it
+  long element = 0;
+  bool turning = false;  ///< its nodes have rotations (shells)
+};
+
+/// A *SURFACE: of elements' faces, or of nodes alone.
+struct InpSurface {
+  std::string name;
+  std::vector<InpFacet> facets;  ///< empty for a surface of nodes
+  std::vector<long> nodes;       ///< of the facets, or given; each once
+};
+
 /// Local axes of *ORIENTATION (rectangular): rows x', y', z' in global axes.
 using InpOrientation = Eigen::Matrix3d;
 
@@ -46,30 +64,79 @@ struct InpParts {
 
   const InpFile& file;
   fe::Model model;  ///< nodes and materials; the rest when it is resolved
+  std::vector<InpScope> scopes{InpScope{}};
+  int scope = 0;  ///< of the card that is being read
   std::map<long, int> node_position;
+  std::map<long, int> scope_of_node;  ///< where *NODE defines it
   std::map<long, InpElement> elements;
-  std::map<std::string, InpSet> node_sets, element_sets;  ///< by name in upper case
+  std::map<std::string, InpSet> node_sets, element_sets;  ///< by name in upper case, "INSTANCE.NAME" within an instance
+  std::map<std::string, InpSurface> surfaces;             ///< likewise
   std::map<std::string, int> materials;                   ///< by name in upper case
   std::map<int, double> second_shear_moduli;              ///< G13 of the orthotropic materials of beams, by position [Pa]
-  std::map<std::string, InpOrientation> orientations;
+  std::map<std::string, InpOrientation> orientations;     ///< by name in upper case, likewise
   std::vector<InpEquation> equations;
-  long last_element_id = 0;        ///< the largest so far, for elements that come out of one with more nodes
-  std::vector<std::string> notes;  ///< what was read over, for people
+  struct Origin {
+    const InpCard* card;
+    long line;
+  };
+  std::vector<Origin> constraint_origin;   ///< of the model's constraints
+  std::vector<const InpCard*> boundaries;  ///< *BOUNDARY cards that hold in the step whose modes are asked for
+  long last_element_id = 0;                ///< the largest so far, for elements that come out of one with more nodes
+  std::vector<std::string> notes;          ///< what was read over, for people
 
   /// Position of a node. @throws InputError if no *NODE defines it
   [[nodiscard]] int node(const InpCard& card, long line, long id) const;
-  /// Members of a set (its name may carry the instance: "PART-1-1.SLAB"). @throws InputError for an unknown name
+  [[noreturn]] void no_node(const InpCard& card, long line, long id) const;
+  /// "17", or "17 of instance BEAM-2": a node as the file names it.
+  [[nodiscard]] std::string node_name(long id) const;
+  /// The node that a field names in the scope at hand: "17", "BEAM-2.17"; in the model's numbers, defined.
+  [[nodiscard]] long node_id(const InpCard& card, const InpLine& line, std::size_t field) const;
+  /// An element likewise; not necessarily defined.
+  [[nodiscard]] long element_id(const InpCard& card, const InpLine& line, std::size_t field) const;
+  /// Whether a field is the number of a node or element (with its instance) rather than the name of a set.
+  [[nodiscard]] bool is_number(const std::string& field) const;
+  /// Key of a name that is defined in the scope at hand.
+  [[nodiscard]] std::string key_here(const std::string& name) const { return key_in(scope, name); }
+  [[nodiscard]] std::string key_in(int in, const std::string& name) const;
+  /// Key under which `map` has a name used in the scope at hand: that scope's own, "INSTANCE.NAME", or the only one of that
+  /// name; empty if there is none.
+  template <class Map>
+  [[nodiscard]] std::string find_key(const Map& map, const std::string& name) const;
+  /// Members of a set. @throws InputError for an unknown name
   [[nodiscard]] const InpSet& set(const std::map<std::string, InpSet>& sets, const InpCard& card, long line,
                                   const std::string& name) const;
   /// A field that holds the number of a node or the name of a set of nodes.
   [[nodiscard]] std::vector<long> nodes_of(const InpCard& card, const InpLine& line, std::size_t field) const;
   /// Elements are grouped by the set that their *ELEMENT card names, else by that of the section, spring or mass `card`: many
-  /// section cards (one a direction n1) may speak of one group.
+  /// section cards (one a direction n1) may speak of one group. Where several instances have a set of the name, each has a
+  /// group, "INSTANCE.NAME".
   [[nodiscard]] std::string group_of(const InpCard& card, const InpElement& element) const;
+  /// The set behind group_of.
+  [[nodiscard]] const InpSet& group_set(const InpCard& card, const InpElement& element) const;
+  /// Name of a set for people: with its instance where another has one of the same name.
+  [[nodiscard]] std::string set_name(const std::map<std::string, InpSet>& sets, const InpSet& set) const;
   /// The card below `card`, or null.
   [[nodiscard]] const InpCard* card_after(const InpCard& card) const;
   /// Elements of the set that ELSET= of the card names, marked as used.
   [[nodiscard]] std::vector<InpElement*> elements_of(const InpCard& card);
+  /// Nodes whose rotations a beam or a shell holds.
+  [[nodiscard]] std::set<long> turning_nodes() const;
+  void add_constraint(const fe::Constraint& c, const InpCard& card, long line) {
+    model.constraints.push_back(c);
+    constraint_origin.push_back({&card, line});
+  }
 };
+
+template <class Map>
+std::string InpParts::find_key(const Map& map, const std::string& name) const {
+  const std::string own = key_here(name), plain = upper_case(name);
+  if (map.contains(own)) return own;
+  if (map.contains(plain)) return plain;
+  const std::size_t point = plain.find('.');
+  if (scopes.size() == 1 && point != std::string::npos && map.contains(plain.substr(point + 1))) return plain.substr(point + 1);
+  // A deck of one instance may leave its name out.
+  if (scopes.size() == 2 && map.contains(key_in(1, name))) return key_in(1, name);
+  return "";
+}
 
 }  // namespace twindeck::model_io

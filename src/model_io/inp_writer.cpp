@@ -141,6 +141,11 @@ void InpWriter::links_and_supports() {
     });
     rigid_equations(master.id, master.x_m, slave.id, slave.x_m, turns);
   }
+  for (const fe::Constraint& c : model_.constraints) {
+    equations_ += fmt::format("*EQUATION\n{}\n{}, {}, -1.\n", c.terms.size() + 1, node_id(c.node), c.direction + 1);
+    for (const fe::Constraint::Term& term : c.terms)
+      equations_ += fmt::format("{}, {}, {}\n", node_id(term.node), term.direction + 1, with_point(term.factor));
+  }
   if (model_.supports.empty()) return;
   supports_ += "*BOUNDARY\n";
   for (const fe::Support& support : model_.supports) {

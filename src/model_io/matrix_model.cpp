@@ -13,6 +13,7 @@
 #include "model_io/matrix_market.hpp"
 #include "model_io/model_folder.hpp"
 #include "model_io/names.hpp"
+#include "model_io/op4.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -25,7 +26,7 @@ struct MatrixParameter {
   io::FieldTable fields() {
     io::FieldTable table;
     table.text("name", name, "name of the parameter", true)
-        .text("matrix", matrix, "Matrix Market file of K_i or M_i", true)
+        .text("matrix", matrix, "file of K_i or M_i: Matrix Market, or .op4 of Nastran", true)
         .choice("target", target, {"stiffness", "mass"}, "which matrix the parameter adds to")
         .text("group", group, "name of what the parameter stands for (default: its own name)")
         .text("unit", unit, "unit of initial, lower and upper")
@@ -43,8 +44,8 @@ struct MatrixModelEntry {
   io::FieldTable fields() {
     io::FieldTable table;
     table.text("title", title, "what the model is")
-        .text("matrices.K", stiffness, "Matrix Market file of K0", true)
-        .text("matrices.M", mass, "Matrix Market file of M0", true)
+        .text("matrices.K", stiffness, "file of K0: Matrix Market, or .op4 of Nastran", true)
+        .text("matrices.M", mass, "file of M0: Matrix Market, or .op4 of Nastran", true)
         .tables(
             "parameter", [this] { return parameters.emplace_back().fields(); }, "K = K0 + sum theta_i K_i, M likewise");
     return table;
@@ -115,8 +116,8 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
 }
 
 linalg::SparseMatrix read_sized(const std::filesystem::path& file, std::size_t n) {
-  const MatrixMarketSize size = matrix_market_size(file);
-  if (size.rows == static_cast<Eigen::Index>(n)) return read_matrix_market(file);
+  const MatrixMarketSize size = is_op4(file) ? MatrixMarketSize{op4_rows(file), 1} : matrix_market_size(file);
+  if (size.rows == static_cast<Eigen::Index>(n)) return is_op4(file) ? read_op4(file) : read_matrix_market(file);
   throw InputError({file.string(), size.line, ""}, fmt::format("is {0} x {0}, but dofs.csv has {1} rows", size.rows, n),
                    "matrices and dofs.csv must be of one model");
 }

@@ -11,6 +11,8 @@
 #include "model_io/folder_parts.hpp"
 #include "model_io/inp_cards.hpp"
 #include "model_io/model_toml.hpp"
+#include "model_io/nastran_constraints.hpp"
+#include "model_io/nastran_dmig.hpp"
 #include "model_io/nastran_elements.hpp"
 #include "model_io/nastran_grids.hpp"
 #include "model_io/nastran_ignored.hpp"
@@ -48,13 +50,14 @@ const std::vector<std::map<std::string, Reader>>& reading_passes() {
        {"CMASS1", read_scalar_mass},
        {"CMASS2", read_scalar_mass},
        {"RBE2", read_rigid},
+       {"RBE3", read_average},
        {"RBAR", read_rigid}}};
   return passes;
 }
 
 /// Read together at the end, by the sets that the case control chooses; and parameters.
 bool is_read_apart(const std::string& name) {
-  constexpr std::array<const char*, 6> names = {"SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM"};
+  constexpr std::array<const char*, 7> names = {"SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM", "DMIG"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -130,6 +133,10 @@ void sort_nodes(Parts& parts) {
     for (fe::MatrixElement::Dof& dof : e.dofs) move(dof.node);
   }
   for (fe::RigidLink& link : model.links) move(link.master), move(link.slave);
+  for (fe::Constraint& c : model.constraints) {
+    move(c.node);
+    for (fe::Constraint::Term& term : c.terms) move(term.node);
+  }
   for (fe::PointMass& mass : model.masses) move(mass.node);
   for (fe::Support& support : model.supports) move(support.node);
   const std::size_t unused = parts.grids.size() - model.nodes.size();
@@ -159,13 +166,14 @@ NastranModel read_nastran(const std::filesystem::path& path) {
   parts.model.source = path.string();
   parts.model.title = deck.case_control().title;
   nastran::refuse_or_note(parts);
-  const double wtmass = nastran::read_parameters(parts);
+  parts.wtmass = nastran::read_parameters(parts);
   for (const auto& pass : nastran::reading_passes()) {
     for (const nastran::Card& card : deck.cards()) {
       if (const auto reader = pass.find(card.name); reader != pass.end()) reader->second(parts, card);
     }
   }
-  nastran::refuse_multipoint(parts);
+  nastran::read_multipoint(parts);
+  nastran::read_direct_matrices(parts);
   nastran::finish_masses(parts);
   nastran::read_supports(parts);
   nastran::finish_rods(parts);
@@ -184,7 +192,7 @@ NastranModel read_nastran(const std::filesystem::path& path) {
   std::vector<fe::MatrixElement> added(parts.model.matrix_elements.begin() + static_cast<std::ptrdiff_t>(own_matrices),
                                        parts.model.matrix_elements.end());
   parts.model.matrix_elements.resize(own_matrices);
-  nastran::to_si(parts.model, nastran::units_of(keys, beside), wtmass);
+  nastran::to_si(parts.model, nastran::units_of(keys, beside), parts.wtmass);
   parts.model.matrix_elements.insert(parts.model.matrix_elements.end(), added.begin(), added.end());
   return {std::move(parts.model), std::move(parts.notes), deck.files()};
 }

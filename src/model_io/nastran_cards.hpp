@@ -18,9 +18,16 @@ struct Card {
 
 /// What the case control section chooses, as far as it changes the structure.
 struct CaseControl {
+  /// "K2GG = 0.5*KBUSH, KTIE" as its text, with its place.
+  struct Matrices {
+    std::string text;
+    int file = 0;
+    long line = 0;
+  };
   bool present = false;  ///< the file has a case control section
   std::string title;
   std::optional<long> spc, mpc;
+  Matrices k2gg, m2gg;  ///< DMIG matrices that are added to stiffness and mass; an empty text: none
 };
 
 /// A deck as cards in their order, with helpers that name the place of whatever is wrong.

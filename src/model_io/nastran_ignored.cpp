@@ -53,13 +53,13 @@ const std::map<std::string, std::string>& refused_cards() {
         {"mesh with hexahedra of 8 nodes (CHEXA)", {"CTETRA", "CPENTA", "CPYRAM"}},
         {"give the plate as a PSHELL of one material", {"PCOMP", "PCOMPG", "MAT2", "MAT8", "CSHEAR"}},
         {"give an isotropic material by MAT1", {"MAT3", "MAT9", "MAT10", "MATT1"}},
-        {"spread the mass by CONM2 at the grids, or join them by RBE2", {"RBE3"}},
         {"a rigid joint is RBE2 or RBAR", {"RBE1", "RROD", "RTRPLT", "RSPLINE", "CWELD", "CFAST"}},
         {"write a straight CBAR or CBEAM with PBAR or PBEAM", {"CBEND", "PBEND", "PBCOMP", "PBMSECT", "PBRSECT"}},
         {"write a CROD with the area of the tube", {"CTUBE", "PTUBE"}},
         {"give every element its own fields", {"BAROR", "BEAMOR"}},
         {"put a GRID in place of the scalar point", {"CELAS3", "CELAS4", "CMASS3", "CMASS4"}},
-        {"give the whole model as matrices (docs/my_model.md)", {"DMIG", "GENEL"}},
+        {"give the whole model as matrices (docs/my_model.md), or the element by DMIG", {"GENEL"}},
+        {"give DMIG, which is chosen by K2GG and M2GG", {"DMIJ", "DMIJI", "DMIK", "DMI"}},
         {"modes need a linear joint: CELAS2 or CBUSH", {"CGAP", "CBUSH1D", "BCTABLE", "BCONTACT", "BSURF"}}};
     std::map<std::string, std::string> result;
     for (const Reason& reason : reasons) {

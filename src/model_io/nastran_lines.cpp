@@ -169,9 +169,10 @@ struct DeckReader {
   void read_case_line(const RawLine& line) {
     const auto [key, value] = key_and_value(line.text);
     if (key == "TITLE" && deck.case_.title.empty()) deck.case_.title = value;
-    if (key == "K2GG" || key == "M2GG" || key == "K2PP" || key == "M2PP")
-      fail(line, key, "adds matrices to the structure, which are not read",
-           "give the whole model as matrices (docs/my_model.md)");
+    if (key == "K2GG" || key == "M2GG") return choose_matrices(line, key, value);
+    if (key == "K2PP" || key == "M2PP")
+      fail(line, key, "adds matrices to responses and complex modes alone, which is not read",
+           "add them to the structure by K2GG or M2GG, or leave the line out");
     if (key != "SPC" && key != "MPC") return;
     if (!Deck::is_integer(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write SPC = 1");
     std::optional<long>& chosen = key == "SPC" ? deck.case_.spc : deck.case_.mpc;
@@ -179,6 +180,15 @@ struct DeckReader {
     if (chosen && *chosen != id)
       fail(line, key, fmt::format("chooses set {}, another subcase chooses {}", id, *chosen), "leave one subcase in the deck");
     chosen = id;
+  }
+
+  void choose_matrices(const RawLine& line, const std::string& key, const std::string& value) {
+    CaseControl::Matrices& chosen = key == "K2GG" ? deck.case_.k2gg : deck.case_.m2gg;
+    if (value.empty()) fail(line, key, "names no matrix", fmt::format("write {} = NAME", key));
+    if (!chosen.text.empty() && chosen.text != upper_case(value))
+      fail(line, key, fmt::format("chooses '{}', another subcase chooses '{}'", value, chosen.text),
+           "leave one subcase in the deck");
+    chosen = {upper_case(value), line.file, line.line};
   }
 
   void read_bulk(std::size_t start) {

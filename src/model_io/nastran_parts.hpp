@@ -38,6 +38,7 @@ struct Parts {
   std::map<long, double> spring_constants, scalar_masses;  ///< PELAS, PMASS
   std::set<long> scalar_points;                            ///< SPOINT
   const Card* grid_defaults = nullptr;                     ///< GRDSET
+  double wtmass = 1.0;                                     ///< PARAM WTMASS
 
   std::map<long, Eigen::Vector3d> places;  ///< of the grids asked for so far
   std::map<long, System> systems;          ///< resolved so far

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "model_io/nastran_constraints.hpp"
 #include "model_io/nastran_parts.hpp"
 #include "model_io/nastran_properties.hpp"
 
@@ -25,22 +26,18 @@ std::array<bool, 3> in_basic(const Parts& parts, const Card& card, long grid, co
     Eigen::Index along = 0;
     constexpr double aligned = 1.0 - 1e-9;
     if (axes.row(i).cwiseAbs().maxCoeff(&along) < aligned)
-      parts.deck.fail(card, fmt::format("holds grid {} along an axis of its system CD that is skew to the basic ones", grid),
-                      "hold it by a stiff CELAS2 there, which may be skew, or turn the model");
+      parts.deck.fail(card,
+                      fmt::format("holds or ties grid {} along an axis of its system CD that is skew to the basic ones", grid),
+                      "use a stiff CELAS2 there, which may be skew, or turn the model");
     basic[static_cast<std::size_t>(along)] = true;
   }
   return basic;
 }
 
 void hold(Parts& parts, const Card& card, long grid, const std::array<bool, 6>& local) {
-  const Eigen::Matrix3d axes = parts.displacement_axes(card, grid);
-  const auto shift = in_basic(parts, card, grid, axes, {local[0], local[1], local[2]});
-  const auto turn = in_basic(parts, card, grid, axes, {local[3], local[4], local[5]});
+  const std::array<bool, 6> basic = basic_components(parts, card, grid, local);
   auto& held = parts.held[grid];
-  for (std::size_t i = 0; i < 3; ++i) {
-    held[i] = held[i] || shift[i];
-    held[3 + i] = held[3 + i] || turn[i];
-  }
+  for (std::size_t i = 0; i < 6; ++i) held[i] = held[i] || basic[i];
 }
 
 bool is_set_card(const Card& card) { return card.name == "SPC" || card.name == "SPC1"; }
@@ -111,6 +108,13 @@ void read_rbar(Parts& parts, const Card& card) {
 
 }  // namespace
 
+std::array<bool, 6> basic_components(Parts& parts, const Card& card, long grid, const std::array<bool, 6>& local) {
+  const Eigen::Matrix3d axes = parts.displacement_axes(card, grid);
+  const auto shift = in_basic(parts, card, grid, axes, {local[0], local[1], local[2]});
+  const auto turn = in_basic(parts, card, grid, axes, {local[3], local[4], local[5]});
+  return {shift[0], shift[1], shift[2], turn[0], turn[1], turn[2]};
+}
+
 void read_rigid(Parts& parts, const Card& card) {
   if (card.name == "RBAR") return read_rbar(parts, card);
   const long independent = parts.deck.integer(card, 1);
@@ -123,10 +127,10 @@ void read_rigid(Parts& parts, const Card& card) {
     // A dependent grid at which only rods and solids meet has no rotation to follow.
     const bool turning = parts.turning.contains(parts.node(card, grid));
     const bool whole = tied[0] && tied[1] && tied[2] && (!turning || (tied[3] && tied[4] && tied[5]));
-    if (!whole)
-      parts.deck.fail(card, fmt::format("ties grid {} in '{}' only, which is not read", grid, Deck::text(card, 2)),
-                      "tie 123456; hinges are pin flags of CBAR, or springs (CELAS2, CBUSH)");
-    add_rigid(parts, card, independent, grid);
+    if (whole)
+      add_rigid(parts, card, independent, grid);
+    else
+      tie_some(parts, card, independent, grid, tied);
   }
 }
 
@@ -143,28 +147,6 @@ void read_supports(Parts& parts) {
   for (const auto& [grid, fixed] : parts.held) {
     const auto node = parts.node_position.find(grid);
     if (node != parts.node_position.end()) parts.model.supports.push_back({fmt::format("grid_{}", grid), node->second, fixed});
-  }
-}
-
-void refuse_multipoint(Parts& parts) {
-  const std::optional<long> chosen = parts.deck.case_control().mpc;
-  std::set<long> sets;
-  if (chosen) sets.insert(*chosen);
-  for (const Card& card : parts.deck.cards()) {
-    if (card.name == "MPCADD" && chosen && parts.deck.integer(card, 0) == *chosen) {
-      for (std::size_t i = 1; i < Deck::size(card); ++i) sets.insert(parts.deck.integer(card, i));
-    }
-  }
-  for (const Card& card : parts.deck.cards()) {
-    if (card.name != "MPC") continue;
-    if (parts.deck.case_control().present && !sets.contains(parts.deck.integer(card, 0))) {
-      note_once(parts, "MPC cards that the case control does not choose are left out");
-    } else if (parts.scalar_points.contains(parts.deck.integer(card, 1))) {
-      note_once(parts, "MPC cards that give a motion to a scalar point are left out: they measure and hold nothing");
-    } else {
-      parts.deck.fail(card, "ties grids by an equation, which is not read",
-                      "a rigid joint is RBE2 or RBAR; a stiff joint CELAS2 or CBUSH");
-    }
   }
 }
 

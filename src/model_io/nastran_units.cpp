@@ -76,6 +76,11 @@ void to_si(fe::Model& model, const Units& units, double wtmass) {
     scale_matrix(e.stiffness, e.dofs, f / l, l);
     scale_matrix(e.mass, e.dofs, mass, l);
   }
+  // Factors between displacements and rotations carry a length.
+  for (fe::Constraint& c : model.constraints) {
+    for (fe::Constraint::Term& term : c.terms)
+      term.factor *= std::pow(l, (term.direction > 2 ? 1 : 0) - (c.direction > 2 ? 1 : 0));
+  }
   for (fe::PointMass& m : model.masses) {
     m.mass_kg *= mass;
     m.inertia_kg_m2 *= mass * l2;

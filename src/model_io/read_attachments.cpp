@@ -98,6 +98,32 @@ void read_links(const std::filesystem::path& folder, fe::Model& model, const Nam
   }
 }
 
+void read_constraints(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
+  if (!is_there(folder, "constraints.csv")) return;
+  const auto table = io::CsvTable::read(folder / "constraints.csv", {"node", "direction", "of_node", "of_direction", "factor"},
+                                        {"constraint"});
+  const auto direction = [&](std::size_t row, const std::string& column) {
+    const int at = position_of(table.text(row, column), direction_names());
+    if (at < 0)
+      table.fail(row, column,
+                 fmt::format("'{}' is no direction{}", table.text(row, column),
+                             did_you_mean(table.text(row, column), direction_names())),
+                 "use " + one_of(direction_names()));
+    return at;
+  };
+  std::map<std::pair<int, int>, std::size_t> position;  // of the equation of a displacement
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    fe::Constraint c{table.text(row, "constraint"), index.node(table, row, "node"), direction(row, "direction"), {}};
+    const auto [found, is_new] = position.try_emplace({c.node, c.direction}, model.constraints.size());
+    if (is_new) model.constraints.push_back(c);
+    fe::Constraint& whole = model.constraints[found->second];
+    if (whole.name != c.name)
+      table.fail(row, "constraint", fmt::format("this displacement depends by constraint '{}' already", whole.name),
+                 "keep one of the two; the rows of one equation have one name");
+    whole.terms.push_back({index.node(table, row, "of_node"), direction(row, "of_direction"), table.number(row, "factor")});
+  }
+}
+
 void read_masses(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
   if (!is_there(folder, "masses.csv")) return;
   const auto table = io::CsvTable::read(folder / "masses.csv", {"node", "mass_kg"},

@@ -44,6 +44,7 @@ fe::Model read_model(const std::filesystem::path& folder) {
   read_supports(folder, model, index);
   read_springs(folder, model, index);
   read_links(folder, model, index);
+  read_constraints(folder, model, index);
   read_masses(folder, model, index);
   read_points(folder, model, index);
   read_model_toml(folder / "model.toml", model);
@@ -61,8 +62,9 @@ bool is_matrix_model(const std::filesystem::path& folder) {
 
 std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const char* name : {"model.toml", "nodes.csv", "elements.csv", "materials.csv", "sections.csv", "supports.csv",
-                           "springs.csv", "links.csv", "masses.csv", "points.csv", "loads.csv", "dofs.csv"}) {
+  for (const char* name :
+       {"model.toml", "nodes.csv", "elements.csv", "materials.csv", "sections.csv", "supports.csv", "springs.csv", "links.csv",
+        "constraints.csv", "masses.csv", "points.csv", "loads.csv", "dofs.csv"}) {
     if (std::filesystem::exists(folder / name)) files.push_back(folder / name);
   }
   if (!is_matrix_model(folder)) {

@@ -7,8 +7,8 @@
 namespace twindeck::model_io {
 
 /// Reads a model folder (docs/my_model.md): model.toml, nodes.csv, elements.csv, materials.csv, sections.csv and, where they
-/// are there, supports.csv, springs.csv, links.csv, masses.csv, points.csv. Columns are those that `write_model` writes; those
-/// with an obvious default may be left out. An empty shear modulus follows from E and nu.
+/// are there, supports.csv, springs.csv, links.csv, constraints.csv, masses.csv, points.csv. Columns are those that
+/// `write_model` writes; those with an obvious default may be left out. An empty shear modulus follows from E and nu.
 /// @throws InputError with file, line, column for anything that is not as it should be
 [[nodiscard]] fe::Model read_model(const std::filesystem::path& folder);
 

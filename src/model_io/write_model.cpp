@@ -71,6 +71,18 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
   elements.save(folder / "elements.csv");
 }
 
+/// constraints.csv, which is there only where the model has constraints.
+void write_constraints(const fe::Model& model, const std::filesystem::path& folder) {
+  if (model.constraints.empty()) return;
+  io::CsvWriter rows({"constraint", "node", "direction", "of_node", "of_direction", "factor"});
+  for (const fe::Constraint& c : model.constraints) {
+    for (const fe::Constraint::Term& term : c.terms)
+      rows.row({c.name, node_id(model, c.node), direction_names()[static_cast<std::size_t>(c.direction)],
+                node_id(model, term.node), direction_names()[static_cast<std::size_t>(term.direction)], term.factor});
+  }
+  rows.save(folder / "constraints.csv");
+}
+
 void write_attachments(const fe::Model& model, const std::filesystem::path& folder) {
   io::CsvWriter supports({"support", "node", "x", "y", "z", "rx", "ry", "rz"});
   for (const auto& s : model.supports) {
@@ -92,6 +104,7 @@ void write_attachments(const fe::Model& model, const std::filesystem::path& fold
   io::CsvWriter links({"link", "master", "slave"});
   for (const auto& l : model.links) links.row({l.name, node_id(model, l.master), node_id(model, l.slave)});
   links.save(folder / "links.csv");
+  write_constraints(model, folder);
 
   io::CsvWriter masses({"group", "node", "mass_kg", "inertia_x_kg_m2", "inertia_y_kg_m2", "inertia_z_kg_m2"});
   for (const auto& m : model.masses) {

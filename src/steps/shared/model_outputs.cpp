@@ -124,6 +124,7 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
   for (std::size_t type = 0; type < types.size(); ++type) count(types[type] + "s", of_type[type]);
   count("springs", model->springs.size());
   count("rigid_links", model->links.size());
+  if (!model->constraints.empty()) count("constraints", model->constraints.size());
   count("point_masses", model->masses.size());
   for (const auto& [name, part] : parts) {
     if (!part.nodes.empty()) count("nodes_" + name, part.nodes.size());

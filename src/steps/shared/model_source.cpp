@@ -8,7 +8,9 @@
 #include "model_io/load_cases.hpp"
 #include "model_io/model_folder.hpp"
 #include "model_io/nastran.hpp"
+#include "model_io/printed_mass.hpp"
 #include "ponte/generator.hpp"
+#include "steps/shared/imported_mass.hpp"
 #include "steps/shared/model_check.hpp"
 #include "steps/shared/study.hpp"
 
@@ -21,6 +23,14 @@ ReadModel valid(fe::Model model) {
   ReadModel read;
   read.source = model.source;
   read.structure = std::make_shared<const fe::Structure>(std::move(model));
+  return read;
+}
+
+/// Mass, centre and inertia: a lost part, a wrong density or unit shows there first.
+ReadModel with_mass_said(const StepContext& context, const std::filesystem::path& file, ReadModel read) {
+  context.say(mass_words(fe::mass_properties(*read.fe_model())));
+  if (const std::string printed = model_io::printed_mass(file); !printed.empty())
+    context.say("beside it, in the deck's units: " + printed);
   return read;
 }
 
@@ -67,7 +77,7 @@ ReadModel import_inp(StepContext& context, const std::filesystem::path& file) {
   if (std::filesystem::exists(beside)) context.input(beside);
   model_io::InpModel imported = model_io::is_ansys_deck(file) ? model_io::read_ansys(file) : model_io::read_inp(file);
   for (const std::string& note : imported.notes) context.say(note);
-  return valid(std::move(imported.model));
+  return with_mass_said(context, file, valid(std::move(imported.model)));
 }
 
 ReadModel import_nastran(StepContext& context, const std::filesystem::path& file) {
@@ -77,7 +87,7 @@ ReadModel import_nastran(StepContext& context, const std::filesystem::path& file
   model_io::NastranModel imported = model_io::read_nastran(file);
   for (const std::filesystem::path& read : imported.files) context.input(read);
   for (const std::string& note : imported.notes) context.say(note);
-  return valid(std::move(imported.model));
+  return with_mass_said(context, file, valid(std::move(imported.model)));
 }
 
 ReadModel import_file(StepContext& context, const std::filesystem::path& file) {

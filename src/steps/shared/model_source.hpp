@@ -50,7 +50,7 @@ struct LoadedModel {
 [[nodiscard]] ReadModel read_model_folder(const std::filesystem::path& folder);
 
 /// Reads an .inp file of CalculiX or Abaqus (model_io/inp.hpp), or a deck of ANSYS (model_io/ansys.hpp), and reports what it
-/// cannot use.
+/// cannot use, with the mass of the whole.
 [[nodiscard]] ReadModel import_inp(StepContext& context, const std::filesystem::path& file);
 
 /// Reads a Nastran deck (model_io/nastran.hpp), registers the files that it includes, and reports what it cannot use.

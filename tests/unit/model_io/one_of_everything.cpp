@@ -63,6 +63,7 @@ fe::Model one_of_everything() {
   const Eigen::Matrix3d k{{1e6 / 3.0, -2e5, 0.0}, {3e5, 1e5, 7.0}, {0.0, 1.0, 4e4}};
   m.matrix_elements = {{"self_excited", "wind", {{1, 2}, {2, 4}}, 1, k, Eigen::Matrix3d::Identity() / 7.0, {}}};
   m.links = {{"eccentric", 0, 3}};
+  m.constraints = {{"tie", 2, 4, {{1, 4, 1.0 / 3.0}, {0, 2, -2.0}}}};
   m.masses = {{"rail", 1, 120.5, {1.0, 2.0, 3.0}}};
   m.supports = {{"foot_north", 0, {true, true, true, false, true, false}}};
   m.parameters = {{"E_s", fe::Target::youngs_modulus, {"steel"}, "Pa", 210e9, 190e9, 220e9},

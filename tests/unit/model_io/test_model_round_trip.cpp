@@ -8,8 +8,8 @@
 namespace twindeck::model_io::test {
 namespace {
 
-const char* const kFiles[] = {"model.toml",   "nodes.csv",   "elements.csv", "materials.csv", "sections.csv",
-                              "supports.csv", "springs.csv", "links.csv",    "masses.csv",    "points.csv"};
+const char* const kFiles[] = {"model.toml",  "nodes.csv", "elements.csv", "materials.csv", "sections.csv",   "supports.csv",
+                              "springs.csv", "links.csv", "masses.csv",   "points.csv",    "constraints.csv"};
 
 /// Half a unit in the twelfth digit.
 void expect_12_digits(double a, double b) { EXPECT_LE(std::abs(a - b), 5.1e-12 * std::abs(a)) << a << " became " << b; }
@@ -136,6 +136,14 @@ TEST(ModelRoundTrip, ReturnsElementsAndWhatHangsOnThem) {
   EXPECT_EQ(a.links[0].name, b.links[0].name);
   EXPECT_EQ(a.links[0].master, b.links[0].master);
   EXPECT_EQ(a.links[0].slave, b.links[0].slave);
+  ASSERT_EQ(b.constraints.size(), 1u);
+  EXPECT_EQ(b.constraints[0].name, "tie");
+  EXPECT_EQ(b.constraints[0].node, 2);
+  EXPECT_EQ(b.constraints[0].direction, 4);
+  ASSERT_EQ(b.constraints[0].terms.size(), 2u);
+  EXPECT_EQ(b.constraints[0].terms[1].node, 0);
+  EXPECT_EQ(b.constraints[0].terms[1].direction, 2);
+  expect_12_digits(b.constraints[0].terms[0].factor, 1.0 / 3.0);
   ASSERT_EQ(b.masses.size(), 1u);
   EXPECT_EQ(a.masses[0].group, b.masses[0].group);
   EXPECT_EQ(a.masses[0].node, b.masses[0].node);

@@ -158,6 +158,82 @@ TEST(NastranElements, ShellsAndSolids) {
   EXPECT_EQ(m.elements[1].group, "psolid_3");
 }
 
+TEST(NastranElements, AMeanOfGridsThatCarriesAMass) {
+  const TestFolder folder;
+  // Springs of 300 and 700 N/m under the ends of a line; the mean with weights 3 and 1 at a quarter of it hangs on
+  // 1 / (0.75²/300 + 0.25²/700).
+  const std::string deck =
+      "GRID,1,,0.,0.,0.,,12456\nGRID,2,,1.,0.,0.,,12456\nGRID,5,,.25,0.,0.,,12456\nCELAS2,1,300.,1,3\n"
+      "CELAS2,2,700.,2,3\nRBE3,7,,5,3,3.,3,1,1.\n,3,2\nCONM2,9,5,,2.\n";
+  const double k = 1.0 / (0.75 * 0.75 / 300.0 + 0.25 * 0.25 / 700.0);
+  EXPECT_NEAR(frequencies(import_deck(folder, deck).model, 1).at(0), oscillator_Hz(k, 2.0), 1e-9);
+  // With the slope of the line too, the reference grid moves as the line does at its place, whatever the weights.
+  const std::string with_slope =
+      "GRID,1,,0.,0.,0.,,12456\nGRID,2,,1.,0.,0.,,12456\nGRID,5,,.25,0.,0.,,1246\nCELAS2,1,300.,1,3\n"
+      "CELAS2,2,700.,2,3\nRBE3,7,,5,35,3.,3,1,1.\n,3,2\nCONM2,9,5,,2.\n";
+  const fe::Model line = import_deck(folder, with_slope).model;
+  ASSERT_EQ(line.constraints.size(), 2U);
+  EXPECT_NEAR(line.constraints[0].terms.at(0).factor, 0.75, 1e-12);
+  EXPECT_NEAR(line.constraints[1].terms.at(0).factor, 1.0, 1e-12);  // ry = (z1 - z2) / 1 m
+  EXPECT_NEAR(line.constraints[1].terms.at(1).factor, -1.0, 1e-12);
+  const fe::Model millimetres =
+      import_deck(folder,
+                  "GRID,1,,0.,0.,0.,,12456\nGRID,2,,1000.,0.,0.,,12456\nGRID,5,,250.,0.,0.,,1246\nCELAS2,1,.3,1,3\n"
+                  "CELAS2,2,.7,2,3\nRBE3,7,,5,35,3.,3,1,1.\n,3,2\nCONM2,9,5,,.002\n",
+                  "[units]\nlength = \"mm\"\nforce = \"N\"\n")
+          .model;
+  EXPECT_NEAR(millimetres.constraints[1].terms.at(0).factor, 1.0, 1e-12);
+  EXPECT_NEAR(frequencies(millimetres, 1).at(0), frequencies(line, 1).at(0), 1e-9);
+}
+
+TEST(NastranElements, EquationsAndHinges) {
+  const TestFolder folder;
+  // A lever: z of grid 2 is -3 times that of grid 1, whose mass is 2 kg; the spring under grid 2 counts nine times.
+  const std::string lever =
+      "CEND\nSPC = 1\nMPC = 4\nBEGIN BULK\nGRID,1,,0.,0.,0.,,12456\nGRID,2,,1.,0.,0.,,12456\n"
+      "MPC,4,2,3,2.,1,3,6.\nCELAS2,1,50.,2,3\nCONM2,9,1,,2.\nSPC1,1,1,1\n";
+  EXPECT_NEAR(frequencies(import_deck(folder, lever).model, 1).at(0), oscillator_Hz(450.0, 2.0), 1e-9);
+  // In a displacement system whose z points against the basic x.
+  const std::string turned =
+      "CEND\nSPC = 1\nMPC = 4\nBEGIN BULK\nCORD2R,3,,0.,0.,0.,-1.,0.,0.\n,0.,0.,1.\n"
+      "GRID,1,,0.,0.,0.,,12456\nGRID,2,,1.,0.,0.,3\nMPC,4,2,3,2.,1,3,6.\nCELAS2,1,50.,2,3\n"
+      "CONM2,9,1,,2.\nSPC1,1,12456,2\n";
+  EXPECT_NEAR(frequencies(import_deck(folder, turned).model, 1).at(0), oscillator_Hz(450.0, 2.0), 1e-9);
+  // RBE2 of 123: the bar that begins there is hinged, so that nothing but a torsion spring holds its rotation about y.
+  const fe::Model hinge = of(folder,
+                             "GRID,3,,1.,0.,0.,,46\nGRID,4,,3.,0.,0.,,1246\nRBE2,1,2,123,3\nSPC1,1,123456,2\n"
+                             "CBAR,1,4,3,4,0.,1.,0.\nPBAR,4,2,1.,1.,1.,1.\nMAT1,2,2.+11,8.+10,.25,1.-9\nCELAS2,8,60.,3,5\n"
+                             "CONM2,9,4,,2.\nCONROD,7,1,2,1,1.-9\n");
+  EXPECT_NEAR(frequencies(hinge, 1).at(0), oscillator_Hz(60.0, 8.0), 1e-6);
+}
+
+TEST(NastranElements, DirectMatricesInTurnedAxes) {
+  const TestFolder folder;
+  // 40 N/m along the second direction of a system whose y is the basic -x; half of it by the factor of the case control.
+  const std::string deck =
+      "CEND\nSPC = 1\nK2GG = 0.5*kx\nBEGIN BULK\nCORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\n"
+      "GRID,1,,0.,0.,0.,3\nDMIG,KX,0,6,1\nDMIG,KX,1,2,,1,2,40.\nCONM2,9,1,,2.\nSPC1,1,13456,1\nPARAM,WTMASS,.5\n";
+  const fe::Model m = import_deck(folder, deck).model;
+  EXPECT_NEAR(frequencies(m, 1).at(0), oscillator_Hz(20.0, 1.0), 1e-9);
+  ASSERT_EQ(m.matrix_elements.size(), 1U);
+  EXPECT_EQ(m.matrix_elements[0].dofs.at(0).direction, 0);
+  EXPECT_EQ(m.matrix_elements[0].group, "dmig_KX");
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& words) {
+    std::string changed = deck;
+    changed.replace(changed.find(from), from.size(), to);
+    const std::string message = message_of([&] { (void)import_deck(folder, changed); });
+    EXPECT_NE(message.find("deck.bdf:"), std::string::npos) << message;
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  refused("0.5*kx", "KY", "3: K2GG: chooses the matrix KY, which no DMIG card has");
+  refused("0.5*kx", "a*kx", "expected a number");
+  refused("DMIG,KX,0,6,1", "DMIG,KX,0,1,1", "IFO 1, expected 6");
+  refused("DMIG,KX,0,6,1", "DMIG,KX,0,6,3", "TIN 3, expected 1 or 2");
+  refused("DMIG,KX,1,2,,1,2,40.", "DMIG,KX,1,0,,1,2,40.", "component 0 of point 1");
+  refused("1,2,40.", "1,2,40.,,\n,1,2,41.", "stands twice");
+  refused("K2GG", "K2PP", "K2PP");
+}
+
 struct Refusal {
   const char* cards;
   const char* words;
@@ -168,11 +244,15 @@ TEST(NastranElements, EveryRefusalNamesItsLine) {
   // Each stands in line 5, below the four of two_grids.
   const std::vector<Refusal> refusals = {
       {"CTETRA,1,2,1,2,3,4", "hexahedra"},
-      {"RBE3,1,,1,123,1.,123,2", "CONM2"},
+      {"RBE3,1,,1,456,1.,123,2", "do not determine component 4 of grid 1"},
+      {"RBE3,1,,1,123,1,123,2", "a weight is '1'"},
+      {"RBE3,1,,1,123,1.,123,2\n,UM,2,1", "UM"},
+      {"RBE3,1,,1,123,1.,123,7", "grid 7 is not defined"},
+      {"DMIG,KX,0,6,1", "no case control chooses it"},
       {"CQUAD8,1,2,1,2,3,4,5,6", "CQUAD4"},
       {"PCOMP,1", "PSHELL"},
       {"CBAT,1,2,1,2", "unknown card (did you mean 'CBAR'?)"},
-      {"MPC,1,1,1,1.,2,1,-1.", "RBE2"},
+      {"MPC,1,1,1,1.,2,1,-1.", "no case control chooses its set"},
       {"=,*1", "repeats the card above"},
       {"CBAR,1,4,1,2,0.,1.,0.", "property 4 is no PBAR or PBARL"},
       {"CBAR,1,4,1,2,1.,0.,0.\nPBAR,4,1,1.,1.,1.,1.", "lies along the member"},
@@ -185,7 +265,6 @@ TEST(NastranElements, EveryRefusalNamesItsLine) {
       {"PELAS,4,1.\nPELAS,4,2.", "defined twice"},
       {"CELAS2,1,-5.,1,1", "0 or more"},
       {"CELAS2,1,5.,7,1\nSPOINT,7", "scalar point"},
-      {"RBE2,1,1,123,2\nCBAR,1,4,1,2,0.,1.,0.\nPBAR,4,1,1.,1.,1.,1.", "in '123' only"},
       {"RBAR,1,1,2,123,456", "shares its six motions"},
       {"CONM2,1,1,,-1.", "negative"},
       {"GRID,3,5,0.,0.,0.\nCELAS2,1,1.,3,1", "coordinate system 5 is not defined"},

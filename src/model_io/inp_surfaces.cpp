@@ -1,0 +1,81 @@
+#include "model_io/inp_surfaces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+#include "model_io/inp_elements.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+/// Faces S1 to S6 of a hexahedron by the positions of its nodes, outward.
+constexpr std::array<std::array<std::size_t, 4>, 6> hexahedron_faces = {
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+
+/// The facet that "S3" of an element names.
+InpFacet facet_of(const InpParts& parts, const InpCard& card, long line, const InpElement& element, const std::string& face) {
+  const InpKind kind = inp_kind(element.type);
+  const bool numbered = face.size() == 2 && face[1] >= '1' && face[1] <= '6';
+  const std::size_t at = numbered ? static_cast<std::size_t>(face[1] - '1') : 0;
+  InpFacet facet{{}, element.id, kind == InpKind::shell};
+  if (kind == InpKind::solid && numbered && face[0] == 'S') {
+    for (const std::size_t i : hexahedron_faces[at]) facet.nodes.push_back(element.nodes[i]);
+  } else if (kind == InpKind::shell && (face.empty() || face == "SPOS" || face == "SNEG")) {
+    facet.nodes = element.nodes;
+  } else if (kind == InpKind::shell && numbered && face[0] == 'E' && at < element.nodes.size()) {
+    facet.nodes = {element.nodes[at], element.nodes[(at + 1) % element.nodes.size()]};
+  } else {
+    parts.file.fail(card, line, fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
+                    "solids have S1 to S6, shells SPOS, SNEG and edges E1 to E4; name nodes by TYPE=NODE");
+  }
+  return facet;
+}
+
+void add_faces(InpParts& parts, const InpCard& card, const InpLine& line, InpSurface& surface) {
+  const std::string face = line.fields.size() > 1 ? upper_case(line.fields[1]) : "";
+  std::vector<long> ids;
+  if (parts.is_number(line.fields[0]))
+    ids = {parts.element_id(card, line, 0)};
+  else
+    ids = parts.set(parts.element_sets, card, line.line, line.fields[0]).members;
+  for (const long id : ids) {
+    const auto element = parts.elements.find(id);
+    if (element == parts.elements.end())
+      parts.file.fail(card, line.line, fmt::format("element {} is not defined by any *ELEMENT", id), "define it");
+    surface.facets.push_back(facet_of(parts, card, line.line, element->second, face));
+    const auto& nodes = surface.facets.back().nodes;
+    surface.nodes.insert(surface.nodes.end(), nodes.begin(), nodes.end());
+  }
+}
+
+}  // namespace
+
+void read_inp_surface(InpParts& parts, const InpCard& card) {
+  parts.file.allow(card, {"NAME", "TYPE", "INTERNAL"});
+  const std::string type = upper_case(card.get("TYPE", "ELEMENT"));
+  if (type != "ELEMENT" && type != "NODE")
+    parts.file.fail(card, card.line, fmt::format("unsupported TYPE={}", type), "give faces of elements, or nodes");
+  InpSurface surface;
+  surface.name = parts.file.required(card, "NAME");
+  for (const InpLine& line : card.data) {
+    if (line.fields[0].empty())
+      parts.file.fail(card, line.line, "names no element or set: the free faces of everything are not read",
+                      "name the faces, as in: SET, S1");
+    if (type == "ELEMENT") {
+      add_faces(parts, card, line, surface);
+      continue;
+    }
+    const std::vector<long> nodes = parts.nodes_of(card, line, 0);
+    surface.nodes.insert(surface.nodes.end(), nodes.begin(), nodes.end());
+  }
+  std::sort(surface.nodes.begin(), surface.nodes.end());
+  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
+  if (surface.nodes.empty()) parts.file.fail(card, card.line, "holds nothing", "name faces or nodes below it");
+  if (!parts.surfaces.emplace(parts.key_here(surface.name), surface).second)
+    parts.file.fail(card, card.line, fmt::format("surface '{}' is defined twice", surface.name), "keep one of the two");
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "model_io/nastran_parts.hpp"
+
+/// Inside of the library: matrices given term by term at grids (DMIG).
+namespace twindeck::model_io::nastran {
+
+/// The matrices that K2GG and M2GG of the case control choose become elements given by matrices. Real symmetric ones (IFO 6)
+/// are read. PARAM,WTMASS does not scale M2GG, as in Nastran.
+/// @throws InputError  for another form, scalar points, terms that stand twice, a matrix of more than 500 grids
+void read_direct_matrices(Parts& parts);
+
+}  // namespace twindeck::model_io::nastran
