@@ -241,6 +241,22 @@ bool is_beside(const std::vector<DiagramPole>& diagram, const std::vector<int>& 
   return static_cast<double>(both) >= rule.share_beside * static_cast<double>(orders.size());
 }
 
+/// A mode that a second cluster follows beside the first, nearer than half its bandwidth and of the same shape, is one mode.
+/// Two poles at nearly all orders, however, are two modes. @param clusters  the largest first
+std::vector<Cluster> distinct_clusters(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
+                                       std::vector<Cluster> clusters, const AutomaticRule& rule) {
+  std::vector<Cluster> distinct;
+  for (Cluster& cluster : clusters) {
+    const bool again = std::any_of(distinct.begin(), distinct.end(), [&](const Cluster& larger) {
+      const double half_bandwidth = larger.damping_ratio * larger.frequency_Hz;
+      return std::abs(cluster.frequency_Hz - larger.frequency_Hz) < half_bandwidth &&
+             std::norm(cluster.shape.dot(larger.shape)) > 0.8 && !is_beside(diagram, orders, cluster, larger, rule);
+    });
+    if (!again) distinct.push_back(std::move(cluster));
+  }
+  return distinct;
+}
+
 }  // namespace
 
 std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
@@ -289,20 +305,10 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
     for (const std::size_t i : members) claimed[i] = true;
     clusters.push_back(summarise(diagram, members));
   }
-  // A mode that a second cluster follows beside the first, nearer than half its bandwidth and of the same shape, is one mode.
-  // Two poles at nearly all orders, however, are two modes.
-  std::vector<Cluster> distinct;
-  for (Cluster& cluster : clusters) {
-    const bool again = std::any_of(distinct.begin(), distinct.end(), [&](const Cluster& larger) {
-      const double half_bandwidth = larger.damping_ratio * larger.frequency_Hz;
-      return std::abs(cluster.frequency_Hz - larger.frequency_Hz) < half_bandwidth &&
-             std::norm(cluster.shape.dot(larger.shape)) > 0.8 && !is_beside(diagram, orders, cluster, larger, rule);
-    });
-    if (!again) distinct.push_back(std::move(cluster));
-  }
-  distinct = without_mixtures(diagram, whole_chains(diagram, orders, distinct, cut), rule);
-  number_clusters(diagram, distinct);
-  return distinct;
+  clusters = distinct_clusters(diagram, orders, std::move(clusters), rule);
+  clusters = without_mixtures(diagram, whole_chains(diagram, orders, clusters, cut), rule);
+  number_clusters(diagram, clusters);
+  return clusters;
 }
 
 }  // namespace twindeck::sysid

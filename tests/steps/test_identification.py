@@ -240,7 +240,7 @@ class Identification(unittest.TestCase):
                  ("name", self.data[:20000], {"toml": "WRONG_NAME"}, [], "campaign.toml:6: channels: channel 'c4' is not in channels.csv (did you mean 'c04'?)"),
                  ("setup", self.data[:20000], {}, ["setup=ST9"], "no record has setup 'ST9'"),
                  ("reference", self.data[:20000], {}, ['references=["c99"]'], "'c99' is no channel of the record"),
-                 ("short", self.data[:3000], {}, ["welch_segment=256"], "cut the record of 300 samples into 20 blocks of 15"),
+                 ("short", self.data[:3000], {}, ["welch_segment=256"], "has 300 samples after decimation, expected at least 320"),
                  ("order", self.data[:20000], {}, ["maximum_order=90"], "is 90, but 20 block rows of 4 channels with 4 references carry at most 76"),
                  ("clock", self.data[:20000], {"toml": "CSV_CLOCK"}, [], "runs at 50 Hz"),
                  ("columns", self.data[:20000, :3], {}, [], "has 3 columns, but campaign.toml names 4 channels"),

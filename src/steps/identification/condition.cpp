@@ -201,13 +201,6 @@ ConditionResult read_condition(const Campaign& campaign, const std::vector<Recor
     result.setups.push_back(std::move(setup));
   }
   for (const std::string& warning : left_out) context.warn(warning);
-  if (config.highest_Hz == 0.0) {
-    const double rate_Hz = result.setups.front().conditioned.rate_Hz;
-    context.say(
-        fmt::format("condition {}: modes are looked for up to {:.4g} Hz, 0.8 of the Nyquist frequency; where the sensors "
-                    "see less, give band.highest",
-                    result.condition, 0.4 * rate_Hz));
-  }
   if (result.setups.size() > 1 && common_references(result).empty()) {
     throw InputError(
         {(campaign.folder / "channels.csv").string(), 0, "reference"},
@@ -240,6 +233,13 @@ void identify_condition(ConditionResult& result, const IdentificationConfig& con
         std::min_element(result.setups.begin(), result.setups.end(),
                          [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
     check_merging(result, references, fewest->limits);
+  }
+  if (config.highest_Hz == 0.0) {
+    const double rate_Hz = result.setups.front().conditioned.rate_Hz;
+    context.say(
+        fmt::format("condition {}: modes are looked for up to {:.4g} Hz, 0.8 of the Nyquist frequency; where the sensors "
+                    "see less, give band.highest",
+                    result.condition, 0.4 * rate_Hz));
   }
 }
 
