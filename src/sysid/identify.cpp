@@ -13,15 +13,22 @@ namespace twindeck::sysid {
 
 namespace {
 
+/// A deviation within this many times the least one of a record of this length says nothing against a mode: records of few
+/// cycles leave every mode so, and deviations from few blocks are themselves known to a third.
+constexpr double kNearLaw = 3.0;
+
 bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const IdentifyOptions& options, double seconds) {
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6);
   if (options.selection == Selection::paper)
     return options.largest_deviation <= 0.0 || deviation.frequency_Hz <= options.largest_deviation * f;
   const double share = options.largest_bandwidth_share;
-  if (share > 0.0 && deviation.frequency_Hz > share * zeta * f) return false;
-  if (seconds <= 0.0 || options.largest_law_ratio <= 0.0) return true;
-  const double law = f * std::sqrt(zeta / (2.0 * std::numbers::pi * f * seconds));
-  return deviation.frequency_Hz <= options.largest_law_ratio * law && deviation.damping_ratio <= zeta;
+  if (seconds <= 0.0) return share <= 0.0 || deviation.frequency_Hz <= share * zeta * f;
+  if (options.largest_law_ratio <= 0.0) return true;
+  // In relation to the half bandwidth and to the damping ratio itself, the least deviation is the same number.
+  const double law = std::sqrt(1.0 / (2.0 * std::numbers::pi * f * zeta * seconds)), short_record = kNearLaw * law;
+  const double frequency = deviation.frequency_Hz / (zeta * f), damping = deviation.damping_ratio / zeta;
+  return frequency <= options.largest_law_ratio * law && (share <= 0.0 || frequency <= std::max(share, short_record)) &&
+         damping <= std::max(1.0, short_record);
 }
 
 /// Another mode, better settled, that this one can't be told from.

@@ -32,9 +32,11 @@ struct IdentifyOptions {
   /// times
   ///     f sqrt(zeta / (2 pi N_c)),   N_c the cycles in the record,
   /// the lower limit for a record of this length (Au 2014): its pole recurs, but it hardly contributes to the motion. It is
-  /// also dropped if its damping ratio is not larger than its standard deviation. 0 keeps all.
+  /// also dropped if its damping ratio is not larger than its standard deviation, unless three times the lower limit allow
+  /// more. 0 keeps all.
   double largest_law_ratio = 10.0;
-  /// Automatic selection: dropped if it exceeds this share of the half bandwidth zeta f. 0 keeps all.
+  /// Automatic selection: dropped if it exceeds this share of the half bandwidth zeta f; of a record also three times the lower
+  /// limit, since in few cycles no mode is known better. 0 keeps all.
   double largest_bandwidth_share = 0.5;
 
   [[nodiscard]] std::vector<int> orders() const;

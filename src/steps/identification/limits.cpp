@@ -24,9 +24,9 @@ long shortest(const std::vector<Eigen::MatrixXd>& records) {
   return static_cast<long>(least->rows());
 }
 
-/// Block rows that an input-output identification of n samples carries (sysid::identify_input_output).
-long most_rows_with_inputs(const Conditioned& conditioned, long n) {
-  return n / static_cast<long>(4 * (conditioned.channels.size() + conditioned.inputs.size()) + 2);
+/// Samples that an input-output identification needs for each block row (sysid::identify_input_output).
+long samples_per_row_with_inputs(const Conditioned& conditioned) {
+  return static_cast<long>(4 * (conditioned.channels.size() + conditioned.inputs.size()) + 2);
 }
 
 class Limits {
@@ -51,21 +51,20 @@ class Limits {
 CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationConfig& config) {
   const long n = shortest(conditioned.records);
   const bool with_inputs = !conditioned.excitation.empty();
-  const long least =
-      with_inputs ? kFewestBlockRows * static_cast<long>(4 * (conditioned.channels.size() + conditioned.inputs.size()) + 2)
-                  : kSamplesPerRow * kFewestBlockRows * kFewestBlocks;
-  if (n < std::max(least, kLeastSegment)) {
-    throw UnusableRecord(
-        {conditioned.files.front(), 0, ""},
-        fmt::format("has {} samples after decimation, expected at least {}", n, std::max(least, kLeastSegment)),
-        "give a longer record, or a smaller decimation");
+  // Who asks for less than these gets it.
+  const long fewest_rows = std::min(config.block_rows, kFewestBlockRows), blocks = std::min(config.blocks, kFewestBlocks);
+  const long identified = fewest_rows * (with_inputs ? samples_per_row_with_inputs(conditioned) : kSamplesPerRow * blocks);
+  const long least = std::max(identified, std::min(config.welch_segment, kLeastSegment));
+  if (n < least) {
+    throw UnusableRecord({conditioned.files.front(), 0, ""},
+                         fmt::format("has {} samples after decimation, expected at least {}", n, least),
+                         "give a longer record, or a smaller decimation");
   }
   Limits limits(config);
   if (with_inputs) {
-    limits.lower("block_rows", &IdentificationConfig::block_rows, most_rows_with_inputs(conditioned, n));
+    limits.lower("block_rows", &IdentificationConfig::block_rows, n / samples_per_row_with_inputs(conditioned));
   } else {
-    limits.lower("blocks", &IdentificationConfig::blocks,
-                 std::max(std::min(config.blocks, kFewestBlocks), n / (kSamplesPerRow * config.block_rows)));
+    limits.lower("blocks", &IdentificationConfig::blocks, std::max(blocks, n / (kSamplesPerRow * config.block_rows)));
     limits.lower("block_rows", &IdentificationConfig::block_rows, n / (kSamplesPerRow * limits.config().blocks));
   }
   // What the configured block rows do not carry is a slip of the configuration, and refused later; what fewer rows do not carry
