@@ -17,6 +17,7 @@
 #include "model_io/inp_surfaces.hpp"
 #include "model_io/inp_ties.hpp"
 #include "model_io/model_toml.hpp"
+#include "model_io/node_references.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -125,40 +126,16 @@ void attach_ties(InpParts& parts, const InpPlan& plan) {
 void drop_unused_nodes(InpParts& parts) {
   fe::Model& model = parts.model;
   std::vector<int> now(model.nodes.size(), -1);
-  const auto use = [&](int node) {
-    if (node >= 0) now[static_cast<std::size_t>(node)] = 0;
-  };
-  for (const fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), use);
-  for (const fe::Spring& s : model.springs) use(s.node), use(s.node2);
-  for (const fe::RigidLink& link : model.links) use(link.master), use(link.slave);
-  for (const fe::Constraint& c : model.constraints) {
-    use(c.node);
-    for (const fe::Constraint::Term& term : c.terms) use(term.node);
+  for_each_joined_node(model, [&](int& node) { now[static_cast<std::size_t>(node)] = 0; });
+  int kept = 0;
+  for (int& to : now) {
+    if (to >= 0) to = kept++;
   }
-  for (const fe::PointMass& mass : model.masses) use(mass.node);
-  std::vector<fe::Node> kept;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i] < 0) continue;
-    now[i] = static_cast<int>(kept.size());
-    kept.push_back(model.nodes[i]);
-  }
-  if (kept.size() == now.size()) return;
-  parts.notes.push_back(fmt::format("nodes that no element, link or tie uses are left out: {}", now.size() - kept.size()));
-  const auto move = [&](int& node) {
-    if (node >= 0) node = now[static_cast<std::size_t>(node)];
-  };
-  model.nodes = std::move(kept);
-  for (fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), move);
-  for (fe::Spring& s : model.springs) move(s.node), move(s.node2);
-  for (fe::RigidLink& link : model.links) move(link.master), move(link.slave);
-  for (fe::Constraint& c : model.constraints) {
-    move(c.node);
-    for (fe::Constraint::Term& term : c.terms) move(term.node);
-  }
-  for (fe::PointMass& mass : model.masses) move(mass.node);
-  for (fe::Support& support : model.supports) move(support.node);
-  std::erase_if(model.supports, [](const fe::Support& support) { return support.node < 0; });
-  for (auto& [id, position] : parts.node_position) move(position);
+  const std::size_t unused = now.size() - static_cast<std::size_t>(kept);
+  if (unused == 0) return;
+  parts.notes.push_back(fmt::format("nodes that no element, link or tie uses are left out: {}", unused));
+  renumber_nodes(model, now);
+  for (auto& [id, position] : parts.node_position) position = now[static_cast<std::size_t>(position)];
   std::erase_if(parts.node_position, [](const auto& entry) { return entry.second < 0; });
 }
 

@@ -21,6 +21,7 @@
 #include "model_io/nastran_springs.hpp"
 #include "model_io/nastran_supports.hpp"
 #include "model_io/nastran_units.hpp"
+#include "model_io/node_references.hpp"
 
 namespace twindeck::model_io {
 namespace nastran {
@@ -116,30 +117,11 @@ double read_parameters(Parts& parts) {
 
 /// Nodes in the order of their numbers, which is how people look for them.
 void sort_nodes(Parts& parts) {
-  fe::Model& model = parts.model;
-  std::vector<int> now(model.nodes.size());
-  std::vector<fe::Node> sorted;
-  for (const auto& [grid, position] : parts.node_position) {
-    now[static_cast<std::size_t>(position)] = static_cast<int>(sorted.size());
-    sorted.push_back(model.nodes[static_cast<std::size_t>(position)]);
-  }
-  const auto move = [&](int& node) {
-    if (node >= 0) node = now[static_cast<std::size_t>(node)];
-  };
-  model.nodes = std::move(sorted);
-  for (fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), move);
-  for (fe::Spring& s : model.springs) move(s.node), move(s.node2);
-  for (fe::MatrixElement& e : model.matrix_elements) {
-    for (fe::MatrixElement::Dof& dof : e.dofs) move(dof.node);
-  }
-  for (fe::RigidLink& link : model.links) move(link.master), move(link.slave);
-  for (fe::Constraint& c : model.constraints) {
-    move(c.node);
-    for (fe::Constraint::Term& term : c.terms) move(term.node);
-  }
-  for (fe::PointMass& mass : model.masses) move(mass.node);
-  for (fe::Support& support : model.supports) move(support.node);
-  const std::size_t unused = parts.grids.size() - model.nodes.size();
+  std::vector<int> now(parts.model.nodes.size());
+  int next = 0;
+  for (const auto& [grid, position] : parts.node_position) now[static_cast<std::size_t>(position)] = next++;
+  renumber_nodes(parts.model, now);
+  const std::size_t unused = parts.grids.size() - parts.model.nodes.size();
   if (unused > 0) parts.notes.push_back(fmt::format("grids that no element, mass or link uses are left out: {}", unused));
 }
 
