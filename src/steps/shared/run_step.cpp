@@ -1,6 +1,7 @@
 #include "steps/shared/run_step.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -67,6 +68,16 @@ void refuse_to_replace_foreign(const fs::path& folder, const std::string& token)
   }
 }
 
+/// The nearest folder above the results that exists must take them: said before a long computation, and by --check.
+void refuse_unmakeable(const fs::path& folder) {
+  std::error_code unreadable;
+  fs::path above = fs::absolute(folder).parent_path();
+  while (!fs::exists(above, unreadable) && above.has_relative_path()) above = above.parent_path();
+  if (fs::is_directory(above, unreadable) && ::access(above.c_str(), W_OK | X_OK) == 0) return;
+  throw InputError({"command line", 0, "--out"}, fmt::format("'{}' cannot be made in '{}'", folder.string(), above.string()),
+                   "name a place in a folder that you may write to");
+}
+
 fs::path unconverged_place(fs::path out) { return out += ".unconverged"; }
 
 std::map<std::string, std::string> hashes_below(const fs::path& folder) {
@@ -120,6 +131,7 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
   step.fields.require();
   refuse_to_replace_foreign(out, step.token);
   refuse_to_replace_foreign(unconverged, step.token);
+  refuse_unmakeable(out);
   context.study = line.study;
   context.results = line.results.empty() ? (out.has_parent_path() ? out.parent_path() : fs::path(".")) : line.results;
   context.model = line.model;
