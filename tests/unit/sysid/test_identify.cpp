@@ -2,6 +2,9 @@
 // with Au's closed-form law cov f = sqrt(zeta / (2 pi N_c)).
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "calibration.hpp"
 #include "modal/mac.hpp"
 #include "signal/condition.hpp"
@@ -19,6 +22,36 @@ IdentifyOptions options() {
 
 Identification identified(const Eigen::MatrixXd& data, double rate, const std::vector<Eigen::Index>& references) {
   return identify(signal::correlations(signal::detrended(data), references, 50, 20), rate, options());
+}
+
+/// Whether a mode with these deviations stays in a record of this length.
+bool stays(double frequency_Hz, double damping_ratio, const ModeDeviation& deviation, double seconds,
+           const IdentifyOptions& o) {
+  Identification found;
+  Cluster mode;
+  mode.frequency_Hz = frequency_Hz;
+  mode.damping_ratio = damping_ratio;
+  mode.shape = Eigen::VectorXcd::Ones(2).normalized();
+  found.modes.push_back(mode);
+  found.deviations.push_back(deviation);
+  drop_undetermined(found, o, seconds);
+  return found.modes.size() == 1;
+}
+
+TEST(Identify, AModeOfFewCyclesStaysIfItIsAsWellKnownAsTheRecordAllows) {
+  const double f = 1.228, zeta = 0.002;  // 4 minutes are 295 cycles: the law allows half of the half bandwidth and no less
+  const auto law = [&](double seconds) { return std::sqrt(zeta / (2.0 * std::numbers::pi * f * seconds)); };
+  ModeDeviation deviation;
+  deviation.frequency_Hz = 1.5 * law(240.0) * f;
+  deviation.damping_ratio = 2.5 * law(240.0);
+  IdentifyOptions o = options();
+  EXPECT_TRUE(stays(f, zeta, deviation, 240.0, o));
+  EXPECT_FALSE(stays(f, zeta, deviation, 14400.0, o));  // four hours would show a mode better
+  ModeDeviation damping_unknown = deviation;
+  damping_unknown.damping_ratio = 4.0 * law(240.0);
+  EXPECT_FALSE(stays(f, zeta, damping_unknown, 240.0, o));
+  o.largest_law_ratio = 0.0;  // any
+  EXPECT_TRUE(stays(f, zeta, damping_unknown, 14400.0, o));
 }
 
 TEST(Identify, ChainUnderWhiteNoise) {
