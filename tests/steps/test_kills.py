@@ -12,6 +12,7 @@ import random
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -21,6 +22,15 @@ BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resol
 KILLS = int(os.environ.get("TWINDECK_KILLS", "6"))
 SEED = int(os.environ.get("TWINDECK_KILLS_SEED", "1"))
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
+# No shell script: between fork and exec of `sleep`, dash takes an interrupt for itself and its child goes on.
+WAITING = """#!{python}
+import pathlib, signal, time
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+folder = pathlib.Path("{folder}")
+folder.mkdir(parents=True, exist_ok=True)
+(folder / "manifest.json").write_text("{{}}")
+time.sleep(60)
+"""
 
 
 def alive(group):
@@ -98,7 +108,7 @@ class Kills(unittest.TestCase):
         bin_folder, results = self.folder / "bin", self.folder / "interrupted"
         bin_folder.mkdir()
         waiting = bin_folder / "s1_model"
-        waiting.write_text(f"#!/bin/sh\nmkdir -p {results}/s1_model\necho '{{}}' >{results}/s1_model/manifest.json\nsleep 60\n")
+        waiting.write_text(WAITING.format(python=sys.executable, folder=results / "s1_model"))
         waiting.chmod(0o755)
         for number in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(number):

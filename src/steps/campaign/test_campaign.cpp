@@ -39,12 +39,30 @@ Status write_calibration(const VirtualBridge& bridge, const CampaignSettings& se
   return found.status;
 }
 
+/// Refuses corrections that were found for other frequencies or for another bridge. @param state  with the corrections,
+/// untouched by temperature
+void refuse_stale_corrections(const CampaignSettings& settings, const BridgeState& state) {
+  constexpr double kAllowed = 0.002;  // [-] ten times what --calibrate ends at: rounding and a mode that turns do not reach it
+  if (settings.corrections.empty()) return;
+  for (std::size_t i = 0; i < settings.named.size(); ++i) {
+    const NamedMode& wanted = settings.named[i];
+    const double f_Hz = state.modes.frequency_Hz[state.named[i]];
+    if (std::abs(f_Hz / wanted.frequency_Hz - 1.0) > kAllowed)
+      throw InputError(
+          {settings.corrections, 0, "factor"},
+          fmt::format("the bridge has mode {} at {:.4f} Hz, expected {:g} Hz within {:g} %, as mode.frequency says",
+                      wanted.name, f_Hz, wanted.frequency_Hz, 100.0 * kAllowed),
+          "find corrections for it with --calibrate and corrections = \"\"");
+  }
+}
+
 /// States of the bridge by temperature: each is solved once.
 std::map<double, BridgeState> solve_states(const VirtualBridge& bridge, const CampaignSettings& settings,
                                            const VectorXd& theta) {
   std::map<double, BridgeState> states;
   const BridgeState& reference =
       states.emplace(settings.reference_temperature_C, solve_bridge(bridge, settings, theta, settings.modes)).first->second;
+  refuse_stale_corrections(settings, reference);
   for (const ConditionSettings& condition : settings.conditions) {
     if (states.contains(condition.temperature_C)) continue;
     BridgeState state =
