@@ -34,7 +34,7 @@ include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: check compare baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
-  smoke bench format fuzz sanitize processors calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
+  smoke bench format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -147,7 +147,10 @@ bench: build ## ratios against peers: modes, derivatives, identification, wind (
 
 processors: build ## the study and the tests under the kernels of other processors: tests failed, columns that move (results/processors/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS)
-	@$(PRODUCT)workflows/python.sh tests/processors/run.py $(BUILD) $(STUDY) $(if $(KERNELS),--kernels $(KERNELS))
+	@$(PRODUCT)workflows/python.sh tests/reproduction/processors.py $(BUILD) $(STUDY) $(if $(KERNELS),--kernels $(KERNELS))
+
+reproduce-check: deps ## two clones made from nothing give the same bytes; with clang and for this processor, which columns move (results/reproduce/*.csv)
+	@$(PRODUCT)workflows/python.sh tests/reproduction/roots.py $(STUDY)
 
 SECONDS ?= 300
 fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFuzzer and sanitizers, SECONDS shared out

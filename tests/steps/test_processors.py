@@ -11,8 +11,10 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "processors"))
-import run as processors  # noqa: E402
+sys.path.insert(0, str(ROOT / "tests" / "reproduction"))
+import processors  # noqa: E402
+import roots  # noqa: E402
+from columns import changes  # noqa: E402
 
 BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
 # What is computed from given data agrees to rounding times the condition of the problem; identification and search have a wider one.
@@ -47,7 +49,7 @@ class Processors(unittest.TestCase):
         reference = self.results[self.names[0]]
         self.assertGreater(len(list(reference.rglob("*.csv"))), 40)
         for name in self.names[1:]:
-            moved = [c for c in processors.changes(reference, self.results[name]) if c[2] > MOST]
+            moved = [c for c in changes(reference, self.results[name]) if c[2] > MOST]
             self.assertEqual(moved, [], name)
 
     def test_a_changed_number_and_a_changed_word_are_seen(self):
@@ -55,10 +57,23 @@ class Processors(unittest.TestCase):
         for folder, number, word in ((a, "1.0", "1X"), (b, "1.00001", "2X")):
             folder.mkdir()
             (folder / "modes.csv").write_text(f"mode,frequency_Hz\n{word},{number}\n3X,2.0\n")
-        seen = {column: change for _, column, change, _ in processors.changes(a, b)}
+        seen = {column: change for _, column, change, _ in changes(a, b)}
         self.assertAlmostEqual(seen["frequency_Hz"], 5e-6, places=9)
         self.assertEqual(seen["mode"], float("inf"))
 
 
 if __name__ == "__main__":
     unittest.main()
+
+    def test_a_manifest_may_differ_in_its_seconds_alone_and_a_table_in_nothing(self):
+        a, b = self.folder / "first", self.folder / "second"
+        for folder, seconds, seed, number in ((a, 1.5, 1, 2), (b, 1.7, 1, 2)):
+            (folder / "s4").mkdir(parents=True)
+            (folder / "s4" / "manifest.json").write_text(f'{{"seconds": {seconds}, "seed": {seed}}}')
+            (folder / "modes.csv").write_text(f"mode\n{number}\n")
+        self.assertEqual([equal for _, equal, _ in roots.compared(a, b)], [True, True])
+        (b / "s4" / "manifest.json").write_text('{"seconds": 1.5, "seed": 2}')
+        (b / "modes.csv").write_text("mode\n3\n")
+        (b / "left.csv").write_text("mode\n")
+        self.assertEqual([(name, equal) for name, equal, _ in roots.compared(a, b)],
+                         [("left.csv", False), ("modes.csv", False), ("s4/manifest.json", False)])

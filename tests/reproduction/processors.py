@@ -5,7 +5,7 @@ results/processors/NAME/STUDY and the tests are run. Then every numeric column o
 same under the first kernel: results/processors/columns.csv (kernel, file, column, change relative to the column's largest number, the
 row where) and tests.csv (kernel, tests, failed). The report shows both with its provenance.
 
-run.py BUILD STUDY [--kernels A,B] [--no-tests] [--no-study]. Exit code 1 if a test fails.
+processors.py BUILD STUDY [--kernels A,B] [--no-tests] [--no-study]. Exit code 1 if a test fails.
 """
 import argparse
 import csv
@@ -15,7 +15,8 @@ import re
 import subprocess
 import sys
 
-import pandas as pd
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from columns import changes, write_changes  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OUT = pathlib.Path("results") / "processors"
@@ -28,8 +29,6 @@ KERNELS = {
     "Zen": {"avx2", "fma"},
     "SkylakeX": {"avx512f", "avx512dq", "avx512vl"},
 }
-# Not results: what a run took and where it was.
-NOT_COMPARED = {"seconds", "manifest"}
 TESTS_LINE = re.compile(r"(\d+)% tests passed, (\d+) tests failed out of (\d+)")
 
 
@@ -60,34 +59,6 @@ def run_tests(name, build):
         again = subprocess.run(["ctest", "--rerun-failed", "--output-on-failure"], cwd=build, env=environment(name), capture_output=True, text=True)
         failed = re.findall(r"^\s*\d+ - (\S+) \(", again.stdout, re.M)
     return int(counts[3]), failed
-
-
-def changes(reference, other):
-    """(file, column, relative change, row) of every numeric column of every CSV below the two folders; a file or row count that differs
-    is a change without a number."""
-    for file in sorted(reference.rglob("*.csv")):
-        name = file.relative_to(reference)
-        if "records" in name.parts:
-            continue
-        a = pd.read_csv(file)
-        b = pd.read_csv(other / name) if (other / name).exists() else None
-        if b is None or list(a.columns) != list(b.columns) or len(a) != len(b):
-            yield str(name), "", float("inf"), "rows or columns differ"
-            continue
-        for column in a.columns:
-            if column in NOT_COMPARED or a[column].equals(b[column]):
-                continue
-            x, y = pd.to_numeric(a[column], errors="coerce"), pd.to_numeric(b[column], errors="coerce")
-            text = a[column].astype(str)[x.isna() | y.isna()] != b[column].astype(str)[x.isna() | y.isna()]
-            if text.any():
-                yield str(name), column, float("inf"), f"row {text.idxmax() + 1}: {a[column][text.idxmax()]} / {b[column][text.idxmax()]}"
-                continue
-            # An imaginary part is judged by the size of the whole number: beside a real one it may be rounding alone.
-            whole = pd.to_numeric(a[column.removesuffix("_imag")], errors="coerce") if column.endswith("_imag") else x
-            largest = max(x.abs().max(), whole.abs().max())
-            difference = (x - y).abs()
-            if largest > 0 and difference.max() > 0:
-                yield str(name), column, difference.max() / largest, f"row {difference.idxmax() + 1}"
 
 
 def main():
@@ -122,15 +93,9 @@ def main():
             with open(out / "tests.csv", "w", newline="") as f:
                 csv.writer(f).writerows([["kernel", "tests", "failed", "names"], *tests])
     here = [n for n in able if (out / n / options.study / "tables" / "manifest.json").exists()]
-    rows = [[name, *change] for name in here[1:] for change in changes(out / here[0] / options.study, out / name / options.study)]
-    with open(out / "columns.csv", "w", newline="") as f:
-        csv.writer(f).writerows([["kernel", "file", "column", "relative_change", "where"], *rows])
-    for name in here[1:]:
-        own = [r for r in rows if r[0] == name]
-        worst = max(own, key=lambda r: r[3], default=None)
-        large = [r for r in own if r[3] > 1e-6]
-        print(f"processors: {name} against {here[0]}: {len(own)} columns move, {len(large)} by more than 1e-6"
-              + (f", most {worst[1]} {worst[2]} by {worst[3]:.2g} ({worst[4]})" if worst else ""))
+    moved = {name: list(changes(out / here[0] / options.study, out / name / options.study)) for name in here[1:]}
+    for name, line in write_changes(out / "columns.csv", "kernel", moved).items():
+        print(f"processors: {name} against {here[0]}: {line}")
     return 1 if bad else 0
 
 
