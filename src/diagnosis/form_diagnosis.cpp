@@ -267,14 +267,26 @@ std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& 
   return out;
 }
 
+/// A fit that starts at x, or else at the model's own values: with other causes the model may not show the measured modes at x.
+Fit fit_from(const Inference& inference, const std::vector<Cause>& causes, const VectorXd& x) {
+  Fit fit = inference.fit(causes, x);
+  return fit.made() ? fit : inference.fit(causes, {});
+}
+
 /// Fits, intervals, residual test and gain at the level of the form error that the winning hypothesis has.
-void finish(const Inference& plain, const std::vector<Cause>& causes, const VectorXd& x_before, const VectorXd& x_after,
-            double without_cause, const DiagnoseOptions& options, std::uint64_t seed, Diagnosis& out) {
+/// @param fitted  with the causes, at the level that the search used; it stands where no fit can be made at this one
+void finish(const Inference& plain, const std::vector<Cause>& causes, const Fit& fitted, double without_cause,
+            const DiagnoseOptions& options, std::uint64_t seed, Diagnosis& out) {
   const FeatureMap levelled =
       with_form_error(plain.map(), out.before.base, out.before.all.g, out.form->frequency.level, out.form->shape.level);
   const Inference inference(levelled, plain.candidates());
-  out.before = inference.fit({}, x_before);
-  out.after = causes.empty() ? out.before : inference.fit(causes, x_after);
+  const auto n = static_cast<Index>(plain.map().nuisances().size());
+  if (Fit before = fit_from(inference, {}, out.before.map.x.head(n)); before.made()) out.before = std::move(before);
+  out.after = out.before;
+  if (!causes.empty()) {
+    Fit after = fit_from(inference, causes, fitted.map.x.head(n));
+    out.after = after.made() ? std::move(after) : fitted;
+  }
   for (std::size_t i = 0; i < out.effects.size(); ++i) {
     out.effects[i].cause = out.after.causes[i];
     out.effects[i].parameters = effect_parameters(inference, out.after, i);
@@ -370,8 +382,10 @@ class Chain {
     const FormEntry& leader = search_.entries.front();
     out_.effects.push_back(effect_from(search_, ranking, weighing, ruling_, setting_));
     causes_.push_back(out_.effects.back().cause);
-    const Fit with =
-        setting_.informed.fit(causes_, leader.refined ? VectorXd(leader.with.map.x.head(n)) : VectorXd(current_.map.x.head(n)));
+    // The search has moved the others too where it fitted the leader beside them.
+    const bool fitted = leader.refined && leader.with.causes.size() == causes_.size();
+    const Fit with = fit_from(setting_.informed, fitted ? leader.with.causes : causes_,
+                              VectorXd((leader.refined ? leader.with : current_).map.x.head(n)));
     if (!with.made()) {  // it stands out and cannot be put into the model: nothing is named
       out_.effects.pop_back();
       causes_.pop_back();
@@ -394,7 +408,16 @@ class Chain {
     for (std::size_t i = 0; i < causes_.size();) {
       std::vector<Cause> others = causes_;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      const Fit base = setting_.informed.fit(others, x);
+      const Fit base = fit_from(setting_.informed, others, x);
+      if (!base.made()) {
+        Ruling why = ruling_;
+        why.reason =
+            "the best causes cannot be judged one by one: with one of them taken out the model shows none of the measured "
+            "modes";
+        be_unknown(why);
+        ++i;
+        continue;
+      }
       Step step = look(base, leftover_, false);
       if (step.ruling.verdict == Verdict::unknown) be_unknown(step.ruling);
       if (step.ruling.against_none > step.ruling.threshold) {  // it stays, named or not
@@ -410,7 +433,12 @@ class Chain {
       out_.effects.erase(out_.effects.begin() + static_cast<std::ptrdiff_t>(i));
     }
     if (causes_.empty() && verdict_ == Verdict::named) verdict_ = Verdict::unknown;
-    current_ = setting_.informed.fit(causes_, x);
+    if (Fit fit = fit_from(setting_.informed, causes_, x); fit.made()) {
+      current_ = std::move(fit);
+    } else {
+      causes_.clear();
+      out_.effects.clear();
+    }
   }
 
   /// The first reason why nothing can be named is the one that is told.
@@ -468,7 +496,6 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   const FeatureMap informed_map = with_form_error(map, prior, nominal.g, kFitted, kFitted);
   const Inference informed(informed_map, plain.candidates());
   const FormSetting setting{plain, informed, contrasts_of(map.features()), scale_grid()};
-  const auto n = static_cast<Index>(map.nuisances().size());
   out.before = first_fit(informed, plain.candidates());
   if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;
@@ -480,9 +507,7 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   out.form->frequency = estimate(setting.grid.frequency, chain.winner().frequency);
   out.form->shape = estimate(setting.grid.shape, chain.winner().shape);
   add_warnings(*out.form);
-  finish(plain, chain.causes(), out.before.map.x.head(n),
-         chain.causes().empty() ? VectorXd() : VectorXd(chain.current().map.x.head(n)), chain.without_cause(), options, seed,
-         out);
+  finish(plain, chain.causes(), chain.current(), chain.without_cause(), options, seed, out);
   out.message = message_of(out, chain.ruling(), *out.form, chain.search());
   return out;
 }

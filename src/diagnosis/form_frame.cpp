@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
@@ -97,6 +98,7 @@ int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contras
 }
 
 FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, Index tested) {
+  TWINDECK_ASSERT(fit.made());
   const FeatureMap& map = plain.map();
   const std::vector<int>& rows = plain.training();
   const auto n = static_cast<Index>(map.nuisances().size());

@@ -21,6 +21,7 @@ from twindeck_report.page.drawing import read_drawing  # noqa: E402
 from twindeck_report.page.flowchart import duration, flowchart  # noqa: E402
 from twindeck_report.page.heatmap import colour, heatmaps  # noqa: E402
 from twindeck_report.page.places import where_data  # noqa: E402
+from twindeck_report.page.processors import processors, reproduced  # noqa: E402
 from twindeck_report.page.shapes import packed  # noqa: E402
 from twindeck_report.figures.flow import FlowStep  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
@@ -209,6 +210,29 @@ class Pieces(unittest.TestCase):
         kept = poles._spectrum(table, "A", 0.0, 1.0)
         self.assertLessEqual(len(kept), poles.MOST_SPECTRUM)
         self.assertIn([round(1234 / n, 4), 9.0], kept)
+
+
+
+class MadeAnew(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.study = Study("made_up", self.root / "results/made_up", self.root / "data", self.root / "workflow")
+
+    def test_what_was_not_run_is_not_told(self):
+        self.assertEqual(processors(self.study), [])
+        self.assertEqual(reproduced(self.study), {})
+
+    def test_a_file_that_differs_and_a_column_that_moves_are_told(self):
+        write(self.root / "results/reproduce/files.csv",
+              "file,same,why\ns4/modes.csv,yes,\ns4/pairs.csv,no,\nreport/report.html,no,shows the time of the run\n")
+        write(self.root / "results/reproduce/columns.csv",
+              "build,file,column,relative_change,where\nclang,s4/modes.csv,frequency_Hz,1e-12,row 1\nclang,s6/starts.csv,value,2e-3,row 4\n"
+              "clang,s6/starts.csv,name,inf,row 2: a / b\n")
+        told = reproduced(self.study)
+        self.assertEqual((told["files"], told["time"], told["different"]), (3, 1, ["s4/pairs.csv"]))
+        self.assertEqual(told["builds"], [{"name": "clang", "moved": 3, "large": [
+            {"column": "s6/starts.csv name", "change": "text differs", "where": "row 2: a / b"},
+            {"column": "s6/starts.csv value", "change": "2.0e-03", "where": "row 4"}]}])
 
 
 if __name__ == "__main__":

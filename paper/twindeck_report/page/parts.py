@@ -32,6 +32,7 @@ def common_parts(study: Study, settings: dict) -> dict:
         "slowest": sorted(timed, key=lambda s: -s.seconds)[:3],
         "provenance": provenance.provenance(study, steps),
         "processors": processors.processors(study),
+        "reproduced": processors.reproduced(study),
         "pulls": model_facts.pulls(study),
         "convergence": model_facts.convergence(study),
         "warnings": warned.warnings(study, steps),

@@ -44,6 +44,12 @@ std::optional<io::FieldTable::Broken> broken_weights(const UpdatingConfig& confi
   if (config.weighs_shapes() && config.weights == "relative")
     return io::FieldTable::Broken{"weights", "is \"relative\", which says nothing of shapes",
                                   "write weights = \"covariance\", or residuals = [\"frequency\"]"};
+  if (config.frequency_model_error > 0.0 && !config.weighs())
+    return io::FieldTable::Broken{"frequency_model_error", "is set, but the weights are relative and know no deviations",
+                                  "write weights = \"covariance\", or leave the key out"};
+  if (config.shape_model_error > 0.0 && !config.weighs_shapes())
+    return io::FieldTable::Broken{"shape_model_error", "is set, but shapes are not fitted",
+                                  "write residuals = [\"frequency\", \"shape\"], or leave the key out"};
   return std::nullopt;
 }
 
