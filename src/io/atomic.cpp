@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.hpp"
@@ -16,6 +18,8 @@
 namespace twindeck::io {
 namespace fs = std::filesystem;
 namespace {
+
+std::mutex g_publishing;  // held while a partial folder takes its place, or is removed by another thread
 
 std::string process_suffix(const char* word) { return std::string(".") + word + "-" + std::to_string(::getpid()); }
 
@@ -152,7 +156,21 @@ void FolderReplacement::bring_beside(const fs::path& place) {
   partial_ = copy;
 }
 
+std::unique_lock<std::mutex> abandon_partial(const fs::path& partial) {
+  constexpr int most_attempts = 20;  // the computation may still be writing into it
+  constexpr auto pause = std::chrono::milliseconds(10);
+  std::unique_lock<std::mutex> lock(g_publishing);
+  std::error_code ignored;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    fs::remove_all(partial, ignored);
+    if (!fs::exists(partial, ignored)) break;
+    std::this_thread::sleep_for(pause);
+  }
+  return lock;
+}
+
 void FolderReplacement::publish(const fs::path& elsewhere) {
+  const std::lock_guard<std::mutex> lock(g_publishing);
   const fs::path place = behind_links(without_trailing_slash(elsewhere));
   std::error_code error;
   fs::remove(partial_ / kOwner, error);

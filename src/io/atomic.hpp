@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string_view>
 
 namespace twindeck::io {
@@ -39,6 +40,11 @@ class FolderReplacement {
   std::filesystem::path final_;
   std::filesystem::path partial_;
 };
+
+/// Removes a partial folder from another thread than the one that builds it, for example after a signal. A folder that is being
+/// published at this moment is published first, so that nothing is removed from results that have taken their place.
+/// @return a lock: as long as it is held, nothing is published by this process
+[[nodiscard]] std::unique_lock<std::mutex> abandon_partial(const std::filesystem::path& partial);
 
 /// "dir/" -> "dir": a path to which a suffix can be appended.
 [[nodiscard]] std::filesystem::path without_trailing_slash(const std::filesystem::path& path);

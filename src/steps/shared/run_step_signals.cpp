@@ -5,8 +5,9 @@
 #include <unistd.h>
 
 #include <array>
-#include <system_error>
 #include <thread>
+
+#include "io/atomic.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -33,14 +34,10 @@ void install(void (*handler)(int)) {
 }
 
 void end_by(int number, const std::filesystem::path& partial) {
-  std::error_code ignored;
-  for (int attempt = 0; attempt < 20; ++attempt) {  // the computation may still be writing into it
-    std::filesystem::remove_all(partial, ignored);
-    if (!std::filesystem::exists(partial)) break;
-    ::usleep(10000);
-  }
+  const auto nothing_is_published = io::abandon_partial(partial);
   ::signal(number, SIG_DFL);
   ::kill(::getpid(), number);
+  ::pause();  // until the signal ends the program
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <sys/wait.h>
 
+#include <chrono>
+#include <thread>
+
 #include "temporary_folder.hpp"
 
 namespace twindeck::io {
@@ -50,6 +53,29 @@ TEST_F(AtomicTest, AbandonedFolderLeavesNoTrace) {
   { const FolderReplacement replacement(folder_ / "out"); }
   EXPECT_EQ(content(folder_ / "out" / "old.csv"), "old");
   EXPECT_EQ(entries(folder_), 1u);
+}
+
+// Oracle: whenever another thread removes the partial folder, the results have all their files, earlier or new.
+TEST_F(AtomicTest, ASignalWhileResultsTakeTheirPlaceLeavesThemWhole) {
+  // The swap comes a little later in every round: in some it falls into the middle of the removal.
+  constexpr int files = 40, rounds = 150;
+  const auto fill = [](const fs::path& folder) {
+    for (int i = 0; i < files; ++i) std::ofstream(folder / std::to_string(i)) << i;
+  };
+  fs::create_directories(folder_ / "out");
+  fill(folder_ / "out");
+  for (int round = 0; round < rounds; ++round) {
+    FolderReplacement replacement(folder_ / "out");
+    fill(replacement.partial());
+    std::thread signalled([&] { static_cast<void>(abandon_partial(replacement.partial())); });
+    std::this_thread::sleep_for(std::chrono::microseconds(4 * round));
+    try {
+      replacement.publish();
+    } catch (const InputError&) {  // abandoned before
+    }
+    signalled.join();
+    ASSERT_EQ(entries(folder_ / "out"), static_cast<std::size_t>(files)) << "round " << round;
+  }
 }
 
 // Oracle: published elsewhere, the earlier results stay.
