@@ -1,6 +1,9 @@
 #include "diagnosis/form_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
 
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
@@ -14,6 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 const std::string kStateContrast = "state ";  // and its name
+constexpr double kManySmall = 0.5;            // of the form error's variance in frequencies: many small causes
+constexpr double kNoEffect = 1e-6;            // RMS change of ln f: a hypothesis below moves nothing here
 constexpr double kFreeScale = 10.0;           // of a shape, relative: wide enough to cost nothing
 
 const std::vector<std::string>& contrast_keys() {
@@ -97,7 +102,8 @@ int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contras
   return -1;
 }
 
-FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, Index tested) {
+FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, const MatrixXd& many,
+                       Index tested) {
   TWINDECK_ASSERT(fit.made());
   const FeatureMap& map = plain.map();
   const std::vector<int>& rows = plain.training();
@@ -116,7 +122,10 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
   out.fixed.resize(std::ssize(rows), std::ssize(fixed) + fit.map.scales.cols() + rotations.cols());
   out.fixed << j(Eigen::all, fixed), kFreeScale * fit.map.scales, rotations(rows, Eigen::all);
   out.scatter = j(Eigen::all, scatter);
-  out.frequency = form.frequency(rows, Eigen::all);
+  const MatrixXd own = form.frequency(rows, Eigen::all);
+  const double share = many.cols() > 0 ? kManySmall : 0.0;
+  out.frequency.resize(std::ssize(rows), own.cols() + many.cols());
+  out.frequency << std::sqrt(1.0 - share) * own, std::sqrt(share) * many;
   out.shape = form.shape(rows, Eigen::all);
   out.kinks = form.kinks(rows, Eigen::all);
   std::vector<int> condition;
@@ -134,6 +143,33 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
     for (Index k = 0; k < tested; ++k) out.signatures.col(k) /= 2.0 * (candidate.high[k] - candidate.low[k]);
     out.all_products = true;
   }
+  return out;
+}
+
+MatrixXd many_small_causes(const Inference& inference, const Fit& fit, const std::vector<Contrast>& contrasts) {
+  std::map<std::string, std::vector<VectorXd>> by_hypothesis;
+  for (const auto& candidate : inference.candidates()) {
+    const bool everywhere = candidate->state.empty() && contrast_of(*candidate, contrasts) < 0;
+    if (!everywhere || candidate->hypothesis->measurement || candidate->tuned >= 0 || candidate->low.size() != 1) continue;
+    const auto tried = inference.tried(fit, *candidate);
+    if (!tried.empty()) by_hypothesis[candidate->hypothesis->id].push_back(tried.front().change);
+  }
+  const std::vector<int>& rows = inference.training();
+  std::vector<int> frequencies;
+  for (const int r : rows)
+    if (inference.map().features().rows[static_cast<std::size_t>(r)].type == RowType::frequency) frequencies.push_back(r);
+  std::vector<VectorXd> columns;
+  int hypotheses = 0;
+  for (const auto& [id, changes] : by_hypothesis) {
+    double sum = 0.0;
+    for (const VectorXd& change : changes) sum += change(frequencies).squaredNorm();
+    const double rms = frequencies.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(frequencies.size()));
+    if (!(rms > kNoEffect)) continue;
+    ++hypotheses;
+    for (const VectorXd& change : changes) columns.emplace_back(change(rows) / rms);
+  }
+  MatrixXd out(std::ssize(rows), std::ssize(columns));
+  for (std::size_t k = 0; k < columns.size(); ++k) out.col(static_cast<Index>(k)) = columns[k] / std::sqrt(hypotheses);
   return out;
 }
 

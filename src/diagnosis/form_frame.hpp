@@ -21,7 +21,13 @@ namespace twindeck::diagnosis {
 /// residual.
 /// @param plain  with the covariance of identification alone
 [[nodiscard]] FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
-                                     Eigen::Index tested = 0);
+                                     const Eigen::MatrixXd& many, Eigen::Index tested = 0);
+
+/// Many small causes everywhere: the effect of every candidate of one size that acts in all conditions alike, those of one
+/// hypothesis together with an RMS change of the frequencies of 1 (n_rows × n_candidates). A model is off for many small
+/// reasons, so a single cause has to explain the data better than these do together.
+[[nodiscard]] Eigen::MatrixXd many_small_causes(const Inference& inference, const Fit& fit,
+                                                const std::vector<Contrast>& contrasts);
 
 /// Covariance of all rows from the form error at given scales, at a fit's structure (n_rows × n_rows).
 [[nodiscard]] Eigen::MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base,

@@ -78,14 +78,6 @@ double leftover_effect(const FormEntry& entry, double own, const Leftover& lefto
   return entry.contrast == leftover.contrast ? std::max(own, leftover.effect) : own;
 }
 
-/// Whether an effect grows with the magnitude. What is tuned turns with its frequency, a support's place is no size, and what
-/// has no unknown is there or not.
-bool is_a_size(const Candidate& candidate) {
-  const auto& actions = candidate.hypothesis->actions;
-  return candidate.low.size() > 0 && candidate.tuned < 0 &&
-         std::none_of(actions.begin(), actions.end(), [](const ActionSpec& action) { return action.kind == "support.move"; });
-}
-
 /// A start for a fit where the effect should be t times as large: ln of a factor and rates scale, other logarithms shift.
 double scaled_magnitude(const Candidate& candidate, double a, double t) {
   const bool factor = candidate.hypothesis->unknowns[0].name == "factor" || !candidate.log[0];
@@ -284,7 +276,7 @@ void refine_with_form(const FormSetting& setting, const Fit& base, const Leftove
     const Prediction without = setting.plain.map().predict(with.base, base.causes, false);
     const Contrast* contrast = entry.contrast < 0 ? nullptr : &setting.contrasts[static_cast<std::size_t>(entry.contrast)];
     const double effect = without.valid ? effect_of(setting.plain, with.all.g - without.g, contrast) : entry.effect;
-    FormSystem system = form_system(setting.plain, with, setting.contrasts, entry.a.size());
+    FormSystem system = form_system(setting.plain, with, setting.contrasts, setting.many, entry.a.size());
     if (!solvable(system)) continue;  // costs the entry, not the results
     const Linearised found = linearised(setting, entry, system, with.causes.back().a, effect, leftover);
     const double log_weight = found.evidence.log_evidence + log_prior_of(*entry.candidate);
@@ -320,6 +312,12 @@ std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const 
 
 }  // namespace
 
+bool is_a_size(const Candidate& candidate) {
+  const auto& actions = candidate.hypothesis->actions;
+  return candidate.low.size() > 0 && candidate.tuned < 0 &&
+         std::none_of(actions.begin(), actions.end(), [](const ActionSpec& action) { return action.kind == "support.move"; });
+}
+
 double log_prior_of_none() { return std::log(kNone); }
 double log_prior_of_something_else() { return std::log(kSomethingElse); }
 double log_prior_of(const Candidate& candidate) { return std::log(kCatalogue) + candidate.log_prior; }
@@ -332,7 +330,7 @@ std::vector<double> magnitude_factors(const Candidate& candidate) {
 FormSearch search_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover) {
   FormSearch out;
   out.base = base;
-  out.system = form_system(setting.plain, base, setting.contrasts);
+  out.system = form_system(setting.plain, base, setting.contrasts, setting.many);
   const auto& candidates = setting.plain.candidates();
   std::vector<FormEntry> entries(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t i) {

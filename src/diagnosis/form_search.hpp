@@ -50,7 +50,12 @@ struct FormSetting {
   const Inference& informed;
   std::vector<Contrast> contrasts;
   ScaleGrid grid;
+  Eigen::MatrixXd many;  ///< many small causes, a part of the form error
 };
+
+/// Whether an effect grows with the magnitude. What is tuned turns with its frequency, a support's place is no size, and what
+/// has no unknown is there or not.
+[[nodiscard]] bool is_a_size(const Candidate& candidate);
 
 /// Magnitudes of the screen are taken times these where they can be scaled: (n_factors)
 [[nodiscard]] std::vector<double> magnitude_factors(const Candidate& candidate);

@@ -29,10 +29,10 @@ struct Ruling {
   std::string reason;  ///< one clause for people
 };
 
-/// Thresholds in nats. A cause that acts in all conditions looks like form error, whose kind differs between structures. On a
-/// bench of sound structures of another class it reached 6.5 nats, and 1.8 with two states.
+/// Thresholds in nats. A cause that acts in all conditions looks like form error, whose kind differs between structures. In 75
+/// sound structures of another class than the model one cause in twenty reached more than 15 nats.
 struct RuleOptions {
-  double in_some = 3.0, in_all = 7.0;
+  double in_some = 3.0, in_all = 18.0;
   double set_within = 3.0;   ///< of the leader: not told apart from it
   double most_misfit = 2.0;  ///< chi²/dof beyond which something is left unexplained
 };

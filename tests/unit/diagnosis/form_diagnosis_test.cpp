@@ -21,8 +21,8 @@ diagnosis::FeatureSet all_rows(diagnosis::FeatureSet f) {
 diagnosis::Diagnosis with_form(const Examined& e) { return diagnosis::diagnose_with_form(*e.inference, {}, 1); }
 
 diagnosis::FormSearch searched(const Examined& e) {
-  const diagnosis::FormSetting setting{*e.inference, *e.inference, diagnosis::contrasts_of(e.map->features()),
-                                       diagnosis::scale_grid()};
+  const diagnosis::FormSetting setting{
+      *e.inference, *e.inference, diagnosis::contrasts_of(e.map->features()), diagnosis::scale_grid(), {}};
   return diagnosis::search_with_form(setting, e.inference->fit({}, {}), {});
 }
 
@@ -45,6 +45,28 @@ TEST(FormModes, AreThoseOfTheModelAndExchangeWithTheChannels) {
   EXPECT_LT((exchanged.modes.shapes.row(2) - modes.modes.shapes.row(6)).norm(), 1e-12);
   EXPECT_LT((exchanged.modes.shapes.row(6) - modes.modes.shapes.row(2)).norm(), 1e-12);
   EXPECT_LT((exchanged.modes.shapes.row(4) - modes.modes.shapes.row(4)).norm(), 1e-12);
+}
+
+// Oracle: by definition each hypothesis has the same share of an RMS change of the frequencies of one; what moves no frequency,
+// acts in one condition alone or is a fault of the sensors has none.
+TEST(ManySmallCauses, ShareTheFormErrorByHypothesis) {
+  const Chain chain({.masses = 10, .modes = 5});
+  const Examined e =
+      examine(chain, all_rows(chain.measure(chain.as_modelled())), catalogue({"swap", "gain", "mass", "stiffness"}));
+  const diagnosis::Fit fit = e.inference->fit({}, {});
+  const Eigen::MatrixXd many = diagnosis::many_small_causes(*e.inference, fit, diagnosis::contrasts_of(e.map->features()));
+  ASSERT_GT(many.cols(), 2);
+  double sum = 0.0;
+  int frequencies = 0;
+  for (std::size_t r = 0; r < e.inference->training().size(); ++r) {
+    if (e.map->features().rows[static_cast<std::size_t>(e.inference->training()[r])].type != diagnosis::RowType::frequency)
+      continue;
+    sum += many.row(static_cast<Index>(r)).squaredNorm();
+    ++frequencies;
+  }
+  EXPECT_NEAR(sum / frequencies, 1.0, 1e-9);
+  const Examined sensors = examine(chain, all_rows(chain.measure(chain.as_modelled())), catalogue({"swap", "gain"}));
+  EXPECT_EQ(diagnosis::many_small_causes(*sensors.inference, sensors.inference->fit({}, {}), {}).cols(), 0);
 }
 
 TEST(FormSearch, ExchangedChannelsAreTheSameRowsUnderOtherNames) {
