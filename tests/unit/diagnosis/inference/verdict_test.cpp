@@ -31,14 +31,14 @@ TEST(Rules, OneClearChangeIsNamed) {
   EXPECT_FALSE(r.something_else_in_set);
 }
 
-TEST(Rules, ThresholdIsThreeForAChangeAndSevenForWhatActsInAllConditions) {
+TEST(Rules, ThresholdIsThreeForAChangeAndEighteenForWhatActsInAllConditions) {
   EXPECT_EQ(rule(change(-97.1)).verdict, Verdict::none);
   EXPECT_EQ(rule(change(-96.9)).verdict, Verdict::named);
-  Weighed w = change(-93.1);
+  Weighed w = change(-82.1);
   w.in_all_conditions = true;
   w.something_else = -1e300;
   EXPECT_EQ(rule(w).verdict, Verdict::none);
-  w.leader = -92.9;
+  w.leader = -81.9;
   EXPECT_EQ(rule(w).verdict, Verdict::named);
 }
 
