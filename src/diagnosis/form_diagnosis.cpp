@@ -13,6 +13,7 @@
 #include "diagnosis/form_gain.hpp"
 #include "diagnosis/form_search.hpp"
 #include "diagnosis/inference/verdict.hpp"
+#include "diagnosis/size_of_a_cause.hpp"
 #include "diagnosis/splitting_measurement.hpp"
 
 namespace twindeck::diagnosis {
@@ -223,14 +224,6 @@ void finish(const Inference& plain, const std::vector<Cause>& causes, const Fit&
   out.gain = held_out_gain(plain, out.before, out.after, options.bootstrap, seed);
 }
 
-/// Whether the interval of the one unknown, a size that may have either sign, holds zero, where there is no effect.
-bool may_be_zero(const std::vector<EffectParameter>& parameters, const Candidate& candidate) {
-  if (parameters.size() != 1 || !is_a_size(candidate) || candidate.log[0] || candidate.hypothesis->unknowns[0].name == "factor")
-    return false;
-  const bool either_sign = candidate.low[0] < 0.0 && candidate.high[0] > 0.0;
-  return either_sign && parameters[0].low < 0.0 && parameters[0].high > 0.0;
-}
-
 /// Causes one after another, and what the rules say of each.
 class Chain {
  public:
@@ -299,9 +292,10 @@ class Chain {
       be_unknown(step.ruling);  // a name that leaves the main change unexplained is none
     search_ = std::move(step.search);
     if (!goes_on) return false;
+    if (!accept(step.ranking, step.weighing)) return false;
     if (!accepted) in_part_ = true;
     if (step.ruling.verdict == Verdict::ambiguous) verdict_ = Verdict::ambiguous;
-    return accept(step.ranking, step.weighing);
+    return true;
   }
 
   bool accept(const std::vector<Scored>& ranking, const Weighing& weighing) {
@@ -316,11 +310,25 @@ class Chain {
     if (!with.made()) return withdraw("the best cause cannot be put into the model");
     if (may_be_zero(effect_parameters(setting_.informed, with, causes_.size() - 1), *causes_.back().candidate))
       return withdraw("the size of the best cause cannot be told from zero");
+    if (leader.contrast < 0 && at_its_least(with.causes.back()))
+      return causes_.size() > 1 ? leave_out()
+                                : withdraw(
+                                      "the best cause fits best where it is as small as it can be: something outside the "
+                                      "catalogue acts like it");
     winner_ = leader.evidence;
     if (leader.contrast >= 0) leftover_ = {leader.contrast, std::max(leader.effect, leftover_.effect)};
     current_ = with;
     for (std::size_t i = 0; i < causes_.size(); ++i) causes_[i] = current_.causes[i];
     return true;
+  }
+
+  /// The cause taken last is none that counts: those before it stand. @return false
+  bool leave_out() {
+    out_.form->warnings.push_back("beside what is named something outside the catalogue acts like " +
+                                  out_.effects.back().cluster.front());
+    out_.effects.pop_back();
+    causes_.pop_back();
+    return false;
   }
 
   /// The cause taken last stands out and cannot stay: nothing is named. @return false

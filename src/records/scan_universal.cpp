@@ -113,7 +113,8 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   if (numbers.size() < 5)
     in.fail(fmt::format("holds '{}', expected type, number of values, spacing, start and step", field(form, 0, 80)),
             "write the set again");
-  series.data_type = static_cast<int>(integer_or(field(form, 0, 10), static_cast<long>(numbers[0])));
+  constexpr long most_types = 99;  // sound files have 2 to 6
+  series.data_type = static_cast<int>(integer_or(field(form, 0, 10), count_in(numbers[0], most_types).value_or(0)));
   const auto values = count_in(numbers[1], in.size());  // a value takes one byte at least
   if (!values || *values == 0) {
     in.fail(

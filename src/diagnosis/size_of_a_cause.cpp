@@ -1,0 +1,28 @@
+#include "diagnosis/size_of_a_cause.hpp"
+
+#include "diagnosis/form_search.hpp"
+
+namespace twindeck::diagnosis {
+
+using Eigen::Index;
+
+bool may_be_zero(const std::vector<EffectParameter>& parameters, const Candidate& candidate) {
+  if (parameters.size() != 1 || !is_a_size(candidate) || candidate.log[0] || candidate.hypothesis->unknowns[0].name == "factor")
+    return false;
+  const bool either_sign = candidate.low[0] < 0.0 && candidate.high[0] > 0.0;
+  return either_sign && parameters[0].low < 0.0 && parameters[0].high > 0.0;
+}
+
+bool at_its_least(const Cause& cause) {
+  constexpr double kAtEnd = 1e-3;  // of the range, in logarithms: a search with bounds ends on them but for rounding
+  const Candidate& candidate = *cause.candidate;
+  for (Index i = 0; i < cause.a.size(); ++i) {
+    const auto unknown = static_cast<std::size_t>(i);
+    const bool size =
+        candidate.log[unknown] && i != candidate.tuned && candidate.hypothesis->unknowns[unknown].name != "factor";
+    if (size && cause.a[i] - candidate.low[i] < kAtEnd * (candidate.high[i] - candidate.low[i])) return true;
+  }
+  return false;
+}
+
+}  // namespace twindeck::diagnosis
