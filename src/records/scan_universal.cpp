@@ -144,14 +144,12 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
 }
 
 double binary_value(const char* at, bool is_double, bool swapped) {
-  char bytes[8] = {};
+  std::array<char, 8> bytes{};
   const std::size_t n = is_double ? 8 : 4;
-  std::memcpy(bytes, at, n);
-  if (swapped) std::reverse(bytes, bytes + n);
-  if (is_double) return std::bit_cast<double>(*reinterpret_cast<std::uint64_t*>(bytes));
-  float value = 0.0F;
-  std::memcpy(&value, bytes, 4);
-  return static_cast<double>(value);
+  std::memcpy(bytes.data(), at, n);
+  if (swapped) std::reverse(bytes.data(), bytes.data() + n);
+  if (is_double) return std::bit_cast<double>(bytes);
+  return static_cast<double>(std::bit_cast<std::array<float, 2>>(bytes)[0]);
 }
 
 /// Hands values on in parts.
