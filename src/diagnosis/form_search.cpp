@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/parallel.hpp"
@@ -20,6 +21,7 @@ constexpr double kElseScale = 0.03;                                     // of ka
 constexpr double kLeftoverPart = 0.1;                                   // of a cause's effect: scale of what it leaves over
 constexpr double kLeastEffect = 0.001;                                  // of a cause on frequencies, ln
 constexpr int kRefined = 6, kMostRefined = 10, kRounds = 4;
+constexpr int kFewPlaces = 6;                                // of a family: all of them are refined
 constexpr double kRefineWithin = 8.0, kFamilyWithin = 12.0;  // nats of the best …
 constexpr double kRefineShare = 0.1,
                  kFamilyShare = 0.3;  // … or this much of what it has over none, whatever is more: screens are coarse
@@ -298,13 +300,20 @@ std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const 
   const double best = search.entries.front().log_weight, over_none = std::max(0.0, best - search.none_weight);
   const double near = best - std::max(kRefineWithin, kRefineShare * over_none);
   const double near_family = best - std::max(kFamilyWithin, kFamilyShare * over_none);
-  std::set<std::string> families;
+  std::map<std::string, int> places;
+  for (const FormEntry& entry : search.entries) ++places[entry.candidate->hypothesis->id];
+  std::set<std::string> families, wholly;
   std::vector<FormEntry*> out;
-  for (std::size_t i = 0; i < search.entries.size() && out.size() < kMostRefined; ++i) {
+  for (std::size_t i = 0; i < search.entries.size(); ++i) {
     FormEntry& entry = search.entries[i];
     if (entry.a.size() != entry.candidate->low.size()) continue;
-    const bool first_of_family = families.insert(entry.candidate->hypothesis->id).second;
-    const bool worth = (i < kRefined && entry.log_weight > near) || (first_of_family && entry.log_weight > near_family);
+    const std::string& family = entry.candidate->hypothesis->id;
+    const bool first_of_family = families.insert(family).second;
+    // The base has taken a cause at one of few places up into a parameter of them all, so that the screen sees its reverse at
+    // the others.
+    if (first_of_family && entry.log_weight > search.none_weight && places[family] <= kFewPlaces) wholly.insert(family);
+    const bool near_best = (i < kRefined && entry.log_weight > near) || (first_of_family && entry.log_weight > near_family);
+    const bool worth = wholly.contains(family) || (near_best && out.size() < kMostRefined);
     if (worth && !done.contains(entry.candidate)) out.push_back(&entry);
   }
   return out;

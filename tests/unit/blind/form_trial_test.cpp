@@ -146,5 +146,26 @@ TEST(FormMeasurement, LabelsFollowAModeWithinAStateAndFaultsReachTheirChannel) {
   EXPECT_EQ(wrong.labels.back(), wrong.labels.front());
 }
 
+FormScore diagnosed(std::uint64_t seed) {
+  const FormCase hidden = make_form_case(seed);
+  FormScore score = prepare_score(hidden);
+  run_form_case(hidden, score);
+  return score;
+}
+
+// Oracle: what the trials hide. Both were seen while the rules were made, and count for no rate.
+TEST(FormDiagnosis, AStiffBearingIsNotTheOtherOneLost) {
+  // The parameter of both abutments has taken the stiff one up, so that the base shows the other one as too soft.
+  const FormScore score = diagnosed(64010);
+  EXPECT_TRUE(score.answered);
+  EXPECT_TRUE(score.in_set) << score.found;
+}
+
+TEST(FormDiagnosis, ALightOscillatorOnASoundGirderIsNotNamed) {
+  const FormScore score = diagnosed(64052);
+  EXPECT_EQ(score.verdict, "unknown") << score.found;
+  EXPECT_FALSE(score.reported);
+}
+
 }  // namespace
 }  // namespace twindeck::blind::form
