@@ -10,6 +10,7 @@
 
 #include "core/statistics.hpp"
 #include "diagnosis/diagnose_parts.hpp"
+#include "diagnosis/form_base.hpp"
 #include "diagnosis/form_gain.hpp"
 #include "diagnosis/form_search.hpp"
 #include "diagnosis/inference/verdict.hpp"
@@ -25,17 +26,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFitted = 0.01;  // form error of frequencies and shapes that the fits stand
-constexpr double kAside = 10.0;   // deviation of rows that are set aside: e^10, far beyond any change
 /// Extra deviation of ln (size of an effect): a size is in units of a model that is wrong.
 constexpr double kSizeError = 0.1, kSizePerForm = 5.0, kMostSizeError = 0.4;
 
-/// A feature map with the form error in its rows' covariance, at what the model predicts from a base.
-FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base, const VectorXd& predicted, double frequency,
-                           double shape) {
-  FeatureMap out = plain;
-  out.add_covariance(form_covariance(plain, base, {}, predicted, frequency, shape));
-  return out;
-}
+double size_error(double form_error) { return std::min(kSizeError + kSizePerForm * form_error, kMostSizeError); }
 
 Scored scored_of(const FormSearch& search, const FormEntry& entry, const Inference& informed) {
   Scored out;
@@ -57,7 +51,9 @@ struct Weighing {
   std::vector<std::size_t> members;  ///< positions among the entries, the leader's first
 };
 
-Weighing weighing_of(const FormSearch& search, const std::vector<Scored>& ranking, int dof, const DiagnoseOptions& options) {
+Weighing weighing_of(const FormSearch& search, const std::vector<Scored>& ranking, const FormSetting& setting,
+                     const DiagnoseOptions& options) {
+  const int dof = setting.dof;
   Weighing out;
   out.weighed.none = search.none_weight;
   for (const double w : search.else_weight) out.weighed.something_else = std::max(out.weighed.something_else, w);
@@ -69,6 +65,9 @@ Weighing weighing_of(const FormSearch& search, const std::vector<Scored>& rankin
   out.weighed.in_all_conditions = leader.contrast < 0;
   out.weighed.kappa = leader.contrast < 0 ? 0.0 : leader.evidence.kappa;
   out.weighed.effect = leader.effect;
+  out.weighed.size_error =
+      size_error(setting.grid.frequency[setting.grid.points[static_cast<std::size_t>(leader.evidence.best.point)].frequency]);
+  out.weighed.between_states = !leader.candidate->state.empty();
   const double misfit = std::max(1.0, out.weighed.chi_squared_ratio);
   for (std::size_t i = 0; i < search.entries.size(); ++i) {
     const double gap = (leader.log_weight - search.entries[i].log_weight) / misfit;
@@ -134,7 +133,7 @@ Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking,
 
 /// Widens the intervals of sizes in quadrature, on ln of the size (kg, |ln factor|).
 void widen(std::vector<EffectParameter>& parameters, double form_error) {
-  const double deviation = std::min(kSizeError + kSizePerForm * form_error, kMostSizeError), reach = kReachOfNinety * deviation;
+  const double reach = kReachOfNinety * size_error(form_error);
   static const std::set<std::string> no_size = {"Hz", "deg", "degC", "C", "s", "m"};
   for (EffectParameter& p : parameters) {
     if (no_size.contains(p.unit)) continue;
@@ -256,7 +255,7 @@ class Chain {
     Step out;
     out.search = search_with_form(setting_, base, leftover);
     for (const FormEntry& entry : out.search.entries) out.ranking.push_back(scored_of(out.search, entry, setting_.informed));
-    out.weighing = weighing_of(out.search, out.ranking, setting_.plain.dof(), options_);
+    out.weighing = weighing_of(out.search, out.ranking, setting_, options_);
     out.of_rules = out.ruling = rule(out.weighing.weighed);
     if (!out.search.entries.empty() && (always_guarded || out.ruling.against_none > out.ruling.threshold)) {
       const PredictiveGain gain = predictive_gain(setting_, out.search, leftover, options_.bootstrap, seed_);
@@ -274,12 +273,17 @@ class Chain {
     winner_ = first.search.none;
     without_cause_ = estimate(setting_.grid.frequency, first.search.none.frequency).level;
     verdict_ = first.ruling.verdict;
+    if (first.search.entries.empty()) return;
+    const Weighed& w = first.weighing.weighed;
+    share_in_error_ = w.size_error * w.size_error;
+    allowed_misfit_ = 1.0 + share_in_error_ * (w.none_chi_squared_ratio - 1.0);
   }
 
   /// Whether a cause was taken into the model.
   bool take(int number) {
     Step step = look(current_, leftover_, number == 0);
     if (number == 0) begin_with(step);
+    if (number > 0 && !in_part_ && is_error_of_the_first(step)) return false;
     if (number == 0 || verdict_ != Verdict::unknown) ruling_ = step.ruling;
     const bool stands_out = step.ruling.against_none > step.ruling.threshold;
     const bool accepted = step.ruling.verdict == Verdict::named || step.ruling.verdict == Verdict::ambiguous;
@@ -298,6 +302,20 @@ class Chain {
     return true;
   }
 
+  /// Whether what is left beside causes that stand is no more than the error of their own effect, which the model knows to
+  /// `share_in_error_` of its evidence: a warning then.
+  bool is_error_of_the_first(const Step& step) {
+    const Weighed& w = step.weighing.weighed;
+    const double misfit = std::max(1.0, w.chi_squared_ratio), most = share_in_error_ * out_.log_odds;
+    const double left = std::max(step.ruling.against_none, (w.something_else - w.none) / misfit);
+    if (left > most || w.none_chi_squared_ratio > std::max(RuleOptions{}.most_misfit, allowed_misfit_)) return false;
+    if (step.ruling.against_none > step.ruling.threshold)
+      out_.form->warnings.push_back(fmt::format(
+          "beside what is named the rows show something like {}, which is no more than the error of the effect that is named",
+          step.search.entries.front().candidate->id()));
+    return true;
+  }
+
   bool accept(const std::vector<Scored>& ranking, const Weighing& weighing) {
     const auto n = static_cast<Index>(setting_.plain.map().nuisances().size());
     const FormEntry& leader = search_.entries.front();
@@ -309,7 +327,7 @@ class Chain {
                               VectorXd((leader.refined ? leader.with : current_).map.x.head(n)));
     if (!with.made()) return withdraw("the best cause cannot be put into the model");
     if (may_be_zero(effect_parameters(setting_.informed, with, causes_.size() - 1), *causes_.back().candidate))
-      return withdraw("the size of the best cause cannot be told from zero");
+      return causes_.size() > 1 ? leave_out() : withdraw("the size of the best cause cannot be told from zero");
     if (leader.contrast < 0 && at_its_least(with.causes.back()))
       return causes_.size() > 1 ? leave_out()
                                 : withdraw(
@@ -398,45 +416,30 @@ class Chain {
   FormSearch search_;
   HypothesisEvidence winner_;
   double without_cause_ = 0.0;
+  double share_in_error_ = 0.0, allowed_misfit_ = 0.0;  ///< by the error of the first cause's effect: of its nats, of chi²/dof
   Verdict verdict_ = Verdict::none;
   bool in_part_ = false;  ///< a cause was taken while the change was explained in part only
 };
 
-/// The structure as its first state shows it. Rows of other states say what changed, and a compromise between states would be
-/// neither of them. Where there is one state, the fit to all rows.
-Fit first_fit(const Inference& informed, const std::vector<std::unique_ptr<Candidate>>& candidates) {
-  const FeatureMap& map = informed.map();
-  const std::vector<std::string> states = states_of(map.features());
-  if (states.size() < 2) return informed.fit({}, {});
-  FeatureMap first_map = map;
-  const auto n = std::ssize(map.features().rows);
-  MatrixXd aside = MatrixXd::Zero(n, n);
-  for (Index r = 0; r < n; ++r) {
-    const Row& row = map.features().rows[static_cast<std::size_t>(r)];
-    if (map.features().conditions[static_cast<std::size_t>(row.condition)].state != states.front())
-      aside(r, r) = kAside * kAside;
-  }
-  first_map.add_covariance(aside);
-  const Inference first(first_map, candidates);
-  const Fit fit = first.fit({}, {});
-  return fit.made() ? informed.stand(fit.map.x) : fit;
-}
-
 }  // namespace
 
-Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& options, std::uint64_t seed) {
+Diagnosis diagnose_with_form(const Inference& whole, const DiagnoseOptions& options, std::uint64_t seed) {
   Diagnosis out;
   out.alpha = options.alpha;
-  const FeatureMap& map = plain.map();
+  const FeatureMap& map = whole.map();
   const FeatureMap::Base prior = map.base(VectorXd::Zero(static_cast<Index>(map.nuisances().size())));
   const Prediction nominal = map.predict(prior, {}, false);
   out.verdict = Verdict::unknown;
   out.message = "the model predicts none of these rows";
   if (!nominal.valid) return out;
-  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, kFitted, kFitted);
+  Strangers strangers;
+  const FeatureMap known_map = without_strangers(whole, prior, nominal.g, kFitted, strangers);
+  const Inference plain(known_map, whole.candidates());
+  const FeatureMap informed_map = with_form_error(known_map, prior, nominal.g, kFitted, kFitted);
   const Inference informed(informed_map, plain.candidates());
-  FormSetting setting{plain, informed, contrasts_of(map.features()), scale_grid(), {}};
-  out.before = first_fit(informed, plain.candidates());
+  const int dof = plain.dof() - strangers.rows + strangers.shapes;  // each shape has a free scale
+  FormSetting setting{plain, informed, dof, contrasts_of(map.features()), scale_grid(), {}};
+  out.before = first_fit(informed);
   if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;
     return out;
@@ -448,6 +451,9 @@ Diagnosis diagnose_with_form(const Inference& plain, const DiagnoseOptions& opti
   out.form->frequency = estimate(setting.grid.frequency, chain.winner().frequency);
   out.form->shape = estimate(setting.grid.shape, chain.winner().shape);
   add_warnings(*out.form);
+  if (!strangers.labels.empty())
+    out.form->warnings.push_back(fmt::format("no mode of the model resembles the measured mode {}: its rows count for nothing",
+                                             fmt::join(strangers.labels, ", ")));
   finish(plain, chain.causes(), chain.current(), chain.without_cause(), options, seed, out);
   out.message = message_of(out, chain.ruling(), *out.form, chain.search());
   return out;

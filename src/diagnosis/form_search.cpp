@@ -29,13 +29,18 @@ constexpr double kLeastScale = 0.02, kMostScale = 3.0;  // of a signature, as fa
 constexpr double kSeen = 1e-3;                          // deviations: below, these rows show nothing of an entry
 constexpr double kWorthRefining = -4.0;                 // nats against none: below, the best entry is far from any threshold
 
-/// RMS change of the frequencies in the conditions where a cause acts.
-double effect_of(const Inference& inference, const VectorXd& change, const Contrast* contrast) {
+/// RMS change of the frequencies in the conditions where a cause acts: those of its state, or those that its contrast weighs.
+double effect_of(const Inference& inference, const VectorXd& change, const Candidate& candidate, const Contrast* contrast) {
+  const FeatureSet& features = inference.map().features();
+  const auto acts_in = [&](int condition) {
+    if (!candidate.state.empty()) return features.conditions[static_cast<std::size_t>(condition)].state == candidate.state;
+    return contrast == nullptr || contrast->weight[condition] != 0.0;
+  };
   double sum = 0.0;
   int rows = 0;
   for (const int r : inference.training()) {
-    const Row& row = inference.map().features().rows[static_cast<std::size_t>(r)];
-    if (row.type != RowType::frequency || (contrast != nullptr && contrast->weight[row.condition] == 0.0)) continue;
+    const Row& row = features.rows[static_cast<std::size_t>(r)];
+    if (row.type != RowType::frequency || !acts_in(row.condition)) continue;
     sum += change[r] * change[r];
     ++rows;
   }
@@ -169,7 +174,7 @@ class Screen {
     std::vector<EvidenceTerm> out;
     const double share = -std::log(static_cast<double>(entry.tried.size() * factors.size()));
     for (std::size_t i = 0; i < entry.tried.size(); ++i) {
-      const double own = effect_of(setting_.plain, entry.tried[i].change, contrast_of_entry(entry));
+      const double own = effect_of(setting_.plain, entry.tried[i].change, *entry.candidate, contrast_of_entry(entry));
       const Index s = position_[static_cast<std::size_t>(entry.first_signature) + i];
       for (const double t : factors)
         add_terms(out, setting_.grid, point, at, leftover_contrast(entry, leftover_),
@@ -208,7 +213,7 @@ class Screen {
       best = q.log_density(s, t);
       entry.a = entry.tried[i].a;
       if (scales) entry.a[0] = scaled_magnitude(*entry.candidate, entry.a[0], t);
-      entry.effect = t * effect_of(setting_.plain, entry.tried[i].change, contrast_of_entry(entry));
+      entry.effect = t * effect_of(setting_.plain, entry.tried[i].change, *entry.candidate, contrast_of_entry(entry));
     }
   }
 
@@ -277,7 +282,8 @@ void refine_with_form(const FormSetting& setting, const Fit& base, const Leftove
     if (with.chi_squared > 1e299) continue;
     const Prediction without = setting.plain.map().predict(with.base, base.causes, false);
     const Contrast* contrast = entry.contrast < 0 ? nullptr : &setting.contrasts[static_cast<std::size_t>(entry.contrast)];
-    const double effect = without.valid ? effect_of(setting.plain, with.all.g - without.g, contrast) : entry.effect;
+    const double effect =
+        without.valid ? effect_of(setting.plain, with.all.g - without.g, *entry.candidate, contrast) : entry.effect;
     FormSystem system = form_system(setting.plain, with, setting.contrasts, setting.many, entry.a.size());
     if (!solvable(system)) continue;  // costs the entry, not the results
     const Linearised found = linearised(setting, entry, system, with.causes.back().a, effect, leftover);

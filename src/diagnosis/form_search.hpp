@@ -48,6 +48,7 @@ struct FormSearch {
 struct FormSetting {
   const Inference& plain;
   const Inference& informed;
+  int dof;  ///< of the rows that count
   std::vector<Contrast> contrasts;
   ScaleGrid grid;
   Eigen::MatrixXd many;  ///< many small causes, a part of the form error

@@ -26,12 +26,14 @@ Ruling rule(const Weighed& w, const RuleOptions& options) {
   out.threshold = w.in_all_conditions ? options.in_all : options.in_some;
   if (out.against_none > out.threshold) {
     out.verdict = Verdict::unknown;
-    if (misfit > options.most_misfit) {
+    // An effect that is known to a part of itself leaves the square of that part of the chi² that it explains.
+    const double by_size_error = w.between_states ? 1.0 + w.size_error * w.size_error * (w.none_chi_squared_ratio - 1.0) : 0.0;
+    if (misfit > std::max(options.most_misfit, by_size_error)) {
       out.reason = "the best cause leaves too much unexplained";
     } else if (out.against_both < -options.set_within) {
       out.reason = "something else changed explains more than the best cause";
-    } else if (w.kappa > w.effect) {
-      out.reason = "what the best cause leaves over is larger than the cause";
+    } else if (w.kappa > options.most_leftover * w.effect) {
+      out.reason = "the best cause leaves too much of the change over";
     } else {
       out.something_else_in_set = out.against_both < options.set_within && w.something_else > w.none;
       const bool alone = w.members == 1 && out.against_both > options.set_within;

@@ -22,7 +22,7 @@ diagnosis::Diagnosis with_form(const Examined& e) { return diagnosis::diagnose_w
 
 diagnosis::FormSearch searched(const Examined& e) {
   const diagnosis::FormSetting setting{
-      *e.inference, *e.inference, diagnosis::contrasts_of(e.map->features()), diagnosis::scale_grid(), {}};
+      *e.inference, *e.inference, e.inference->dof(), diagnosis::contrasts_of(e.map->features()), diagnosis::scale_grid(), {}};
   return diagnosis::search_with_form(setting, e.inference->fit({}, {}), {});
 }
 

@@ -31,14 +31,14 @@ TEST(Rules, OneClearChangeIsNamed) {
   EXPECT_FALSE(r.something_else_in_set);
 }
 
-TEST(Rules, ThresholdIsThreeForAChangeAndEighteenForWhatActsInAllConditions) {
+TEST(Rules, ThresholdIsThreeForAChangeAndThirtyTwoForWhatActsInAllConditions) {
   EXPECT_EQ(rule(change(-97.1)).verdict, Verdict::none);
   EXPECT_EQ(rule(change(-96.9)).verdict, Verdict::named);
-  Weighed w = change(-82.1);
+  Weighed w = change(-68.1);
   w.in_all_conditions = true;
   w.something_else = -1e300;
   EXPECT_EQ(rule(w).verdict, Verdict::none);
-  w.leader = -81.9;
+  w.leader = -67.9;
   EXPECT_EQ(rule(w).verdict, Verdict::named);
 }
 
@@ -76,9 +76,27 @@ TEST(Rules, MisfitWidensTheOddsAndThenForbidsAName) {
   EXPECT_DOUBLE_EQ(rule(w).against_none, 10.0);
 }
 
-TEST(Rules, ALeftoverLargerThanTheEffectIsUnknown) {
-  Weighed w = change(-90.0);
-  w.kappa = 0.03;
+TEST(Rules, BetweenStatesTheErrorOfALargeEffectMayBeLeft) {
+  Weighed w;
+  w.none = 0.0;
+  w.leader = 4000.0;
+  w.chi_squared_ratio = 2.4;
+  w.none_chi_squared_ratio = 80.0;
+  w.in_all_conditions = false;
+  w.effect = 0.05;
+  w.size_error = 0.15;  // leaves 1 + 0.15² (80 - 1) = 2.78
+  EXPECT_EQ(rule(w).verdict, Verdict::unknown);
+  w.between_states = true;
+  EXPECT_EQ(rule(w).verdict, Verdict::named);
+  w.chi_squared_ratio = 2.9;
+  EXPECT_EQ(rule(w).verdict, Verdict::unknown);
+}
+
+TEST(Rules, ALargeLeftoverBesideTheEffectIsUnknown) {
+  Weighed w = change(-90.0);  // an effect of 0.02
+  w.kappa = 0.0079;
+  EXPECT_EQ(rule(w).verdict, Verdict::named);
+  w.kappa = 0.0081;
   EXPECT_EQ(rule(w).verdict, Verdict::unknown);
 }
 

@@ -1,0 +1,139 @@
+#include "diagnosis/form_base.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "diagnosis/form_frame.hpp"
+#include "modal/mac.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kAside = 10.0;  // deviation of rows that are set aside: e^10, far beyond any change
+// A measured mode has no counterpart where its MAC with the model's is below; at most this part of the modes may be such.
+constexpr double kLeastMac = 0.5, kMostStrangers = 0.25;
+constexpr double kSameMac = 0.8, kSameFrequency = 0.2;  // of one measured mode in two conditions: MAC above, |ln ratio| below
+
+/// Conditions that the first fit is made to.
+std::set<int> plainest_conditions(const FeatureSet& features) {
+  std::set<int> out;
+  for (const Row& row : features.rows)
+    if (row.type == RowType::frequency || row.type == RowType::shape) out.insert(row.condition);
+  const auto keep = [&](const auto& unwanted) {  // as long as one condition is left
+    std::set<int> left;
+    for (const int c : out)
+      if (!unwanted(c)) left.insert(c);
+    if (!left.empty()) out = std::move(left);
+  };
+  const std::vector<std::string> states = states_of(features);
+  if (states.size() > 1) {
+    keep([&](int c) { return features.conditions[static_cast<std::size_t>(c)].state != states.front(); });
+    return out;
+  }
+  for (const Contrast& contrast : contrasts_of(features)) {
+    const double sign = contrast.key == "temperature_C" ? -1.0 : 1.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const int c : out) least = std::min(least, sign * contrast.weight[c]);
+    keep([&](int c) { return sign * contrast.weight[c] > least; });
+  }
+  return out;
+}
+
+/// Modal assurance criterion of two shapes in the same rows; 0 where one of them is nil.
+double shape_mac(const VectorXd& a, const VectorXd& b) {
+  return a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0 ? modal::mac(a, b)(0, 0) : 0.0;
+}
+
+/// Modes measured in the plainest conditions that no mode of the model resembles. If many are such, the model is not the
+/// structure, or a channel is wrong: none then.
+std::vector<std::size_t> strangers_of(const FeatureMap& map, const Fit& fit) {
+  const std::set<int> plainest = plainest_conditions(map.features());
+  std::vector<std::size_t> out;
+  std::size_t looked_at = 0;
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const MeasuredMode& mode = map.measured_modes()[m];
+    if (!plainest.contains(mode.condition) || mode.real_rows.empty()) continue;
+    ++looked_at;
+    if (shape_mac(map.values()(mode.real_rows), fit.all.g(mode.real_rows)) < kLeastMac) out.push_back(m);
+  }
+  if (static_cast<double>(out.size()) > kMostStrangers * static_cast<double>(looked_at)) out.clear();
+  return out;
+}
+
+/// Whether a mode is a stranger that was measured again, or has its shape next to it: of a mode and its hybrid nobody knows
+/// which is the model's.
+bool is_like(const FeatureMap& map, const MeasuredMode& mode, const MeasuredMode& stranger) {
+  return mode.real_channels == stranger.real_channels &&
+         std::abs(std::log(mode.frequency_Hz / stranger.frequency_Hz)) < kSameFrequency &&
+         shape_mac(map.values()(mode.real_rows), map.values()(stranger.real_rows)) > kSameMac;
+}
+
+/// Rows of strangers in all conditions.
+std::vector<int> rows_of_strangers(const FeatureMap& map, const Fit& fit, Strangers& strangers) {
+  std::vector<std::string>& labels = strangers.labels;
+  const std::vector<MeasuredMode>& modes = map.measured_modes();
+  const std::vector<std::size_t> found = strangers_of(map, fit);
+  for (const std::size_t s : found)
+    if (std::find(labels.begin(), labels.end(), modes[s].label) == labels.end()) labels.push_back(modes[s].label);
+  std::vector<int> out;
+  for (const MeasuredMode& mode : modes) {
+    if (std::none_of(found.begin(), found.end(), [&](std::size_t s) { return is_like(map, mode, modes[s]); })) continue;
+    ++strangers.shapes;
+    out.insert(out.end(), mode.real_rows.begin(), mode.real_rows.end());
+    out.insert(out.end(), mode.imag_rows.begin(), mode.imag_rows.end());
+    if (mode.frequency >= 0) out.push_back(mode.frequency);
+    if (mode.damping >= 0) out.push_back(mode.damping);
+  }
+  strangers.rows = static_cast<int>(out.size());
+  return out;
+}
+
+/// Errors that set rows aside (n × n).
+MatrixXd set_aside(const std::vector<int>& rows, Index n) {
+  MatrixXd out = MatrixXd::Zero(n, n);
+  for (const int r : rows) out(r, r) = kAside * kAside;
+  return out;
+}
+
+}  // namespace
+
+FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base, const VectorXd& predicted, double frequency,
+                           double shape) {
+  FeatureMap out = plain;
+  out.add_covariance(form_covariance(plain, base, {}, predicted, frequency, shape));
+  return out;
+}
+
+FeatureMap without_strangers(const Inference& whole, const FeatureMap::Base& prior, const VectorXd& predicted,
+                             double form_error, Strangers& strangers) {
+  const FeatureMap& map = whole.map();
+  const FeatureMap informed_map = with_form_error(map, prior, predicted, form_error, form_error);
+  FeatureMap out = map;
+  const Fit fit = first_fit(Inference(informed_map, whole.candidates()));
+  if (!fit.made()) return out;
+  const std::vector<int> rows = rows_of_strangers(map, fit, strangers);
+  if (!rows.empty()) out.add_covariance(set_aside(rows, predicted.size()));
+  return out;
+}
+
+Fit first_fit(const Inference& informed) {
+  const FeatureMap& map = informed.map();
+  const std::set<int> plainest = plainest_conditions(map.features());
+  std::vector<int> others;
+  for (std::size_t r = 0; r < map.features().rows.size(); ++r)
+    if (!plainest.contains(map.features().rows[r].condition)) others.push_back(static_cast<int>(r));
+  if (others.empty()) return informed.fit({}, {});
+  FeatureMap first_map = map;
+  first_map.add_covariance(set_aside(others, std::ssize(map.features().rows)));
+  const Fit fit = Inference(first_map, informed.candidates()).fit({}, {});
+  return fit.made() ? informed.stand(fit.map.x) : fit;
+}
+
+}  // namespace twindeck::diagnosis
