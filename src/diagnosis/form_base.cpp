@@ -61,7 +61,7 @@ std::vector<std::size_t> strangers_of(const FeatureMap& map, const Fit& fit) {
     const MeasuredMode& mode = map.measured_modes()[m];
     if (!plainest.contains(mode.condition) || mode.real_rows.empty()) continue;
     ++looked_at;
-    if (shape_mac(map.values()(mode.real_rows), fit.all.g(mode.real_rows)) < kLeastMac) out.push_back(m);
+    if (fit.all.mac[m] < kLeastMac) out.push_back(m);
   }
   if (static_cast<double>(out.size()) > kMostStrangers * static_cast<double>(looked_at)) out.clear();
   return out;
