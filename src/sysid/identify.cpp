@@ -17,16 +17,29 @@ namespace {
 /// cycles leave every mode so, and deviations from few blocks are themselves known to a third.
 constexpr double kNearLaw = 3.0;
 
+/// Standard deviation of a unit-norm shape across itself: its scale and phase are free. 0 where the covariance is unknown.
+double shape_deviation(const Cluster& mode, const ModeDeviation& deviation) {
+  const Eigen::Index n = mode.shape.size();
+  if (deviation.factor.rows() < 2 + 2 * n) return 0.0;
+  const Eigen::VectorXcd along = mode.shape.normalized();
+  Eigen::MatrixXcd changes(n, deviation.factor.cols());
+  changes.real() = deviation.factor.middleRows(2, n);
+  changes.imag() = deviation.factor.middleRows(2 + n, n);
+  changes -= along * (along.adjoint() * changes);
+  return changes.norm();
+}
+
 bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const IdentifyOptions& options, double seconds) {
-  const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6);
-  if (options.selection == Selection::paper)
-    return options.largest_deviation <= 0.0 || deviation.frequency_Hz <= options.largest_deviation * f;
+  const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6), relative = deviation.frequency_Hz / f;
+  if (options.selection == Selection::paper) return options.largest_deviation <= 0.0 || relative <= options.largest_deviation;
   const double share = options.largest_bandwidth_share;
   if (seconds <= 0.0) return share <= 0.0 || deviation.frequency_Hz <= share * zeta * f;
   if (options.largest_law_ratio <= 0.0) return true;
   // In relation to the half bandwidth and to the damping ratio itself, the least deviation is the same number.
   const double law = std::sqrt(1.0 / (2.0 * std::numbers::pi * f * zeta * seconds)), short_record = kNearLaw * law;
-  const double frequency = deviation.frequency_Hz / (zeta * f), damping = deviation.damping_ratio / zeta;
+  const double frequency = relative / zeta, damping = deviation.damping_ratio / zeta;
+  if (options.largest_deviation > 0.0 && relative > std::max(options.largest_deviation, short_record * zeta)) return false;
+  if (options.largest_shape_deviation > 0.0 && shape_deviation(mode, deviation) > options.largest_shape_deviation) return false;
   return frequency <= options.largest_law_ratio * law && (share <= 0.0 || frequency <= std::max(share, short_record)) &&
          damping <= std::max(1.0, short_record);
 }
@@ -144,17 +157,31 @@ void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& r
   result.periodic.insert(result.periodic.end(), known.begin(), known.end());
   std::sort(result.periodic.begin(), result.periodic.end(),
             [](const PeriodicLine& p, const PeriodicLine& q) { return p.frequency_Hz < q.frequency_Hz; });
+  drop_lines(result, result.periodic, rule);
+}
+
+void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule) {
+  constexpr double kFew = 2.0;  // standard deviations that chance explains
   std::vector<bool> stays(result.modes.size(), true);
   for (std::size_t m = 0; m < stays.size(); ++m) {
     const Cluster& mode = result.modes[m];
-    // Without damping as far as the record can tell.
-    const double reach = m < result.deviations.size() ? 2.0 * result.deviations[m].damping_ratio : 0.0;
-    if (mode.damping_ratio >= rule.largest_damping + std::max(reach, rule.largest_damping)) continue;
-    stays[m] = std::none_of(result.periodic.begin(), result.periodic.end(), [&](const PeriodicLine& line) {
-      return std::abs(line.frequency_Hz - mode.frequency_Hz) < rule.largest_spread * mode.frequency_Hz;
-    });
+    const bool known = m < result.deviations.size();
+    const double damping = known ? kFew * result.deviations[m].damping_ratio : 0.0;
+    const double spread = rule.largest_spread * mode.frequency_Hz;
+    const double reach = std::max(spread, known ? kFew * result.deviations[m].frequency_Hz : 0.0);
+    if (mode.damping_ratio >= rule.largest_leftover + std::max(damping, rule.largest_damping)) continue;
+    stays[m] = std::none_of(lines.begin(), lines.end(),
+                            [&](const PeriodicLine& line) { return std::abs(line.frequency_Hz - mode.frequency_Hz) < reach; });
   }
   keep_modes(result, stays);
+}
+
+void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule) {
+  for (Identification* setup : setups) {
+    for (const Identification* other : setups) {
+      if (other != setup) drop_lines(*setup, other->periodic, rule);
+    }
+  }
 }
 
 std::vector<int> IdentifyOptions::orders() const {

@@ -25,9 +25,14 @@ struct IdentifyOptions {
   CleaningRule cleaning;
   AutomaticRule automatic;
   PeriodicRule periodic;
-  /// The paper's selection: a cluster whose frequency has a relative standard deviation above this is dropped: its pole
-  /// recurs over the model orders, but the data do not determine it. 0 keeps all (the rule as printed).
+  /// A cluster whose frequency has a relative standard deviation above this is dropped: its pole recurs over the model orders,
+  /// but the data do not determine it. 0 keeps all (the rule as printed in the paper). Automatic selection of an ambient
+  /// record: unless three times the lower limit (see below) allow more.
   double largest_deviation = 0.01;
+  /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its unit-norm shape, across
+  /// itself, exceeds this. At 0.5 its MAC with the true shape is 0.8 in the mean, and one of two close modes can no longer be
+  /// told from a mixture of both. 0 keeps all.
+  double largest_shape_deviation = 0.5;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many
   /// times
   ///     f sqrt(zeta / (2 pi N_c)),   N_c the cycles in the record,
@@ -72,11 +77,18 @@ struct Identification {
                                              const std::vector<Eigen::MatrixXd>& quiet = {});
 
 /// Tells lines of periodic forces from modes: `periodic` keeps the candidates that the records show to be lines. Modes at such
-/// a frequency are dropped if their damping does not differ from that of a line by more than two standard deviations.
+/// a frequency are dropped, see drop_lines.
 /// @param records  those identified (n_samples × n_outputs), channels scaled alike
 /// @param known  lines that are no longer in these records; they stay in `periodic`
 void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
                    const PeriodicRule& rule, const std::vector<PeriodicLine>& known = {});
+
+/// Drops the modes that are lines: no further from one than its poles scatter, or two standard deviations, and with a damping
+/// ratio that does not differ from what taking a line out leaves by more than two standard deviations.
+void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule);
+
+/// In each setup, drops the modes that are lines of another one: a machine that one setup shows runs in the next one too.
+void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule);
 
 /// Drops the modes that the data do not determine, by the rules of the options. The automatic selection also treats pairs that
 /// the data cannot tell apart (frequencies within three standard deviations of their difference, MAC above 0.8): it drops the

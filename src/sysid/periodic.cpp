@@ -77,11 +77,22 @@ int multiple_of(double frequency_Hz, double base_Hz, double tolerance) {
   return whole >= 1.0 && std::abs(ratio - whole) < tolerance * whole ? static_cast<int>(whole) : 0;
 }
 
-/// exp(i phase) of a line, sample by sample.
-Eigen::ArrayXcd phasor_of(const PeriodicLine& line, const Eigen::MatrixXd& record, double rate_Hz) {
-  const Eigen::ArrayXcd a =
-      modal_coordinate(record, rate_Hz, line.shape, line.frequency_Hz, band_of(line, record.rows(), rate_Hz)).array();
-  return a / a.abs().max(1e-300);
+/// Phase of a line [rad], sample by sample, without jumps.
+Eigen::ArrayXd phase_of(const PeriodicLine& line, const Eigen::MatrixXd& record, double rate_Hz) {
+  const Eigen::VectorXcd a =
+      modal_coordinate(record, rate_Hz, line.shape, line.frequency_Hz, band_of(line, record.rows(), rate_Hz));
+  Eigen::ArrayXd phase(a.size());
+  phase[0] = std::arg(a[0]);
+  for (Index t = 1; t < a.size(); ++t) phase[t] = phase[t - 1] + std::arg(a[t] * std::conj(a[t - 1]));
+  return phase;
+}
+
+/// exp(i phase).
+Eigen::ArrayXcd turning(const Eigen::ArrayXd& phase) {
+  Eigen::ArrayXcd phasor(phase.size());
+  phasor.real() = phase.cos();
+  phasor.imag() = phase.sin();
+  return phasor;
 }
 
 /// What each channel holds of a phasor, as an amplitude (n_outputs).
@@ -122,32 +133,36 @@ bool is_among(const std::vector<PeriodicLine>& lines, double frequency_Hz, doubl
 }  // namespace
 
 std::vector<PeriodicLine> without_lines(std::vector<Eigen::MatrixXd>& records, const std::vector<PeriodicLine>& lines,
-                                        double rate_Hz, double highest_Hz, const PeriodicRule& rule) {
+                                        double rate_Hz, double lowest_Hz, double highest_Hz, const PeriodicRule& rule) {
   std::vector<PeriodicLine> all = lines;
   for (const PeriodicLine& line : lines) {
-    std::vector<Eigen::ArrayXcd> base;
+    std::vector<Eigen::ArrayXd> phases;
     for (Eigen::MatrixXd& record : records) {
-      base.push_back(phasor_of(line, record, rate_Hz));
-      subtract(record, base.back());
+      phases.push_back(phase_of(line, record, rate_Hz));
+      subtract(record, turning(phases.back()));
     }
-    for (int k = 2; k * line.frequency_Hz <= highest_Hz; ++k) {
-      PeriodicLine multiple{k * line.frequency_Hz, 0.0, Eigen::VectorXcd(), 1.0, k * line.multiple};
+    const auto look_at = [&](double ratio) {
+      PeriodicLine other{ratio * line.frequency_Hz, 0.0, Eigen::VectorXcd(), 1.0};
       // One that is a line by itself has its own phase, and is subtracted with it.
-      if (is_among(all, multiple.frequency_Hz, rule.largest_spread)) continue;
+      if (other.frequency_Hz < lowest_Hz || is_among(all, other.frequency_Hz, rule.largest_spread)) return;
       std::vector<Eigen::ArrayXcd> phasors;
-      double prominent = std::numeric_limits<double>::infinity();
       for (std::size_t r = 0; r < records.size(); ++r) {
-        phasors.push_back(base[r].pow(k));
-        prominent = std::min(prominent, prominence(records[r], phasors.back()));
+        phasors.push_back(turning(ratio * phases[r]));
+        if (prominence(records[r], phasors.back()) < rule.least_prominence) return;
       }
-      if (prominent < rule.least_prominence) continue;
-      multiple.shape = coherent_part(records.front(), phasors.front()).normalized();
+      other.shape = coherent_part(records.front(), phasors.front()).normalized();
       for (std::size_t r = 0; r < records.size(); ++r) subtract(records[r], phasors[r]);
-      all.push_back(std::move(multiple));
-    }
+      all.push_back(std::move(other));
+    };
+    for (const double part : {1.0 / 3.0, 1.0 / 2.0}) look_at(part);
+    for (int k = 2; k * line.frequency_Hz <= highest_Hz; ++k) look_at(k);
   }
   std::sort(all.begin(), all.end(),
             [](const PeriodicLine& p, const PeriodicLine& q) { return p.frequency_Hz < q.frequency_Hz; });
+  for (PeriodicLine& line : all) {
+    for (const PeriodicLine& base : all)
+      line.multiple = std::max(line.multiple, multiple_of(line.frequency_Hz, base.frequency_Hz, rule.multiple));
+  }
   return all;
 }
 

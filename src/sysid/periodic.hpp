@@ -12,6 +12,9 @@ struct PeriodicRule {
   /// [-] largest |damping ratio| of a line's pole. A line has none; its estimate scatters to either side of zero. Structures
   /// have 0.2 % and more.
   double largest_damping = 0.001;
+  /// [-] largest damping ratio of the pole that is left where a line was taken out: a machine's speed wanders, and what does
+  /// not turn with the line's phase stays.
+  double largest_leftover = 0.002;
   double largest_spread = 0.001;  ///< [-] relative distance of neighbouring poles of one line, which repeats at all orders
   double share = 0.3;             ///< [-] least share of the orders that a line is found at
   /// [-] largest E|a|⁴ / (E|a|²)² of the envelope a in a narrow band around it: 1 for a steady line, 2 for normal noise or a
@@ -46,14 +49,15 @@ struct PeriodicLine {
                                                        const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
                                                        const PeriodicRule& rule);
 
-/// Takes the lines out of the records, and finds their multiples. The turning phase of a line is read in a narrow band around
-/// it from all channels together. Of each channel the part that turns with this phase, or with a multiple of it, is subtracted
-/// by least squares: two numbers a channel, so that modes near the line keep what is theirs. A multiple counts as a line if
-/// what turns with it stands out from what turns somewhat faster and slower.
-/// @param records  (n_samples × n_outputs) each, changed @param highest_Hz  of a multiple
-/// @return the lines and the multiples that were not among them, ascending in frequency
+/// Takes the lines out of the records, and finds what belongs to them: multiples, and the half and the third of which they are
+/// multiples (a machine's own speed is often its weakest line). The turning phase of a line is read in a narrow band around it
+/// from all channels together. Of each channel the part that turns with this phase, or with a multiple or a part of it, is
+/// subtracted by least squares: two numbers a channel, so that modes near the line keep what is theirs. A multiple counts as a
+/// line if what turns with it stands out from what turns somewhat faster and slower.
+/// @param records  (n_samples × n_outputs) each, changed @param lowest_Hz, highest_Hz  of a line that is found
+/// @return the lines and those found with them, ascending in frequency, multiples numbered
 [[nodiscard]] std::vector<PeriodicLine> without_lines(std::vector<Eigen::MatrixXd>& records,
-                                                      const std::vector<PeriodicLine>& lines, double rate_Hz, double highest_Hz,
-                                                      const PeriodicRule& rule);
+                                                      const std::vector<PeriodicLine>& lines, double rate_Hz, double lowest_Hz,
+                                                      double highest_Hz, const PeriodicRule& rule);
 
 }  // namespace twindeck::sysid

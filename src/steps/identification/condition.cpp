@@ -212,9 +212,10 @@ ConditionResult read_condition(const Campaign& campaign, const std::vector<Recor
 
 void identify_condition(ConditionResult& result, const IdentificationConfig& config, const StepContext& context) {
   std::vector<sysid::SetupModes> setups;
+  std::size_t done = 0;
   for (SetupResult& setup : result.setups) {
     const std::string& name = setup.conditioned.setup;
-    context.progress(fmt::format("identifying {} in condition {}", name, result.condition), static_cast<double>(setups.size()),
+    context.progress(fmt::format("identifying {} in condition {}", name, result.condition), static_cast<double>(done++),
                      static_cast<double>(result.setups.size()));
     setup.spectra = average_spectra(setup.conditioned, setup.limits);
     setup.singular = singular_spectra(setup.conditioned, setup.limits);
@@ -223,8 +224,14 @@ void identify_condition(ConditionResult& result, const IdentificationConfig& con
       context.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
                               line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
     }
+  }
+  std::vector<sysid::Identification*> found;
+  for (SetupResult& setup : result.setups) found.push_back(&setup.found);
+  if (config.selection == "automatic") sysid::drop_lines_of_others(found, config.periodic);
+  for (SetupResult& setup : result.setups) {
     estimate_lags(setup.conditioned, setup.found);
-    setups.push_back({name, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
+    setups.push_back(
+        {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
   }
   const std::vector<Index> references = common_references(result);
   result.modes = sysid::merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});

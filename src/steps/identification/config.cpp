@@ -66,7 +66,9 @@ io::FieldTable IdentificationConfig::fields() {
       .number("cleaning.share", cleaning.share, "", {0.0, 1.0},
               "share of the orders that a mode is found at, from its first; 0: paper's rule")
       .number("cleaning.deviation", largest_deviation, "", io::non_negative(),
-              "with the paper's rule: largest relative standard deviation of a mode's frequency; 0: the rule as printed")
+              "largest relative standard deviation of a mode's frequency; automatic rule: or what the record's length allows; "
+              "0: any "
+              "(the paper's rule as printed)")
       .number("automatic.collinearity", automatic.collinearity, "", {0.0, 1.0},
               "automatic rule: smallest modal phase collinearity")
       .number("automatic.share", automatic.share, "", {0.0, 1.0},
@@ -74,6 +76,8 @@ io::FieldTable IdentificationConfig::fields() {
       .number("automatic.law_ratio", largest_law_ratio, "", io::non_negative(),
               "automatic rule: largest standard deviation of a frequency in units of the least that the record's length "
               "allows; 0: any")
+      .number("automatic.shape_deviation", largest_shape_deviation, "", io::non_negative(),
+              "automatic rule: largest standard deviation of a mode shape of unit norm; 0: any")
       .integer("decay.decimation", decay_decimation, {0.0, 1000.0}, "free decays: as decimation; 0: the same")
       .integer("decay.block_rows", decay_block_rows, {2.0, 1000.0}, "free decays: block rows of the Hankel matrix")
       .integer("decay.maximum_order", decay_maximum_order, {2.0, 500.0}, "free decays: largest model order")
@@ -123,6 +127,7 @@ sysid::IdentifyOptions IdentificationConfig::options(double rate_Hz, const std::
   for (const CampaignChannel& channel : channels) options.automatic.derivatives.push_back(derivative(channel.quantity));
   options.largest_deviation = largest_deviation;
   options.largest_law_ratio = largest_law_ratio;
+  options.largest_shape_deviation = largest_shape_deviation;
   return options;
 }
 

@@ -232,8 +232,8 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
     sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic);
     if (!found.periodic.empty()) {
       // A line beside a mode pulls the mode's poles to itself at small orders: once more, without the lines.
-      const std::vector<sysid::PeriodicLine> lines =
-          sysid::without_lines(scaled, found.periodic, conditioned.rate_Hz, options.limits.highest_Hz, options.periodic);
+      const std::vector<sysid::PeriodicLine> lines = sysid::without_lines(
+          scaled, found.periodic, conditioned.rate_Hz, options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
       found = identify_ambient(scaled, conditioned, config, options);
       sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic, lines);
     }

@@ -127,9 +127,13 @@ IdentifiedRecords identify_records(const RandomRecords& records) {
     conditioned.records.push_back(signal::detrended(records.setups[s].record));
     result.scale.push_back(steps::channel_rms(conditioned.records));
     result.setups.push_back(steps::identify_modes(conditioned, config));
-    setups.push_back(
-        {conditioned.setup, records.setups[s].channels, result.setups.back().modes, result.setups.back().deviations});
   }
+  std::vector<sysid::Identification*> all;
+  for (sysid::Identification& setup : result.setups) all.push_back(&setup);
+  sysid::drop_lines_of_others(all, config.periodic);
+  for (std::size_t s = 0; s < result.setups.size(); ++s)
+    setups.push_back(
+        {"S" + std::to_string(s + 1), records.setups[s].channels, result.setups[s].modes, result.setups[s].deviations});
   result.modes = sysid::merge_poser(setups, records.n_channels, records.references, {});
   return result;
 }

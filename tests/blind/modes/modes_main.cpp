@@ -65,7 +65,7 @@ void write_csv(const std::vector<Scored>& all, const std::filesystem::path& file
              s.score.alike, s.found, s.score.spurious.size(), s.score.flagged, squares(s.score.frequency_error),
              squares(s.score.damping_error), s.seconds});
   }
-  std::filesystem::create_directories(file.parent_path());
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   csv.save(file);
 }
 

@@ -54,6 +54,32 @@ TEST(Identify, AModeOfFewCyclesStaysIfItIsAsWellKnownAsTheRecordAllows) {
   EXPECT_TRUE(stays(f, zeta, damping_unknown, 14400.0, o));
 }
 
+// Two channels; the covariance turns the shape towards its perpendicular by `across`, and along itself by `along`.
+TEST(Identify, AModeStaysAsLongAsItsShapeIsKnown) {
+  const auto stays_with = [&](double across, double along) {
+    ModeDeviation deviation;
+    deviation.frequency_Hz = 0.002;
+    deviation.damping_ratio = 0.001;
+    deviation.factor = Eigen::MatrixXd::Zero(6, 2);
+    deviation.factor.block(2, 0, 2, 1) = across * Eigen::Vector2d(1.0, -1.0).normalized();
+    deviation.factor.block(2, 1, 2, 1) = along * Eigen::Vector2d(1.0, 1.0).normalized();
+    return stays(1.0, 0.01, deviation, 3600.0, options());
+  };
+  EXPECT_TRUE(stays_with(0.4, 0.0));
+  EXPECT_FALSE(stays_with(0.6, 0.0));
+  EXPECT_TRUE(stays_with(0.0, 5.0));  // the scale of a shape is free
+}
+
+TEST(Identify, AFrequencyThatTheRecordLeavesOpenIsNoMode) {
+  ModeDeviation deviation;
+  deviation.damping_ratio = 0.01;
+  deviation.frequency_Hz = 0.009;
+  EXPECT_TRUE(stays(1.0, 0.05, deviation, 600.0, options()));
+  deviation.frequency_Hz = 0.015;  // above 1 % and above three times the least of ten minutes, 1.1 %
+  EXPECT_FALSE(stays(1.0, 0.05, deviation, 600.0, options()));
+  EXPECT_TRUE(stays(1.0, 0.05, deviation, 150.0, options()));  // a short record knows no mode better
+}
+
 TEST(Identify, ChainUnderWhiteNoise) {
   const double rate = 20.0, zeta = 0.01;
   const test::Chain chain(4, 25.0, zeta, rate);

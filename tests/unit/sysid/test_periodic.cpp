@@ -74,11 +74,27 @@ TEST(Periodic, WithoutItsLinesTheRecordIsAsIfTheMachineStoodStill) {
   const double line = (running - still).norm();
   std::vector<Eigen::MatrixXd> records = {running};
   const PeriodicLine known{kLine_Hz, 0.0, Eigen::Vector4cd(0.3, 1.0, -0.5, 0.7)};
-  const std::vector<PeriodicLine> all = without_lines(records, {known}, 20.0, 8.0, {});
+  const std::vector<PeriodicLine> all = without_lines(records, {known}, 20.0, 0.1, 8.0, {});
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[1].multiple, 2);
   EXPECT_NEAR(all[1].frequency_Hz, 2.0 * kLine_Hz, 1e-9);
   EXPECT_LT((records.front() - still).norm(), 0.05 * line);  // the phase is known to some hundredths: noise lies in its band
+}
+
+// Only the second multiple is told: the machine's own speed, of which it is twice, is found and taken out too.
+TEST(Periodic, TheSpeedItselfIsFoundFromItsMultiple) {
+  const Eigen::MatrixXd still = record_with_machine(0.0), running = record_with_machine(0.5);
+  const double line = (running - still).norm();
+  std::vector<Eigen::MatrixXd> records = {running};
+  const PeriodicLine known{2.0 * kLine_Hz, 0.0, Eigen::Vector4cd(0.7, -0.5, 1.0, 0.3)};
+  const std::vector<PeriodicLine> all = without_lines(records, {known}, 20.0, 0.1, 8.0, {});
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NEAR(all[0].frequency_Hz, kLine_Hz, 1e-9);
+  EXPECT_EQ(all[0].multiple, 1);
+  EXPECT_EQ(all[1].multiple, 2);
+  EXPECT_LT((records.front() - still).norm(), 0.1 * line);  // the weaker line's phase is known half as well
+  records = {running};
+  EXPECT_EQ(without_lines(records, {known}, 20.0, 2.0, 8.0, {}).size(), 1U);  // below the band nothing is looked for
 }
 
 // In a record without a machine nothing turns with a multiple: what is taken out is the little that fits by chance.
@@ -86,8 +102,32 @@ TEST(Periodic, NoMultipleIsFoundInNoise) {
   const Eigen::MatrixXd still = record_with_machine(0.0);
   std::vector<Eigen::MatrixXd> records = {still};
   const PeriodicLine none{kLine_Hz, 0.0, Eigen::Vector4cd(0.3, 1.0, -0.5, 0.7)};
-  EXPECT_EQ(without_lines(records, {none}, 20.0, 8.0, {}).size(), 1U);
+  EXPECT_EQ(without_lines(records, {none}, 20.0, 0.1, 8.0, {}).size(), 1U);
   EXPECT_LT((records.front() - still).norm(), 0.05 * still.norm());
+}
+
+/// A mode at `f_Hz` with its deviations: is it taken for the line at 1.7 Hz?
+bool is_taken_for_the_line(double f_Hz, double f_std_Hz, double zeta, double zeta_std) {
+  Identification setup;
+  Cluster mode;
+  mode.frequency_Hz = f_Hz;
+  mode.damping_ratio = zeta;
+  ModeDeviation deviation;
+  deviation.frequency_Hz = f_std_Hz;
+  deviation.damping_ratio = zeta_std;
+  setup.modes.push_back(mode);
+  setup.deviations.push_back(deviation);
+  Identification other;
+  other.periodic.push_back({kLine_Hz, 0.0, Eigen::VectorXcd()});
+  drop_lines_of_others({&setup, &other}, {});
+  return setup.modes.empty();
+}
+
+TEST(Periodic, WhatALineLeavesIsNoModeInAnySetup) {
+  EXPECT_TRUE(is_taken_for_the_line(1.7005, 0.0002, 0.0015, 0.0004));
+  EXPECT_TRUE(is_taken_for_the_line(1.704, 0.003, 0.005, 0.0025));    // badly known: it may well be the line
+  EXPECT_FALSE(is_taken_for_the_line(1.704, 0.001, 0.0015, 0.0004));  // four deviations away
+  EXPECT_FALSE(is_taken_for_the_line(1.7005, 0.0002, 0.008, 0.002));  // damped as a structure
 }
 
 }  // namespace
