@@ -180,6 +180,9 @@ std::vector<Cluster> whole_chains(const std::vector<DiagramPole>& diagram, const
   return whole;
 }
 
+/// Largest share of a mixture's orders at which both neighbours have poles of their own beside it.
+constexpr double kMixtureBeside = 0.49;
+
 /// Part of a unit-norm shape, squared, outside the span of two others.
 double outside_span(const Eigen::VectorXcd& shape, const Eigen::VectorXcd& first, const Eigen::VectorXcd& second) {
   const Eigen::VectorXcd a = first.normalized();
@@ -196,8 +199,10 @@ double largest_residual(Index channels, const AutomaticRule& rule) {
   return std::min(rule.mixture_residual, std::pow(rule.mixture_chance, 2.0 / static_cast<double>(channels - 2)));
 }
 
-/// At most of the cluster's orders one of the two neighbours has no pole, and both go on at orders above its last one.
-bool gives_way(const std::vector<DiagramPole>& diagram, const Cluster& cluster, const Cluster& low, const Cluster& high) {
+/// At the cluster's orders, but for the stated share, one of the two neighbours has no pole, and both go on at orders above its
+/// last one.
+bool gives_way(const std::vector<DiagramPole>& diagram, const Cluster& cluster, const Cluster& low, const Cluster& high,
+               double share_beside) {
   const auto last = [&](const Cluster& c) { return diagram[c.members.back()].pole.order; };
   if (last(low) <= last(cluster) || last(high) <= last(cluster)) return false;
   const auto is_at = [&](const Cluster& c, int order) {
@@ -207,28 +212,7 @@ bool gives_way(const std::vector<DiagramPole>& diagram, const Cluster& cluster, 
     const int order = diagram[i].pole.order;
     return is_at(low, order) && is_at(high, order);
   });
-  return 2 * static_cast<std::size_t>(both) < cluster.members.size();
-}
-
-/// Without the clusters that two others explain, one below and one above, which both recur at more orders and take its place.
-std::vector<Cluster> without_mixtures(const std::vector<DiagramPole>& diagram, const std::vector<Cluster>& clusters,
-                                      const AutomaticRule& rule) {
-  std::vector<Cluster> kept;
-  for (const Cluster& cluster : clusters) {
-    const double f = cluster.frequency_Hz, residual = largest_residual(cluster.shape.size(), rule);
-    std::vector<const Cluster*> below, above;
-    for (const Cluster& other : clusters) {
-      if (other.members.size() <= cluster.members.size() || std::abs(other.frequency_Hz - f) > rule.mixture_reach * f) continue;
-      (other.frequency_Hz < f ? below : above).push_back(&other);
-    }
-    const bool mixture = std::any_of(below.begin(), below.end(), [&](const Cluster* low) {
-      return std::any_of(above.begin(), above.end(), [&](const Cluster* high) {
-        return gives_way(diagram, cluster, *low, *high) && outside_span(cluster.shape, low->shape, high->shape) < residual;
-      });
-    });
-    if (!mixture) kept.push_back(cluster);
-  }
-  return kept;
+  return static_cast<double>(both) <= share_beside * static_cast<double>(cluster.members.size());
 }
 
 /// Both clusters are found, beside each other, at the stated share of all orders.
@@ -258,6 +242,26 @@ std::vector<Cluster> distinct_clusters(const std::vector<DiagramPole>& diagram, 
 }
 
 }  // namespace
+
+std::vector<bool> mixtures(const std::vector<DiagramPole>& diagram, const std::vector<Cluster>& clusters,
+                           const AutomaticRule& rule, double share_beside) {
+  std::vector<bool> is_mixture;
+  for (const Cluster& cluster : clusters) {
+    const double f = cluster.frequency_Hz, residual = largest_residual(cluster.shape.size(), rule);
+    std::vector<const Cluster*> below, above;
+    for (const Cluster& other : clusters) {
+      if (other.members.size() <= cluster.members.size() || std::abs(other.frequency_Hz - f) > rule.mixture_reach * f) continue;
+      (other.frequency_Hz < f ? below : above).push_back(&other);
+    }
+    is_mixture.push_back(std::any_of(below.begin(), below.end(), [&](const Cluster* low) {
+      return std::any_of(above.begin(), above.end(), [&](const Cluster* high) {
+        return gives_way(diagram, cluster, *low, *high, share_beside) &&
+               outside_span(cluster.shape, low->shape, high->shape) < residual;
+      });
+    }));
+  }
+  return is_mixture;
+}
 
 std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
                                         const AutomaticRule& rule) {
@@ -306,9 +310,14 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
     clusters.push_back(summarise(diagram, members));
   }
   clusters = distinct_clusters(diagram, orders, std::move(clusters), rule);
-  clusters = without_mixtures(diagram, whole_chains(diagram, orders, clusters, cut), rule);
-  number_clusters(diagram, clusters);
-  return clusters;
+  clusters = whole_chains(diagram, orders, clusters, cut);
+  const std::vector<bool> is_mixture = mixtures(diagram, clusters, rule, kMixtureBeside);
+  std::vector<Cluster> modes;
+  for (std::size_t m = 0; m < clusters.size(); ++m) {
+    if (!is_mixture[m]) modes.push_back(std::move(clusters[m]));
+  }
+  number_clusters(diagram, modes);
+  return modes;
 }
 
 }  // namespace twindeck::sysid

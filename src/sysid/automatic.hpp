@@ -48,4 +48,10 @@ struct AutomaticRule {
 [[nodiscard]] std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
                                                       const AutomaticRule& rule);
 
+/// Which clusters are mixtures of two others, as automatic_clusters drops them. To be asked once more when clusters have lost
+/// members: poles of noise among them may have hidden one.
+/// @param share_beside  largest share of a mixture's orders at which both of the others have poles of their own
+[[nodiscard]] std::vector<bool> mixtures(const std::vector<DiagramPole>& diagram, const std::vector<Cluster>& clusters,
+                                         const AutomaticRule& rule, double share_beside);
+
 }  // namespace twindeck::sysid

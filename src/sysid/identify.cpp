@@ -102,8 +102,9 @@ Identification select(const ShiftModels& models, const IdentifyOptions& options)
 }
 
 /// Orders at which a pole has split in two know either half badly. Those known worse than twice the lower quartile do not speak
-/// for the mode.
-void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors) {
+/// for the mode. A mode that has lost poles is asked once more whether it is a mixture: they may have hidden it.
+void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors, const AutomaticRule& rule) {
+  std::vector<bool> lost;
   for (Cluster& mode : result.modes) {
     std::vector<double> deviations;
     for (const std::size_t i : mode.members) deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
@@ -114,8 +115,12 @@ void keep_well_known(Identification& result, const ShiftModels& models, const Po
     for (std::size_t k = 0; k < deviations.size(); ++k) {
       if (deviations[k] <= most) kept.push_back(mode.members[k]);
     }
+    lost.push_back(kept.size() < deviations.size());
     mode = summarise(result.diagram, std::move(kept));
   }
+  std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
+  for (std::size_t m = 0; m < stays.size(); ++m) stays[m] = !(stays[m] && lost[m]);
+  keep_modes(result, stays);
 }
 
 /// The covariance says how far the records settle a pole of one order; which order it is, nobody knows. A pole that holds a
@@ -132,7 +137,7 @@ void add_deviations(Identification& result, const Observability& observability, 
                     const Changes& changes, const IdentifyOptions& options, double seconds) {
   const PoleFactors factors = pole_factors(observability, models, changes);
   for (DiagramPole& pole : result.diagram) pole.frequency_std_Hz = frequency_deviation(models, factors, pole.pole);
-  if (options.selection == Selection::automatic) keep_well_known(result, models, factors);
+  if (options.selection == Selection::automatic) keep_well_known(result, models, factors, options.automatic);
   std::vector<std::vector<Pole>> members;
   for (const Cluster& mode : result.modes) {
     members.emplace_back();

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "steps/identification/channel_lag.hpp"
 #include "steps/identification/limits.hpp"
+#include "sysid/common_motion.hpp"
 
 namespace twindeck::steps {
 
@@ -158,6 +159,18 @@ void check_merging(ConditionResult& result, const std::vector<Index>& references
   }
 }
 
+/// Where the configuration leaves the band open, it ends where the sensors no longer move together. @return says so
+std::string limit_band(SetupResult& setup) {
+  constexpr double kBeyond = 1.1;  // of the last common motion: the flank of a mode there
+  const double nyquist = 0.5 * setup.conditioned.rate_Hz, widest = 0.8 * nyquist;
+  const double common = sysid::highest_common_Hz(setup.conditioned.records, setup.conditioned.rate_Hz);
+  const bool limited = kBeyond * common > setup.limits.lowest_Hz && kBeyond * common < widest;
+  setup.limits.highest_Hz = limited ? kBeyond * common : widest;
+  return fmt::format("setup {}: modes are looked for up to {:.4g} Hz, {}; band.highest sets another limit",
+                     setup.conditioned.setup, setup.limits.highest_Hz,
+                     limited ? "above which the sensors show no common motion" : "0.8 of the Nyquist frequency");
+}
+
 /// The records of one setup with the limits that they carry.
 SetupResult read_setup(const Campaign& campaign, const RecordGroup& group, const IdentificationConfig& config,
                        StepContext& context) {
@@ -219,6 +232,7 @@ void identify_condition(ConditionResult& result, const IdentificationConfig& con
                      static_cast<double>(result.setups.size()));
     setup.spectra = average_spectra(setup.conditioned, setup.limits);
     setup.singular = singular_spectra(setup.conditioned, setup.limits);
+    if (config.highest_Hz == 0.0) context.say(limit_band(setup));
     setup.found = identify_modes(setup.conditioned, setup.limits);
     for (const sysid::PeriodicLine& line : setup.found.periodic) {
       context.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
@@ -240,13 +254,6 @@ void identify_condition(ConditionResult& result, const IdentificationConfig& con
         std::min_element(result.setups.begin(), result.setups.end(),
                          [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
     check_merging(result, references, fewest->limits);
-  }
-  if (config.highest_Hz == 0.0) {
-    const double rate_Hz = result.setups.front().conditioned.rate_Hz;
-    context.say(
-        fmt::format("condition {}: modes are looked for up to {:.4g} Hz, 0.8 of the Nyquist frequency; where the sensors "
-                    "see less, give band.highest",
-                    result.condition, 0.4 * rate_Hz));
   }
 }
 

@@ -45,7 +45,8 @@ io::FieldTable IdentificationConfig::fields() {
               "share of a channel's samples that may stand at its largest or smallest value, three or more in a row")
       .integer("decimation", decimation, {1.0, 1000.0}, "every so many-th sample is kept, after a zero-phase low-pass")
       .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below are left out")
-      .number("band.highest", highest_Hz, "Hz", io::non_negative(), "poles above are left out; 0: 0.8 of the Nyquist frequency")
+      .number("band.highest", highest_Hz, "Hz", io::non_negative(),
+              "poles above are left out; 0: up to where the sensors move together, at most 0.8 of the Nyquist frequency")
       .integer("block_rows", block_rows, {2.0, 500.0},
                "block rows of the Toeplitz or Hankel matrix; twice as many lags are used")
       .integer("minimum_order", minimum_order, {2.0, 500.0}, "smallest model order")
