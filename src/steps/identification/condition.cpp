@@ -232,8 +232,9 @@ void identify_condition(ConditionResult& result, const IdentificationConfig& con
                      static_cast<double>(result.setups.size()));
     setup.spectra = average_spectra(setup.conditioned, setup.limits);
     setup.singular = singular_spectra(setup.conditioned, setup.limits);
-    if (config.highest_Hz == 0.0) context.say(limit_band(setup));
+    const std::string band = config.highest_Hz == 0.0 ? limit_band(setup) : "";
     setup.found = identify_modes(setup.conditioned, setup.limits);
+    if (!band.empty()) context.say(band);
     for (const sysid::PeriodicLine& line : setup.found.periodic) {
       context.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
                               line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
