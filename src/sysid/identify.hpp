@@ -30,9 +30,9 @@ struct IdentifyOptions {
   /// record: unless three times the lower limit (see below) allow more.
   double largest_deviation = 0.01;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its unit-norm shape, across
-  /// itself, exceeds this. At 0.5 its MAC with the true shape is 0.8 in the mean, and one of two close modes can no longer be
-  /// told from a mixture of both. 0 keeps all.
-  double largest_shape_deviation = 0.5;
+  /// itself, exceeds this. At 0.6 its MAC with the true shape is some 0.7, and one of two close modes can no longer be told
+  /// from a mixture of both. 0 keeps all.
+  double largest_shape_deviation = 0.6;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many
   /// times
   ///     f sqrt(zeta / (2 pi N_c)),   N_c the cycles in the record,

@@ -31,7 +31,7 @@ struct IdentificationConfig {
              0.0;  ///< highest 0: left open, at most 0.8 of the Nyquist frequency after decimation, the filter's passband
   sysid::StabilisationCriteria criteria;
   double largest_damping = 0.20;
-  double largest_deviation = 0.01, largest_law_ratio = 10.0, largest_shape_deviation = 0.5;
+  double largest_deviation = 0.01, largest_law_ratio = 10.0, largest_shape_deviation = 0.6;
   sysid::CleaningRule cleaning;
   sysid::AutomaticRule automatic;
   sysid::PeriodicRule periodic;

@@ -65,8 +65,8 @@ TEST(Identify, AModeStaysAsLongAsItsShapeIsKnown) {
     deviation.factor.block(2, 1, 2, 1) = along * Eigen::Vector2d(1.0, 1.0).normalized();
     return stays(1.0, 0.01, deviation, 3600.0, options());
   };
-  EXPECT_TRUE(stays_with(0.4, 0.0));
-  EXPECT_FALSE(stays_with(0.6, 0.0));
+  EXPECT_TRUE(stays_with(0.5, 0.0));
+  EXPECT_FALSE(stays_with(0.7, 0.0));
   EXPECT_TRUE(stays_with(0.0, 5.0));  // the scale of a shape is free
 }
 
