@@ -68,8 +68,7 @@ io::FieldTable IdentificationConfig::fields() {
               "share of the orders that a mode is found at, from its first; 0: paper's rule")
       .number("cleaning.deviation", largest_deviation, "", io::non_negative(),
               "largest relative standard deviation of a mode's frequency; automatic rule: or what the record's length allows; "
-              "0: any "
-              "(the paper's rule as printed)")
+              "0: any (the paper's rule as printed)")
       .number("automatic.collinearity", automatic.collinearity, "", {0.0, 1.0},
               "automatic rule: smallest modal phase collinearity")
       .number("automatic.share", automatic.share, "", {0.0, 1.0},

@@ -26,9 +26,8 @@ struct IdentificationConfig {
   long decimation = 1, block_rows = 30, minimum_order = 2, maximum_order = 60, order_step = 2, blocks = 20, longest_gap = 0;
   long welch_segment = 2048;
   double largest_clipping = 1e-3;
-  double lowest_Hz = 0.0,
-         highest_Hz =
-             0.0;  ///< highest 0: left open, at most 0.8 of the Nyquist frequency after decimation, the filter's passband
+  double lowest_Hz = 0.0;
+  double highest_Hz = 0.0;  ///< 0: left open, at most 0.8 of the Nyquist frequency after decimation, the filter's passband
   sysid::StabilisationCriteria criteria;
   double largest_damping = 0.20;
   double largest_deviation = 0.01, largest_law_ratio = 10.0, largest_shape_deviation = 0.6;
