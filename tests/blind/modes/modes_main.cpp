@@ -173,6 +173,6 @@ int main(int argc, char** argv) {
   if (argc > 3) write_csv(all, argv[3]);
   fmt::print("\n{} records, seeds {} to {}; exact 95 % intervals\n", totals.records, first, first + all.size() - 1);
   const bool held = print_totals(totals);
-  fmt::print("{}\n", held ? "targets held" : "a target is missed");
+  fmt::print("{}\n", held ? "no target is missed beyond chance" : "a target is missed");
   return held ? 0 : 1;
 }
