@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -165,6 +166,42 @@ class Release(unittest.TestCase):
         done = subprocess.run(["shellcheck", "packaging/twindeck", "tests/coverage/run.sh", "workflows/new.sh", "workflows/python.sh", "workflows/deps.sh"],
                               cwd=ROOT, capture_output=True, text=True)
         self.assertEqual(done.stdout, "")
+
+
+class Packages(unittest.TestCase):
+    """workflows/deps.sh with a package manager made up here. Oracle: what it was asked to install, and what it said."""
+
+    def deps(self, known, fails=False):
+        """(completed process, packages asked for); nothing is installed, apt knows `known`."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        said = "dlstatus:1:4.2:Retrieving\\ndlstatus:1:9.9:Retrieving\\npmstatus:x:55.5:Installing\\nSetting up x\\n"
+        stubs = {"dpkg-query": "exit 1", "sudo": 'exec "$@"', "apt-cache": f'case " {known} " in *" $2 "*) exit 0;; esac; exit 100',
+                 "apt-get": f'[ "$1" = install ] || exit 0; shift; for w in "$@"; do case $w in -*|APT::*) ;; *) echo "$w" >>{folder}/asked;; esac; done; '
+                            f'printf "{said}"; exit {100 if fails else 0}'}
+        for name, body in stubs.items():
+            (folder / name).write_text(f"#!/bin/sh\n{body}\n")
+            (folder / name).chmod(0o755)
+        done = subprocess.run([ROOT / "workflows/deps.sh"], env={"PATH": f"{folder}:/usr/bin:/bin"}, capture_output=True, text=True)
+        return done, (folder / "asked").read_text().split() if (folder / "asked").exists() else []
+
+    wanted = [line for line in (ROOT / "workflows/debian-packages.txt").read_text().splitlines() if line and not line.startswith("#")]
+
+    def test_all_are_asked_for_and_progress_is_said(self):
+        done, asked = self.deps("make calculix-ccx")
+        self.assertEqual((done.returncode, asked), (0, self.wanted), done.stderr)
+        for line in ("deps: fetched 0 %", "deps: installed 50 %", "deps: done"):
+            self.assertEqual(done.stdout.splitlines().count(line), 1, done.stdout)
+        self.assertNotIn("Setting up", done.stdout)
+
+    def test_a_debian_without_calculix_does_without(self):
+        done, asked = self.deps("make")
+        self.assertEqual((done.returncode, asked), (0, [p for p in self.wanted if p != "calculix-ccx"]), done.stderr)
+
+    def test_a_failure_shows_the_words_of_apt(self):
+        done, _ = self.deps("make calculix-ccx", fails=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("Setting up x", done.stdout)
+        self.assertNotIn("deps: done", done.stdout)
 
 
 class CoverageTable(unittest.TestCase):
