@@ -122,18 +122,18 @@ Record read(const fs::path& file, const ReadOptions& options) {
   return record;
 }
 
-Record read(const fs::path& file, const std::vector<Index>& columns, const ReadOptions& options) {
-  Record record;
-  Gathered gathered;
-  const auto gather = [&](Index row, Index column, const Eigen::MatrixXd& block) {
+Samples read(const fs::path& file, const std::vector<Index>& columns, Index n_samples, const ReadOptions& options) {
+  Samples samples(n_samples, static_cast<Index>(columns.size()));
+  samples.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto put = [&](Index row, Index column, const Eigen::MatrixXd& block) {
+    if (row + block.rows() > n_samples) throw InputError({file.string(), 0, ""}, "grows while it is read", "copy it first");
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const Index at = columns[k] - column;
-      if (at >= 0 && at < block.cols()) gathered.add(row, static_cast<Index>(k), block.col(at));
+      if (at >= 0 && at < block.cols()) samples.col(static_cast<Index>(k)).segment(row, block.rows()) = block.col(at);
     }
   };
-  record.info = scan(file, gather, options);
-  record.samples = gathered.take();
-  return record;
+  scan(file, put, options);
+  return samples;
 }
 
 }  // namespace twindeck::records

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/samples.hpp"
+
 /// Records of vibration in the formats that loggers and analysis programs write. The format is told from the content, not from
 /// the name.
 namespace twindeck::records {
@@ -62,11 +64,11 @@ struct Record {
 };
 [[nodiscard]] Record read(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// Some columns of it. Memory: samples × chosen columns, however wide the file.
-/// @param columns  positions in RecordInfo::channels, ascending or not @return samples (n_samples × n_chosen) in the order
-/// asked for; `info` of all
-[[nodiscard]] Record read(const std::filesystem::path& file, const std::vector<Eigen::Index>& columns,
-                          const ReadOptions& options = {});
+/// Some columns of a file that has been scanned. Memory: samples × chosen columns, however wide the file; see Samples.
+/// @param columns  positions in RecordInfo::channels, ascending or not @param n_samples  rows that `scan` came to
+/// @return (n_samples × n_chosen) in the order asked for; NaN beyond the end of shorter channels
+[[nodiscard]] Samples read(const std::filesystem::path& file, const std::vector<Eigen::Index>& columns, Eigen::Index n_samples,
+                           const ReadOptions& options = {});
 
 /// NPY, with the contract of `scan`.
 RecordInfo scan_npy(const std::filesystem::path& file, const Visitor& visit);

@@ -84,10 +84,21 @@ PowerSpectra power_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double
 CrossSpectra cross_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz, const WelchOptions& options) {
   CrossSpectra result;
   result.density.assign(static_cast<std::size_t>(options.segment / 2 + 1), Eigen::MatrixXcd::Zero(data.cols(), data.cols()));
+  // The matrices of many channels are larger than any cache: each is fetched once for several segments.
+  constexpr std::size_t kTogether = 16;
+  std::vector<Eigen::MatrixXcd> waiting;  // (n_channels × n_frequencies) of a segment
+  const auto add_waiting = [&] {
+    for (std::size_t m = 0; m < result.density.size(); ++m) {
+      for (const Eigen::MatrixXcd& x : waiting)
+        result.density[m].noalias() += x.col(static_cast<Index>(m)) * x.col(static_cast<Index>(m)).adjoint();
+    }
+    waiting.clear();
+  };
   result.n_segments = for_each_segment(data, options, [&](const Eigen::MatrixXcd& x) {
-    for (Index m = 0; m < x.rows(); ++m)
-      result.density[static_cast<std::size_t>(m)].noalias() += x.row(m).transpose() * x.row(m).conjugate();
+    waiting.emplace_back(x.transpose());
+    if (waiting.size() == kTogether) add_waiting();
   });
+  add_waiting();
   const Eigen::VectorXd scale = scaling(options.segment, rate_Hz, result.n_segments);
   for (Index m = 0; m < scale.size(); ++m) result.density[static_cast<std::size_t>(m)] *= scale[m];
   result.frequency_Hz = frequencies(options.segment, rate_Hz);

@@ -40,7 +40,7 @@ FittedLine fitted_line(const Eigen::VectorXd& y, double step, double memory) {
 
 }  // namespace
 
-Eigen::VectorXcd modal_coordinate(const Eigen::MatrixXd& data, double rate_Hz, const Eigen::VectorXcd& shape,
+Eigen::VectorXcd modal_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz, const Eigen::VectorXcd& shape,
                                   double frequency_Hz, double half_width_Hz) {
   TWINDECK_ASSERT(shape.size() == data.cols() && data.rows() >= 8);
   Eigen::VectorXd weights = shape.real();

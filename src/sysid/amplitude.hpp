@@ -19,8 +19,8 @@ struct AmplitudePoint {
 /// @param data (n_samples × n_channels) @param shape (n_channels) real part is used
 /// @param half_width_Hz  the pass band is f ± half of this; each flank is as wide as this
 /// @return (n_samples) complex
-[[nodiscard]] Eigen::VectorXcd modal_coordinate(const Eigen::MatrixXd& data, double rate_Hz, const Eigen::VectorXcd& shape,
-                                                double frequency_Hz, double half_width_Hz);
+[[nodiscard]] Eigen::VectorXcd modal_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz,
+                                                const Eigen::VectorXcd& shape, double frequency_Hz, double half_width_Hz);
 
 /// Frequency and damping against amplitude in a free decay: in each band of the envelope (bands of equal ratio, from the
 /// largest value down to three times the noise) straight lines are fitted to the phase and to ln A over time,

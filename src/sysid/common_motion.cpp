@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "signal/welch.hpp"
 
@@ -15,14 +16,17 @@ namespace {
 constexpr Index kSegments = 60;      // of the shortest record, with half overlap: noise and motion part, lines stay narrow
 constexpr Index kLeastSegment = 64;  // samples: fewer blur modes and noise
 constexpr double kIndependentShare = 0.8;  // independent segments a segment of half overlap counts for (Welch: 9/11)
+/// [bytes] of cross spectra: sixteen channels get lines of 1/131,072 of the rate, 256 channels 1/512. The longest records of
+/// many channels would ask for more than there is memory.
+constexpr Index kMostBytes = Index{256} << 20U;
 /// What counts is so far above the bound of noise: three tenths of it, or a quarter of the way to one common motion where few
 /// channels leave less room.
 constexpr double kAbove = 0.3, kShareOfWay = 0.25;
 
 /// Cross spectra of all records, weighted by their segments.
-signal::CrossSpectra weighted_spectra(const std::vector<Eigen::MatrixXd>& records, double rate_Hz, Index segment) {
+signal::CrossSpectra weighted_spectra(const std::vector<Samples>& records, double rate_Hz, Index segment) {
   signal::CrossSpectra sum;
-  for (const Eigen::MatrixXd& record : records) {
+  for (const Samples& record : records) {
     signal::CrossSpectra one = signal::cross_spectra(record, rate_Hz, {segment, 0.5});
     for (Eigen::MatrixXcd& density : one.density) density *= static_cast<double>(one.n_segments);
     if (sum.density.empty()) {
@@ -43,11 +47,16 @@ double largest_of_coherences(const Eigen::MatrixXcd& density) {
 
 }  // namespace
 
-double highest_common_Hz(const std::vector<Eigen::MatrixXd>& records, double rate_Hz) {
+Index common_motion_segment(Index n_samples, Index n_channels) {
+  const Index longest = 2 * kMostBytes / (static_cast<Index>(sizeof(std::complex<double>)) * n_channels * n_channels);
+  return std::max(kLeastSegment, std::min(longest, 2 * n_samples / (kSegments + 1)));
+}
+
+double highest_common_Hz(const std::vector<Samples>& records, double rate_Hz) {
   const Index n_channels = records.front().cols();
   Index shortest = records.front().rows();
-  for (const Eigen::MatrixXd& record : records) shortest = std::min(shortest, record.rows());
-  const Index segment = std::max(kLeastSegment, 2 * shortest / (kSegments + 1));
+  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  const Index segment = common_motion_segment(shortest, n_channels);
   if (n_channels < 2 || segment > shortest) return 0.0;
   const signal::CrossSpectra spectra = weighted_spectra(records, rate_Hz, segment);
   const auto n = static_cast<double>(n_channels);

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/samples.hpp"
+
 namespace twindeck::sysid {
 
 /// Highest frequency at which the channels move together [Hz]: the upper end of what a modal identification can see. At each
@@ -12,6 +14,10 @@ namespace twindeck::sysid {
 /// @param records  (n_samples × n_channels) each, one rate @return 0 where nothing is found, or for one channel, whose noise
 /// cannot be told from its motion
 /// Reference for the bound: Marchenko and Pastur (1967), Mathematics of the USSR-Sbornik 1(4), 457-483.
-[[nodiscard]] double highest_common_Hz(const std::vector<Eigen::MatrixXd>& records, double rate_Hz);
+[[nodiscard]] double highest_common_Hz(const std::vector<Samples>& records, double rate_Hz);
+
+/// Samples of a segment of its spectra: some sixty segments of the record, but no more than 256 MB of spectra, which the
+/// longest records of many channels would exceed by far.
+[[nodiscard]] Eigen::Index common_motion_segment(Eigen::Index n_samples, Eigen::Index n_channels);
 
 }  // namespace twindeck::sysid

@@ -150,8 +150,8 @@ void add_deviations(Identification& result, const Observability& observability, 
 
 }  // namespace
 
-void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
-                   const PeriodicRule& rule, const std::vector<PeriodicLine>& known) {
+void mark_periodic(Identification& result, const std::vector<Samples>& records, double rate_Hz, const PeriodicRule& rule,
+                   const std::vector<PeriodicLine>& known) {
   const auto is_known = [&](const PeriodicLine& line) {
     return std::any_of(known.begin(), known.end(), [&](const PeriodicLine& other) {
       return std::abs(other.frequency_Hz - line.frequency_Hz) < rule.largest_spread * line.frequency_Hz;
@@ -208,12 +208,12 @@ Identification identify(const signal::BlockCorrelations& blocks, double rate_Hz,
   return result;
 }
 
-Identification identify_from_data(const std::vector<Eigen::MatrixXd>& records, const std::vector<Eigen::Index>& references,
+Identification identify_from_data(const std::vector<Samples>& records, const std::vector<Eigen::Index>& references,
                                   const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options) {
   const std::vector<int> orders = options.orders();
   std::vector<Eigen::MatrixXd> grams;
   double samples = 0.0;
-  for (const Eigen::MatrixXd& record : records) {
+  for (const Samples& record : records) {
     grams.push_back(hankel_gram(record, references, options.block_rows));
     samples += static_cast<double>(record.rows() - 2 * options.block_rows + 1);
   }

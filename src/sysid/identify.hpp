@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/samples.hpp"
 #include "signal/correlation.hpp"
 #include "sysid/automatic.hpp"
 #include "sysid/clustering.hpp"
@@ -65,7 +66,7 @@ struct Identification {
 [[nodiscard]] Identification identify(const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options);
 
 /// The same, data-driven. @param records conditioned, one rate @param blocks  of the same records, for the standard deviations
-[[nodiscard]] Identification identify_from_data(const std::vector<Eigen::MatrixXd>& records,
+[[nodiscard]] Identification identify_from_data(const std::vector<Samples>& records,
                                                 const std::vector<Eigen::Index>& references,
                                                 const signal::BlockCorrelations& blocks, double rate_Hz,
                                                 const IdentifyOptions& options);
@@ -80,8 +81,8 @@ struct Identification {
 /// a frequency are dropped, see drop_lines.
 /// @param records  those identified (n_samples × n_outputs), channels scaled alike
 /// @param known  lines that are no longer in these records; they stay in `periodic`
-void mark_periodic(Identification& result, const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
-                   const PeriodicRule& rule, const std::vector<PeriodicLine>& known = {});
+void mark_periodic(Identification& result, const std::vector<Samples>& records, double rate_Hz, const PeriodicRule& rule,
+                   const std::vector<PeriodicLine>& known = {});
 
 /// Drops the modes that are lines: no further from one than its poles scatter, or two standard deviations, and with a damping
 /// ratio that does not differ from what taking a line out leaves by more than two standard deviations.

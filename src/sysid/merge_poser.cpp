@@ -194,7 +194,10 @@ std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, 
     if (signal[k] < kLeastSignal) shapes.col(k).setZero();
   }
   Eigen::MatrixXcd unit = shapes;
-  for (Index k = 0; k < n; ++k) unit.col(k) /= std::max(unit.col(k).norm(), 1e-300);
+  for (Index k = 0; k < n; ++k) {
+    // What is zero stays zero: a complex division by a tiny floor squares it, and 0/0 is left.
+    if (const double norm = unit.col(k).norm(); norm > 0.0) unit.col(k) /= norm;
+  }
   const Eigen::VectorXcd common = Eigen::JacobiSVD<Eigen::MatrixXcd>(unit, Eigen::ComputeThinU).matrixU().col(0);
   for (Index k = 0; k < n; ++k) {
     const Eigen::VectorXcd weighted = weights.col(k).asDiagonal() * shapes.col(k);

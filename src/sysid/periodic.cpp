@@ -55,10 +55,10 @@ double band_of(const PeriodicLine& line, Index n_samples, double rate_Hz) {
 }
 
 /// E|a|⁴ / (E|a|²)² of the envelope around a frequency, mean over the records.
-double envelope_kurtosis(const PeriodicLine& line, const std::vector<Eigen::MatrixXd>& records, double rate_Hz) {
+double envelope_kurtosis(const PeriodicLine& line, const std::vector<Samples>& records, double rate_Hz) {
   constexpr double kSettled = 0.5;  // of 1/band: the filter has settled that far from either end
   double sum = 0.0, samples = 0.0;
-  for (const Eigen::MatrixXd& record : records) {
+  for (const Samples& record : records) {
     const auto n = static_cast<double>(record.rows());
     const double band_Hz = band_of(line, record.rows(), rate_Hz);
     const auto end = static_cast<Index>(kSettled * rate_Hz / band_Hz);
@@ -78,7 +78,7 @@ int multiple_of(double frequency_Hz, double base_Hz, double tolerance) {
 }
 
 /// Phase of a line [rad], sample by sample, without jumps.
-Eigen::ArrayXd phase_of(const PeriodicLine& line, const Eigen::MatrixXd& record, double rate_Hz) {
+Eigen::ArrayXd phase_of(const PeriodicLine& line, const Samples& record, double rate_Hz) {
   const Eigen::VectorXcd a =
       modal_coordinate(record, rate_Hz, line.shape, line.frequency_Hz, band_of(line, record.rows(), rate_Hz));
   Eigen::ArrayXd phase(a.size());
@@ -96,14 +96,14 @@ Eigen::ArrayXcd turning(const Eigen::ArrayXd& phase) {
 }
 
 /// What each channel holds of a phasor, as an amplitude (n_outputs).
-Eigen::VectorXcd coherent_part(const Eigen::MatrixXd& record, const Eigen::ArrayXcd& phasor) {
+Eigen::VectorXcd coherent_part(const Samples& record, const Eigen::ArrayXcd& phasor) {
   return 2.0 / static_cast<double>(record.rows()) *
          (record.transpose().cast<std::complex<double>>() * phasor.conjugate().matrix());
 }
 
 /// Power of what turns with the phasor over the median of what turns by a few 1/(length of the record) faster or slower. For
 /// noise the ratio is above 20 once in 10^6.
-double prominence(const Eigen::MatrixXd& record, const Eigen::ArrayXcd& phasor) {
+double prominence(const Samples& record, const Eigen::ArrayXcd& phasor) {
   constexpr int kNearest = 3, kFarthest = 12;  // in 1/(length of the record)
   std::vector<double> beside;
   const auto n = static_cast<double>(record.rows());
@@ -117,7 +117,7 @@ double prominence(const Eigen::MatrixXd& record, const Eigen::ArrayXcd& phasor) 
   return coherent_part(record, phasor).squaredNorm() / std::max(median(beside), 1e-300);
 }
 
-void subtract(Eigen::MatrixXd& record, const Eigen::ArrayXcd& phasor) {
+void subtract(Samples& record, const Eigen::ArrayXcd& phasor) {
   Eigen::MatrixXd waves(record.rows(), 2);
   waves << phasor.real().matrix(), phasor.imag().matrix();
   const Eigen::MatrixXd amplitudes = (waves.transpose() * waves).ldlt().solve(waves.transpose() * record);
@@ -132,12 +132,12 @@ bool is_among(const std::vector<PeriodicLine>& lines, double frequency_Hz, doubl
 
 }  // namespace
 
-std::vector<PeriodicLine> without_lines(std::vector<Eigen::MatrixXd>& records, const std::vector<PeriodicLine>& lines,
-                                        double rate_Hz, double lowest_Hz, double highest_Hz, const PeriodicRule& rule) {
+std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std::vector<PeriodicLine>& lines, double rate_Hz,
+                                        double lowest_Hz, double highest_Hz, const PeriodicRule& rule) {
   std::vector<PeriodicLine> all = lines;
   for (const PeriodicLine& line : lines) {
     std::vector<Eigen::ArrayXd> phases;
-    for (Eigen::MatrixXd& record : records) {
+    for (Samples& record : records) {
       phases.push_back(phase_of(line, record, rate_Hz));
       subtract(record, turning(phases.back()));
     }
@@ -166,9 +166,8 @@ std::vector<PeriodicLine> without_lines(std::vector<Eigen::MatrixXd>& records, c
   return all;
 }
 
-std::vector<PeriodicLine> periodic_lines(const std::vector<PeriodicLine>& candidates,
-                                         const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
-                                         const PeriodicRule& rule) {
+std::vector<PeriodicLine> periodic_lines(const std::vector<PeriodicLine>& candidates, const std::vector<Samples>& records,
+                                         double rate_Hz, const PeriodicRule& rule) {
   std::vector<PeriodicLine> judged = candidates;
   std::vector<double> found_Hz;
   for (PeriodicLine& line : judged) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/samples.hpp"
 #include "sysid/state_space.hpp"
 
 namespace twindeck::sysid {
@@ -46,7 +47,7 @@ struct PeriodicLine {
 /// @param records  (n_samples × n_outputs) each @return ascending in frequency, multiples numbered
 /// Reference: Jacobsen, Andersen and Brincker (2007), IOMAC 2 (harmonics by the kurtosis of the filtered signal).
 [[nodiscard]] std::vector<PeriodicLine> periodic_lines(const std::vector<PeriodicLine>& candidates,
-                                                       const std::vector<Eigen::MatrixXd>& records, double rate_Hz,
+                                                       const std::vector<Samples>& records, double rate_Hz,
                                                        const PeriodicRule& rule);
 
 /// Takes the lines out of the records, and finds what belongs to them: multiples, and the half and the third of which they are
@@ -56,8 +57,8 @@ struct PeriodicLine {
 /// line if what turns with it stands out from what turns somewhat faster and slower.
 /// @param records  (n_samples × n_outputs) each, changed @param lowest_Hz, highest_Hz  of a line that is found
 /// @return the lines and those found with them, ascending in frequency, multiples numbered
-[[nodiscard]] std::vector<PeriodicLine> without_lines(std::vector<Eigen::MatrixXd>& records,
-                                                      const std::vector<PeriodicLine>& lines, double rate_Hz, double lowest_Hz,
-                                                      double highest_Hz, const PeriodicRule& rule);
+[[nodiscard]] std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std::vector<PeriodicLine>& lines,
+                                                      double rate_Hz, double lowest_Hz, double highest_Hz,
+                                                      const PeriodicRule& rule);
 
 }  // namespace twindeck::sysid

@@ -16,7 +16,8 @@ using Eigen::Index;
 namespace {
 
 /// sum over t < n of x_{t+k} y_t' for k = 0 … n_lags - 1, x and y of the first n + n_lags - 1 and n samples.
-std::vector<Eigen::MatrixXd> lagged_products(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y, Index n, Index n_lags) {
+std::vector<Eigen::MatrixXd> lagged_products(const Eigen::Ref<const Eigen::MatrixXd>& x,
+                                             const Eigen::Ref<const Eigen::MatrixXd>& y, Index n, Index n_lags) {
   std::vector<Eigen::MatrixXd> products(static_cast<std::size_t>(n_lags), Eigen::MatrixXd::Zero(x.cols(), y.cols()));
   // Pieces that stay in the cache; adjacent samples of a channel are multiplied, so each product is one of small matrices.
   const Index piece = std::max<Index>(512, n_lags);
@@ -33,7 +34,7 @@ std::vector<Eigen::MatrixXd> lagged_products(const Eigen::MatrixXd& x, const Eig
 /// Rows or columns of the Gram matrix: where they begin, what they are made of, and the sample of the first.
 struct Side {
   Index at;
-  const Eigen::MatrixXd& data;
+  Eigen::Ref<const Eigen::MatrixXd> data;
   Index sample;
 };
 
@@ -59,7 +60,8 @@ void continue_diagonals(Eigen::MatrixXd& gram, const Side& x, const Side& y, Ind
 
 }  // namespace
 
-Eigen::MatrixXd hankel_gram(const Eigen::MatrixXd& data, const std::vector<Index>& references, Index block_rows) {
+Eigen::MatrixXd hankel_gram(const Eigen::Ref<const Eigen::MatrixXd>& data, const std::vector<Index>& references,
+                            Index block_rows) {
   const Index p = block_rows, n = data.rows() - 2 * p + 1, l = data.cols(), r = static_cast<Index>(references.size());
   if (data.rows() < 4 * p) {
     throw InputError({"", 0, "block_rows"},
@@ -73,7 +75,7 @@ Eigen::MatrixXd hankel_gram(const Eigen::MatrixXd& data, const std::vector<Index
   // Past with past and future with future: lags 0 … p - 1 in the first column, then down the diagonals.
   set_first_column(gram, 0, 0, lagged_products(refs, refs, n, p), 0);
   continue_diagonals(gram, {0, refs, 0}, {0, refs, 0}, p, n, true);
-  const Eigen::MatrixXd later = data.bottomRows(data.rows() - p);
+  const Eigen::Ref<const Eigen::MatrixXd> later = data.bottomRows(data.rows() - p);
   set_first_column(gram, future, future, lagged_products(later, later, n, p), 0);
   continue_diagonals(gram, {future, later, 0}, {future, later, 0}, p, n, true);
 

@@ -17,8 +17,8 @@ namespace twindeck::sysid {
 /// @param data (n_samples × n_outputs) detrended @param references positions of the reference channels
 /// @return lower triangle filled, ((n_references + n_outputs) p square)
 /// @throws InputError  if the record has fewer than 4 p samples
-[[nodiscard]] Eigen::MatrixXd hankel_gram(const Eigen::MatrixXd& data, const std::vector<Eigen::Index>& references,
-                                          Eigen::Index block_rows);
+[[nodiscard]] Eigen::MatrixXd hankel_gram(const Eigen::Ref<const Eigen::MatrixXd>& data,
+                                          const std::vector<Eigen::Index>& references, Eigen::Index block_rows);
 
 /// Data-driven stochastic subspace identification, reference-based, unweighted principal components. With the LQ decomposition
 /// of the Hankel matrix, here L = Cholesky factor of its Gram matrix (the same L up to signs), the projection of the future on

@@ -276,9 +276,11 @@ RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record
   // What the file's columns are called is known at its end only: a large file is walked through twice, so that columns that
   // nobody asked for never lie in memory.
   if (io::require_regular_file(record.file) > large) {
+    Index rows = 0;
     const auto columns = match(records::scan(
-        record.file, [](Index, Index, const Eigen::MatrixXd&) {}, options));
-    samples.values = records::read(record.file, columns, options).samples;
+        record.file, [&](Index row, Index, const Eigen::MatrixXd& block) { rows = std::max(rows, row + block.rows()); },
+        options));
+    samples.values = records::read(record.file, columns, rows, options);
   } else {
     const records::Record file = records::read(record.file, options);
     samples.values = file.samples(Eigen::all, match(file.info));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/samples.hpp"
 #include "steps/campaign/campaign_channels.hpp"
 
 namespace twindeck::steps {
@@ -57,8 +58,7 @@ struct RecordGroup {
 
 /// Samples of a record, and what the user should know of how they were read.
 struct RecordSamples {
-  Eigen::MatrixXd
-      values;  ///< SI units, (n_samples × n_channels) in the order of record.channels; NaN where a sample is missing
+  Samples values;  ///< SI units, (n_samples × n_channels) in the order of record.channels; NaN where a sample is missing
   std::vector<std::string> notes;  ///< with the file's name; for people
 };
 

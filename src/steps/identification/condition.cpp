@@ -79,8 +79,9 @@ sysid::Identification preger(const ConditionResult& result, const std::vector<In
     Eigen::VectorXd own(static_cast<Index>(one.channels.size()));
     for (Index c = 0; c < own.size(); ++c) own[c] = scale[one.channels[static_cast<std::size_t>(c)]];
     signal::BlockCorrelations blocks;
-    for (const Eigen::MatrixXd& record : setup.conditioned.records) {
-      blocks.append(signal::correlations(record * own.cwiseInverse().asDiagonal(), one.references, 2 * config.block_rows, 1));
+    for (const Samples& record : setup.conditioned.records) {
+      blocks.append(
+          signal::correlations(scaled_channels(record, own.cwiseInverse()), one.references, 2 * config.block_rows, 1));
     }
     one.lags = blocks.mean();
     setups.push_back(std::move(one));

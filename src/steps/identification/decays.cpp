@@ -82,7 +82,7 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
 
 }  // namespace
 
-Index release_sample(const Eigen::MatrixXd& data, double rate_Hz) {
+Index release_sample(const Samples& data, double rate_Hz) {
   const Index half = std::max<Index>(2, static_cast<Index>(std::lround(0.5 * rate_Hz)));
   if (data.rows() <= 2 * half) return 0;
   const Eigen::VectorXd scale = data.colwise().squaredNorm().transpose().cwiseMax(1e-300);
@@ -113,7 +113,7 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
     const auto skipped = static_cast<Index>(std::lround(config.decay_start_s * conditioned.rate_Hz));
     std::vector<Eigen::MatrixXd> whole, pieces, quiet;
     Index length = wanted;
-    for (const Eigen::MatrixXd& record : conditioned.records) {
+    for (const Samples& record : conditioned.records) {
       const Index from = std::min(release_sample(record, conditioned.rate_Hz) + skipped, record.rows() - 1);
       whole.emplace_back(record.bottomRows(record.rows() - from));
       length = std::min(length, whole.back().rows());
@@ -177,7 +177,7 @@ void write_decays(const std::vector<DecayResult>& decays, const std::vector<Cond
       const SetupResult& setup = result.setups[mode.members.front().first];
       const sysid::Cluster& own = setup.found.modes[mode.members.front().second];
       double squares = 0.0, seconds = 0.0;
-      for (const Eigen::MatrixXd& record : setup.conditioned.records) {
+      for (const Samples& record : setup.conditioned.records) {
         // Wide enough for the mode's half-power band, no wider than the filter of the decays.
         const double half_width = std::max(0.25 * config.decay_band_Hz, 2.0 * mode.damping_ratio * mode.frequency_Hz);
         const Eigen::VectorXcd q =

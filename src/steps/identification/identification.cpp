@@ -111,14 +111,14 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
   choose_references(conditioned, config.references);
   static_cast<void>(config.options(conditioned.rate_Hz, conditioned.channels));  // refuses a band beyond the records'
   // Channel by channel, so that beside the record one channel more lies in memory.
-  const auto ready = [&](const Eigen::MatrixXd& raw, const std::vector<Index>& chosen, const std::vector<std::string>& called,
+  const auto ready = [&](const Samples& raw, const std::vector<Index>& chosen, const std::vector<std::string>& called,
                          const std::string& file) {
-    Eigen::MatrixXd out;
+    Samples out;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       Eigen::MatrixXd channel = raw.col(chosen[k]);
       fill_gaps(channel, {called[k]}, config.longest_gap, file);
       channel = signal::detrended(signal::decimated(signal::detrended(channel), decimation));
-      if (k == 0) out.resize(channel.rows(), static_cast<Index>(chosen.size()));
+      if (k == 0) out = Samples(channel.rows(), static_cast<Index>(chosen.size()));
       out.col(static_cast<Index>(k)) = channel;
     }
     return out;
@@ -130,7 +130,7 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
     try {
       refuse_unusable(quality, conditioned.channels, config.largest_clipping);
       refuse_unusable(quality, conditioned.inputs, config.largest_clipping);
-      Eigen::MatrixXd responses = ready(raw, columns, names, record.file.string());
+      Samples responses = ready(raw, columns, names, record.file.string());
       if (!input_columns.empty())
         conditioned.excitation.push_back(ready(raw, input_columns, input_names, record.file.string()));
       conditioned.records.push_back(std::move(responses));
@@ -148,9 +148,9 @@ Conditioned condition_records(const Campaign& campaign, const RecordGroup& group
 
 int derivative(const std::string& quantity) { return quantity == "acceleration" ? 2 : quantity == "velocity" ? 1 : 0; }
 
-Eigen::VectorXd channel_rms(const std::vector<Eigen::MatrixXd>& records) {
+Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(records.front().cols());
-  for (const Eigen::MatrixXd& record : records)
+  for (const Samples& record : records)
     squares += record.colwise().squaredNorm().transpose() / static_cast<double>(record.rows());
   return (squares / static_cast<double>(records.size())).cwiseSqrt();
 }
@@ -194,10 +194,10 @@ void to_physical_shapes(sysid::Identification& found, const std::vector<Campaign
 
 namespace {
 
-sysid::Identification identify_ambient(const std::vector<Eigen::MatrixXd>& scaled, const Conditioned& conditioned,
+sysid::Identification identify_ambient(const std::vector<Samples>& scaled, const Conditioned& conditioned,
                                        const IdentificationConfig& config, const sysid::IdentifyOptions& options) {
   signal::BlockCorrelations blocks;
-  for (const Eigen::MatrixXd& record : scaled) {
+  for (const Samples& record : scaled) {
     blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
   }
   return config.method == "data"
@@ -211,8 +211,8 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
   const sysid::IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
   // Channels on one scale, so that a large or a distant one does not hide the others and units do not matter.
   const Eigen::VectorXd scale = channel_rms(conditioned.records);
-  std::vector<Eigen::MatrixXd> scaled;
-  for (const Eigen::MatrixXd& record : conditioned.records) scaled.emplace_back(record * scale.cwiseInverse().asDiagonal());
+  std::vector<Samples> scaled;
+  for (const Samples& record : conditioned.records) scaled.push_back(scaled_channels(record, scale.cwiseInverse()));
   sysid::Identification found;
   if (!conditioned.excitation.empty()) {
     if (scaled.size() > 1) {
@@ -221,7 +221,7 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
           fmt::format("setup {} has {} records with measured inputs, expected one", conditioned.setup, scaled.size()),
           "give each its own setup");
     }
-    const Eigen::MatrixXd& input = conditioned.excitation.front();
+    const Samples& input = conditioned.excitation.front();
     const Eigen::VectorXd input_scale = channel_rms(conditioned.excitation);
     found = sysid::identify_input_output(input * input_scale.cwiseInverse().asDiagonal(), scaled.front(), conditioned.rate_Hz,
                                          options);
@@ -247,9 +247,9 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
 sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationConfig& config) {
   const Eigen::VectorXd scale = channel_rms(conditioned.records);
   signal::CrossSpectra average;
-  for (const Eigen::MatrixXd& record : conditioned.records) {
+  for (const Samples& record : conditioned.records) {
     const signal::CrossSpectra one =
-        signal::cross_spectra(record * scale.cwiseInverse().asDiagonal(), conditioned.rate_Hz, {config.welch_segment, 0.5});
+        signal::cross_spectra(scaled_channels(record, scale.cwiseInverse()), conditioned.rate_Hz, {config.welch_segment, 0.5});
     const auto weight = static_cast<double>(one.n_segments);
     if (average.density.empty()) average.density.assign(one.density.size(), Eigen::MatrixXcd::Zero(scale.size(), scale.size()));
     for (std::size_t f = 0; f < one.density.size(); ++f) average.density[f] += weight * one.density[f];
@@ -262,7 +262,7 @@ sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const Id
 
 signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationConfig& config) {
   signal::PowerSpectra average;
-  for (const Eigen::MatrixXd& record : conditioned.records) {
+  for (const Samples& record : conditioned.records) {
     const signal::PowerSpectra one = signal::power_spectra(record, conditioned.rate_Hz, {config.welch_segment, 0.5});
     const double weight = static_cast<double>(one.n_segments);
     average.frequency_Hz = one.frequency_Hz;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/samples.hpp"
 #include "io/config.hpp"
 #include "signal/welch.hpp"
 #include "steps/campaign/campaign.hpp"
@@ -50,12 +51,12 @@ struct IdentificationConfig {
 
 /// Records of one setup and condition made ready for identification.
 struct Conditioned {
-  std::vector<CampaignChannel> channels;    ///< response columns that are used
-  std::vector<CampaignChannel> inputs;      ///< input columns
-  std::vector<Eigen::Index> references;     ///< positions among channels
-  std::vector<Eigen::MatrixXd> records;     ///< detrended, decimated, SI units
-  std::vector<Eigen::MatrixXd> excitation;  ///< of the inputs, one a record
-  double rate_Hz = 0.0;                     ///< after decimation
+  std::vector<CampaignChannel> channels;  ///< response columns that are used
+  std::vector<CampaignChannel> inputs;    ///< input columns
+  std::vector<Eigen::Index> references;   ///< positions among channels
+  std::vector<Samples> records;           ///< detrended, decimated, SI units
+  std::vector<Samples> excitation;        ///< of the inputs, one a record
+  double rate_Hz = 0.0;                   ///< after decimation
   std::string setup, condition;
   std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
@@ -87,7 +88,7 @@ void to_physical_shapes(sysid::Identification& found, const std::vector<Campaign
 [[nodiscard]] int derivative(const std::string& quantity);
 
 /// RMS of each channel over the records.
-[[nodiscard]] Eigen::VectorXd channel_rms(const std::vector<Eigen::MatrixXd>& records);
+[[nodiscard]] Eigen::VectorXd channel_rms(const std::vector<Samples>& records);
 
 /// Power spectra averaged over the records, of accelerations [m²/s³]: those of other quantities are multiplied by (2 pi f)².
 [[nodiscard]] signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationConfig& config);

@@ -18,9 +18,9 @@ constexpr long kLeastSegment = 64;     // samples of a spectrum that shows anyth
 /// Samples of a block for each block row: twice the lags, which are two a row (signal::correlations).
 constexpr long kSamplesPerRow = 4;
 
-long shortest(const std::vector<Eigen::MatrixXd>& records) {
-  const auto least = std::min_element(records.begin(), records.end(),
-                                      [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a.rows() < b.rows(); });
+long shortest(const std::vector<Samples>& records) {
+  const auto least =
+      std::min_element(records.begin(), records.end(), [](const Samples& a, const Samples& b) { return a.rows() < b.rows(); });
   return static_cast<long>(least->rows());
 }
 

@@ -67,7 +67,7 @@ ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
 
 }  // namespace
 
-std::vector<ChannelQuality> channel_quality(const Eigen::MatrixXd& data, const std::vector<std::string>& channels,
+std::vector<ChannelQuality> channel_quality(const Samples& data, const std::vector<std::string>& channels,
                                             const std::string& setup, const std::string& record) {
   std::vector<ChannelQuality> rows;
   for (Index c = 0; c < data.cols(); ++c) {

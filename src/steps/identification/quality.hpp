@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/samples.hpp"
 
 namespace twindeck::steps {
 
@@ -31,7 +32,7 @@ struct ChannelQuality {
 };
 
 /// @param data (n_samples × n_channels) NaN where missing @param channels  names of the columns
-[[nodiscard]] std::vector<ChannelQuality> channel_quality(const Eigen::MatrixXd& data, const std::vector<std::string>& channels,
+[[nodiscard]] std::vector<ChannelQuality> channel_quality(const Samples& data, const std::vector<std::string>& channels,
                                                           const std::string& setup, const std::string& record);
 
 /// Bridges gaps of at most `longest` samples by a straight line. @return samples filled

@@ -26,9 +26,10 @@ void expect_same(const std::filesystem::path& file, double rate_Hz = 128.0, doub
     EXPECT_EQ(Eigen::VectorXd(record.samples.col(c)), Eigen::VectorXd(factor * kSamples.col(c))) << what << ", channel " << c;
   EXPECT_NEAR(record.info.rate_Hz, rate_Hz, 1e-9) << what;
   // Chosen columns in another order, as a campaign asks for them.
-  const Record some = read(file, {3, 0});
-  EXPECT_EQ(Eigen::VectorXd(some.samples.col(0)), Eigen::VectorXd(factor * kSamples.col(3))) << what;
-  EXPECT_EQ(Eigen::VectorXd(some.samples.col(1)), Eigen::VectorXd(factor * kSamples.col(0))) << what;
+  const Samples some = read(file, {3, 0}, kSamples.rows());
+  EXPECT_EQ(Eigen::VectorXd(some.col(0)), Eigen::VectorXd(factor * kSamples.col(3))) << what;
+  EXPECT_EQ(Eigen::VectorXd(some.col(1)), Eigen::VectorXd(factor * kSamples.col(0))) << what;
+  EXPECT_THROW(static_cast<void>(read(file, {0}, kSamples.rows() - 1)), InputError) << what;
 }
 
 bool runs(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }

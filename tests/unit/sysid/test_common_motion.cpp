@@ -35,6 +35,17 @@ TEST(CommonMotion, NoiseHasNone) {
   }
 }
 
+// A sixtieth of the record with half overlap, as long as the spectra stay within 256 MB.
+TEST(CommonMotion, SpectraOfLongRecordsStaySmall) {
+  EXPECT_EQ(common_motion_segment(72000, 24), 2 * 72000 / 61);
+  for (const Eigen::Index channels : {2, 16, 64, 256, 1000}) {
+    const Eigen::Index segment = common_motion_segment(100'000'000, channels);
+    EXPECT_GE(segment, 64);
+    const double megabytes = 16e-6 * static_cast<double>(channels * channels * (segment / 2 + 1));
+    EXPECT_LE(megabytes, channels < 500 ? 270.0 : 600.0) << channels << " channels";
+  }
+}
+
 TEST(CommonMotion, OneChannelOrTooFewSamplesSayNothing) {
   EXPECT_EQ(highest_common_Hz({noise(4000, 1, 1)}, kRate_Hz), 0.0);
   EXPECT_EQ(highest_common_Hz({noise(40, 4, 1)}, kRate_Hz), 0.0);

@@ -79,6 +79,23 @@ TEST(MergePoser, WhereTheReferencesAreQuietTheShapeIsNotPutTogether) {
   EXPECT_FALSE(std::isnan(merged[0].shape[2].real()));
 }
 
+// Of three setups one has quiet references: the shape is that of the other two, and stays of unit norm.
+TEST(MergePoser, ASetupWithQuietReferencesLeavesTheShapeToTheOthers) {
+  std::vector<SetupModes> setups = {identified(0, 1.0), identified(1, 1.0), identified(2, 1.0)};
+  Cluster& quiet = setups[2].modes[1];
+  quiet.shape[0] = 0.01;
+  quiet.shape[1] = -0.01;
+  quiet.shape.normalize();
+  const auto merged = merge_poser(setups, 5, {0, 3}, {});
+  ASSERT_EQ(merged.size(), setups[0].modes.size());
+  EXPECT_EQ(merged[1].members.size(), 3U);
+  EXPECT_TRUE(std::isnan(merged[1].shape[4].real()));  // its own channel
+  const Eigen::VectorXcd known = merged[1].shape.head(4);
+  EXPECT_NEAR(known.norm(), 1.0, 1e-12);
+  const Eigen::MatrixXcd truth = kChain.shape(1).head(4).cast<std::complex<double>>();
+  EXPECT_GT(modal::mac(truth, Eigen::MatrixXcd(known))(0, 0), 0.995);
+}
+
 TEST(MergePoser, ASetupWithoutTheReferenceIsRefused) {
   std::vector<SetupModes> setups = {identified(0, 1.0), identified(1, 1.0)};
   setups[1].channels = {0, 4, 2};

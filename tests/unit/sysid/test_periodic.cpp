@@ -72,7 +72,7 @@ TEST(Periodic, AModeTakenForACandidateHasTheKurtosisOfNoise) {
 TEST(Periodic, WithoutItsLinesTheRecordIsAsIfTheMachineStoodStill) {
   const Eigen::MatrixXd still = record_with_machine(0.0), running = record_with_machine(0.5);
   const double line = (running - still).norm();
-  std::vector<Eigen::MatrixXd> records = {running};
+  std::vector<Samples> records = {running};
   const PeriodicLine known{kLine_Hz, 0.0, Eigen::Vector4cd(0.3, 1.0, -0.5, 0.7)};
   const std::vector<PeriodicLine> all = without_lines(records, {known}, 20.0, 0.1, 8.0, {});
   ASSERT_EQ(all.size(), 2U);
@@ -85,7 +85,7 @@ TEST(Periodic, WithoutItsLinesTheRecordIsAsIfTheMachineStoodStill) {
 TEST(Periodic, TheSpeedItselfIsFoundFromItsMultiple) {
   const Eigen::MatrixXd still = record_with_machine(0.0), running = record_with_machine(0.5);
   const double line = (running - still).norm();
-  std::vector<Eigen::MatrixXd> records = {running};
+  std::vector<Samples> records = {running};
   const PeriodicLine known{2.0 * kLine_Hz, 0.0, Eigen::Vector4cd(0.7, -0.5, 1.0, 0.3)};
   const std::vector<PeriodicLine> all = without_lines(records, {known}, 20.0, 0.1, 8.0, {});
   ASSERT_EQ(all.size(), 2U);
@@ -100,7 +100,7 @@ TEST(Periodic, TheSpeedItselfIsFoundFromItsMultiple) {
 // In a record without a machine nothing turns with a multiple: what is taken out is the little that fits by chance.
 TEST(Periodic, NoMultipleIsFoundInNoise) {
   const Eigen::MatrixXd still = record_with_machine(0.0);
-  std::vector<Eigen::MatrixXd> records = {still};
+  std::vector<Samples> records = {still};
   const PeriodicLine none{kLine_Hz, 0.0, Eigen::Vector4cd(0.3, 1.0, -0.5, 0.7)};
   EXPECT_EQ(without_lines(records, {none}, 20.0, 0.1, 8.0, {}).size(), 1U);
   EXPECT_LT((records.front() - still).norm(), 0.05 * still.norm());
