@@ -34,7 +34,7 @@ include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: check compare baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
-  smoke bench format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
+  smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -144,6 +144,11 @@ batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as i
 bench: build ## ratios against peers: modes, derivatives, identification, wind (results/bench/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field
 	@$(PRODUCT)workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
+
+SIZES ?=
+growth: build ## seconds and memory as models and records grow, with peers and fitted exponents (results/growth; SIZES="modes=3e4,1e5 records=1e5,1e6")
+	@cmake --build $(BUILD) -j $(JOBS) --target bench_growth
+	@$(PRODUCT)workflows/python.sh tests/bench/growth.py $(BIN) results/growth $(SIZES)
 
 processors: build ## the study and the tests under the kernels of other processors: tests failed, columns that move (results/processors/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS)

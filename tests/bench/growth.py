@@ -1,0 +1,300 @@
+"""make growth: processor seconds and peak memory as models and records grow, beside peers, with exponents fitted to them.
+
+    python3 tests/bench/growth.py BIN OUT [modes=SIZES] [records=SAMPLES] [channels=CHANNELS] [steps=RUNS]
+
+BIN: folder of the executables; OUT: where modes.csv, records.csv, exponents.csv and a figure of each go. What is not named runs with the sizes
+below. A run that would take more than LIMIT_S of processor time or LIMIT_GB is ended, and its row says so; larger sizes of that program are not
+tried. Everything runs on one thread. Rows of earlier runs stay unless they are measured again. IDENTIFICATION=FILE in the environment measures another
+executable of step 3, for a comparison.
+"""
+import csv
+import math
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+
+import table
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SIZES = {"modes": "deck:3e4,1e5,3e5,1e6;building:3e4,1e5", "records": "1e5,1e6,1e7", "channels": "64,256", "steps": "200"}
+LIMIT_S, LIMIT_GB = 1500, 12
+REFERENCES = 16  # channels that every channel is correlated with: of a record with more, the first sixteen
+TRUE_HZ = (0.72, 0.98, 1.05, 1.32, 1.68, 2.31, 2.36, 2.95, 3.40, 4.00, 4.70, 5.50, 6.40, 7.40)  # sysid_record.hpp
+RATE_HZ = 20.0
+MODES_COLUMNS = ["family", "degrees_of_freedom", "program", "cpu_s", "peak_MB", "assemble_s", "apart", "note"]
+RECORDS_COLUMNS = ["channels", "samples", "program", "cpu_s", "peak_MB", "held_MB", "record_MB", "modes_found", "others_found"]
+
+MATRICES = """
+import resource, sys, time
+import numpy as np, scipy.sparse as sp
+def matrix(name):
+    values, rows, begins = (np.load(f"{sys.argv[1]}/{name}_{part}.npy")[:, 0] for part in ("values", "rows", "begins"))
+    n = len(begins) - 1
+    lower = sp.csc_matrix((values, rows.astype(np.int32), begins.astype(np.int32)), (n, n))
+    return (lower + sp.tril(lower, -1).T).tocsc()
+k, m = matrix("K"), matrix("M")
+def show(seconds, values):
+    print("modes_s", seconds)
+    print("peak_MB", resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    for i, value in enumerate(sorted(values)[:15]):
+        print(f"frequency_{i + 1}_Hz", value ** 0.5 / 6.283185307179586)
+"""
+SCIPY = MATRICES + """
+import scipy.sparse.linalg
+start = time.process_time()
+show_values = scipy.sparse.linalg.eigsh(k, 15, m, sigma=0.0, which="LM", return_eigenvectors=True)[0]
+show(time.process_time() - start, show_values)
+"""
+SLEPC = MATRICES + """
+from petsc4py import PETSc
+from slepc4py import SLEPc
+def petsc(a):
+    a = a.tocsr()
+    one = PETSc.Mat().createAIJ(a.shape, csr=(a.indptr, a.indices, a.data))
+    one.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+    one.setOption(PETSc.Mat.Option.SPD, True)
+    return one
+k, m = petsc(k), petsc(m)
+start = time.process_time()
+solver = SLEPc.EPS().create()
+solver.setOperators(k, m)
+solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
+solver.setDimensions(15)
+solver.setTarget(0.0)
+solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
+shift = solver.getST()
+shift.setType(SLEPc.ST.Type.SINVERT)
+shift.getKSP().setType("preonly")
+shift.getKSP().getPC().setType("cholesky")
+shift.getKSP().getPC().setFactorSolverType("mumps")
+solver.setFromOptions()
+solver.solve()
+show(time.process_time() - start, [solver.getEigenvalue(i).real for i in range(solver.getConverged())])
+"""
+
+
+def limits():
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT_S, LIMIT_S))
+    resource.setrlimit(resource.RLIMIT_AS, (LIMIT_GB << 30, LIMIT_GB << 30))
+
+
+def with_slepc():
+    """The environment in which Debian's python3-slepc4py finds itself without the development packages of PETSc and SLEPc."""
+    found = {name: sorted(pathlib.Path("/usr/lib").glob(pattern)) for name, pattern in (("PETSC_DIR", "petscdir/petsc*/*-real"), ("SLEPC_DIR", "slepcdir/slepc*/*-real"))}
+    return table.ONE_THREAD | {name: str(folders[-1]) for name, folders in found.items() if folders}
+
+
+def measured(*command, environment=table.ONE_THREAD):
+    """({name: value} that a command prints, "" or why there is none)"""
+    done = subprocess.run(table.launched(*command), capture_output=True, text=True, env=environment, preexec_fn=limits)
+    if done.returncode == 0:
+        return {name: float(value) for name, value in (line.split() for line in done.stdout.splitlines())}, ""
+    if done.returncode in (137, 152, -9, -24):
+        return {}, f"ended after {LIMIT_S} s"
+    if "emory" in done.stderr or "bad_alloc" in done.stderr:
+        return {}, f"wanted more than {LIMIT_GB} GB"
+    return {}, (done.stderr.strip().splitlines() or [f"exit {done.returncode}"])[-1][:90]
+
+
+def keep(out, name, columns, rows, key):
+    """Writes rows over those of earlier runs with the same key."""
+    file = out / f"{name}.csv"
+    known = {}
+    if file.is_file():
+        with open(file, newline="") as stream:
+            known = {tuple(row[c] for c in key): row for row in csv.DictReader(stream)}
+    for row in rows:
+        cells = {c: str(row[c]) if isinstance(row[c], int) else table.text(row[c]) for c in columns}
+        known[tuple(cells[c] for c in key)] = cells
+    with open(file, "w", newline="") as stream:
+        writer = csv.DictWriter(stream, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(sorted(known.values(), key=lambda row: tuple(number(row[c]) for c in key)))
+
+
+def number(text):
+    try:
+        return (0, float(text), "")
+    except ValueError:
+        return (1, 0.0, text)
+
+
+def modes(binaries, out, sizes):
+    programs = {"twindeck": [binaries / "bench_growth", "modes"], "SciPy eigsh": [sys.executable, "-c", SCIPY]}
+    if subprocess.run([sys.executable, "-c", "import slepc4py"], capture_output=True, env=with_slepc()).returncode == 0:
+        programs["SLEPc, MUMPS"] = [sys.executable, "-c", SLEPC]
+    else:
+        print("growth: SLEPc is not here and left out: apt-get install --no-install-recommends python3-slepc4py python3-mpi4py", file=sys.stderr)
+    for family, asked in (part.split(":") for part in sizes.split(";")):
+        beyond = set()
+        for dofs in asked.split(","):
+            with tempfile.TemporaryDirectory(dir=out) as folder:
+                model, why = measured(binaries / "bench_growth", "model", family, dofs, folder)
+                if why:
+                    raise SystemExit(f"growth: {family} with {dofs} degrees of freedom: {why}")
+                ours = None
+                for program, command in programs.items():
+                    if program in beyond:
+                        continue
+                    found, why = measured(*command, folder, environment=with_slepc())
+                    if why:
+                        beyond.add(program)
+                    hertz = [found.get(f"frequency_{i}_Hz", math.nan) for i in range(1, 16)]
+                    ours = ours or hertz
+                    row = {"family": family, "degrees_of_freedom": int(model["degrees_of_freedom"]), "program": program, "cpu_s": found.get("modes_s"),
+                           "peak_MB": found.get("peak_MB"), "assemble_s": model["assemble_s"] if program == "twindeck" else None,
+                           "apart": max(abs(a / b - 1) for a, b in zip(hertz, ours)) if found else None, "note": why}
+                    print("growth:", {k: v for k, v in row.items() if v not in (None, "")}, flush=True)
+                    keep(out, "modes", MODES_COLUMNS, [row], ("family", "degrees_of_freedom", "program"))
+
+
+def campaign(folder, channels, samples, binaries):
+    """A campaign with one record of the bench structure. @return size of the record [MB]"""
+    names = [f"A{c + 1:03d}" for c in range(channels)]
+    with open(folder / "channels.csv", "w", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow("channel,point,x_m,y_m,z_m,dx,dy,dz,quantity,unit,gain,reference,role".split(","))
+        for c, name in enumerate(names):
+            writer.writerow([name, f"P{c + 1}", c, 0, 0, 0, 0, 1, "acceleration", "m/s^2", 1, int(c < REFERENCES), "response"])
+    quoted = ", ".join(f'"{name}"' for name in names)
+    (folder / "campaign.toml").write_text(f'[[record]]\nsetup = "ST1"\nkind = "ambient"\nfile = "record.npy"\nsampling_rate_Hz = {RATE_HZ}\nchannels = [{quoted}]\n')
+    subprocess.run([binaries / "bench_growth", "record", folder / "record.npy", str(channels), str(samples)], check=True)
+    return (folder / "record.npy").stat().st_size / 1e6
+
+
+def identified(out):
+    """(true modes found, others) of a step's modes.csv"""
+    with open(out / "modes.csv", newline="") as stream:
+        found = [float(row["frequency_Hz"]) for row in csv.DictReader(stream)]
+    true = sum(any(abs(f / t - 1) < 0.005 for f in found) for t in TRUE_HZ)
+    return true, len(found) - true
+
+
+def watched(command, environment):
+    """@return processor seconds, peak memory [MB], and the part of it that no file holds [MB]: of the rest the system takes back what others need."""
+    with tempfile.NamedTemporaryFile("r") as told:
+        held, ended = [0.0], threading.Event()
+
+        def watch():
+            while not ended.wait(0.1):
+                told.seek(0)
+                try:
+                    status = pathlib.Path(f"/proc/{told.read().strip()}/status").read_text()
+                    held.append(float(re.search(r"RssAnon:\s*(\d+)", status)[1]) / 1024)
+                except (OSError, TypeError):
+                    continue
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
+        try:
+            _, cpu, memory = table.run_child(["/bin/sh", "-c", 'echo $$ >"$0"; exec "$@"', told.name, *command], env=environment)
+        finally:
+            ended.set()
+            watcher.join()
+    return cpu, memory, max(held)
+
+
+def records(binaries, out, cases):
+    program = pathlib.Path(os.environ.get("IDENTIFICATION", binaries / "s3_identification"))
+    for channels, samples in cases:
+        with tempfile.TemporaryDirectory(dir=out) as name:
+            folder = pathlib.Path(name)
+            size = campaign(folder, channels, samples, binaries)
+            # Files that hold what memory should not hold lie beside the record.
+            cpu, memory, held = watched([program, "--campaign", folder, "--out", folder / "out", "--quiet", "--threads", "1"], dict(table.ONE_THREAD, TMPDIR=str(folder)))
+            true, others = identified(folder / "out")
+            row = {"channels": channels, "samples": samples, "program": program.name, "cpu_s": cpu, "peak_MB": memory, "held_MB": held, "record_MB": size,
+                   "modes_found": true, "others_found": others}
+            print("growth:", row, flush=True)
+            keep(out, "records", RECORDS_COLUMNS, [row], ("channels", "samples", "program"))
+
+
+def small_runs(binaries, out, count):
+    """What a run costs beside its computation: many short runs of a step, one after the other."""
+    with tempfile.TemporaryDirectory(dir=out) as name:
+        template = ROOT / "data" / "template"
+        script = 'i=0; while [ $i -lt "$1" ]; do i=$((i + 1)); "$3" --model "$4" --features "$5" --quiet --threads 1 --seed $i --out "$2/$i" || exit 1; done'
+        wall, cpu, memory = table.run_child(["/bin/sh", "-c", script, "sh", str(count), name, binaries / "s6_updating", template / "model", template / "features"])
+    print(f"growth: {count} runs of s6_updating on the template: {cpu / count:.4f} s of processor time each, {memory:.0f} MB", flush=True)
+    with open(out / "runs.csv", "w", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows([["runs", "cpu_s_each", "peak_MB"], [count, table.text(cpu / count), table.text(memory)]])
+
+
+def fitted(points):
+    """Exponent of a power law through (size, value), least squares of the logarithms; nan of fewer than two sizes."""
+    if len(points) < 2:
+        return math.nan
+    x, y = ([math.log(p[i]) for p in points] for i in (0, 1))
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    spread = sum((a - mean_x) ** 2 for a in x)
+    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / spread if spread else math.nan
+
+
+def series(file, group, size):
+    """{(group values): {"cpu_s": [(size, value)], "peak_MB": …}}"""
+    found = {}
+    if file.is_file():
+        with open(file, newline="") as stream:
+            for row in csv.DictReader(stream):
+                for quantity in ("cpu_s", "peak_MB"):
+                    if row[quantity]:
+                        found.setdefault(tuple(row[g] for g in group), {}).setdefault(quantity, []).append((float(row[size]), float(row[quantity])))
+    return found
+
+
+def summarise(out):
+    """exponents.csv and one figure a table, from what modes.csv and records.csv hold now."""
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    lines = []
+    for name, group, size in (("modes", ("family", "program"), "degrees_of_freedom"), ("records", ("channels", "program"), "samples")):
+        found = series(out / f"{name}.csv", group, size)
+        figure, axes = pyplot.subplots(1, 2, figsize=(9, 4), layout="constrained")
+        for who, quantities in found.items():
+            for axis, quantity in zip(axes, ("cpu_s", "peak_MB")):
+                points = sorted(quantities.get(quantity, []))
+                exponent = fitted(points)
+                if not math.isnan(exponent):
+                    lines.append([name, *who, quantity, len(points), f"{points[0][0]:.3g}", f"{points[-1][0]:.3g}", f"{exponent:.2f}"])
+                axis.loglog([p[0] for p in points], [p[1] for p in points], marker="o",
+                            label=", ".join(who) + ("" if math.isnan(exponent) else f": exponent {exponent:.2f}"))
+        for axis, label in zip(axes, ("processor time of one thread [s]", "peak memory [MB]")):
+            axis.set_xlabel("degrees of freedom" if name == "modes" else "samples")
+            axis.set_ylabel(label)
+            axis.grid(True, which="major", alpha=0.4)
+            if axis.lines:
+                axis.legend(fontsize=7)
+        figure.savefig(out / f"{name}.png", dpi=150)
+        pyplot.close(figure)
+    with open(out / "exponents.csv", "w", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows([["table", "group", "program", "quantity", "sizes", "from", "to", "exponent"], *lines])
+    for line in lines:
+        print("growth:", *line)
+
+
+def main():
+    binaries, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+    asked = dict(argument.split("=", 1) for argument in sys.argv[3:])
+    if unknown := set(asked) - set(SIZES):
+        raise SystemExit(f"growth: unknown {', '.join(sorted(unknown))}; known are {', '.join(SIZES)}")
+    wanted = asked or SIZES
+    out.mkdir(parents=True, exist_ok=True)
+    if "modes" in wanted:
+        modes(binaries, out, wanted["modes"])
+    if "records" in wanted:
+        records(binaries, out, [(16, int(float(n))) for n in wanted["records"].split(",")])
+    if "channels" in wanted:
+        records(binaries, out, [(int(c), 1_000_000) for c in wanted["channels"].split(",")])
+    if "steps" in wanted:
+        small_runs(binaries, out, int(wanted["steps"]))
+    summarise(out)
+
+
+if __name__ == "__main__":
+    main()
