@@ -175,9 +175,11 @@ std::string interval_words(const EffectParameter& p) {
 std::string with_intervals(const Effect& effect) {
   const std::string in_state = effect.state.empty() ? "" : fmt::format(" (state {})", effect.state);
   std::vector<std::string> words;
-  for (const EffectParameter& p : effect.parameters)
-    if (effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos)
+  for (const EffectParameter& p : effect.parameters) {
+    const bool is_a_count = p.unit.empty() && p.low == p.high;
+    if (!is_a_count && effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos)
       words.push_back(interval_words(p));
+  }
   const std::string within =
       effect.within_m > 0.0 ? fmt::format(" The place is known to {} m.", number_in_words(effect.within_m)) : "";
   return ended(effect.sentence + in_state) + within +
@@ -190,10 +192,13 @@ std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.effects.empty()) return ended(capitalised(result.message));
   std::string text = (result.verdict == diagnosis::Verdict::unknown ? "Not known. What comes nearest: " : "") +
                      with_intervals(result.effects.front());
+  if (result.effects.size() == 1) return text;
   std::vector<std::string> others;
   for (std::size_t i = 1; i < result.effects.size(); ++i)
-    others.push_back(ids.in_text(result.effects[i].cause.candidate->id()));
-  return others.empty() ? text : fmt::format("{} Beside it: {}.", text, fmt::join(others, "; "));
+    others.push_back(result.verdict == diagnosis::Verdict::unknown ? ids.in_text(result.effects[i].cause.candidate->id())
+                                                                   : with_intervals(result.effects[i]));
+  return result.verdict == diagnosis::Verdict::unknown ? fmt::format("{} Beside it: {}.", text, fmt::join(others, "; "))
+                                                       : fmt::format("{} Besides: {}", text, fmt::join(others, " "));
 }
 
 std::string probability_words(double p) {
@@ -216,6 +221,22 @@ std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
   return fmt::format("These data cannot tell it from: {}{}.", fmt::join(named, "; "), more);
 }
 
+/// Several causes that stand: each with its probability, and those that the data cannot tell from others.
+std::string how_sure_of_each(const Diagnosis& result, const IdsInWords& ids) {
+  std::vector<std::string> probabilities, rivals;
+  for (std::size_t i = 0; i < result.effects.size(); ++i) {
+    const Effect& effect = result.effects[i];
+    probabilities.push_back(probability_words(effect.probability));
+    if (!effect.rivals.empty()) rivals.push_back(fmt::format("Of cause {}: {}", i + 1, rivals_words(effect, ids)));
+  }
+  return fmt::format(
+      "Weighed against all other causes of the catalogue and against none, the causes have the probabilities {}, in this "
+      "order. "
+      "{}",
+      fmt::join(probabilities, "; "),
+      rivals.empty() ? "No rival among the causes of the catalogue is near." : fmt::format("{}", fmt::join(rivals, " ")));
+}
+
 std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.verdict == diagnosis::Verdict::none)
     return fmt::format("The best cause of the catalogue has log odds {:.1f} against none; a name needs {:.1f}.",
@@ -229,6 +250,7 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
                                          number_in_words(result.residual.statistic), result.residual.dof)
                            : result.message);
   const Effect& first = result.effects.front();
+  if (result.verdict != diagnosis::Verdict::unknown && result.effects.size() > 1) return how_sure_of_each(result, ids);
   text += fmt::format("Weighed against all other causes of the catalogue and against none, the {}cause has probability {}. ",
                       result.effects.size() > 1 ? "first " : "", probability_words(first.probability));
   if (result.verdict == diagnosis::Verdict::unknown && first.rivals.empty())
