@@ -65,7 +65,7 @@ build: deps ## compile into build/
 
 test: build ## unit tests, laws, verification, steps, architecture, the study and its check against the paper
 	@cmake --build $(BUILD) -j $(JOBS)
-	@$(MAKE) --no-print-directory s3 NO_BUILD=1
+	@$(MAKE) --no-print-directory s3 $(if $(SCORE),score) NO_BUILD=1
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 	@$(MAKE) --no-print-directory all
 
