@@ -54,9 +54,10 @@ TEST_F(NastranDecks, TenBarTruss) {
   // Lumped, as the TOML file may say, the first three are Nastran's within 1 % and all within 4.5 %.
   const NastranModel lumped = import_shared("ten_bar_truss", "modes.dat", "in", "lbf", "[formulation]\nlumped_mass = true\n");
   const std::vector<double> f = frequencies(lumped.model, 8);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(f.at(i) / std::vector{8.949501, 26.95656, 27.25022}[i], 1.0, 0.01);
-  expect_each("ten_bar_truss lumped", f, {8.949501, 26.95656, 27.25022, 49.93071, 56.88473, 62.99655, 65.08352, 77.12846},
-              0.045, "Nastran's coupled rod mass is 5/12 and 1/12 along the rod and halves across");
+  const std::vector<double> printed = {8.949501, 26.95656, 27.25022, 49.93071, 56.88473, 62.99655, 65.08352, 77.12846};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(f.at(i) / printed[i], 1.0, 0.01);
+  expect_each("ten_bar_truss lumped", f, printed, 0.045,
+              "Nastran's coupled rod mass is 5/12 and 1/12 along the rod and halves across");
 }
 
 TEST_F(NastranDecks, SpringsAndMasses) {
