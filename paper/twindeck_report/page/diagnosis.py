@@ -27,7 +27,7 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
     tried = _tried(study)
     folder = "s6_updating/model" if "s6_updating" in study.steps() else None
     where = places(study, settings, folder, told.get("localisation", []))
-    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "beyond_held_out": _beyond(rows[rows["held_out"] == 1], "before"), "kind": _kind, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
+    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "beyond_held_out": _beyond(rows[rows["held_out"] == 1], "before"), "kind": _kind, "block": _block, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
             "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity, "size": _size, "physical": physical, "parameters": _parameters(told)}
 
@@ -41,6 +41,12 @@ def _kind(name: str) -> str:
     """A kind of row, or of scatter, in words."""
     words = {**NAMES, "workmanship": "Scatter from element to element"}
     return words.get(name, name.replace("_", " "))
+
+
+def _block(name: str) -> str:
+    """A block of rows in words: "damping_ratio_pct in still_air"."""
+    kind, inside, condition = name.partition(" in ")
+    return (_kind(kind).lower() if kind in NAMES else kind) + inside + condition.replace("_", " ")
 
 
 def _sure(probability: float) -> str:
