@@ -138,7 +138,8 @@ blind-modes: build ## make blind-modes N=200 SEED=1: records of random structure
 decks: build ## every deck of Nastran, Abaqus, CalculiX and ANSYS whose frequencies are known, imported and compared (results/decks/frequencies.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target test_model_io
 	@mkdir -p results/decks && rm -f results/decks/frequencies.csv
-	@TWINDECK_DECK_TABLE=results/decks/frequencies.csv $(BUILD)/bin/test_model_io --gtest_brief=1 --gtest_filter='KnownDecks*:PublicInpDecks*:NastranDecks*:AnsysDecks*'
+	@TWINDECK_DECK_TABLE=results/decks/frequencies.csv $(BUILD)/bin/test_model_io --gtest_brief=1 --gtest_filter='KnownDecks*:PublicInpDecks*:NastranDecks*:AnsysDecks*' >/dev/null
+	@$(PRODUCT)workflows/python.sh tests/data/decks/table.py results/decks/frequencies.csv
 
 BATCH ?= -j$(JOBS)
 batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as independent jobs of Snakemake (docs/batch.md)

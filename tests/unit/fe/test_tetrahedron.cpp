@@ -94,7 +94,7 @@ TEST(Tetrahedron, FaultyShapesAreNamed) {
   };
   Model model = cube_of_tetrahedra();
   std::swap(model.elements[0].nodes[0], model.elements[0].nodes[1]);
-  EXPECT_NE(refusal(model).find("cube: element 1: the solid 4-1-2-9 is inverted"), std::string::npos) << refusal(model);
+  EXPECT_NE(refusal(model).find("cube: element 1: the solid 4-1-3-9 is inverted"), std::string::npos) << refusal(model);
   model = cube_of_tetrahedra();
   model.nodes[8].x_m.z() = 0.0;  // in the plane of the lowest face
   EXPECT_NE(refusal(model).find("has no volume"), std::string::npos) << refusal(model);
