@@ -92,6 +92,15 @@ std::string unit_of(RowType type) {
   }
 }
 
+/// False for a held-out damping ratio of a mode of whose damping no row is in the fit: every mode has a ratio of its own, so
+/// that nothing predicts this one.
+bool is_predicted(const diagnosis::FeatureSet& features, const Row& row) {
+  if (row.type != RowType::damping || !row.held_out) return true;
+  return std::any_of(features.rows.begin(), features.rows.end(), [&](const Row& other) {
+    return other.type == RowType::damping && !other.held_out && other.mode == row.mode;
+  });
+}
+
 std::vector<Block> blocks_of(const Inference& inference, const PlaceWords& places) {
   const diagnosis::FeatureSet& features = inference.map().features();
   std::vector<Block> blocks;
@@ -99,6 +108,7 @@ std::vector<Block> blocks_of(const Inference& inference, const PlaceWords& place
   std::map<int, Block> of_sensor;
   for (std::size_t r = 0; r < features.rows.size(); ++r) {
     const Row& row = features.rows[r];
+    if (!is_predicted(features, row)) continue;
     const std::string channel = row.channel >= 0 ? features.channels[static_cast<std::size_t>(row.channel)] : "";
     const std::string sensor = channel.empty() ? "" : places.at("channel:" + channel).words;
     const std::string when = features.conditions.size() > 1
@@ -147,13 +157,17 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
   const Block* worst = &blocks.front();
   for (const Block& block : blocks)
     if (surprise(block, before) > surprise(*worst, before)) worst = &block;
-  const double limit = sidak_limit(static_cast<std::size_t>(before.size()));
-  const auto beyond = (before.array().abs() > limit).count();
+  const diagnosis::FeatureSet& features = inference.map().features();
+  std::size_t judged = 0, beyond = 0;
+  for (const Row& row : features.rows) judged += is_predicted(features, row) ? 1 : 0;
+  const double limit = sidak_limit(judged);
+  for (Index r = 0; r < before.size(); ++r)
+    beyond += is_predicted(features, features.rows[static_cast<std::size_t>(r)]) && std::abs(before[r]) > limit ? 1 : 0;
   const std::string most = block_words(*worst, inference, result, before, after);
   if (result.verdict == diagnosis::Verdict::none && beyond == 0)
     return fmt::format("Nothing that chance does not allow. The largest deviation: {}.", most);
   return fmt::format("{}. Of {} measured values {} lie further off than the {:.1f} standard deviations that chance allows.",
-                     capitalised(most), number_in_words(static_cast<double>(before.size()), kCountDigits), beyond, limit);
+                     capitalised(most), number_in_words(static_cast<double>(judged), kCountDigits), beyond, limit);
 }
 
 /// "factor 0.55 to 0.68", "Fc at least 181 N": what is not in the sentence already.
