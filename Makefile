@@ -33,7 +33,7 @@ include $(PRODUCT)workflows/steps.mk
 include $(PRODUCT)workflows/virtual.mk
 endif
 
-.PHONY: check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
+.PHONY: bench-places check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
   smoke bench format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
 
 help: ## this page
@@ -150,6 +150,10 @@ batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as i
 bench: build ## ratios against peers: modes, derivatives, identification, wind (results/bench/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field
 	@$(PRODUCT)workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
+
+bench-places: build ## make bench-places PLACES="25 100 400": processor seconds of a diagnosis against candidate places (results/bench/places.csv)
+	@mkdir -p results/bench
+	@$(PRODUCT)workflows/python.sh tests/bench/places.py $(BIN) results/bench $(PLACES)
 
 processors: build ## the study and the tests under the kernels of other processors: tests failed, columns that move (results/processors/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS)
