@@ -127,6 +127,11 @@ class OneStudy(unittest.TestCase):
             told["effects"][0]["rivals"][0]["parameters"][0]["one_sided"] = side
             self.assertIn(f"probability 0.11: {words}", self.account(told))
 
+    def test_several_causes_are_counted(self):
+        for count, words in ((1, "One cause explains it"), (2, "2 causes explain it together")):
+            self.assertEqual(diagnosis.verdict_in_words({"verdict": "named", "effects": [{}] * count})[1], words)
+        self.assertEqual(diagnosis.verdict_in_words({"verdict": "unknown", "effects": [{}] * 2})[1], diagnosis.VERDICTS["unknown"][1])
+
     def test_a_gain_whose_interval_holds_zero_is_not_claimed(self):
         gain = made_up_answer.diagnosis()["gain"]
         self.assertIn("No gain shown. Held out from the fit", self.account(made_up_answer.diagnosis(gain=gain | {"interval_pct": [-2.0, 40.0]})))

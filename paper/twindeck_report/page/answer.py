@@ -4,7 +4,7 @@ import json
 from ..errors import InputError
 from ..manifests import sha256
 from ..study import Study
-from .diagnosis import VERDICTS
+from .diagnosis import verdict_in_words
 from .numbers import physical
 
 QUESTIONS = (("what", "What is wrong"), ("why", "Why"), ("how_sure", "How sure"), ("how_much_better", "How much better"), ("next", "What next"))
@@ -27,7 +27,7 @@ def _answer(study: Study) -> dict | None:
     if not isinstance(told.get("sentences"), dict):
         raise InputError(f"{path}: sentences: missing; it was written by an earlier version: run `make s9 STUDY={study.name}`")
     settings = study.read_toml(study.workflow / "study.toml")
-    tone, title, _ = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    tone, title, _ = verdict_in_words(told)
     return {"title": settings.get("title", study.name), "kind": _kind(study, settings), "verdict": told["verdict"],
             "tone": tone, "heading": title, "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS],
             "updating": None if study.has_paper() else _updating(study), "score": _score(study, path)}

@@ -15,13 +15,21 @@ VERDICTS = {
 }
 
 
+def verdict_in_words(told: dict) -> tuple:
+    """Tone, heading and meaning of a verdict."""
+    tone, title, meaning = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    if told["verdict"] == "named" and len(told["effects"]) > 1:
+        title = f"{len(told['effects'])} causes explain it together"
+    return tone, title, meaning
+
+
 def diagnosis_data(study: Study, settings: dict) -> dict | None:
     path = study.results / "s9_diagnosis" / "diagnosis.json"
     if "s9_diagnosis" not in study.steps() or not path.is_file():
         return None
     study.used.add(path)
     told = json.loads(path.read_text(encoding="utf-8"))
-    tone, title, meaning = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    tone, title, meaning = verdict_in_words(told)
     rows = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "residual_before", "residual_after"])
     beyond = {side: _beyond(rows, side) for side in ("before", "after")}
     tried = _tried(study)
