@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "modal/modes.hpp"
 #include "records/feature_rows.hpp"
 #include "records/measured_tables.hpp"
