@@ -9,11 +9,11 @@
 
 #include "core/error.hpp"
 #include "diagnosis/null_calibration.hpp"
+#include "dynamics/unit_slips.hpp"
 #include "matching/mode_name.hpp"
 #include "steps/diagnosis/features.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
-#include "steps/shared/unit_slips.hpp"
 
 namespace twindeck::steps {
 
