@@ -62,6 +62,18 @@ TEST(MergePoser, AModeOfOneSetupIsKeptAndMarked) {
   EXPECT_FALSE(std::isnan(merged[1].shape[1].real()));
 }
 
+// Within half a bandwidth poles of one shape are one mode, also where that is more than the 2 % of a lightly damped one.
+TEST(MergePoser, ADampedModeIsOneWithinHalfItsBandwidth) {
+  const auto merged_with = [&](double damping_ratio) {
+    std::vector<SetupModes> setups = {identified(0, 1.0), identified(1, 1.0)};
+    for (SetupModes& setup : setups) setup.modes[1].damping_ratio = damping_ratio;
+    setups[1].modes[1].frequency_Hz *= 1.03;
+    return merge_poser(setups, 5, {0, 3}, {}).size();
+  };
+  EXPECT_EQ(merged_with(0.04), identified(0, 1.0).modes.size());
+  EXPECT_EQ(merged_with(0.01), identified(0, 1.0).modes.size() + 1);
+}
+
 // References that hardly move settle neither sign nor scale of the other setup: its own channel stays unknown.
 TEST(MergePoser, WhereTheReferencesAreQuietTheShapeIsNotPutTogether) {
   std::vector<SetupModes> setups = {identified(0, 1.0), identified(1, 1.0)};
