@@ -33,7 +33,7 @@ include $(PRODUCT)workflows/steps.mk
 include $(PRODUCT)workflows/virtual.mk
 endif
 
-.PHONY: check compare baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
+.PHONY: check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
   smoke bench format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
 
 help: ## this page
@@ -65,7 +65,7 @@ build: deps ## compile into build/
 
 test: build ## unit tests, laws, verification, steps, architecture, the study and its check against the paper
 	@cmake --build $(BUILD) -j $(JOBS)
-	@$(MAKE) --no-print-directory s3 NO_BUILD=1
+	@$(MAKE) --no-print-directory s3 $(if $(SCORE),score) NO_BUILD=1
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 	@$(MAKE) --no-print-directory all
 
@@ -134,6 +134,12 @@ blind-trials: build ## make blind-trials N=400 TIER=features, form, records or t
 blind-modes: build ## make blind-modes N=200 SEED=1: records of random structures identified by the automatic rule, scored with exact intervals (results/blind/modes_SEED_N.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target blind_modes
 	@$(BUILD)/bin/blind_modes $(N) $(SEED) results/blind/modes_$(SEED)_$(N).csv
+
+decks: build ## every deck of Nastran, Abaqus, CalculiX and ANSYS whose frequencies are known, imported and compared (results/decks/frequencies.csv)
+	@cmake --build $(BUILD) -j $(JOBS) --target test_model_io
+	@mkdir -p results/decks && rm -f results/decks/frequencies.csv
+	@TWINDECK_DECK_TABLE=results/decks/frequencies.csv $(BUILD)/bin/test_model_io --gtest_brief=1 --gtest_filter='KnownDecks*:PublicInpDecks*:NastranDecks*:AnsysDecks*' >/dev/null
+	@$(PRODUCT)workflows/python.sh tests/data/decks/table.py results/decks/frequencies.csv
 
 BATCH ?= -j$(JOBS)
 batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as independent jobs of Snakemake (docs/batch.md)

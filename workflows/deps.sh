@@ -50,6 +50,23 @@ fi
 echo "deps: installing with apt-get:$missing"
 export DEBIAN_FRONTEND=noninteractive
 $as_root apt-get update -qq
+# apt says on its output where it is, as kind:package:per cent:what it does; a tenth at a time is passed on.
 # shellcheck disable=SC2086  # the list is meant to be split
-$as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null
+{ code=0; $as_root apt-get install -y -qq -o APT::Status-Fd=1 --no-install-recommends $missing || code=$?; echo "end:$code::"; } |
+  {
+    shown=
+    while IFS=: read -r kind package percent what; do
+      case $kind in
+        end) exit "$package" ;;
+        dlstatus) doing=fetching ;;
+        pmstatus) doing=installing ;;
+        *) continue ;;
+      esac
+      tenth="$doing ${percent%%.*}"
+      tenth="${tenth%?}0"
+      [ "$tenth" != "$shown" ] || continue
+      shown=$tenth
+      echo "deps: $doing, ${percent%%.*} %"
+    done
+  }
 echo "deps: done"

@@ -4,10 +4,12 @@ Oracles: Debian's shell, which parses each command; the tree, which has the file
 are called; workflows/debian-packages.txt, the one list of packages.
 """
 import json
+import os
 import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -87,6 +89,22 @@ class Container(unittest.TestCase):
         if shutil.which("dpkg-query"):
             lines = (ROOT / "workflows/debian-packages.txt").read_text().splitlines()
             self.assertEqual([line.split()[0] for line in listed.stdout.splitlines()], [line for line in lines if line and not line.startswith("#")])
+
+    def test_an_installation_says_how_far_it_is_and_fails_as_apt_does(self):
+        """An apt that fetches, installs and ends with a code of its own, as its status lines have it."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for name, text in (("dpkg-query", "exit 1"), ("sudo", 'exec "$@"'),
+                           ("apt-get", 'if [ "$1" = update ]; then exit 0; fi\necho dlstatus:1:4.5:Retrieving file\necho Selecting package x\n'
+                            "for p in 0 4.2 41.0 44.9 100; do echo pmstatus:libx:$p:Installing libx; done\nexit $APT_CODE")):
+            (folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (folder / name).chmod(0o755)
+        for code in (0, 100):
+            done = subprocess.run([ROOT / "workflows/deps.sh"], capture_output=True, text=True, timeout=60,
+                                  env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}", "APT_CODE": str(code)})
+            self.assertEqual(done.returncode, code, done.stderr)
+            said = done.stdout.splitlines()[1:]
+            self.assertEqual(said, ["deps: fetching, 4 %", "deps: installing, 0 %", "deps: installing, 41 %", "deps: installing, 100 %"] +
+                             (["deps: done"] if code == 0 else []))
 
     def test_what_is_copied_into_the_build_is_not_ignored(self):
         ignored = (ROOT / ".dockerignore").read_text().split()
