@@ -18,8 +18,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array<FormLevel, 3> kLevels = {{{0.01, 0.01}, {0.02, 0.03}, {0.03, 0.10}}};
-constexpr double kLargestMisfit = 2.0;  // chi² over degrees of freedom of the first fit: above, it stands more
-constexpr double kAside = 10.0;         // deviation of rows that are set aside: e^10, far beyond any change
+// chi² over degrees of freedom of the first fit. Up to the first number fits find their place with the least level, and a
+// cause that acts in every condition may be what is left; above it the model is grossly off, and fits stand the level at which
+// the second is met.
+constexpr double kGrossMisfit = 10.0, kLargestMisfit = 2.0;
+constexpr double kAside = 10.0;  // deviation of rows that are set aside: e^10, far beyond any change
 // A measured mode has no counterpart where its MAC with the model's is below; at most this part of the modes may be such.
 constexpr double kLeastMac = 0.5, kMostStrangers = 0.25;
 constexpr double kSameMac = 0.8, kSameFrequency = 0.2;  // of one measured mode in two conditions: MAC above, |ln ratio| below
@@ -154,10 +157,12 @@ FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base
 }
 
 FitGround ground_of_fits(const Inference& whole, const FeatureMap::Base& prior, const VectorXd& predicted) {
+  double most = kGrossMisfit;
   for (const FormLevel& level : kLevels) {
     FitGround out = ground_at(whole, prior, predicted, level);
     const FeatureMap informed = with_form_error(out.known, prior, predicted, level);
-    if (misfit_of_plainest(Inference(informed, whole.candidates()), out.strangers) < kLargestMisfit) return out;
+    if (misfit_of_plainest(Inference(informed, whole.candidates()), out.strangers) < most) return out;
+    most = kLargestMisfit;
   }
   return ground_at(whole, prior, predicted, kLevels.back());
 }

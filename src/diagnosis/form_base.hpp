@@ -32,10 +32,10 @@ struct FitGround {
 };
 
 /// Strangers count for nothing: one such mode, a hybrid with a mode that the channels do not see, would outweigh all others.
-/// The fits stand the least of three levels at which the model fits its plainest conditions with a chi² of no more than twice
-/// the degrees of freedom, else the largest. A fit that stands less than the model is off by bends all parameters towards
-/// shapes that no model of its kind has. Reference for that rule, the discrepancy principle: Morozov (1966), Soviet
-/// Mathematics 7, 414-417.
+/// The fits stand the least of three levels. Where the model is grossly off in its plainest conditions (chi² above ten times
+/// the degrees of freedom) they stand the least level at which chi² is at most twice the degrees of freedom, else the largest:
+/// a fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has. Reference
+/// for that rule, the discrepancy principle: Morozov (1966), Soviet Mathematics 7, 414-417.
 /// @param prior, predicted  the model as it stands, its rows
 [[nodiscard]] FitGround ground_of_fits(const Inference& whole, const FeatureMap::Base& prior, const Eigen::VectorXd& predicted);
 
