@@ -192,16 +192,16 @@ std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, 
     factors[static_cast<std::size_t>(strongest)] = 1.0;
     return factors;
   }
+  std::vector<Index> moving;
   for (Index k = 0; k < n; ++k) {
-    if (signal[k] < kLeastSignal) shapes.col(k).setZero();
+    if (signal[k] >= kLeastSignal) moving.push_back(k);
   }
-  Eigen::MatrixXcd unit = shapes;
-  for (Index k = 0; k < n; ++k) unit.col(k) /= std::max(unit.col(k).norm(), 1e-300);
+  Eigen::MatrixXcd unit = shapes(Eigen::all, moving);
+  for (Index k = 0; k < unit.cols(); ++k) unit.col(k) /= unit.col(k).norm();
   const Eigen::VectorXcd common = Eigen::JacobiSVD<Eigen::MatrixXcd>(unit, Eigen::ComputeThinU).matrixU().col(0);
-  for (Index k = 0; k < n; ++k) {
+  for (const Index k : moving) {
     const Eigen::VectorXcd weighted = weights.col(k).asDiagonal() * shapes.col(k);
-    const double norm = shapes.col(k).dot(weighted).real();
-    if (norm > 0.0) factors[static_cast<std::size_t>(k)] = weighted.dot(common) / norm;
+    factors[static_cast<std::size_t>(k)] = weighted.dot(common) / shapes.col(k).dot(weighted).real();
   }
   return factors;
 }
