@@ -29,6 +29,9 @@ double shape_deviation(const Cluster& mode, const ModeDeviation& deviation) {
   return changes.norm();
 }
 
+/// Under random forces that stay alike, as the law of least deviation assumes.
+bool is_stationary(const IdentifyOptions& options, double seconds) { return seconds > 0.0 && options.largest_law_ratio > 0.0; }
+
 /// Phases that are arbitrary, and a shape that is not known well enough for them to be its own. A real shape with the deviation
 /// s has some s²/2 of its energy out of phase by chance, and 98 % have at most four times that; a collinearity c is a share of
 /// (1 - sqrt(c))/2. What the deviation cannot explain is the structure's own motion, as with dampers.
@@ -60,10 +63,11 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
 /// Another mode, better settled, that this one can't be told from: frequencies within three standard deviations, and shapes no
 /// further apart than one expects of one shape with the deviations of both. To first order 1 - MAC of two estimates of one
 /// shape has the mean s1² + s2², s their deviations across it.
-bool is_shadow(const Identification& found, std::size_t m, double seconds) {
+bool is_shadow(const Identification& found, std::size_t m, bool stationary) {
   constexpr double kShapeFloor = 0.02;  // of 1 - MAC: what deviations from few blocks and the choice of an order leave out
-  constexpr double kDecayFloor = 0.2;   // the same of free decays, whose deviations leave out that modes change with amplitude
-  const double floor = seconds > 0.0 ? kShapeFloor : kDecayFloor;
+  constexpr double kDecayFloor =
+      0.2;  // the same of decays and earthquakes: deviations leave out that modes change with amplitude
+  const double floor = stationary ? kShapeFloor : kDecayFloor;
   for (std::size_t k = 0; k < found.modes.size(); ++k) {
     const ModeDeviation &mine = found.deviations[m], &other = found.deviations[k];
     if (other.frequency_Hz >= mine.frequency_Hz) continue;
@@ -119,7 +123,7 @@ void drop_undetermined(Identification& result, const IdentifyOptions& options, d
   if (options.selection != Selection::automatic) return;
   drop_hidden_mixtures(result, options.automatic);
   stays.clear();
-  for (std::size_t m = 0; m < result.modes.size(); ++m) stays.push_back(!is_shadow(result, m, seconds));
+  for (std::size_t m = 0; m < result.modes.size(); ++m) stays.push_back(!is_shadow(result, m, is_stationary(options, seconds)));
   keep_modes(result, stays);
 }
 
@@ -133,7 +137,8 @@ void drop_better_than_random(Identification& result, double seconds) {
     stays.push_back(blocks < 2.0 ||
                     result.deviations[m].frequency_Hz >= (1.0 - kChance / std::sqrt(2.0 * (blocks - 1.0))) * law);
   }
-  keep_modes(result, stays);
+  const auto n_random = std::count(stays.begin(), stays.end(), true);
+  if (2 * n_random > std::ssize(stays)) keep_modes(result, stays);
 }
 
 namespace {
@@ -218,7 +223,7 @@ void add_deviations(Identification& result, const Observability& observability, 
   }
   result.deviations = mode_deviations(models, factors, members);
   drop_undetermined(result, options, seconds);
-  if (options.selection == Selection::automatic && seconds > 0.0) drop_better_than_random(result, seconds);
+  if (options.selection == Selection::automatic && is_stationary(options, seconds)) drop_better_than_random(result, seconds);
   add_order_scatter(result);
 }
 

@@ -100,7 +100,8 @@ void drop_undetermined(Identification& result, const IdentifyOptions& options, d
 
 /// Drops the modes that are known better than random forces allow: below the lower limit of IdentifyOptions by more than
 /// chance, as far as the number of blocks (columns of the factor) tells a deviation; half of it for twenty. Such a pole moves
-/// in step with something periodic, as a machine's line does that wanders too much to be marked.
+/// in step with something periodic, as a machine's line does that wanders too much to be marked. Where half of the modes or
+/// more are known so well, the forces of the record are not random (fans, one shaker for all): none is dropped.
 /// @param seconds  length of the ambient records
 void drop_better_than_random(Identification& result, double seconds);
 
