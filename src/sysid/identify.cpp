@@ -175,9 +175,8 @@ double largest_well_known(std::vector<double> deviations) {
 /// Orders at which a pole has split in two know either half badly and do not speak for the mode. Where most orders are split
 /// the quartile itself is that of halves, and the orders that have the pole whole stand for it: two poles that differ by no
 /// more than chance are one more than the data support. That may be a single order: that of the true number of modes, for the
-/// mode that appears last. Free decays need two: what their deviations leave out shows in the scatter over orders only.
-void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors, double seconds) {
-  const std::size_t least = seconds > 0.0 ? 1 : 2;
+/// mode that appears last. Not so of free decays: what their deviations leave out shows in the scatter over orders only.
+void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors, bool stationary) {
   for (Cluster& mode : result.modes) {
     std::vector<double> deviations, whole;
     for (const std::size_t i : mode.members) {
@@ -193,10 +192,7 @@ void keep_well_known(Identification& result, const ShiftModels& models, const Po
     };
     std::vector<std::size_t> kept = well_known(largest_well_known(deviations));
     const double most_of_whole = whole.empty() ? 0.0 : largest_well_known(whole);
-    if (2.0 * most_of_whole < largest_well_known(deviations)) {
-      std::vector<std::size_t> of_whole = well_known(most_of_whole);
-      if (of_whole.size() >= least) kept = std::move(of_whole);
-    }
+    if (stationary && !whole.empty() && 2.0 * most_of_whole < largest_well_known(deviations)) kept = well_known(most_of_whole);
     mode = summarise(result.diagram, std::move(kept));
   }
 }
@@ -215,7 +211,7 @@ void add_deviations(Identification& result, const Observability& observability, 
                     const Changes& changes, const IdentifyOptions& options, double seconds) {
   const PoleFactors factors = pole_factors(observability, models, changes);
   for (DiagramPole& pole : result.diagram) pole.frequency_std_Hz = frequency_deviation(models, factors, pole.pole);
-  if (options.selection == Selection::automatic) keep_well_known(result, models, factors, seconds);
+  if (options.selection == Selection::automatic) keep_well_known(result, models, factors, is_stationary(options, seconds));
   std::vector<std::vector<Pole>> members;
   for (const Cluster& mode : result.modes) {
     members.emplace_back();
