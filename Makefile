@@ -33,7 +33,7 @@ include $(PRODUCT)workflows/steps.mk
 include $(PRODUCT)workflows/virtual.mk
 endif
 
-.PHONY: check compare baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
+.PHONY: bench-places check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
   smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
 
 help: ## this page
@@ -65,7 +65,7 @@ build: deps ## compile into build/
 
 test: build ## unit tests, laws, verification, steps, architecture, the study and its check against the paper
 	@cmake --build $(BUILD) -j $(JOBS)
-	@$(MAKE) --no-print-directory s3 NO_BUILD=1
+	@$(MAKE) --no-print-directory s3 $(if $(SCORE),score) NO_BUILD=1
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 	@$(MAKE) --no-print-directory all
 
@@ -135,6 +135,12 @@ blind-modes: build ## make blind-modes N=200 SEED=1: records of random structure
 	@cmake --build $(BUILD) -j $(JOBS) --target blind_modes
 	@$(BUILD)/bin/blind_modes $(N) $(SEED) results/blind/modes_$(SEED)_$(N).csv
 
+decks: build ## every deck of Nastran, Abaqus, CalculiX and ANSYS whose frequencies are known, imported and compared (results/decks/frequencies.csv)
+	@cmake --build $(BUILD) -j $(JOBS) --target test_model_io
+	@mkdir -p results/decks && rm -f results/decks/frequencies.csv
+	@TWINDECK_DECK_TABLE=results/decks/frequencies.csv $(BUILD)/bin/test_model_io --gtest_brief=1 --gtest_filter='KnownDecks*:PublicInpDecks*:NastranDecks*:AnsysDecks*' >/dev/null
+	@$(PRODUCT)workflows/python.sh tests/data/decks/table.py results/decks/frequencies.csv
+
 BATCH ?= -j$(JOBS)
 batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as independent jobs of Snakemake (docs/batch.md)
 	@command -v snakemake >/dev/null || { echo "batch: snakemake is not here: apt-get install --no-install-recommends snakemake" >&2; exit 2; }
@@ -145,10 +151,14 @@ bench: build ## ratios against peers: modes, derivatives, identification, wind (
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field
 	@$(PRODUCT)workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
 
+bench-places: build ## make bench-places PLACES="25 100 400": processor seconds of a diagnosis against candidate places (results/bench/places.csv)
+	@mkdir -p results/bench
+	@$(PRODUCT)workflows/python.sh tests/bench/places.py $(BIN) results/bench $(PLACES)
+
 SIZES ?=
-growth: build ## seconds and memory as models and records grow, with peers and fitted exponents (results/growth; SIZES="modes=3e4,1e5 records=1e5,1e6")
+growth: build ## seconds and memory as models and records grow, with peers and fitted exponents (results/growth; SIZES="modes=deck:3e4,1e5 records=1e5,1e6")
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_growth
-	@$(PRODUCT)workflows/python.sh tests/bench/growth.py $(BIN) results/growth $(SIZES)
+	@$(PRODUCT)workflows/python.sh tests/bench/growth.py $(BIN) results/growth $(SIZES:%='%')
 
 processors: build ## the study and the tests under the kernels of other processors: tests failed, columns that move (results/processors/*.csv)
 	@cmake --build $(BUILD) -j $(JOBS)

@@ -57,13 +57,23 @@ echo "deps: installing with apt-get:$missing"
 export DEBIAN_FRONTEND=noninteractive
 $as_root apt-get update -qq
 apt-cache show calculix-ccx >/dev/null 2>&1 || { missing=$(without); echo "deps: calculix-ccx is not in this Debian and left out"; }
-# Minutes on a new machine: a line at each tenth of what is fetched and installed. apt's own words are shown if it fails.
+# apt says on its output where it is, as kind:package:per cent:what it does; a tenth at a time is passed on.
 # shellcheck disable=SC2086  # the list is meant to be split
-{ $as_root apt-get install -y -qq --no-install-recommends -o APT::Status-Fd=1 $missing 2>&1 || echo "deps:failed"; } | awk -F: '
-  /^(dl|pm)status:/ { now = ($1 == "dlstatus" ? "fetched" : "installed") sprintf(" %d %%", int($3 / 10) * 10)
-                      if (now != said) { print "deps: " now; fflush(); said = now }
-                      next }
-  /^deps:failed$/ { failed = 1; next }
-  { words = words $0 "\n" }
-  END { if (failed) { printf "%s", words; exit 1 } }'
+{ code=0; $as_root apt-get install -y -qq -o APT::Status-Fd=1 --no-install-recommends $missing || code=$?; echo "end:$code::"; } |
+  {
+    shown=
+    while IFS=: read -r kind package percent what; do
+      case $kind in
+        end) exit "$package" ;;
+        dlstatus) doing=fetching ;;
+        pmstatus) doing=installing ;;
+        *) continue ;;
+      esac
+      tenth="$doing ${percent%%.*}"
+      tenth="${tenth%?}0"
+      [ "$tenth" != "$shown" ] || continue
+      shown=$tenth
+      echo "deps: $doing, ${percent%%.*} %"
+    done
+  }
 echo "deps: done"

@@ -177,15 +177,13 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
 
 /// A number of the place; nothing where it has none of this name.
 std::optional<double> attribute_if(const Candidate& candidate, const Expression& e) {
-  static const std::set<std::string> known = {
-      "damping",   "stiffness", "series", "k_drive", "cable_mass", "length",  "pull",   "f_cable", "deck_mass", "total_mass",
-      "always_on", "friction",  "type",   "f_low",   "f_soft",     "f_stiff", "f_high", "f_own",   "f_own_low", "f_own_high"};
+  const std::vector<std::string>& known = place_numbers();
   if (const auto at = candidate.own.find(e.name); at != candidate.own.end()) return at->second;
   for (const ReducedPlace* place : candidate.places) {
     const auto at = place->attributes.find(e.name);
     if (at != place->attributes.end()) return at->second;
   }
-  if (known.contains(e.name) || e.name.starts_with("x_")) return std::nullopt;
+  if (is_place_number(e.name)) return std::nullopt;
   throw InputError({candidate.hypothesis->file, e.line, candidate.hypothesis->id},
                    fmt::format("'{}' is no number known at {}", e.name, candidate.location),
                    fmt::format("use a number, or one of {}", fmt::join(known, ", ")));

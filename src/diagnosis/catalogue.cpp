@@ -1,5 +1,7 @@
 #include "diagnosis/catalogue.hpp"
 
+#include <algorithm>
+
 namespace twindeck::diagnosis {
 
 const std::map<std::string, std::vector<std::string>>& action_kinds() {
@@ -58,6 +60,19 @@ const std::vector<std::string>& condition_keys() {
 const std::vector<std::string>& condition_demands() {
   static const std::vector<std::string> demands = {"known", "on", "off", "above_zero"};
   return demands;
+}
+
+const std::vector<std::string>& place_numbers() {
+  static const std::vector<std::string> names = {
+      "damping",   "stiffness", "series", "k_drive", "cable_mass", "length",  "pull",   "f_cable", "deck_mass", "total_mass",
+      "always_on", "friction",  "type",   "f_low",   "f_soft",     "f_stiff", "f_high", "f_own",   "f_own_low", "f_own_high"};
+  return names;
+}
+
+bool is_place_number(const std::string& name) {
+  const std::vector<std::string>& known = place_numbers();
+  return std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("x_") || name.starts_with("node_") ||
+         name == "least_change" || name == "most_change";
 }
 
 const std::vector<std::string>& location_sets() {

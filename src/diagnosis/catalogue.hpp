@@ -57,6 +57,9 @@ struct Hypothesis {
 /// "off" for dampers, "above_zero" for a number.
 [[nodiscard]] const std::vector<std::string>& condition_keys();
 [[nodiscard]] const std::vector<std::string>& condition_demands();
+/// Numbers of a place that a cause may name; whether a name is one of them, or one that only the model knows (x_low, node_0).
+[[nodiscard]] const std::vector<std::string>& place_numbers();
+[[nodiscard]] bool is_place_number(const std::string& name);
 /// elements, nodes, stays, dampers, supports, support_moves, foundations, groups, all_stays, channels, modes, global,
 /// pairs(channels), pairs(nodes).
 [[nodiscard]] const std::vector<std::string>& location_sets();

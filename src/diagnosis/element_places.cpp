@@ -33,11 +33,8 @@ fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const
       k += fe::shell_bending_stiffness(geometry, properties);
       return {fe::six_per_node(element), k};
     }
-    case fe::ElementType::solid: {
-      const fe::Material& m = fe::material_of(model, element);
-      return {fe::three_per_node(element),
-              fe::solid_stiffness(fe::solid_geometry(model, element), {m.youngs_modulus_Pa, m.poisson_ratio})};
-    }
+    case fe::ElementType::solid:
+      return {fe::three_per_node(element), fe::solid_stiffness_of(model, element)};
     default:
       return {fe::three_per_node(element),
               fe::bar_stiffness(fe::end_nodes(model, element), fe::material_of(model, element).youngs_modulus_Pa,

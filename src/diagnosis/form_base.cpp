@@ -1,6 +1,7 @@
 #include "diagnosis/form_base.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -16,6 +17,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr std::array<FormLevel, 3> kLevels = {{{0.01, 0.01}, {0.02, 0.03}, {0.03, 0.10}}};
+// chi² over degrees of freedom of the first fit. Up to the first number fits find their place with the least level, and a
+// cause that acts in every condition may be what is left; above it the model is grossly off, and fits stand the level at which
+// the second is met.
+constexpr double kGrossMisfit = 10.0, kLargestMisfit = 2.0;
 constexpr double kAside = 10.0;  // deviation of rows that are set aside: e^10, far beyond any change
 // A measured mode has no counterpart where its MAC with the model's is below; at most this part of the modes may be such.
 constexpr double kLeastMac = 0.5, kMostStrangers = 0.25;
@@ -75,14 +81,14 @@ bool is_like(const FeatureMap& map, const MeasuredMode& mode, const MeasuredMode
          shape_mac(map.values()(mode.real_rows), map.values()(stranger.real_rows)) > kSameMac;
 }
 
-/// Rows of strangers in all conditions.
-std::vector<int> rows_of_strangers(const FeatureMap& map, const Fit& fit, Strangers& strangers) {
+Strangers strangers_with_rows(const FeatureMap& map, const Fit& fit) {
+  Strangers strangers;
   std::vector<std::string>& labels = strangers.labels;
   const std::vector<MeasuredMode>& modes = map.measured_modes();
   const std::vector<std::size_t> found = strangers_of(map, fit);
   for (const std::size_t s : found)
     if (std::find(labels.begin(), labels.end(), modes[s].label) == labels.end()) labels.push_back(modes[s].label);
-  std::vector<int> out;
+  std::vector<int>& out = strangers.rows;
   for (const MeasuredMode& mode : modes) {
     if (std::none_of(found.begin(), found.end(), [&](std::size_t s) { return is_like(map, mode, modes[s]); })) continue;
     ++strangers.shapes;
@@ -91,8 +97,7 @@ std::vector<int> rows_of_strangers(const FeatureMap& map, const Fit& fit, Strang
     if (mode.frequency >= 0) out.push_back(mode.frequency);
     if (mode.damping >= 0) out.push_back(mode.damping);
   }
-  strangers.rows = static_cast<int>(out.size());
-  return out;
+  return strangers;
 }
 
 /// Errors that set rows aside (n × n).
@@ -102,38 +107,70 @@ MatrixXd set_aside(const std::vector<int>& rows, Index n) {
   return out;
 }
 
-}  // namespace
-
-FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base, const VectorXd& predicted, double frequency,
-                           double shape) {
-  FeatureMap out = plain;
-  out.add_covariance(form_covariance(plain, base, {}, predicted, frequency, shape));
+std::vector<int> rows_outside(const FeatureSet& features, const std::set<int>& conditions) {
+  std::vector<int> out;
+  for (std::size_t r = 0; r < features.rows.size(); ++r)
+    if (!conditions.contains(features.rows[r].condition)) out.push_back(static_cast<int>(r));
   return out;
 }
 
-FeatureMap without_strangers(const Inference& whole, const FeatureMap::Base& prior, const VectorXd& predicted,
-                             double form_error, Strangers& strangers) {
-  const FeatureMap& map = whole.map();
-  const FeatureMap informed_map = with_form_error(map, prior, predicted, form_error, form_error);
-  FeatureMap out = map;
-  const Fit fit = first_fit(Inference(informed_map, whole.candidates()));
+/// Fit in which some rows count for nothing.
+Fit fit_without(const Inference& informed, const std::vector<int>& rows) {
+  if (rows.empty()) return informed.fit({}, {});
+  FeatureMap map = informed.map();
+  map.add_covariance(set_aside(rows, std::ssize(map.features().rows)));
+  return Inference(map, informed.candidates()).fit({}, {});
+}
+
+/// chi² over the degrees of freedom of the fit to the plainest conditions; infinite where none can be made.
+double misfit_of_plainest(const Inference& informed, const Strangers& strangers) {
+  const FeatureMap& map = informed.map();
+  const std::set<int> plainest = plainest_conditions(map.features()), strange(strangers.rows.begin(), strangers.rows.end());
+  const std::vector<int> others = rows_outside(map.features(), plainest);
+  const Fit fit = fit_without(informed, others);
+  if (!fit.made()) return std::numeric_limits<double>::infinity();
+  int dof = 0;
+  for (std::size_t r = 0; r < map.features().rows.size(); ++r)
+    if (plainest.contains(map.features().rows[r].condition) && !strange.contains(static_cast<int>(r))) ++dof;
+  for (const MeasuredMode& mode : map.measured_modes())  // each shape has a free scale
+    if (plainest.contains(mode.condition) && !mode.real_rows.empty() && !strange.contains(mode.real_rows.front())) --dof;
+  return fit.chi_squared / std::max(dof, 1);
+}
+
+FitGround ground_at(const Inference& whole, const FeatureMap::Base& prior, const VectorXd& predicted, const FormLevel& level) {
+  FitGround out{whole.map(), {}, level};
+  const FeatureMap informed = with_form_error(whole.map(), prior, predicted, level);
+  const Fit fit = first_fit(Inference(informed, whole.candidates()));
   if (!fit.made()) return out;
-  const std::vector<int> rows = rows_of_strangers(map, fit, strangers);
-  if (!rows.empty()) out.add_covariance(set_aside(rows, predicted.size()));
+  out.strangers = strangers_with_rows(whole.map(), fit);
+  if (!out.strangers.rows.empty()) out.known.add_covariance(set_aside(out.strangers.rows, predicted.size()));
   return out;
+}
+
+}  // namespace
+
+FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base, const VectorXd& predicted,
+                           const FormLevel& level) {
+  FeatureMap out = plain;
+  out.add_covariance(form_covariance(plain, base, {}, predicted, level.frequency, level.shape));
+  return out;
+}
+
+FitGround ground_of_fits(const Inference& whole, const FeatureMap::Base& prior, const VectorXd& predicted) {
+  double most = kGrossMisfit;
+  for (const FormLevel& level : kLevels) {
+    FitGround out = ground_at(whole, prior, predicted, level);
+    const FeatureMap informed = with_form_error(out.known, prior, predicted, level);
+    if (misfit_of_plainest(Inference(informed, whole.candidates()), out.strangers) < most) return out;
+    most = kLargestMisfit;
+  }
+  return ground_at(whole, prior, predicted, kLevels.back());
 }
 
 Fit first_fit(const Inference& informed) {
-  const FeatureMap& map = informed.map();
-  const std::set<int> plainest = plainest_conditions(map.features());
-  std::vector<int> others;
-  for (std::size_t r = 0; r < map.features().rows.size(); ++r)
-    if (!plainest.contains(map.features().rows[r].condition)) others.push_back(static_cast<int>(r));
-  if (others.empty()) return informed.fit({}, {});
-  FeatureMap first_map = map;
-  first_map.add_covariance(set_aside(others, std::ssize(map.features().rows)));
-  const Fit fit = Inference(first_map, informed.candidates()).fit({}, {});
-  return fit.made() ? informed.stand(fit.map.x) : fit;
+  const std::vector<int> others = rows_outside(informed.map().features(), plainest_conditions(informed.map().features()));
+  const Fit fit = fit_without(informed, others);
+  return others.empty() || !fit.made() ? fit : informed.stand(fit.map.x);
 }
 
 }  // namespace twindeck::diagnosis

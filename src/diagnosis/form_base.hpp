@@ -7,22 +7,37 @@
 
 namespace twindeck::diagnosis {
 
+/// Form errors of frequencies (ln f) and of shapes (decision 0013) [-].
+struct FormLevel {
+  double frequency = 0.0, shape = 0.0;
+};
+
 /// A feature map with the form error in its rows' covariance.
-/// @param predicted  rows at `base`, transformed as `FeatureMap::values` (n_rows) @param frequency, shape  form errors [-]
+/// @param predicted  rows at `base`, transformed as `FeatureMap::values` (n_rows)
 [[nodiscard]] FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base,
-                                         const Eigen::VectorXd& predicted, double frequency, double shape);
+                                         const Eigen::VectorXd& predicted, const FormLevel& level);
 
 /// Measured modes that no mode of the model resembles.
 struct Strangers {
   std::vector<std::string> labels;  ///< as in rows.csv
-  int rows = 0, shapes = 0;         ///< in all conditions together
+  std::vector<int> rows;            ///< in all conditions
+  int shapes = 0;                   ///< likewise
 };
 
-/// A feature map in which strangers count for nothing. One such mode, a hybrid with a mode that the channels do not see, would
-/// outweigh all others.
-/// @param prior, predicted  the model as it stands, its rows @param form_error  that the fit stands [-] @param strangers filled
-[[nodiscard]] FeatureMap without_strangers(const Inference& whole, const FeatureMap::Base& prior,
-                                           const Eigen::VectorXd& predicted, double form_error, Strangers& strangers);
+/// What fits are made with.
+struct FitGround {
+  FeatureMap known;  ///< rows, those of strangers counting for nothing
+  Strangers strangers;
+  FormLevel level;  ///< form error that the fits stand
+};
+
+/// Strangers count for nothing: one such mode, a hybrid with a mode that the channels do not see, would outweigh all others.
+/// The fits stand the least of three levels. Where the model is grossly off in its plainest conditions (chi² above ten times
+/// the degrees of freedom) they stand the least level at which chi² is at most twice the degrees of freedom, else the largest:
+/// a fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has. Reference
+/// for that rule, the discrepancy principle: Morozov (1966), Soviet Mathematics 7, 414-417.
+/// @param prior, predicted  the model as it stands, its rows
+[[nodiscard]] FitGround ground_of_fits(const Inference& whole, const FeatureMap::Base& prior, const Eigen::VectorXd& predicted);
 
 /// The structure as its plainest conditions show it: the first state; where there is one state, the least amplitude, wind and
 /// number of people, no dampers, and the highest temperature, since bearings slip at large amplitudes and freeze in the cold.

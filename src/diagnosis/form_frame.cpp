@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 
 const std::string kStateContrast = "state ";  // and its name
 constexpr double kManySmall = 0.5;            // of the form error's variance in frequencies: many small causes
+constexpr double kLeastSingular = 1e-5;       // of the largest singular value: principal columns below carry nothing
 constexpr double kNoEffect = 1e-6;            // RMS change of ln f: a hypothesis below moves nothing here
 constexpr double kFreeScale = 10.0;           // of a shape, relative: wide enough to cost nothing
 
@@ -59,6 +60,15 @@ std::vector<double> measured_frequencies(const FeatureMap& map) {
   std::vector<double> out;
   for (const MeasuredMode& mode : map.measured_modes()) out.push_back(mode.frequency_Hz);
   return out;
+}
+
+/// Fewer columns of the same covariance C C': many candidates have nearly the same effect.
+MatrixXd principal_columns(const MatrixXd& columns) {
+  if (columns.cols() < 2 || columns.rows() == 0) return columns;
+  const linalg::ThinSvd svd = linalg::thin_svd(columns);
+  Index kept = 0;
+  while (kept < svd.values.size() && svd.values[kept] > kLeastSingular * svd.values[0]) ++kept;
+  return svd.u.leftCols(kept) * svd.values.head(kept).asDiagonal();
 }
 
 }  // namespace
@@ -170,7 +180,7 @@ MatrixXd many_small_causes(const Inference& inference, const Fit& fit, const std
   }
   MatrixXd out(std::ssize(rows), std::ssize(columns));
   for (std::size_t k = 0; k < columns.size(); ++k) out.col(static_cast<Index>(k)) = columns[k] / std::sqrt(hypotheses);
-  return out;
+  return principal_columns(out);
 }
 
 MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes,

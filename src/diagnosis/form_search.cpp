@@ -118,8 +118,8 @@ class Screen {
       FormEntry& entry = search.entries[i];
       entry.evidence = found[1 + setting.contrasts.size() + i];
       entry.log_weight = entry.evidence.log_evidence + log_prior_of(*entry.candidate);
-      choose_magnitude(entry, evidence);
     }
+    choose_magnitudes(evidence);
   }
 
  private:
@@ -196,10 +196,19 @@ class Screen {
     return by_kappa;
   }
 
-  /// Where a fit starts: the best scale of any of the screen's magnitudes at the best point.
-  void choose_magnitude(FormEntry& entry, const FormEvidence& evidence) const {
-    if (entry.tried.empty()) return;
-    const AtScales at = evidence.at(setting_.grid.points[static_cast<std::size_t>(entry.evidence.best.point)]);
+  /// Where fits start. Many entries have their best point in common: each point is computed once.
+  void choose_magnitudes(const FormEvidence& evidence) const {
+    std::map<int, std::vector<FormEntry*>> by_point;
+    for (FormEntry& entry : search_.entries) by_point[entry.evidence.best.point].push_back(&entry);
+    const std::vector<std::pair<int, std::vector<FormEntry*>>> points(by_point.begin(), by_point.end());
+    parallel_for(points.size(), [&](std::size_t p) {
+      const AtScales at = evidence.at(setting_.grid.points[static_cast<std::size_t>(points[p].first)]);
+      for (FormEntry* entry : points[p].second) choose_magnitude(*entry, at);
+    });
+  }
+
+  /// The best scale of any of the screen's magnitudes at the best point.
+  void choose_magnitude(FormEntry& entry, const AtScales& at) const {
     const int contrast = leftover_contrast(entry, leftover_);
     const Quadratic& q =
         contrast < 0 ? at.without
@@ -249,14 +258,14 @@ Linearised linearised(const FormSetting& setting, const FormEntry& entry, const 
   std::vector<std::vector<EvidenceTerm>> of_point(setting.grid.points.size());
   const int contrast = leftover_contrast(entry, leftover);
   parallel_for(of_point.size(), [&](std::size_t p) {
-    add_terms(of_point[p], setting.grid, static_cast<int>(p), evidence.at(setting.grid.points[p]), contrast,
+    add_terms(of_point[p], setting.grid, static_cast<int>(p), evidence.at(setting.grid.points[p], contrast), contrast,
               leftover_effect(entry, effect, leftover), density);
   });
   std::vector<EvidenceTerm> terms;
   for (const auto& of : of_point) terms.insert(terms.end(), of.begin(), of.end());
   Linearised out{summed(terms, setting.grid), fitted};
   if (fitted.size() > 0) {
-    const AtScales at = evidence.at(setting.grid.points[static_cast<std::size_t>(out.evidence.best.point)]);
+    const AtScales at = evidence.at(setting.grid.points[static_cast<std::size_t>(out.evidence.best.point)], contrast);
     out.a += shift_of(contrast < 0
                           ? at.without
                           : at.change[static_cast<std::size_t>(contrast)][static_cast<std::size_t>(out.evidence.best.kappa)]);
@@ -319,7 +328,10 @@ std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const 
     // the others.
     if (first_of_family && entry.log_weight > search.none_weight && places[family] <= kFewPlaces) wholly.insert(family);
     const bool near_best = (i < kRefined && entry.log_weight > near) || (first_of_family && entry.log_weight > near_family);
-    const bool worth = wholly.contains(family) || (near_best && out.size() < kMostRefined);
+    // Another family at the leader's own place is its nearest rival, however coarse the screen's magnitudes are.
+    const bool same_place = entry.candidate->location == search.entries.front().candidate->location &&
+                            entry.candidate->location.find(':') != std::string::npos;
+    const bool worth = wholly.contains(family) || same_place || (near_best && out.size() < kMostRefined);
     if (worth && !done.contains(entry.candidate)) out.push_back(&entry);
   }
   return out;

@@ -115,8 +115,7 @@ RowVectorXd strain_row(const Structure& structure, const Gauge& gauge, const twi
   if (model == nullptr) throw InputError(at, "names an element, but a model of matrices has none", without);
   const auto is_it = [&](const fe::Element& e) { return e.name == gauge.element || std::to_string(e.id) == gauge.element; };
   const auto element = std::find_if(model->elements.begin(), model->elements.end(), is_it);
-  if (element == model->elements.end())
-    throw InputError(at, fmt::format("'{}' is no element of the model", gauge.element), "name an element of its elements.csv");
+  if (element == model->elements.end()) throw no_such_element(at, gauge.element);
   const bool line = element->type == fe::ElementType::bar || element->type == fe::ElementType::stay ||
                     (element->type == fe::ElementType::beam && element->section2 < 0);
   if (!line)
@@ -140,10 +139,7 @@ ForceGauge force_gauge(const Structure& structure, const LoadTests& tests, const
     known.push_back(supports[s].id.substr(supports[s].id.find(':') + 1));
     if (known.back() == gauge.support) out.ground = static_cast<int>(s);
   }
-  if (out.ground < 0)
-    throw InputError(at, fmt::format("'{}' is no support of the model{}", gauge.support, did_you_mean(gauge.support, known)),
-                     known.empty() ? "the model has none: leave the channel and its rows out"
-                                   : fmt::format("name one of {}", fmt::join(known, ", ")));
+  if (out.ground < 0) throw no_such_support(at, gauge.support, known);
   if (!(gauge.direction.norm() > 0.0))
     throw InputError(at, "measures a force along no direction", "give dx, dy, dz: 0, 0, 1 for what a support carries upwards");
   const Place& support = supports[static_cast<std::size_t>(out.ground)];
@@ -158,6 +154,26 @@ ForceGauge force_gauge(const Structure& structure, const LoadTests& tests, const
 }
 
 }  // namespace
+
+InputError no_such_node(const twindeck::Place& at, const std::string& node) {
+  return {at, fmt::format("'{}' is no node of the model", node), "name a node of its nodes.csv"};
+}
+
+InputError no_support_to_move(const twindeck::Place& at, const std::string& node, int direction) {
+  return {at,
+          fmt::format("no support holds node '{}' in direction {}, so that none can move it", node, kDirectionNames[direction]),
+          "move the node of a support, along a direction that it holds"};
+}
+
+InputError no_such_element(const twindeck::Place& at, const std::string& element) {
+  return {at, fmt::format("'{}' is no element of the model", element), "name an element of its elements.csv"};
+}
+
+InputError no_such_support(const twindeck::Place& at, const std::string& support, const std::vector<std::string>& known) {
+  return {at, fmt::format("'{}' is no support of the model{}", support, did_you_mean(support, known)),
+          known.empty() ? "the model has none: leave the channel and its rows out"
+                        : fmt::format("name one of {}", fmt::join(known, ", "))};
+}
 
 LoadTests load_tests_of(const Structure& structure, const Places& places, const std::vector<NodalLoad>& loads,
                         const std::vector<Gauge>& gauges, const std::string& loads_file, const std::string& channels_file) {
@@ -174,8 +190,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
     const auto c = static_cast<Index>(std::find(out.cases.begin(), out.cases.end(), load.load) - out.cases.begin());
     const twindeck::Place at{loads_file, load.line, "node"};
     const RowVectorXd motion = nodes.motion(load.node, load.direction);
-    if (motion.size() == 0)
-      throw InputError(at, fmt::format("'{}' is no node of the model", load.node), "name a node of its nodes.csv");
+    if (motion.size() == 0) throw no_such_node(at, load.node);
     if (!load.ground) {
       if (load.value != 0.0 && !(motion.norm() > 0.0))
         throw InputError(at,
@@ -186,11 +201,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
       continue;
     }
     const auto holds = [&](const Place& support) { return (support.stiffness * VectorXd(motion.transpose())).norm() > 0.0; };
-    if (std::none_of(supports.begin(), supports.end(), holds))
-      throw InputError(at,
-                       fmt::format("no support holds node '{}' in direction {}, so that none can move it", load.node,
-                                   kDirectionNames[load.direction]),
-                       "move the node of a support, along a direction that it holds");
+    if (std::none_of(supports.begin(), supports.end(), holds)) throw no_support_to_move(at, load.node, load.direction);
     moves.col(c) += load.value / motion.squaredNorm() * motion.transpose();  // a node on a rigid arm moves with several dofs
   }
   const VectorXd up = translation(*structure.system, Eigen::Vector3d::UnitZ());

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "diagnosis/structure.hpp"
 
 /// Load tests of a finite element model, or one of matrices, over its free degrees of freedom.
@@ -27,6 +28,13 @@ struct Gauge {
   std::string support;                                ///< of a force; "" for none
   long line = 0;                                      ///< of channels.csv
 };
+
+/// What is said of a load or a gauge that the model has no place for, wherever it is found; to be thrown.
+[[nodiscard]] InputError no_such_node(const twindeck::Place& at, const std::string& node);
+[[nodiscard]] InputError no_support_to_move(const twindeck::Place& at, const std::string& node, int direction);
+[[nodiscard]] InputError no_such_element(const twindeck::Place& at, const std::string& element);
+[[nodiscard]] InputError no_such_support(const twindeck::Place& at, const std::string& support,
+                                         const std::vector<std::string>& known);
 
 /// Strains are those of uniform beams, bars and stays: fibres along the axis, plane sections, no temperature.
 /// @param loads_file, channels_file  for messages

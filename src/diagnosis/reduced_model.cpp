@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -173,6 +174,21 @@ MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const P
   return basis.orthonormal(own);
 }
 
+constexpr Eigen::Index kGathered = 960;  // columns of an eigenproblem, half a second
+
+Basis::Held side_by_side(std::span<const Basis::Held> blocks) {
+  Index columns = 0, at = 0;
+  for (const Basis::Held& block : blocks) columns += block.vectors.cols();
+  const Index n = blocks.front().vectors.rows();
+  Basis::Held out{MatrixXd(n, columns), MatrixXd(n, columns)};
+  for (const Basis::Held& block : blocks) {
+    out.vectors.middleCols(at, block.vectors.cols()) = block.vectors;
+    out.loads.middleCols(at, block.vectors.cols()) = block.loads;
+    at += block.vectors.cols();
+  }
+  return out;
+}
+
 /// What changes of K make of given vectors, K^-1 (change): of each change the strongest few beyond the basis, of these the
 /// strongest of all.
 /// @param scale  of each vector
@@ -183,16 +199,19 @@ MatrixXd strongest_of(const Basis& basis, const linalg::Cholesky& factor, const 
     const MatrixXd load = changes[i]() * scale.asDiagonal();
     found[i] = basis.strongest({factor.solve(load), load}, 6);
   });
-  Index columns = 0;
-  for (const Basis::Held& block : found) columns += block.vectors.cols();
+  // In parts, each cut down to the strongest so far: the eigenproblem has a bounded size however many places there are.
   const Index n = basis.vectors().rows();
-  Basis::Held all{MatrixXd(n, columns), MatrixXd(n, columns)};
-  Index at = 0;
-  for (const Basis::Held& block : found) {
-    all.vectors.middleCols(at, block.vectors.cols()) = block.vectors;
-    all.loads.middleCols(at, block.vectors.cols()) = block.loads;
-    at += block.vectors.cols();
+  std::vector<Basis::Held> part = {{MatrixXd(n, 0), MatrixXd(n, 0)}};
+  Index columns = 0;
+  for (Basis::Held& block : found) {
+    if (columns + block.vectors.cols() > kGathered) {
+      part = {basis.strongest(side_by_side(part), 2 * options.parameter_vectors)};
+      columns = part.front().vectors.cols();
+    }
+    columns += block.vectors.cols();
+    part.push_back(std::move(block));
   }
+  Basis::Held all = side_by_side(part);
   return basis.strongest(std::move(all), options.parameter_vectors, options.least_correction).vectors;
 }
 

@@ -65,8 +65,7 @@ ElementMatrix bending(const Model& model, int i) {
 
 ElementMatrix solid(const Model& model, int i) {
   const Element& e = element_at(model, i);
-  const Material& m = material_of(model, e);
-  return {three_per_node(e), solid_stiffness(solid_geometry(model, e), {m.youngs_modulus_Pa, m.poisson_ratio})};
+  return {three_per_node(e), solid_stiffness_of(model, e)};
 }
 
 ElementMatrix matrix_element_stiffness(const Model& model, int i) {

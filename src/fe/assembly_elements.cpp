@@ -104,6 +104,20 @@ SolidGeometry solid_geometry(const Model& model, const Element& element) {
   return geometry;
 }
 
+TetrahedronGeometry tetrahedron_geometry(const Model& model, const Element& element) {
+  TWINDECK_ASSERT(is_tetrahedron(element));
+  TetrahedronGeometry geometry;
+  for (std::size_t i = 0; i < 4; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
+  return geometry;
+}
+
+Eigen::MatrixXd solid_stiffness_of(const Model& model, const Element& element) {
+  const Material& m = material_of(model, element);
+  const SolidProperties properties{m.youngs_modulus_Pa, m.poisson_ratio};
+  if (is_tetrahedron(element)) return tetrahedron_stiffness(tetrahedron_geometry(model, element), properties);
+  return solid_stiffness(solid_geometry(model, element), properties);
+}
+
 std::vector<int> six_per_node(const Element& element) { return dofs_per_node(element, 6); }
 std::vector<int> three_per_node(const Element& element) { return dofs_per_node(element, 3); }
 
@@ -149,6 +163,10 @@ ElementMatrix element_mass(const Model& model, const Element& element) {
       return shell_mass_of(model, element, density * t, rotary);
     }
     case ElementType::solid: {
+      if (is_tetrahedron(element)) {
+        const TetrahedronGeometry four = tetrahedron_geometry(model, element);
+        return {three_per_node(element), lumped ? tetrahedron_mass_lumped(four, density) : tetrahedron_mass(four, density)};
+      }
       const SolidGeometry geometry = solid_geometry(model, element);
       return {three_per_node(element), lumped ? solid_mass_lumped(geometry, density) : solid_mass(geometry, density)};
     }

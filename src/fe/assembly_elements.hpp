@@ -8,6 +8,7 @@
 #include "fe/model.hpp"
 #include "fe/shell_triangle.hpp"
 #include "fe/solid.hpp"
+#include "fe/tetrahedron.hpp"
 
 /// Converts the model's data to the arguments of the element functions. Gives each matrix its positions in the whole.
 namespace twindeck::fe {
@@ -34,7 +35,16 @@ struct ElementMatrix {
 /// @pre three nodes
 [[nodiscard]] TriangleGeometry triangle_geometry(const Model& model, const Element& element);
 [[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
+/// Whether a solid has four nodes.
+[[nodiscard]] inline bool is_tetrahedron(const Element& element) {
+  return element.type == ElementType::solid && element.nodes.size() == 4;
+}
+/// @pre eight nodes
 [[nodiscard]] SolidGeometry solid_geometry(const Model& model, const Element& element);
+/// @pre four nodes
+[[nodiscard]] TetrahedronGeometry tetrahedron_geometry(const Model& model, const Element& element);
+/// Stiffness of a solid of four or eight nodes, over its three degrees of freedom a node.
+[[nodiscard]] Eigen::MatrixXd solid_stiffness_of(const Model& model, const Element& element);
 /// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners
 /// where the rule is diagonal); bending part. Over its six degrees of freedom a node.
 /// @param straight_sides  of this element, from sides_beside_four_nodes (mixed_sides.hpp); used for triangles only

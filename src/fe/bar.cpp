@@ -1,9 +1,10 @@
+#include "fe/bar.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "core/error.hpp"
-#include "fe/elements.hpp"
 
 namespace twindeck::fe {
 

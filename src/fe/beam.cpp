@@ -1,3 +1,5 @@
+#include "fe/beam.hpp"
+
 #include <Eigen/Dense>
 
 #include "fe/beam_frame.hpp"

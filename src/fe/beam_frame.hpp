@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/elements.hpp"
+#include "fe/beam.hpp"
 
 /// What the stiffness, mass and geometric stiffness of a beam share: its frame, its releases and its shape functions.
 ///

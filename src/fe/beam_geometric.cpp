@@ -1,3 +1,5 @@
+#include "fe/beam_geometric.hpp"
+
 #include "fe/beam_frame.hpp"
 #include "fe/element_products.hpp"
 

@@ -89,13 +89,14 @@ FrameState quad_frame(const std::vector<Eigen::Vector3d>& x) {
   return f;
 }
 
+/// Of three points; the further ones of a solid do not turn the frame.
 FrameState triangle_frame(const std::vector<Eigen::Vector3d>& x) {
   const Eigen::Vector3d a = x[1] - x[0], b = x[2] - x[0];
   FrameState f;
   f.axes = axes_of(a, b);
   const Eigen::Vector3d local = f.axes.transpose() * b;
   const TwoVectors vectors{a.norm(), local.x(), local.y()};
-  f.spin = Spin::Zero(3, 18);
+  f.spin = Spin::Zero(3, 6 * static_cast<Eigen::Index>(x.size()));
   f.spin.block<3, 3>(0, 0) = -vectors.from_a() - vectors.from_b();
   f.spin.block<3, 3>(0, 6) = vectors.from_a();
   f.spin.block<3, 3>(0, 12) = vectors.from_b();
@@ -125,6 +126,7 @@ FrameState frame_at(const Element& element, const std::vector<Eigen::Vector3d>& 
     case Frame::quad:
       return quad_frame(x);
     case Frame::triangle:
+    case Frame::corner:
       return triangle_frame(x);
     case Frame::box:
       return box_frame(x);
@@ -184,8 +186,9 @@ Response respond(const Element& element, const Motion& motion, bool with_tangent
   Eigen::MatrixXd h = Eigen::MatrixXd::Identity(n, n);  // H Rᵀ, block by block
   for (std::size_t a = 0; a < p; ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
-    const Eigen::Vector3d theta = element.frame == Frame::box ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                                                              : rotation_vector(r.transpose() * motion.rotation[a]);
+    const bool solid = element.frame == Frame::box || element.frame == Frame::corner;  // whose nodes have no rotations
+    const Eigen::Vector3d theta =
+        solid ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : rotation_vector(r.transpose() * motion.rotation[a]);
     response.deformation.segment<3>(at) =
         r.transpose() * (motion.displacement_m[a] - mean_u) + turned_back * (element.start_m[a] - mean_start);
     response.deformation.segment<3>(at + 3) = theta;

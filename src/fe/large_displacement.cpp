@@ -51,11 +51,11 @@ Eigen::MatrixXd shell_stiffness(const Model& model, const Element& e, std::uint8
 }
 
 Eigen::MatrixXd solid_stiffness_six(const Model& model, const Element& e) {
-  const Material& m = material_of(model, e);
-  const MatrixSolid k = solid_stiffness(solid_geometry(model, e), {m.youngs_modulus_Pa, m.poisson_ratio});
-  Eigen::MatrixXd six = Eigen::MatrixXd::Zero(48, 48);
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b) six.block<3, 3>(6 * a, 6 * b) = k.block<3, 3>(3 * a, 3 * b);
+  const Eigen::MatrixXd k = solid_stiffness_of(model, e);
+  const auto nodes = static_cast<Eigen::Index>(e.nodes.size());
+  Eigen::MatrixXd six = Eigen::MatrixXd::Zero(6 * nodes, 6 * nodes);
+  for (Eigen::Index a = 0; a < nodes; ++a)
+    for (Eigen::Index b = 0; b < nodes; ++b) six.block<3, 3>(6 * a, 6 * b) = k.block<3, 3>(3 * a, 3 * b);
   return six;
 }
 
@@ -138,7 +138,7 @@ void MovingStructure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
     part.linear.frame = is_triangle(e) ? corotational::Frame::triangle : corotational::Frame::quad;
     part.linear.stiffness = shell_stiffness(model_, e, straight_sides_[slot(i)]);
   } else if (e.type == ElementType::solid) {
-    part.linear.frame = corotational::Frame::box;
+    part.linear.frame = is_tetrahedron(e) ? corotational::Frame::corner : corotational::Frame::box;
     part.linear.stiffness = solid_stiffness_six(model_, e);
   } else if (e.type == ElementType::bar) {
     part.axial_EA_N = material_of(model_, e).youngs_modulus_Pa * section_of(model_, e).area_m2;

@@ -42,13 +42,13 @@ struct Section {
 
 enum class ElementType { beam, bar, stay, shell, solid };
 
-/// Nodes of an element of this type; a shell may also have three (has_node_count).
+/// Nodes of an element of this type; a shell may also have three, a solid four (has_node_count).
 [[nodiscard]] constexpr std::size_t node_count(ElementType type) {
   return type == ElementType::solid ? 8 : type == ElementType::shell ? 4 : 2;
 }
-/// Whether an element of this type can have so many nodes: shells have three or four.
+/// Whether an element of this type can have so many nodes: shells have three or four, solids four or eight.
 [[nodiscard]] constexpr bool has_node_count(ElementType type, std::size_t count) {
-  return count == node_count(type) || (type == ElementType::shell && count == 3);
+  return count == node_count(type) || (type == ElementType::shell && count == 3) || (type == ElementType::solid && count == 4);
 }
 
 struct Element {

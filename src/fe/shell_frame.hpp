@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/elements.hpp"
+#include "fe/shell_membrane.hpp"
 
 /// What the membrane, bending and mass of the four-node shell share: the mean plane and the bilinear map on it.
 namespace twindeck::fe::shell {

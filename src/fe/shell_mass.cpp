@@ -1,3 +1,5 @@
+#include "fe/shell_mass.hpp"
+
 #include "fe/shell_frame.hpp"
 
 namespace twindeck::fe {

@@ -1,3 +1,5 @@
+#include "fe/shell_membrane.hpp"
+
 #include <Eigen/Dense>
 
 #include "fe/element_products.hpp"

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "fe/element_products.hpp"
+#include "fe/solid_strain.hpp"
 
 namespace twindeck::fe {
 
@@ -70,23 +71,6 @@ const std::vector<GaussPoint>& gauss_3() {
   static const double a = std::sqrt(0.6);
   static const std::vector<GaussPoint> points = gauss({-a, 0.0, a}, {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0});
   return points;
-}
-
-/// Columns 3i, 3i+1, 3i+2 of the strain matrix from the gradient of a function.
-template <typename Strain>
-void set_strain(const Eigen::Vector3d& g, int i, Strain& b) {
-  b.col(3 * i) << g.x(), 0.0, 0.0, g.y(), 0.0, g.z();
-  b.col(3 * i + 1) << 0.0, g.y(), 0.0, g.x(), g.z(), 0.0;
-  b.col(3 * i + 2) << 0.0, 0.0, g.z(), 0.0, g.y(), g.x();
-}
-
-/// Isotropic elasticity for unit E: stresses (xx, yy, zz, xy, yz, zx) from strains with engineering shears.
-Eigen::Matrix<double, 6, 6> elasticity(double nu) {
-  Eigen::Matrix<double, 6, 6> d = Eigen::Matrix<double, 6, 6>::Zero();
-  d.topLeftCorner<3, 3>().setConstant(nu);
-  d.topLeftCorner<3, 3>().diagonal().setConstant(1.0 - nu);
-  d.bottomRightCorner<3, 3>().diagonal().setConstant(0.5 - nu);
-  return d / ((1.0 + nu) * (1.0 - 2.0 * nu));
 }
 
 void require_sound(const SolidGeometry& geometry) {

@@ -53,6 +53,18 @@ void check_solid(const Model& model, const Element& e) {
          mend);
 }
 
+/// A tetrahedron that is inside out or flat.
+void check_tetrahedron(const Model& model, const Element& e) {
+  const double volume = tetrahedron_volume(tetrahedron_geometry(model, e));
+  if (volume > 0.0) return;
+  std::vector<long> ids;
+  for (const int node : e.nodes) ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
+  const std::string solid = fmt::format("the solid {}", fmt::join(ids, "-"));
+  if (volume == 0.0) refuse(model, label(e), solid + " has no volume", "give four nodes that do not lie in one plane");
+  refuse(model, label(e), solid + fmt::format(" is inverted: its volume is {:.6g} m3", volume),
+         "exchange two of its first three nodes: they go round anticlockwise as seen from the fourth");
+}
+
 /// A position in one of the model's lists; `what` says which ("material").
 void require_position(const Model& model, const std::string& part, const char* what, int position, std::size_t count) {
   if (position >= 0 && static_cast<std::size_t>(position) < count) return;
@@ -74,9 +86,12 @@ void check_element(const Model& model, const Element& e) {
     refuse(model, label(e), fmt::format("has a pull of {:g} N, but is neither stay nor bar", e.pull_N), "leave the pull out");
   if (!has_node_count(e.type, e.nodes.size()))
     refuse(model, label(e),
-           fmt::format("has {} nodes, expected {}{}", e.nodes.size(), e.type == ElementType::shell ? "3 or " : "",
+           fmt::format("has {} nodes, expected {}{}", e.nodes.size(),
+                       e.type == ElementType::shell   ? "3 or "
+                       : e.type == ElementType::solid ? "4 or "
+                                                      : "",
                        node_count(e.type)),
-           "beams, bars and stays join two nodes, shells three or four, solids eight");
+           "beams, bars and stays join two nodes, shells three or four, solids four or eight");
   for (const int node : e.nodes) require_position(model, label(e), "node", node, model.nodes.size());
   if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != e.nodes.size())
     refuse(model, label(e), "names the same node twice", "give different nodes");
@@ -221,7 +236,7 @@ void validate_geometry(const Model& model) {
       continue;
     }
     if (e.type == ElementType::solid) {
-      check_solid(model, e);
+      is_tetrahedron(e) ? check_tetrahedron(model, e) : check_solid(model, e);
       continue;
     }
     const auto ends = end_nodes(model, e);

@@ -13,7 +13,7 @@ namespace twindeck::model_io {
 
 /// Reads the mesh and the supports up to the first SOLVE: nodes, beams (BEAM3, BEAM4, BEAM188, BEAM189 of two nodes), bars
 /// (LINK8, LINK10, LINK180), shells (SHELL63, SHELL181), solids of eight nodes (SOLID45, SOLID185), COMBIN14, MASS21, rigid
-/// MPC184, their sections, real constants and isotropic materials, D, and CP, CERIG or CE that amount to rigid links.
+/// MPC184, their sections, real constants and isotropic materials, D, and CERIG, CP and CE as rigid links or constraints.
 /// docs/import_ansys.md lists it all. A component of elements becomes their group, a component of one node a monitoring point.
 /// Numbers are taken as SI. As with read_inp, title, gravity, parameters and prestress come from the TOML file of the same stem
 /// beside it, if there is one.

@@ -7,9 +7,8 @@
 
 #include "core/error.hpp"
 #include "model_io/ansys_build.hpp"
-#include "model_io/ansys_equations.hpp"
 
-/// Springs, masses, rigid links and supports.
+/// Springs, masses and supports.
 namespace twindeck::model_io::ansys {
 namespace {
 
@@ -37,6 +36,12 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
       if ((s.node == node || s.node2 == node) && !s.rotation && s.direction[static_cast<int>(d)] != 0.0) moves[d] = true;
     }
   }
+  for (const fe::Constraint& c : model.constraints) {
+    if (c.node == node && c.direction < 3) moves[static_cast<std::size_t>(c.direction)] = true;
+    for (const fe::Constraint::Term& term : c.terms) {
+      if (term.node == node && term.direction < 3) moves[static_cast<std::size_t>(term.direction)] = true;
+    }
+  }
   for (const fe::Support& support : model.supports) {
     for (std::size_t d = 0; d < 3; ++d) moves[d] = moves[d] && !(support.node == node && support.fixed[d]);
   }
@@ -45,43 +50,6 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
 
 bool is_partial(const std::array<bool, 6>& fixed, std::size_t first) {
   return fixed[first] != fixed[first + 1] || fixed[first] != fixed[first + 2];
-}
-
-/// CP of all displacements of nodes at one place is a rigid link without length.
-void add_couples(Builder& builder) {
-  const Parts& parts = builder.parts;
-  std::map<std::vector<long>, std::map<int, long>> dofs_of_nodes;  // nodes, tied degrees of freedom, their line
-  for (const auto& [set, couples] : parts.couples) {
-    std::map<int, std::pair<std::set<long>, long>> by_dof;  // lines that go on with a set add to it
-    for (const Couple& couple : couples) {
-      by_dof[couple.dof].first.insert(couple.nodes.begin(), couple.nodes.end());
-      by_dof[couple.dof].second = couple.line;
-    }
-    for (const auto& [dof, nodes] : by_dof) dofs_of_nodes[{nodes.first.begin(), nodes.first.end()}].emplace(dof, nodes.second);
-  }
-  for (const auto& [nodes, dofs] : dofs_of_nodes) {
-    const long line = dofs.begin()->second;
-    const auto refuse = [&](const std::string& problem) {
-      parts.fail(line, "CP", problem + ", which is no rigid link",
-                 "tie all six directions of nodes at one place, use CERIG, or merge the nodes");
-    };
-    if (nodes.size() < 2) refuse("ties less than two nodes");
-    const bool places = dofs.contains(0) && dofs.contains(1) && dofs.contains(2);
-    const bool turns = dofs.contains(3) && dofs.contains(4) && dofs.contains(5);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (!builder.has_node(nodes[i])) refuse(fmt::format("ties node {}, which no element holds", nodes[i]));
-      if (node_of(builder, nodes[i]).rotated) refuse(fmt::format("ties along the axes of node {}, which are turned", nodes[i]));
-      if (i == 0) continue;
-      const Eigen::Vector3d& first = node_of(builder, nodes[0]).x_m;
-      const Eigen::Vector3d& other = node_of(builder, nodes[i]).x_m;
-      constexpr double one_place = 1e-6;  // of the distance from the origin
-      if ((first - other).norm() > one_place * (1.0 + first.norm()))
-        refuse(fmt::format("ties nodes {} and {}, which lie apart", nodes[0], nodes[i]));
-      if (!places || (!turns && builder.turning.contains(nodes[i])))
-        refuse(fmt::format("ties some of the directions of nodes {} and {}", nodes[0], nodes[i]));
-      builder.add_link(nodes[0], nodes[i]);
-    }
-  }
 }
 
 }  // namespace
@@ -154,18 +122,6 @@ void add_mass(Builder& builder, const Member& member) {
 }
 
 void add_rigid(Builder& builder, const Member& member) { builder.add_link(member.element.nodes[0], member.element.nodes[1]); }
-
-void add_links(Builder& builder) {
-  for (const Link& link : builder.parts.links) {
-    if (!link.turns && builder.turning.contains(link.slave))
-      builder.parts.fail(link.line, "CERIG",
-                         fmt::format("ties the displacements of node {} alone, which has rotations too", link.slave),
-                         "tie ALL, or use UXYZ for nodes of solids only");
-    builder.add_link(link.master, link.slave);
-  }
-  add_couples(builder);
-  add_equations(builder);
-}
 
 void add_supports(Builder& builder) {
   const Parts& parts = builder.parts;

@@ -2,13 +2,12 @@
 
 #include "model_io/ansys_build.hpp"
 
-/// Inside of the library: springs, masses, links and supports of the model.
+/// Inside of the library: springs, masses, rigid elements and supports of the model.
 namespace twindeck::model_io::ansys {
 
 void add_spring(Builder& builder, const Member& member);
 void add_mass(Builder& builder, const Member& member);
 void add_rigid(Builder& builder, const Member& member);
-void add_links(Builder& builder);
 void add_supports(Builder& builder);
 
 }  // namespace twindeck::model_io::ansys

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "model_io/ansys_attachments.hpp"
 #include "model_io/ansys_members.hpp"
+#include "model_io/ansys_ties.hpp"
 #include "model_io/inp_cards.hpp"
 
 namespace twindeck::model_io::ansys {
@@ -199,7 +200,7 @@ void build_model(Parts& parts) {
         return add_member(builder, m);
     }
   });
-  add_links(builder);
+  add_ties(builder);
   add_supports(builder);
   for_each_member(parts, [&](const Member& m) {
     if (m.type().kind == Kind::mass) add_mass(builder, m);

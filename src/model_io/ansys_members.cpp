@@ -105,14 +105,18 @@ void add_shell(Builder& builder, const Member& member) {
 }
 
 void add_solid(Builder& builder, const Member& member) {
+  // A tetrahedron is written I, J, K, K, M, M, M, M.
   const auto& nodes = member.element.nodes;
   const std::size_t different = std::set<long>(nodes.begin(), nodes.end()).size();
-  if (different < 8)
-    builder.fail(member,
-                 fmt::format("is a {} of {} different nodes: prism, pyramid and tetrahedron are not supported",
-                             member.type().name, different),
-                 "mesh with hexahedra");
-  fe::Element e = element_of(builder, member, fe::ElementType::solid, ends_of(member));
+  const bool tetrahedron = different == 4 && nodes[2] == nodes[3] &&
+                           std::all_of(nodes.begin() + 4, nodes.end(), [&](long id) { return id == nodes[4]; });
+  if (different < 8 && !tetrahedron)
+    builder.fail(
+        member,
+        fmt::format("is a {} of {} different nodes: prism and pyramid are not supported", member.type().name, different),
+        "mesh with hexahedra, or tetrahedra where they do not fit");
+  fe::Element e = element_of(builder, member, fe::ElementType::solid,
+                             tetrahedron ? std::vector<long>{nodes[0], nodes[1], nodes[2], nodes[4]} : ends_of(member));
   e.material = builder.material(member, member.element.material, true);
   e.group = builder.group(member, builder.parts.model.materials[static_cast<std::size_t>(e.material)].name);
   builder.parts.model.elements.push_back(e);

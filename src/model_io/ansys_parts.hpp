@@ -82,7 +82,7 @@ struct Hold {
 
 struct Link {
   long master, slave, line;
-  bool turns;  ///< the slave's rotations are tied too
+  std::array<bool, 6> tied;  ///< the slave's displacements and rotations that follow
 };
 
 /// sum factor · displacement = 0.

@@ -85,16 +85,22 @@ void read_couple(Parts& parts, const Command& command) {
 }
 
 void read_rigid_region(Parts& parts, const Command& command) {
-  // CERIG,master,slave,label: ALL six, or UXYZ, the displacements alone
-  const std::string label = command.blank(2) ? "ALL" : command.word(2);
-  if (label != "ALL" && label != "UXYZ")
-    parts.fail(command, fmt::format("ties '{}' alone, which is no rigid link", label), "tie ALL, or UXYZ of nodes of solids");
-  for (std::size_t i = 3; i < command.fields.size(); ++i) {
-    if (!command.blank(i)) parts.fail(command, "ties some of the directions, which is no rigid link", "tie ALL or UXYZ");
+  // CERIG,master,slave,label,label2 … label5: ALL six, UXYZ, RXYZ, or single ones
+  std::array<bool, 6> tied{};
+  for (std::size_t i = 2; i < std::max<std::size_t>(command.fields.size(), 3); ++i) {
+    if (command.blank(i) && i > 2) continue;
+    const std::string label = command.blank(i) ? "ALL" : command.word(i);
+    for (std::size_t d = 0; d < 3 && (label == "UXYZ" || label == "RXYZ"); ++d) tied[label == "UXYZ" ? d : d + 3] = true;
+    if (label == "UXYZ" || label == "RXYZ") continue;
+    for (const int dof : dofs_of(label)) tied[static_cast<std::size_t>(dof)] = true;
+    if (dofs_of(label).empty())
+      parts.fail(command, fmt::format("'{}' is no degree of freedom of a structure", label),
+                 "expected ALL, UXYZ, RXYZ, UX, UY, UZ, ROTX, ROTY or ROTZ");
   }
+  constexpr std::size_t past_labels = 7;  // a field that the command does not have: one node, no range
   const long master = parts.integer(command, 0);
-  for (const long slave : parts.nodes_of(command, 1, 6)) {
-    if (slave != master) parts.links.push_back({master, slave, command.line, label == "ALL"});
+  for (const long slave : parts.nodes_of(command, 1, past_labels)) {
+    if (slave != master) parts.links.push_back({master, slave, command.line, tied});
   }
 }
 

@@ -9,7 +9,9 @@
 #include "model_io/folder_parts.hpp"
 #include "model_io/inp_assign.hpp"
 #include "model_io/inp_attachments.hpp"
+#include "model_io/inp_coupling.hpp"
 #include "model_io/inp_elements.hpp"
+#include "model_io/inp_joints.hpp"
 #include "model_io/inp_links.hpp"
 #include "model_io/inp_materials.hpp"
 #include "model_io/inp_mesh.hpp"
@@ -45,7 +47,10 @@ const std::vector<std::map<std::string, Reader>>& passes() {
        {"MASS", attach_inp_mass},
        {"ROTARY INERTIA", attach_inp_mass},
        {"RIGID BODY", attach_inp_rigid_body},
-       {"MPC", attach_inp_mpc}}};
+       {"MPC", attach_inp_mpc},
+       {"JOINT", attach_inp_joint},
+       {"COUPLING", attach_inp_coupling},
+       {"KINEMATIC COUPLING", attach_inp_kinematic_coupling}}};
   return readers;
 }
 
@@ -81,6 +86,8 @@ void refuse_unknown(const InpFile& file, const InpPlan& plan) {
     const InpCard& card = *reading.card;
     if (card.keyword == "TRANSVERSE SHEAR STIFFNESS" && above == "BEAM GENERAL SECTION") {
       // read together with its section
+    } else if ((card.keyword == "KINEMATIC" || card.keyword == "DISTRIBUTING") && above == "COUPLING") {
+      // read together with its coupling
     } else if (card.keyword == "USER ELEMENT" && upper_case(card.get("TYPE")) == "US3") {
       // announces the three-node shell US3, which *ELEMENT lists
     } else if (card.keyword == "INCLUDE") {

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "model_io/inp_elements.hpp"
+#include "model_io/inp_joints.hpp"
 #include "model_io/inp_parts.hpp"
 
 namespace twindeck::model_io {
@@ -19,16 +20,6 @@ std::vector<const InpLine*> filled_lines(const InpCard& card) {
       lines.push_back(&line);
   }
   return lines;
-}
-
-InpOrientation axes_of(const InpParts& parts, const InpCard& card) {
-  if (!card.has("ORIENTATION")) return InpOrientation::Identity();
-  const auto found = parts.orientations.find(parts.find_key(parts.orientations, card.get("ORIENTATION")));
-  if (found == parts.orientations.end()) {
-    parts.file.fail(card, card.line, fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")),
-                    "define it by *ORIENTATION");
-  }
-  return found->second;
 }
 
 /// Whether the card stands in an instance that is rotated: directions given by number are not sure there.
@@ -63,11 +54,22 @@ bool named_support(const std::string& word, std::array<bool, 6>& fixed) {
 
 }  // namespace
 
+InpOrientation inp_axes_of(const InpParts& parts, const InpCard& card) {
+  if (!card.has("ORIENTATION")) return InpOrientation::Identity();
+  const auto found = parts.orientations.find(parts.find_key(parts.orientations, card.get("ORIENTATION")));
+  if (found == parts.orientations.end()) {
+    parts.file.fail(card, card.line, fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")),
+                    "define it by *ORIENTATION");
+  }
+  return found->second;
+}
+
 void attach_inp_spring(InpParts& parts, const InpCard& card) {
+  if (is_of_joint(parts.file, card)) return;  // read with the joint above it
   parts.file.allow(card, {"ELSET", "ORIENTATION"});
   const bool dashpot = card.keyword == "DASHPOT";
   (void)parts.file.required(card, "ELSET");
-  const InpOrientation axes = axes_of(parts, card);
+  const InpOrientation axes = inp_axes_of(parts, card);
   const bool sure = !is_turned(parts) || card.has("ORIENTATION");
   const auto lines = filled_lines(card);
   for (const InpElement* element : parts.elements_of(card)) {

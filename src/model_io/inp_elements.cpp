@@ -19,10 +19,10 @@ const std::map<std::string, Type>& types() {
       {"B32H", {InpKind::beam, 3}},        {"T3D2", {InpKind::truss, 2}},       {"S4", {InpKind::shell, 4}},
       {"S4R", {InpKind::shell, 4}},        {"S3", {InpKind::shell, 3}},         {"S3R", {InpKind::shell, 3}},
       {"STRI3", {InpKind::shell, 3}},      {"US3", {InpKind::shell, 3}},        {"C3D8", {InpKind::solid, 8}},
-      {"C3D8I", {InpKind::solid, 8}},      {"C3D8R", {InpKind::solid, 8}},      {"SPRINGA", {InpKind::spring, 2}},
-      {"SPRING1", {InpKind::spring, 1}},   {"SPRING2", {InpKind::spring, 2}},   {"DASHPOTA", {InpKind::dashpot, 2}},
-      {"DASHPOT1", {InpKind::dashpot, 1}}, {"DASHPOT2", {InpKind::dashpot, 2}}, {"MASS", {InpKind::mass, 1}},
-      {"ROTARYI", {InpKind::mass, 1}}};
+      {"C3D8I", {InpKind::solid, 8}},      {"C3D8R", {InpKind::solid, 8}},      {"C3D4", {InpKind::solid, 4}},
+      {"JOINTC", {InpKind::joint, 2}},     {"SPRINGA", {InpKind::spring, 2}},   {"SPRING1", {InpKind::spring, 1}},
+      {"SPRING2", {InpKind::spring, 2}},   {"DASHPOTA", {InpKind::dashpot, 2}}, {"DASHPOT1", {InpKind::dashpot, 1}},
+      {"DASHPOT2", {InpKind::dashpot, 2}}, {"MASS", {InpKind::mass, 1}},        {"ROTARYI", {InpKind::mass, 1}}};
   return known;
 }
 
@@ -40,7 +40,8 @@ int inp_node_count(const std::string& type) {
 
 std::string inp_linear_type(const std::string& type) {
   if (type.starts_with("C3D20") || type.starts_with("C3D27")) return "C3D8 (hexahedra)";
-  if (type.starts_with("C3D10") || type.starts_with("C3D15")) return "C3D8 (hexahedra in place of tetrahedra and wedges)";
+  if (type.starts_with("C3D10") || type.starts_with("C3D15"))
+    return "C3D8 (hexahedra in place of tetrahedra and wedges; C3D4 is read, but too stiff in bending)";
   if (type.starts_with("S8") || type.starts_with("S9")) return "S4";
   if (type.starts_with("STRI65") || type.starts_with("S6")) return "S3";
   if (type.starts_with("T3D3")) return "T3D2";

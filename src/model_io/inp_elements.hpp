@@ -6,7 +6,7 @@
 namespace twindeck::model_io {
 
 /// What an element type of an .inp file becomes.
-enum class InpKind { none, beam, truss, shell, solid, spring, dashpot, mass };
+enum class InpKind { none, beam, truss, shell, solid, spring, dashpot, joint, mass };
 
 /// Kind of "B31", "S4R" …; none for a type that is not supported.
 [[nodiscard]] InpKind inp_kind(const std::string& type);

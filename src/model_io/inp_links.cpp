@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,22 +11,12 @@
 #include "core/error.hpp"
 #include "model_io/inp_elements.hpp"
 #include "model_io/inp_parts.hpp"
+#include "model_io/rigid_arm.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
 Eigen::Vector3d place(const InpParts& parts, int node) { return parts.model.nodes[static_cast<std::size_t>(node)].x_m; }
-
-/// Factor of the master's degree of freedom `from` (0-5) in the slave's `to`, as a rigid body of arm r.
-double rigid_factor(const Eigen::Vector3d& r, int to, int from) {
-  if (to == from) return 1.0;
-  if (to > 2 || from < 3) return 0.0;
-  return Eigen::Vector3d::Unit(from - 3).cross(r)[to];
-}
-
-void add_link(InpParts& parts, int master, int slave) {
-  parts.model.links.push_back({fmt::format("link_{}", parts.model.links.size() + 1), master, slave});
-}
 
 /// Whether the equations of a slave make it follow one other node as a rigid body; `turns`: an element holds its rotations.
 bool is_rigid_link(const InpParts& parts, const std::vector<const InpEquation*>& equations, bool turns) {
@@ -48,7 +38,7 @@ bool is_rigid_link(const InpParts& parts, const std::vector<const InpEquation*>&
       factor[static_cast<std::size_t>(term.dof)] += term.coefficient / scale;
     }
     for (int from = 0; from < 6; ++from) {
-      if (std::abs(factor[static_cast<std::size_t>(from)] - rigid_factor(r, to, from)) > small) return false;
+      if (std::abs(factor[static_cast<std::size_t>(from)] - rigid_arm_factor(r, to, from)) > small) return false;
     }
     tied.insert(to);
   }
@@ -113,7 +103,7 @@ void join_alike(InpParts& parts, const InpCard& card, long line, const std::stri
     parts.file.fail(card, line,
                     fmt::format("MPC {} joins two nodes that do not lie at one place, which is not supported", type),
                     "use BEAM, a rigid link");
-  if (type == "TIE") return add_link(parts, master, slave);
+  if (type == "TIE") return parts.add_link(master, slave);
   for (int d = 0; d < 3; ++d)
     parts.add_constraint({fmt::format("pin_{}", parts.model.constraints.size() + 1), slave, d, {{master, d, 1.0}}}, card, line);
 }
@@ -161,7 +151,7 @@ void attach_inp_equations(InpParts& parts) {
   for (const auto& [slave_id, equations] : by_slave) {
     const InpEquation& first = *equations.front();
     if (is_rigid_link(parts, equations, turning.contains(slave_id))) {
-      add_link(parts, parts.node(*first.card, first.line, first.terms[1].node), parts.node(*first.card, first.line, slave_id));
+      parts.add_link(parts.node(*first.card, first.line, first.terms[1].node), parts.node(*first.card, first.line, slave_id));
       continue;
     }
     for (const InpEquation* equation : equations) add_equation(parts, *equation);
@@ -176,7 +166,7 @@ void attach_inp_rigid_body(InpParts& parts, const InpCard& card) {
   const std::string slaves = card.has("TIE NSET") ? card.get("TIE NSET") : parts.file.required(card, "NSET");
   const int master = parts.node(card, card.line, masters.front());
   for (const long id : parts.set(parts.node_sets, card, card.line, slaves).members) {
-    if (const int slave = parts.node(card, card.line, id); slave != master) add_link(parts, master, slave);
+    if (const int slave = parts.node(card, card.line, id); slave != master) parts.add_link(master, slave);
   }
 }
 
@@ -193,7 +183,7 @@ void attach_inp_mpc(InpParts& parts, const InpCard& card) {
     for (const long id : slaves) {
       const int slave = parts.node(card, line.line, id);
       if (type == "BEAM")
-        add_link(parts, master, slave);
+        parts.add_link(master, slave);
       else
         join_alike(parts, card, line.line, type, slave, master);
     }

@@ -91,15 +91,26 @@ void read_inp_density(InpParts& parts, const InpCard& card) {
 
 void read_inp_orientation(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"NAME", "SYSTEM", "DEFINITION"});
-  if (upper_case(card.get("SYSTEM", "RECTANGULAR")) != "RECTANGULAR" ||
-      upper_case(card.get("DEFINITION", "COORDINATES")) != "COORDINATES") {
-    parts.file.fail(card, card.line, "only SYSTEM=RECTANGULAR by coordinates is supported", "give the points a and b");
-  }
+  const std::string definition = upper_case(card.get("DEFINITION", "COORDINATES"));
+  if (upper_case(card.get("SYSTEM", "RECTANGULAR")) != "RECTANGULAR" || (definition != "COORDINATES" && definition != "NODES"))
+    parts.file.fail(card, card.line, "only SYSTEM=RECTANGULAR by coordinates or nodes is supported", "give the points a and b");
   if (card.data.empty()) parts.file.fail(card, card.line, "has no data line", "give the points a and b");
   Eigen::Vector3d a, b;
-  for (std::size_t i = 0; i < 3; ++i) {
-    a[static_cast<int>(i)] = parts.file.number(card, card.data[0], i);
-    b[static_cast<int>(i)] = parts.file.number(card, card.data[0], i + 3);
+  if (definition == "NODES") {
+    const auto place = [&](std::size_t field) {
+      return parts.model
+          .nodes[static_cast<std::size_t>(parts.node(card, card.data[0].line, parts.node_id(card, card.data[0], field)))]
+          .x_m;
+    };
+    const bool has_origin = card.data[0].fields.size() > 2 && !card.data[0].fields[2].empty();
+    const Eigen::Vector3d origin = has_origin ? place(2) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    a = place(0) - origin;
+    b = place(1) - origin;
+  } else {
+    for (std::size_t i = 0; i < 3; ++i) {
+      a[static_cast<int>(i)] = parts.file.number(card, card.data[0], i);
+      b[static_cast<int>(i)] = parts.file.number(card, card.data[0], i + 3);
+    }
   }
   const Eigen::Vector3d z = a.cross(b);
   if (z.norm() < 1e-9 * a.norm() * b.norm() || a.norm() == 0.0) {
@@ -110,7 +121,8 @@ void read_inp_orientation(InpParts& parts, const InpCard& card) {
   axes.row(2) = z.normalized();
   axes.row(1) = axes.row(2).cross(axes.row(0));
   const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
-  if (scope.turned()) axes = (axes * scope.rotation.transpose()).eval();
+  // Nodes are turned with their instance already.
+  if (scope.turned() && definition == "COORDINATES") axes = (axes * scope.rotation.transpose()).eval();
   parts.orientations[parts.key_here(parts.file.required(card, "NAME"))] = axes;
 }
 

@@ -270,6 +270,10 @@ std::set<long> InpParts::turning_nodes() const {
   return nodes;
 }
 
+void InpParts::add_link(int master, int slave) {
+  model.links.push_back({fmt::format("link_{}", model.links.size() + 1), master, slave});
+}
+
 const InpCard* InpParts::card_after(const InpCard& card) const {
   const auto next = static_cast<std::size_t>(&card - file.cards().data()) + 1;
   return next < file.cards().size() ? &file.cards()[next] : nullptr;

@@ -105,6 +105,8 @@ struct InpParts {
   /// Members of a set. @throws InputError for an unknown name
   [[nodiscard]] const InpSet& set(const std::map<std::string, InpSet>& sets, const InpCard& card, long line,
                                   const std::string& name) const;
+  /// @throws InputError for an unknown name
+  [[nodiscard]] const InpSurface& surface(const InpCard& card, long line, const std::string& name) const;
   /// A field that holds the number of a node or the name of a set of nodes.
   [[nodiscard]] std::vector<long> nodes_of(const InpCard& card, const InpLine& line, std::size_t field) const;
   /// Elements are grouped by the set that their *ELEMENT card names, else by that of the section, spring or mass `card`: many
@@ -121,6 +123,7 @@ struct InpParts {
   [[nodiscard]] std::vector<InpElement*> elements_of(const InpCard& card);
   /// Nodes whose rotations a beam or a shell holds.
   [[nodiscard]] std::set<long> turning_nodes() const;
+  void add_link(int master, int slave);
   void add_constraint(const fe::Constraint& c, const InpCard& card, long line) {
     model.constraints.push_back(c);
     constraint_origin.push_back({&card, line});

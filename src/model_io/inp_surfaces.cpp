@@ -15,21 +15,28 @@ namespace {
 constexpr std::array<std::array<std::size_t, 4>, 6> hexahedron_faces = {
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
+/// Faces S1 to S4 of a tetrahedron likewise.
+constexpr std::array<std::array<std::size_t, 3>, 4> tetrahedron_faces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+
 /// The facet that "S3" of an element names.
 InpFacet facet_of(const InpParts& parts, const InpCard& card, long line, const InpElement& element, const std::string& face) {
   const InpKind kind = inp_kind(element.type);
   const bool numbered = face.size() == 2 && face[1] >= '1' && face[1] <= '6';
   const std::size_t at = numbered ? static_cast<std::size_t>(face[1] - '1') : 0;
   InpFacet facet{{}, element.id, kind == InpKind::shell};
-  if (kind == InpKind::solid && numbered && face[0] == 'S') {
+  const bool of_solid = kind == InpKind::solid && numbered && face[0] == 'S';
+  if (of_solid && element.nodes.size() == 8) {
     for (const std::size_t i : hexahedron_faces[at]) facet.nodes.push_back(element.nodes[i]);
+  } else if (of_solid && at < tetrahedron_faces.size()) {
+    for (const std::size_t i : tetrahedron_faces[at]) facet.nodes.push_back(element.nodes[i]);
   } else if (kind == InpKind::shell && (face.empty() || face == "SPOS" || face == "SNEG")) {
     facet.nodes = element.nodes;
   } else if (kind == InpKind::shell && numbered && face[0] == 'E' && at < element.nodes.size()) {
     facet.nodes = {element.nodes[at], element.nodes[(at + 1) % element.nodes.size()]};
   } else {
-    parts.file.fail(card, line, fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
-                    "solids have S1 to S6, shells SPOS, SNEG and edges E1 to E4; name nodes by TYPE=NODE");
+    parts.file.fail(
+        card, line, fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
+        "hexahedra have S1 to S6, tetrahedra S1 to S4, shells SPOS, SNEG and edges E1 to E4; name nodes by TYPE=NODE");
   }
   return facet;
 }
@@ -52,6 +59,14 @@ void add_faces(InpParts& parts, const InpCard& card, const InpLine& line, InpSur
 }
 
 }  // namespace
+
+const InpSurface& InpParts::surface(const InpCard& card, long line, const std::string& name) const {
+  if (const std::string key = find_key(surfaces, name); !key.empty()) return surfaces.at(key);
+  std::vector<std::string> known;
+  for (const auto& [at, each] : surfaces) known.push_back(each.name);
+  file.fail(card, line, fmt::format("no surface is called '{}'{}", name, did_you_mean(name, known)),
+            card.keyword == "TIE" ? "write slave, master, and define both by *SURFACE" : "define it by *SURFACE");
+}
 
 void read_inp_surface(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"NAME", "TYPE", "INTERNAL"});

@@ -31,13 +31,7 @@ struct TieCount {
 };
 
 const InpSurface& surface_of(const InpParts& parts, const InpCard& card, const InpLine& line, std::size_t field) {
-  const std::string name = field < line.fields.size() ? line.fields[field] : "";
-  const std::string key = parts.find_key(parts.surfaces, name);
-  if (!key.empty()) return parts.surfaces.at(key);
-  std::vector<std::string> known;
-  for (const auto& [at, surface] : parts.surfaces) known.push_back(surface.name);
-  parts.file.fail(card, line.line, fmt::format("no surface is called '{}'{}", name, did_you_mean(name, known)),
-                  "write slave, master, and define both by *SURFACE");
+  return parts.surface(card, line.line, field < line.fields.size() ? line.fields[field] : "");
 }
 
 /// Half the greatest thickness of the shells of a surface.

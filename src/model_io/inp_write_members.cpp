@@ -193,8 +193,9 @@ void InpWriter::faces_and_blocks() {
     if (e.type != fe::ElementType::shell && e.type != fe::ElementType::solid) continue;
     std::vector<long> nodes;
     for (const int node : e.nodes) nodes.push_back(node_id(node));
-    const char* triangle = fe::is_triangle(e) ? "t" : "";  // a block has one element type
-    auto& group = groups[fmt::format("{}{}|{}|{}|{}", static_cast<int>(e.type), triangle, e.group, e.section, e.material)];
+    // The number of nodes is in the key because a block has one element type.
+    auto& group =
+        groups[fmt::format("{} of {}|{}|{}|{}", static_cast<int>(e.type), e.nodes.size(), e.group, e.section, e.material)];
     group.first = &e;
     group.second.push_back({e.id, nodes});
   }
@@ -204,7 +205,8 @@ void InpWriter::faces_and_blocks() {
     const std::string material_name = material(m.name, m.youngs_modulus_Pa, m.poisson_ratio, m.density_kg_m3);
     if (e.type == fe::ElementType::solid) {
       // Incompatible modes in both programs, as in ours.
-      const std::string set = element_block("C3D8I", e.group.empty() ? "solid" : e.group, group.second);
+      const std::string set =
+          element_block(fe::is_tetrahedron(e) ? "C3D4" : "C3D8I", e.group.empty() ? "solid" : e.group, group.second);
       elements_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n", set, material_name);
       continue;
     }

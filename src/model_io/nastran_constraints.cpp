@@ -2,21 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
-#include "fe/beam_frame.hpp"
 #include "model_io/inp_cards.hpp"
 #include "model_io/nastran_properties.hpp"
 #include "model_io/nastran_supports.hpp"
+#include "model_io/rigid_arm.hpp"
+#include "model_io/weighted_mean.hpp"
 
 namespace twindeck::model_io::nastran {
 namespace {
-
-using SixMotions = Eigen::Matrix<double, 1, 6>;
 
 constexpr double nothing = 1e-12;  ///< [-] of a factor next to 1: rounding of directions and sums
 
@@ -71,43 +70,13 @@ std::vector<Sample> samples_of(const Parts& parts, const Card& card) {
   return samples;
 }
 
-/// Motions of the reference grid by the samples: q = (Sᵀ W S)⁺ Sᵀ W u, and which of q they determine.
-struct Average {
-  Eigen::MatrixXd of_samples;  ///< (6 × samples)
-  std::array<bool, 6> determined{};
-};
-
-Average average_of(Parts& parts, const Card& card, long reference, const std::vector<Sample>& samples) {
-  const auto n = static_cast<Eigen::Index>(samples.size());
+WeightedMean average_of(Parts& parts, const Card& card, long reference, const std::vector<Sample>& samples) {
   const Eigen::Vector3d at = parts.place(card, reference);
-  double reach = 0.0;
-  for (const Sample& sample : samples) reach += (parts.place(card, sample.grid) - at).norm() / static_cast<double>(n);
-  if (!(reach > 0.0)) reach = 1.0;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> s(n, 6);
-  Eigen::VectorXd root(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Sample& sample = samples[static_cast<std::size_t>(i)];
-    const Eigen::RowVector3d direction = parts.displacement_axes(card, sample.grid).row(sample.component % 3);
-    const Eigen::Vector3d arm = parts.place(card, sample.grid) - at;
-    if (sample.component < 3)
-      s.row(i) << direction, -direction * fe::beam::cross_matrix(arm) / reach;
-    else
-      s.row(i) << Eigen::RowVector3d::Zero(), direction / reach;
-    root[i] = std::sqrt(sample.weight) * (sample.component < 3 ? 1.0 : reach);
-  }
-  // Rotations times the reach are of the size of displacements.
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> whole(root.asDiagonal() * s);
-  whole.setThreshold(1e-9);
-  const Eigen::MatrixXd inverse = whole.pseudoInverse();
-  const Eigen::MatrixXd seen = inverse * root.asDiagonal() * s;
-  Average average;
-  average.of_samples = inverse * root.asDiagonal();
-  average.of_samples.bottomRows<3>() /= reach;
-  for (Eigen::Index k = 0; k < 6; ++k) {
-    constexpr double determined = 1e-6;
-    average.determined[static_cast<std::size_t>(k)] = (seen.row(k) - SixMotions::Unit(k)).norm() < determined;
-  }
-  return average;
+  std::vector<MeanSample> means;
+  for (const Sample& sample : samples)
+    means.push_back({parts.displacement_axes(card, sample.grid).row(sample.component % 3), parts.place(card, sample.grid) - at,
+                     sample.component > 2, sample.weight});
+  return weighted_mean(means);
 }
 
 /// The sets of MPC cards that the case control chooses.
@@ -163,7 +132,7 @@ void read_average(Parts& parts, const Card& card) {
   const long reference = parts.deck.integer(card, 2);
   const std::array<bool, 6> wanted = basic_components(parts, card, reference, components(parts, card, 3));
   const std::vector<Sample> samples = samples_of(parts, card);
-  const Average average = average_of(parts, card, reference, samples);
+  const WeightedMean average = average_of(parts, card, reference, samples);
   for (int k = 0; k < 6; ++k) {
     if (!wanted[static_cast<std::size_t>(k)]) continue;
     if (!average.determined[static_cast<std::size_t>(k)])
@@ -183,15 +152,10 @@ void read_average(Parts& parts, const Card& card) {
 void tie_some(Parts& parts, const Card& card, long independent, long dependent, const std::array<bool, 6>& tied) {
   const std::array<bool, 6> basic = basic_components(parts, card, dependent, tied);
   const int master = parts.node(card, independent), slave = parts.node(card, dependent);
-  const Eigen::Vector3d arm = parts.place(card, dependent) - parts.place(card, independent);
   for (int d = 0; d < 6; ++d) {
     if (!basic[static_cast<std::size_t>(d)]) continue;
-    fe::Constraint c{fmt::format("rbe2_{}_{}_{}", Deck::text(card, 0), dependent, d + 1), slave, d, {{master, d, 1.0}}};
-    for (int about = 0; about < 3 && d < 3; ++about) {
-      const double factor = Eigen::Vector3d::Unit(about).cross(arm)[d];
-      if (std::abs(factor) > nothing * arm.norm()) c.terms.push_back({master, 3 + about, factor});
-    }
-    parts.model.constraints.push_back(c);
+    const std::string name = fmt::format("rbe2_{}_{}_{}", Deck::text(card, 0), dependent, d + 1);
+    parts.model.constraints.push_back(at_rigid_arm(name, parts.model, master, slave, d));
   }
 }
 

@@ -190,9 +190,13 @@ void read_shell(Parts& parts, const Card& card) {
 }
 
 void read_solid(Parts& parts, const Card& card) {
-  fe::Element e = start_element(parts, card, fe::ElementType::solid, 2, 8);
-  if (Deck::size(card) > 10)
-    parts.deck.fail(card, "has nodes on its edges (20 in all), which is not read", "mesh with solids of 8 nodes");
+  const std::size_t corners = card.name == "CTETRA" ? 4 : 8;
+  if (Deck::size(card) > 2 + corners)
+    parts.deck.fail(card, fmt::format("has nodes on its edges ({} in all), which is not read", corners == 4 ? 10 : 20),
+                    corners == 4
+                        ? "mesh with hexahedra of 8 nodes (CHEXA); tetrahedra of 4 nodes are read, but too stiff in bending"
+                        : "mesh with solids of 8 nodes");
+  fe::Element e = start_element(parts, card, fe::ElementType::solid, 2, corners);
   const Card& p = parts.property(card, parts.deck.integer_or(card, 1, e.id), {"PSOLID"});
   if (const std::string kind = upper_case(Deck::text(p, 6)); !kind.empty() && kind != "SMECH")
     parts.deck.fail(p, fmt::format("is '{}', no solid of the structure", kind), "leave the fluid out");

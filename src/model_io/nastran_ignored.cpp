@@ -50,7 +50,7 @@ const std::map<std::string, std::string>& refused_cards() {
         {"mesh the plate with quadrilaterals (CQUAD4)", {"CTRIAR"}},
         {"a CQUADR may be written as CQUAD4", {"CQUADR"}},
         {"mesh with linear elements (CQUAD4)", {"CQUAD8", "CTRIA6"}},
-        {"mesh with hexahedra of 8 nodes (CHEXA)", {"CTETRA", "CPENTA", "CPYRAM"}},
+        {"mesh with hexahedra of 8 nodes (CHEXA)", {"CPENTA", "CPYRAM"}},
         {"give the plate as a PSHELL of one material", {"PCOMP", "PCOMPG", "MAT2", "MAT8", "CSHEAR"}},
         {"give an isotropic material by MAT1", {"MAT3", "MAT9", "MAT10", "MATT1"}},
         {"a rigid joint is RBE2 or RBAR", {"RBE1", "RROD", "RTRPLT", "RSPLINE", "CWELD", "CFAST"}},

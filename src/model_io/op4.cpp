@@ -6,21 +6,22 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <vector>
 
 #include "core/error.hpp"
 #include "io/regular_file.hpp"
 #include "model_io/inp_cards.hpp"
+#include "model_io/op4_binary.hpp"
+#include "model_io/op4_entries.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
-constexpr std::size_t header_width = 8;    ///< columns of each number of the header
-constexpr long string_base = 65536;        ///< of a string's header: row + 65536 (words + 1)
-constexpr double most_unsymmetric = 1e-9;  ///< [-] as of Matrix Market files
+constexpr std::size_t header_width = 8;  ///< columns of each number of the header
+constexpr long string_base = 65536;      ///< of a string's header: row + 65536 (words + 1)
 
+/// Formatted files.
 class Op4Reader {
  public:
   explicit Op4Reader(const std::filesystem::path& file) : file_(file.string()) {
@@ -48,7 +49,7 @@ class Op4Reader {
     }
     if (at_end_) fail("the file ends before the matrix does", "it was cut off");
     refuse_what_follows();
-    return assembled();
+    return entries_.assembled(file_);
   }
 
  private:
@@ -61,7 +62,7 @@ class Op4Reader {
     if (!std::getline(stream_, line_text_)) at_end_ = true;
     if (!line_text_.empty() && line_text_.back() == '\r') line_text_.pop_back();
     if (line_text_.find('\0') != std::string::npos)
-      fail("is a binary file, which is not read", "write it formatted: ASSIGN OUTPUT4 = 'K.op4', FORMATTED, UNIT = 11");
+      fail("is neither formatted nor a binary file of OUTPUT4", "write it again by OUTPUT4, formatted or binary");
   }
 
   /// NCOL, NROW, FORM, TYPE, NAME and the format of the values, as in "1P,5E16.9".
@@ -73,12 +74,12 @@ class Op4Reader {
       return whole(first == std::string::npos ? "" : field.substr(first, field.find_last_not_of(' ') - first + 1));
     };
     const long columns = number_at(0), rows = number_at(1), type = number_at(3);
-    form_ = number_at(2);
+    entries_.form = number_at(2);
     if (type != 1 && type != 2)
       fail(fmt::format("holds numbers of type {}, expected 1 or 2: real", type), "stiffness and mass are real");
     if (columns != std::abs(rows) || columns < 1)
       fail(fmt::format("is {} x {}", std::abs(rows), columns), "a square matrix is expected");
-    rows_ = columns;
+    rows_ = entries_.rows = columns;
     words_ = type == 2 ? 2 : 1;
     const std::string format = upper_case(line_text_.substr(std::min(line_text_.size(), 5 * header_width)));
     const auto e = format.find_first_of("ED");
@@ -125,7 +126,7 @@ class Op4Reader {
       for (std::size_t at = 0; at < length; at += static_cast<std::size_t>(width_)) {
         const double value = value_of(line_text_.substr(at, std::min(static_cast<std::size_t>(width_), length - at)));
         if (row < 1 || row > rows_) fail(fmt::format("row {} lies outside of the matrix", row), "rows count from 1");
-        if (!entries_.emplace(std::pair{column, row}, value).second)
+        if (!entries_.add(column, row, value))
           fail(fmt::format("entry ({}, {}) stands twice", row, column), "write it again by OUTPUT4");
         ++row;
       }
@@ -159,52 +160,24 @@ class Op4Reader {
     }
   }
 
-  [[nodiscard]] linalg::SparseMatrix assembled() const {
-    bool below = false, above = false;
-    std::vector<double> diagonal(static_cast<std::size_t>(rows_), 0.0);
-    for (const auto& [at, value] : entries_) {
-      below = below || at.second > at.first;
-      above = above || at.second < at.first;
-      if (at.first == at.second) diagonal[static_cast<std::size_t>(at.first) - 1] = value;
-    }
-    const bool triangle = form_ == 6 && !(below && above);
-    std::vector<Eigen::Triplet<double, int>> lower;
-    for (const auto& [at, value] : entries_) {
-      const auto [column, row] = at;
-      const auto mirrored = entries_.find({row, column});
-      const double other = triangle ? value : mirrored == entries_.end() ? 0.0 : mirrored->second;
-      const double scale = std::max(
-          {std::abs(value), std::abs(other),
-           std::sqrt(std::abs(diagonal[static_cast<std::size_t>(row) - 1] * diagonal[static_cast<std::size_t>(column) - 1]))});
-      if (std::abs(value - other) > most_unsymmetric * scale)
-        throw InputError({file_, 0, ""},
-                         fmt::format("is not symmetric: entry ({0}, {1}) is {2:.9g}, entry ({1}, {0}) is {3:.9g}", row, column,
-                                     value, other),
-                         "stiffness and mass matrices must be symmetric");
-      const bool alone = triangle || mirrored == entries_.end();
-      if (row >= column || alone)
-        lower.emplace_back(static_cast<int>(std::max(row, column)) - 1, static_cast<int>(std::min(row, column)) - 1,
-                           0.5 * (value + other));
-    }
-    linalg::SparseMatrix matrix(static_cast<int>(rows_), static_cast<int>(rows_));
-    matrix.setFromTriplets(lower.begin(), lower.end());
-    return matrix;
-  }
-
   std::string file_, line_text_;
   std::ifstream stream_;
-  long line_ = 0, rows_ = 0, form_ = 0;
+  long line_ = 0, rows_ = 0;
   long words_ = 2;  ///< of a number, where they are counted
   int width_ = 16;
   bool at_end_ = false;
-  std::map<std::pair<long, long>, double> entries_;  ///< by column, row, from 1
+  Op4Entries entries_;
 };
 
 }  // namespace
 
-linalg::SparseMatrix read_op4(const std::filesystem::path& file) { return Op4Reader(file).matrix(); }
+linalg::SparseMatrix read_op4(const std::filesystem::path& file) {
+  return is_binary_op4(file) ? read_binary_op4(file) : Op4Reader(file).matrix();
+}
 
-Eigen::Index op4_rows(const std::filesystem::path& file) { return Op4Reader(file).rows(); }
+Eigen::Index op4_rows(const std::filesystem::path& file) {
+  return is_binary_op4(file) ? binary_op4_rows(file) : Op4Reader(file).rows();
+}
 
 bool is_op4(const std::filesystem::path& file) { return upper_case(file.extension().string()) == ".OP4"; }
 

@@ -44,9 +44,10 @@ fe::ElementType read_type(const io::CsvTable& table, std::size_t row) {
 }
 
 void read_element_nodes(const io::CsvTable& table, std::size_t row, const NameIndex& index, fe::Element& element) {
-  // A shell whose node4 is empty is a triangle.
+  // A shell whose node4 is empty is a triangle, a solid whose node5 is empty a tetrahedron.
   const bool triangle = element.type == fe::ElementType::shell && table.text(row, kNodeColumns[3]).empty();
-  const std::size_t wanted = triangle ? 3 : fe::node_count(element.type);
+  const bool tetrahedron = element.type == fe::ElementType::solid && table.text(row, kNodeColumns[4]).empty();
+  const std::size_t wanted = triangle ? 3 : tetrahedron ? 4 : fe::node_count(element.type);
   for (std::size_t i = 0; i < wanted; ++i) element.nodes.push_back(index.node(table, row, kNodeColumns[i]));
   for (std::size_t i = wanted; i < kNodeColumns.size(); ++i) {
     if (!table.text(row, kNodeColumns[i]).empty()) {

@@ -15,13 +15,13 @@
 namespace twindeck::model_io {
 namespace {
 
-/// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_HEXAHEDRON: nodes in the order of the model's.
+/// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_HEXAHEDRON: nodes in the order of the model's.
 int vtk_cell(const fe::Element& e) {
   switch (e.nodes.size()) {
     case 8:
       return 12;
     case 4:
-      return 9;
+      return e.type == fe::ElementType::solid ? 10 : 9;
     case 3:
       return 5;
     default:

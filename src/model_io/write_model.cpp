@@ -39,10 +39,10 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
 }
 
 void write_elements(const fe::Model& model, const std::filesystem::path& folder) {
-  // Columns node5 to node8 are there only for solids, section2 only for tapered beams.
-  const bool solids = std::any_of(model.elements.begin(), model.elements.end(),
-                                  [](const fe::Element& e) { return e.type == fe::ElementType::solid; });
-  const std::size_t node_columns = solids ? 8 : 4;
+  // Columns node5 to node8 are there only for hexahedra, section2 only for tapered beams.
+  const bool hexahedra =
+      std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.nodes.size() > 4; });
+  const std::size_t node_columns = hexahedra ? 8 : 4;
   std::vector<std::string> header = {"element", "type", "name", "group", "material", "section"};
   for (std::size_t i = 1; i <= node_columns; ++i) header.push_back("node" + std::to_string(i));
   const bool tapers =

@@ -1,4 +1,6 @@
-#include "ponte/model_builder.hpp"
+#include "ponte/dampers.hpp"
+
+#include "ponte/deck_axis.hpp"
 
 namespace twindeck::ponte {
 

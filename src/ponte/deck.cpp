@@ -1,7 +1,10 @@
+#include "ponte/deck.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
-#include "ponte/model_builder.hpp"
+#include "ponte/deck_axis.hpp"
 
 namespace twindeck::ponte {
 
@@ -190,6 +193,22 @@ DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const Me
   build_nonstructural_mass(builder, deck, nodes);
   build_brackets(builder, deck, nodes);
   return nodes;
+}
+
+const DeckNodes::Line& DeckNodes::station_near(double s_m) const {
+  const Line* best = nullptr;
+  for (const Line& line : lines) {
+    if (!line.bottom.empty() && (best == nullptr || std::abs(line.s_m - s_m) < std::abs(best->s_m - s_m))) {
+      best = &line;
+    }
+  }
+  TWINDECK_ASSERT(best != nullptr);
+  return *best;
+}
+
+const DeckNodes::Line& DeckNodes::line_near(double s_m) const {
+  return *std::min_element(lines.begin(), lines.end(),
+                           [&](const Line& a, const Line& b) { return std::abs(a.s_m - s_m) < std::abs(b.s_m - s_m); });
 }
 
 }  // namespace twindeck::ponte

@@ -1,9 +1,8 @@
+#include "ponte/deck_axis.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-
-#include "core/error.hpp"
-#include "ponte/model_builder.hpp"
 
 namespace twindeck::ponte {
 
@@ -47,22 +46,6 @@ std::vector<double> stations(const DeckDefinition& deck, int panels_per_stay_spa
   std::transform(half.rbegin(), std::prev(half.rend()), std::back_inserter(out), [](double s) { return -s; });
   out.insert(out.end(), half.begin(), half.end());
   return out;
-}
-
-const DeckNodes::Line& DeckNodes::station_near(double s_m) const {
-  const Line* best = nullptr;
-  for (const Line& line : lines) {
-    if (!line.bottom.empty() && (best == nullptr || std::abs(line.s_m - s_m) < std::abs(best->s_m - s_m))) {
-      best = &line;
-    }
-  }
-  TWINDECK_ASSERT(best != nullptr);
-  return *best;
-}
-
-const DeckNodes::Line& DeckNodes::line_near(double s_m) const {
-  return *std::min_element(lines.begin(), lines.end(),
-                           [&](const Line& a, const Line& b) { return std::abs(a.s_m - s_m) < std::abs(b.s_m - s_m); });
 }
 
 }  // namespace twindeck::ponte

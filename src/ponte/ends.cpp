@@ -1,7 +1,9 @@
+#include "ponte/ends.hpp"
+
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "ponte/model_builder.hpp"
+#include "ponte/deck_axis.hpp"
 
 namespace twindeck::ponte {
 

@@ -7,8 +7,14 @@
 
 #include "core/error.hpp"
 #include "ponte/bridge_definition.hpp"
+#include "ponte/dampers.hpp"
+#include "ponte/deck.hpp"
 #include "ponte/definition_file.hpp"
+#include "ponte/ends.hpp"
+#include "ponte/mast.hpp"
 #include "ponte/model_builder.hpp"
+#include "ponte/stays.hpp"
+#include "ponte/supports.hpp"
 
 namespace twindeck::ponte {
 

@@ -1,8 +1,9 @@
+#include "ponte/mast.hpp"
+
 #include <cmath>
 #include <set>
 
 #include "core/error.hpp"
-#include "ponte/model_builder.hpp"
 
 namespace twindeck::ponte {
 

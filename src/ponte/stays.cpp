@@ -1,4 +1,4 @@
-#include "ponte/model_builder.hpp"
+#include "ponte/stays.hpp"
 
 namespace twindeck::ponte {
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "records/universal.hpp"
@@ -26,16 +24,6 @@ std::string value_lines(const std::vector<double>& values, std::size_t a_line, i
     if (i % a_line == a_line - 1 || i + 1 == values.size()) text += '\n';
   }
   return text;
-}
-
-long direction_code(const std::string& direction) {
-  static const std::string names[] = {"x", "y", "z", "rx", "ry", "rz"};
-  const bool minus = direction.starts_with('-');
-  const std::string bare = minus || direction.starts_with('+') ? direction.substr(1) : direction;
-  for (int i = 0; i < 6; ++i) {
-    if (names[i] == bare) return minus ? -(i + 1) : i + 1;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -90,36 +78,6 @@ void write_universal(const UniversalData& data, const fs::path& file) {
         if (result.complex) list.push_back(value.imag());
       }
       text += value_lines(list, 6, 13, 5);
-    }
-    text += kDelimiter;
-  }
-  io::write_file_atomically(file, text);
-}
-
-void write_universal_series(const RecordInfo& info, const Eigen::MatrixXd& samples, bool binary, const fs::path& file) {
-  TWINDECK_ASSERT(static_cast<Index>(info.channels.size()) == samples.cols());
-  std::string text;
-  for (Index c = 0; c < samples.cols(); ++c) {
-    const ChannelInfo& channel = info.channels[static_cast<std::size_t>(c)];
-    text += kDelimiter;
-    text += binary
-                ? fmt::format("    58b{:>6}{:>6}{:>12}{:>12}{:>6}{:>6}{:>12}{:>12}\n", 1, 2, 11, 8 * samples.rows(), 0, 0, 0, 0)
-                : std::string("    58\n");
-    text += text_line(channel.name) + text_line("NONE") + text_line("NONE") + text_line("NONE") + text_line("NONE");
-    text += fmt::format("{:>5}{:>10}{:>5}{:>10} {:<10}{:>10}{:>4} {:<10}{:>10}{:>4}\n", 1, c + 1, 0, 0, "NONE",
-                        channel.point.empty() ? "0" : channel.point, direction_code(channel.direction), "NONE", 0, 0);
-    text += fmt::format("{:>10}{:>10}{:>10}{:>13.5E}{:>13.5E}{:>13.5E}\n", 4, samples.rows(), 1, 0.0, 1.0 / info.rate_Hz, 0.0);
-    const auto axis = [](int type, const std::string& label, const std::string& unit) {
-      return fmt::format("{:>10}{:>5}{:>5}{:>5} {:<20} {:<20}\n", type, 0, 0, 0, label, unit);
-    };
-    text += axis(17, "Time", "s") + axis(12, "Response", channel.unit.empty() ? "NONE" : channel.unit) +
-            axis(0, "NONE", "NONE") + axis(0, "NONE", "NONE");
-    if (binary) {
-      const Eigen::VectorXd column = samples.col(c);
-      text.append(reinterpret_cast<const char*>(column.data()), static_cast<std::size_t>(column.size()) * sizeof(double));
-      text += '\n';
-    } else {
-      text += value_lines(std::vector<double>(samples.col(c).begin(), samples.col(c).end()), 4, 20, 11);
     }
     text += kDelimiter;
   }

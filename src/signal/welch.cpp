@@ -84,8 +84,9 @@ PowerSpectra power_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double
 CrossSpectra cross_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz, const WelchOptions& options) {
   CrossSpectra result;
   result.density.assign(static_cast<std::size_t>(options.segment / 2 + 1), Eigen::MatrixXcd::Zero(data.cols(), data.cols()));
-  // The matrices of many channels are larger than any cache: each is fetched once for several segments.
-  constexpr std::size_t kTogether = 16;
+  // The matrices of many channels are larger than any cache: each is fetched once for several segments, which take no more
+  // memory together than the matrices.
+  const auto together = static_cast<std::size_t>(std::min<Index>(16, data.cols()));
   std::vector<Eigen::MatrixXcd> waiting;  // (n_channels × n_frequencies) of a segment
   const auto add_waiting = [&] {
     for (std::size_t m = 0; m < result.density.size(); ++m) {
@@ -96,7 +97,7 @@ CrossSpectra cross_spectra(const Eigen::Ref<const Eigen::MatrixXd>& data, double
   };
   result.n_segments = for_each_segment(data, options, [&](const Eigen::MatrixXcd& x) {
     waiting.emplace_back(x.transpose());
-    if (waiting.size() == kTogether) add_waiting();
+    if (waiting.size() == together) add_waiting();
   });
   add_waiting();
   const Eigen::VectorXd scale = scaling(options.segment, rate_Hz, result.n_segments);

@@ -1,10 +1,11 @@
+#include "steps/campaign/campaign_config.hpp"
 #include "steps/campaign/test_campaign.hpp"
 #include "steps/shared/run_step.hpp"
 
 /// Step 0: the virtual test campaign (paper sections 3.1 and 3.2): records of a bridge whose truth is known.
 int main(int argc, char** argv) {
   using namespace twindeck::steps;
-  CampaignSettings settings;
+  CampaignConfig settings;
   Step step;
   step.token = "s0_campaign";
   step.summary = "Simulates the test campaign on the virtual bridge and writes its records as loggers would.";

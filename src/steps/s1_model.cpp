@@ -2,32 +2,32 @@
 #include <fmt/format.h>
 
 #include "dynamics/eigenmodes.hpp"
+#include "dynamics/model_check.hpp"
+#include "dynamics/unit_slips.hpp"
 #include "model_io/export.hpp"
 #include "ponte/generator.hpp"
 #include "steps/model/mesh_convergence.hpp"
 #include "steps/model/model_config.hpp"
-#include "steps/shared/model_check.hpp"
 #include "steps/shared/model_outputs.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
 #include "steps/shared/study.hpp"
-#include "steps/shared/unit_slips.hpp"
 
 namespace {
 
 using namespace twindeck;
 
-Status run(const steps::ModelConfig& config, const steps::ReadModel& read, bool is_bridge, steps::StepContext& context) {
+Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bool is_bridge, steps::StepContext& context) {
   // 1. The model, prestressed and assembled; a mechanism is refused here.
-  const steps::LoadedModel loaded = steps::solvable(read);
+  const dynamics::LoadedModel loaded = dynamics::solvable(read);
   const fe::Model* model = loaded.fe_model();
   context.say(fmt::format("{}: {} degrees of freedom", loaded.source, loaded.system.size()));
 
   // 2. Its modes.
   dynamics::ModalSolver solver(loaded.system);
   const dynamics::EigenModes modes = solver.solve_available(loaded.theta, static_cast<int>(config.n_modes));
-  steps::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
-  steps::warn_of_unit_slips(context, loaded, modes.frequency_Hz, {});
+  dynamics::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
+  dynamics::warn_of_unit_slips(context, loaded, modes.frequency_Hz, {});
 
   // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, and the model as a folder of data for any
   // other step.
@@ -53,8 +53,8 @@ Status run(const steps::ModelConfig& config, const steps::ReadModel& read, bool 
 }
 
 steps::Computation read(const steps::ModelConfig& config, steps::StepContext& context) {
-  const steps::ReadModel model = steps::with_displacements(steps::load_study_model(context, config.variant),
-                                                           config.displacements, static_cast<int>(config.load_steps));
+  const dynamics::ReadModel model = dynamics::with_displacements(steps::load_study_model(context, config.variant),
+                                                                 config.displacements, static_cast<int>(config.load_steps));
   const bool is_bridge = !context.model && steps::read_study(context.study).model_generator == "ponte";
   if (is_bridge) steps::refuse_unknown_meshes(steps::read_study(context.study), config.variant, config.meshes);
   return [&config, &context, model, is_bridge] { return run(config, model, is_bridge, context); };

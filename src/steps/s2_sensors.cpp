@@ -1,4 +1,4 @@
-#include "steps/sensors/sensor_layout.hpp"
+#include "steps/sensors/sensors.hpp"
 #include "steps/shared/run_step.hpp"
 
 /// Step 2: sensor setups, how well they tell the modes apart, and the blind test (paper section 3.1, Table 3).

@@ -1,5 +1,7 @@
 /// Step 3 (paper section 3.2, Table 4, Figs. 10-13): modes with standard deviations from records of one or several setups.
+#include "identification/stays.hpp"
 #include "records/inspect.hpp"
+#include "steps/identification/identification_config.hpp"
 #include "steps/identification/inputs.hpp"
 #include "steps/identification/outputs.hpp"
 #include "steps/shared/run_step.hpp"
@@ -11,15 +13,15 @@ using namespace twindeck;
 Status run(const steps::IdentificationConfig& config, steps::IdentificationInputs& read, const steps::StepContext& context) {
   // 1. Each condition: spectra, subspace identification, stabilisation, selection (Eqs. 3-4), standard deviations; setups
   // merged.
-  std::vector<steps::ConditionResult>& results = read.conditions;
-  for (steps::ConditionResult& result : results) {
-    steps::identify_condition(result, config, context);
+  std::vector<identification::ConditionResult>& results = read.conditions;
+  for (identification::ConditionResult& result : results) {
+    identification::identify_condition(result, config, context);
     for (const std::string& line : steps::report_lines(result)) context.say(line);
   }
 
   // 2. Free decays by ERA, with frequency and damping by amplitude; stays as strings.
-  const auto decays = steps::identify_free_decays(read.decays, config, results, context.seed);
-  const auto stays = steps::identify_stays(read.stays, config);
+  const auto decays = identification::identify_free_decays(read.decays, config, results, context.seed);
+  const auto stays = identification::identify_stays(read.stays, config);
 
   // 3. Tables, exports, and the features that updating and diagnosis read. The first condition's stand at the top.
   steps::write_identification(read.campaign, results, decays, stays, config, context.out);

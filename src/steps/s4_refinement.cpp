@@ -1,4 +1,4 @@
-#include "steps/measured/measured_choice.hpp"
+#include "steps/measured/measured_input.hpp"
 #include "steps/refinement/refinement.hpp"
 #include "steps/shared/run_step.hpp"
 

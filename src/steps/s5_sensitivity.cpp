@@ -1,35 +1,36 @@
 /// Step 5 (paper section 4.2, Eq. 6): sensitivity of the modes to the parameters, and which of these the measurement can tell.
 #include <fmt/format.h>
 
+#include "dynamics/unit_slips.hpp"
+#include "sensitivity/frequency_sensitivities.hpp"
 #include "steps/sensitivity/outputs.hpp"
-#include "steps/sensitivity/sensitivity.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/shared/run_step.hpp"
-#include "steps/shared/unit_slips.hpp"
 
 namespace {
 
 using namespace twindeck;
 
-Status run(const steps::SensitivityConfig& config, const steps::ReadModel& read, steps::StepContext& context) {
+Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& read, steps::StepContext& context) {
   // 1. The refined model, with the prestress of its own parameter values, frozen.
-  const steps::LoadedModel loaded = steps::solvable(read);
+  const dynamics::LoadedModel loaded = dynamics::solvable(read);
   if (!loaded.state.status.converged) return loaded.state.status;
 
   // 2. Sensitivities three ways: exact, by extrapolated central differences, by Eq. (6).
-  steps::SensitivityOptions options;
+  sensitivity::SensitivityOptions options;
   options.n_modes = static_cast<int>(config.n_modes);
   options.forward_step = config.forward_step;
-  const steps::Sensitivities found = steps::frequency_sensitivities(
+  const sensitivity::Sensitivities found = sensitivity::frequency_sensitivities(
       loaded.system, loaded.theta, options, [&](int done, int of) { context.progress("differences", done, of); });
   if (found.frequency_Hz.size() == 0) return found.status;
-  steps::warn_of_unit_slips(context, loaded, found.frequency_Hz, {});
-  steps::refuse_rigid_bodies(found, loaded.source);
+  dynamics::warn_of_unit_slips(context, loaded, found.frequency_Hz, {});
+  sensitivity::refuse_rigid_bodies(found, loaded.source);
   if (!found.richardson.allFinite() || !found.forward.allFinite())
     return {false, found.status.converged ? "a difference of frequencies is no number" : found.status.message};
 
   // 3. Which parameters to update: the rule of selection.hpp on the compared modes, beside the paper's choice.
-  const Eigen::MatrixXd scaled = steps::scaled_sensitivity(config, loaded.system.parameters, found);
+  const Eigen::MatrixXd scaled =
+      sensitivity::scaled_sensitivity(config.compared_modes, config.frequency_std_pct, loaded.system.parameters, found);
   const std::vector<std::string> names = steps::parameter_names(loaded.system.parameters);
   const auto selection = sensitivity::select_parameters(scaled, names, config.selection_threshold);
   const sensitivity::Identifiability identified = sensitivity::identifiability(scaled, config.singular_value_cutoff);
@@ -46,7 +47,7 @@ Status run(const steps::SensitivityConfig& config, const steps::ReadModel& read,
 }
 
 steps::Computation read(const steps::SensitivityConfig& config, steps::StepContext& context) {
-  const steps::ReadModel model = steps::load_model(context, context.results / "s4_refinement" / "model");
+  const dynamics::ReadModel model = steps::load_model(context, context.results / "s4_refinement" / "model");
   steps::check_sensitivity_config(config, model.parameters(), model.source);
   return [&config, &context, model] { return run(config, model, context); };
 }

@@ -1,12 +1,14 @@
 /// Step 6 (paper section 4.2, Tables 8 to 10): parameters updated within their bounds to the measured frequencies.
+#include "dynamics/unit_slips.hpp"
 #include "model_io/export.hpp"
-#include "steps/measured/measured_choice.hpp"
+#include "steps/measured/comparison_tables.hpp"
+#include "steps/measured/measured_input.hpp"
 #include "steps/shared/model_outputs.hpp"
-#include "steps/shared/unit_slips.hpp"
+#include "steps/updating/inputs.hpp"
 #include "steps/updating/outputs.hpp"
-#include "steps/updating/setup.hpp"
-#include "steps/updating/twins.hpp"
-#include "steps/updating/weighing.hpp"
+#include "steps/updating/weighing_tables.hpp"
+#include "updating/paired_modes.hpp"
+#include "updating/twins.hpp"
 
 namespace {
 
@@ -15,36 +17,37 @@ using namespace twindeck;
 Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& read, steps::StepContext& context) {
   // 1. The refined model and the measured modes.
   const auto& [model, measured, active, published] = read;
-  const steps::LoadedModel before = steps::solvable(model);
+  const dynamics::LoadedModel before = dynamics::solvable(model);
   if (!before.state.status.converged) return before.state.status;
   const std::vector<fe::Parameter>& parameters = before.system.parameters;
 
   // 2. Which measured mode belongs to which computed one.
   const dynamics::EigenModes modes_before =
-      steps::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
+      dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
-  steps::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
-  const steps::Pairing pairing = steps::pair_for_updating(context, config, before, modes_before, measured);
-  const updating::MeasuredRows rows = steps::weighed_rows(config, measured, pairing, before, modes_before);
+  dynamics::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
+  const matching::Pairing pairing = updating::pair_for_updating(context, config, before, modes_before, measured);
+  const updating::MeasuredRows rows = updating::weighed_rows(config, measured, pairing, before, modes_before);
   if (!rows.given())
-    steps::warn_of_twins(context, steps::indistinct_parameters(before, modes_before, active, measured, pairing),
-                         measured.modes.has_shapes());
+    updating::warn_of_twins(context, updating::indistinct_parameters(before, modes_before, active, measured, pairing),
+                            measured.modes.has_shapes());
 
   // 3. The update.
   updating::UpdatingOptions options = config.options(context.seed);
   options.elsewhere = published;
   const updating::UpdatingResult result = updating::update(
-      before.system, steps::prestress_refresh(before), active, steps::frequency_targets(measured, pairing), options,
+      before.system, updating::prestress_refresh(before), active, updating::frequency_targets(measured, pairing), options,
       [&](int done, int of) { context.progress("starts", done, of); }, rows);
   if (result.starts.empty() || result.mode_after.empty()) return result.status;
 
   // 4. The updated model, in balance, with its modes and the same pairs.
-  const steps::LoadedModel after = steps::with_values(before, result.theta);
-  const dynamics::EigenModes modes_after = steps::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
-  const steps::Pairing followed = steps::followed_pairing(config, pairing, result, after, modes_after, measured);
-  const steps::PairingAccount account = steps::account_after(context, config, followed, after, modes_after, measured);
-  std::vector<steps::ComparisonRow> comparison = steps::compare("before", measured, modes_before.frequency_Hz, pairing);
-  for (auto& row : steps::compare("after", measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
+  const dynamics::LoadedModel after = dynamics::with_values(before, result.theta);
+  const dynamics::EigenModes modes_after =
+      dynamics::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
+  const matching::Pairing followed = updating::followed_pairing(config, pairing, result, after, modes_after, measured);
+  const matching::PairingAccount account = updating::account_after(context, config, followed, after, modes_after, measured);
+  std::vector<matching::ComparisonRow> comparison = matching::compare("before", measured, modes_before.frequency_Hz, pairing);
+  for (auto& row : matching::compare("after", measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
 
   // 5. Tables, the model, and the outcome in words.
   steps::write_updating(parameters, active, comparison, config.common_pairs, result, context.out);
@@ -53,8 +56,8 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   steps::save_model(before, result.theta, context.out / "model");
   for (const std::string& line : steps::report_lines(parameters, active, result)) context.say(line);
   steps::report_weighing(context, {before, active, measured, pairing, rows, result});
-  context.say(steps::summary_line(comparison, account));
-  return result.status.converged ? steps::outcome(modes_after.status, account) : result.status;
+  context.say(updating::summary_line(comparison, account));
+  return result.status.converged ? matching::outcome(modes_after.status, account) : result.status;
 }
 
 }  // namespace

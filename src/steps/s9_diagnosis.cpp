@@ -1,7 +1,7 @@
 /// Step 9: what the best admissible model still gets wrong, the cause out of the catalogue, the model extended by it, and the
 /// gain on rows that were held out (docs/diagnosis.md).
 #include "steps/diagnosis/run.hpp"
-#include "steps/measured/measured_choice.hpp"
+#include "steps/measured/measured_input.hpp"
 
 int main(int argc, char** argv) {
   using namespace twindeck;

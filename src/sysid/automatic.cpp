@@ -21,6 +21,12 @@ double phase_collinearity(const Eigen::VectorXcd& shape) {
   return std::pow((values[1] - values[0]) / values.sum(), 2);
 }
 
+Eigen::VectorXcd one_quantity(Eigen::VectorXcd shape, const std::vector<int>& derivatives) {
+  const std::complex<double> quarter[] = {{1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}};
+  for (std::size_t c = 0; c < derivatives.size(); ++c) shape[static_cast<Index>(c)] *= quarter[derivatives[c] % 4];
+  return shape;
+}
+
 namespace {
 
 using Members = std::vector<std::size_t>;
@@ -28,13 +34,6 @@ using Members = std::vector<std::size_t>;
 double distance(const Pole& p, const Pole& q) {
   return std::abs(p.frequency_Hz - q.frequency_Hz) / std::max(p.frequency_Hz, q.frequency_Hz) + 1.0 -
          std::norm(p.shape.dot(q.shape));
-}
-
-/// The shape as all channels would show it if they measured one quantity, in phase.
-Eigen::VectorXcd one_quantity(Eigen::VectorXcd shape, const std::vector<int>& derivatives) {
-  const std::complex<double> quarter[] = {{1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}};
-  for (std::size_t c = 0; c < derivatives.size(); ++c) shape[static_cast<Index>(c)] *= quarter[derivatives[c] % 4];
-  return shape;
 }
 
 /// Distance to the nearest pole of the next smaller order; infinite at the first order.

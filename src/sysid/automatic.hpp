@@ -30,6 +30,10 @@ struct AutomaticRule {
 /// Schenk (1993), Journal of Guidance, Control, and Dynamics 16(5), 832-838.
 [[nodiscard]] double phase_collinearity(const Eigen::VectorXcd& shape);
 
+/// The shape as all channels would show it if they measured one quantity, in phase: an i for each differentiation is taken out.
+/// @param derivatives  as in AutomaticRule
+[[nodiscard]] Eigen::VectorXcd one_quantity(Eigen::VectorXcd shape, const std::vector<int>& derivatives);
+
 /// Selection without tuned criteria. Poles must be within the limits of the diagram, and collinear. Distance of two poles:
 ///
 ///     d = |f_i - f_j| / max(f_i, f_j) + 1 - MAC.

@@ -29,6 +29,21 @@ double shape_deviation(const Cluster& mode, const ModeDeviation& deviation) {
   return changes.norm();
 }
 
+/// Under random forces that stay alike, as the law of least deviation assumes.
+bool is_stationary(const IdentifyOptions& options, double seconds) { return seconds > 0.0 && options.largest_law_ratio > 0.0; }
+
+/// Phases that are arbitrary, and a shape that is not known well enough for them to be its own. A real shape with the deviation
+/// s has some s²/2 of its energy out of phase by chance, and 98 % have at most four times that; a collinearity c is a share of
+/// (1 - sqrt(c))/2. What the deviation cannot explain is the structure's own motion, as with dampers.
+bool has_arbitrary_phases(const Cluster& mode, const ModeDeviation& deviation, const AutomaticRule& rule) {
+  constexpr double kChance = 4.0;
+  // Of the poles' limit: nearer to it lie modes of a bridge with dampers that one record knows badly and another well.
+  constexpr double kBelow = 0.8;
+  if (phase_collinearity(one_quantity(mode.shape, rule.derivatives)) >= kBelow * rule.collinearity) return false;
+  const double out_of_phase = (1.0 - std::sqrt(rule.collinearity)) / 2.0;
+  return kChance * std::pow(shape_deviation(mode, deviation), 2) / 2.0 > out_of_phase;
+}
+
 bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const IdentifyOptions& options, double seconds) {
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6), relative = deviation.frequency_Hz / f;
   if (options.selection == Selection::paper) return options.largest_deviation <= 0.0 || relative <= options.largest_deviation;
@@ -40,17 +55,26 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
   const double frequency = relative / zeta, damping = deviation.damping_ratio / zeta;
   if (options.largest_deviation > 0.0 && relative > std::max(options.largest_deviation, short_record * zeta)) return false;
   if (options.largest_shape_deviation > 0.0 && shape_deviation(mode, deviation) > options.largest_shape_deviation) return false;
+  if (has_arbitrary_phases(mode, deviation, options.automatic)) return false;
   return frequency <= options.largest_law_ratio * law && (share <= 0.0 || frequency <= std::max(share, short_record)) &&
          damping <= std::max(1.0, short_record);
 }
 
-/// Another mode, better settled, that this one can't be told from.
-bool is_shadow(const Identification& found, const std::vector<bool>& kept, std::size_t m) {
+/// Another mode, better settled, that this one can't be told from: frequencies within three standard deviations, and shapes no
+/// further apart than one expects of one shape with the deviations of both. To first order 1 - MAC of two estimates of one
+/// shape has the mean s1² + s2², s their deviations across it.
+bool is_shadow(const Identification& found, std::size_t m, bool stationary) {
+  constexpr double kShapeFloor = 0.02;  // of 1 - MAC: what deviations from few blocks and the choice of an order leave out
+  constexpr double kDecayFloor =
+      0.2;  // the same of decays and earthquakes: deviations leave out that modes change with amplitude
+  const double floor = stationary ? kShapeFloor : kDecayFloor;
   for (std::size_t k = 0; k < found.modes.size(); ++k) {
-    if (!kept[k] || found.deviations[k].frequency_Hz >= found.deviations[m].frequency_Hz) continue;
+    const ModeDeviation &mine = found.deviations[m], &other = found.deviations[k];
+    if (other.frequency_Hz >= mine.frequency_Hz) continue;
     const double apart = std::abs(found.modes[k].frequency_Hz - found.modes[m].frequency_Hz);
-    const double deviation = std::hypot(found.deviations[k].frequency_Hz, found.deviations[m].frequency_Hz);
-    if (apart <= 3.0 * deviation && std::norm(found.modes[k].shape.dot(found.modes[m].shape)) > 0.8) return true;
+    if (apart > 3.0 * std::hypot(other.frequency_Hz, mine.frequency_Hz)) continue;
+    const double shapes = std::hypot(shape_deviation(found.modes[k], other), shape_deviation(found.modes[m], mine));
+    if (1.0 - std::norm(found.modes[k].shape.dot(found.modes[m].shape)) <= std::max(floor, shapes * shapes)) return true;
   }
   return false;
 }
@@ -76,17 +100,45 @@ void keep_modes(Identification& result, const std::vector<bool>& stays) {
   }
 }
 
+/// A mode that has lost poles is asked once more whether it is a mixture: they may have hidden it. Only modes that the records
+/// settle can be what it is made of, not a chain of noise beside it that has its shape.
+void drop_hidden_mixtures(Identification& result, const AutomaticRule& rule) {
+  std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
+  for (std::size_t m = 0; m < stays.size(); ++m) {
+    const auto marked = std::count_if(result.diagram.begin(), result.diagram.end(),
+                                      [&](const DiagramPole& pole) { return pole.mode == static_cast<int>(m); });
+    const bool has_lost = static_cast<std::size_t>(marked) > result.modes[m].members.size();
+    stays[m] = !(stays[m] && has_lost);
+  }
+  keep_modes(result, stays);
+}
+
 }  // namespace
 
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
-  const std::size_t n = result.modes.size();
-  std::vector<bool> settled(n), stays(n);
-  for (std::size_t m = 0; m < n; ++m)
-    settled[m] = stays[m] = is_settled(result.modes[m], result.deviations[m], options, seconds);
-  if (options.selection == Selection::automatic) {
-    for (std::size_t m = 0; m < n; ++m) stays[m] = settled[m] && !is_shadow(result, settled, m);
-  }
+  std::vector<bool> stays;
+  for (std::size_t m = 0; m < result.modes.size(); ++m)
+    stays.push_back(is_settled(result.modes[m], result.deviations[m], options, seconds));
   keep_modes(result, stays);
+  if (options.selection != Selection::automatic) return;
+  drop_hidden_mixtures(result, options.automatic);
+  stays.clear();
+  for (std::size_t m = 0; m < result.modes.size(); ++m) stays.push_back(!is_shadow(result, m, is_stationary(options, seconds)));
+  keep_modes(result, stays);
+}
+
+void drop_better_than_random(Identification& result, double seconds) {
+  constexpr double kChance = 3.0;  // standard deviations of a deviation from n blocks, 1/sqrt(2 (n - 1)) of it each
+  std::vector<bool> stays;
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const Cluster& mode = result.modes[m];
+    const double law = std::sqrt(mode.damping_ratio * mode.frequency_Hz / (2.0 * std::numbers::pi * seconds));
+    const auto blocks = static_cast<double>(result.deviations[m].factor.cols());
+    stays.push_back(blocks < 2.0 ||
+                    result.deviations[m].frequency_Hz >= (1.0 - kChance / std::sqrt(2.0 * (blocks - 1.0))) * law);
+  }
+  const auto n_random = std::count(stays.begin(), stays.end(), true);
+  if (2 * n_random > std::ssize(stays)) keep_modes(result, stays);
 }
 
 namespace {
@@ -101,26 +153,48 @@ Identification select(const ShiftModels& models, const IdentifyOptions& options)
   return result;
 }
 
-/// Orders at which a pole has split in two know either half badly. Those known worse than twice the lower quartile do not speak
-/// for the mode. A mode that has lost poles is asked once more whether it is a mixture: they may have hidden it.
-void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors, const AutomaticRule& rule) {
-  std::vector<bool> lost;
+/// The pole has a twin: another one of its order with the same shape, whose frequency the data cannot tell from its own. The
+/// order has a pole too many there, and either half of the split mode takes what it lacks from the other one.
+bool has_twin(const Identification& result, const ShiftModels& models, const PoleFactors& factors, std::size_t i) {
+  constexpr double kOneShape = 0.95;  // MAC of a stable shape, paper section 3.1
+  constexpr double kChance = 3.0;     // standard deviations of the difference
+  const Pole& pole = result.diagram[i].pole;
+  return std::any_of(result.diagram.begin(), result.diagram.end(), [&](const DiagramPole& other) {
+    const Pole& twin = other.pole;
+    return twin.order == pole.order && &twin != &pole && std::norm(twin.shape.dot(pole.shape)) >= kOneShape &&
+           std::abs(twin.frequency_Hz - pole.frequency_Hz) <= kChance * difference_deviation(models, factors, twin, pole);
+  });
+}
+
+/// Twice the lower quartile of deviations: poles that are known worse do not speak for their mode.
+double largest_well_known(std::vector<double> deviations) {
+  std::sort(deviations.begin(), deviations.end());
+  return 2.0 * deviations[deviations.size() / 4];
+}
+
+/// Orders at which a pole has split in two know either half badly and do not speak for the mode. Where most orders are split
+/// the quartile itself is that of halves, and the orders that have the pole whole stand for it: two poles that differ by no
+/// more than chance are one more than the data support. That may be a single order: that of the true number of modes, for the
+/// mode that appears last. Not so of free decays: what their deviations leave out shows in the scatter over orders only.
+void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors, bool stationary) {
   for (Cluster& mode : result.modes) {
-    std::vector<double> deviations;
-    for (const std::size_t i : mode.members) deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
-    std::vector<double> sorted = deviations;
-    std::sort(sorted.begin(), sorted.end());
-    const double most = 2.0 * sorted[sorted.size() / 4];
-    std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k < deviations.size(); ++k) {
-      if (deviations[k] <= most) kept.push_back(mode.members[k]);
+    std::vector<double> deviations, whole;
+    for (const std::size_t i : mode.members) {
+      deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
+      if (!has_twin(result, models, factors, i)) whole.push_back(deviations.back());
     }
-    lost.push_back(kept.size() < deviations.size());
+    const auto well_known = [&](double most) {
+      std::vector<std::size_t> kept;
+      for (std::size_t k = 0; k < deviations.size(); ++k) {
+        if (deviations[k] <= most) kept.push_back(mode.members[k]);
+      }
+      return kept;
+    };
+    std::vector<std::size_t> kept = well_known(largest_well_known(deviations));
+    const double most_of_whole = whole.empty() ? 0.0 : largest_well_known(whole);
+    if (stationary && !whole.empty() && 2.0 * most_of_whole < largest_well_known(deviations)) kept = well_known(most_of_whole);
     mode = summarise(result.diagram, std::move(kept));
   }
-  std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
-  for (std::size_t m = 0; m < stays.size(); ++m) stays[m] = !(stays[m] && lost[m]);
-  keep_modes(result, stays);
 }
 
 /// The covariance says how far the records settle a pole of one order; which order it is, nobody knows. A pole that holds a
@@ -137,7 +211,7 @@ void add_deviations(Identification& result, const Observability& observability, 
                     const Changes& changes, const IdentifyOptions& options, double seconds) {
   const PoleFactors factors = pole_factors(observability, models, changes);
   for (DiagramPole& pole : result.diagram) pole.frequency_std_Hz = frequency_deviation(models, factors, pole.pole);
-  if (options.selection == Selection::automatic) keep_well_known(result, models, factors, options.automatic);
+  if (options.selection == Selection::automatic) keep_well_known(result, models, factors, is_stationary(options, seconds));
   std::vector<std::vector<Pole>> members;
   for (const Cluster& mode : result.modes) {
     members.emplace_back();
@@ -145,6 +219,7 @@ void add_deviations(Identification& result, const Observability& observability, 
   }
   result.deviations = mode_deviations(models, factors, members);
   drop_undetermined(result, options, seconds);
+  if (options.selection == Selection::automatic && is_stationary(options, seconds)) drop_better_than_random(result, seconds);
   add_order_scatter(result);
 }
 

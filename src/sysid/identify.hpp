@@ -32,7 +32,8 @@ struct IdentifyOptions {
   double largest_deviation = 0.01;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its unit-norm shape, across
   /// itself, exceeds this. At 0.6 its MAC with the true shape is some 0.7, and one of two close modes can no longer be told
-  /// from a mixture of both. 0 keeps all.
+  /// from a mixture of both. 0 keeps all. It is also dropped if its shape is not collinear (AutomaticRule::collinearity) and
+  /// the deviation may be all of the reason.
   double largest_shape_deviation = 0.6;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many
   /// times
@@ -91,10 +92,18 @@ void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, 
 /// In each setup, drops the modes that are lines of another one: a machine that one setup shows runs in the next one too.
 void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule);
 
-/// Drops the modes that the data do not determine, by the rules of the options. The automatic selection also treats pairs that
-/// the data cannot tell apart (frequencies within three standard deviations of their difference, MAC above 0.8): it drops the
-/// mode with the larger standard deviation. Each mode must have its deviation.
+/// Drops the modes that the data do not determine, by the rules of the options. Of those that are left, the automatic selection
+/// drops mixtures of two others, and the one with the larger standard deviation of a pair that the data cannot tell apart:
+/// frequencies within three standard deviations of their difference, and shapes that differ by no more than one expects of one
+/// shape with the deviations of both. Each mode must have its deviation.
 /// @param seconds  length of the ambient records; 0: free decays
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds);
+
+/// Drops the modes that are known better than random forces allow: below the lower limit of IdentifyOptions by more than
+/// chance, as far as the number of blocks (columns of the factor) tells a deviation; half of it for twenty. Such a pole moves
+/// in step with something periodic, as a machine's line does that wanders too much to be marked. Where half of the modes or
+/// more are known so well, the forces of the record are not random (fans, one shaker for all): none is dropped.
+/// @param seconds  length of the ambient records
+void drop_better_than_random(Identification& result, double seconds);
 
 }  // namespace twindeck::sysid

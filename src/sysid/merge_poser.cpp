@@ -55,8 +55,8 @@ Comparison compare(const SetupModes& a, std::size_t p, const SetupModes& b, std:
 
 /// Alike by the rule, or as far as the deviations can tell: a mode that hardly moves the common channels has no shape there to
 /// speak of, and one that a setup hardly shows may lie further off.
-bool may_be_one(const Comparison& shapes, double df_Hz, double deviation_Hz, double df, const MergingRule& rule) {
-  if (df < rule.frequency && shapes.mac >= rule.mac) return true;
+bool may_be_one(const Comparison& shapes, double df_Hz, double deviation_Hz, double reach_Hz, const MergingRule& rule) {
+  if (df_Hz < reach_Hz && shapes.mac >= rule.mac) return true;
   return df_Hz <= 3.0 * deviation_Hz && 1.0 - shapes.mac <= rule.noise * shapes.noise;
 }
 
@@ -86,12 +86,14 @@ std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups
     for (std::size_t b = a + 1; b < all.size(); ++b) {
       if (all[a].setup == all[b].setup) continue;
       const Cluster &p = setups[all[a].setup].modes[all[a].mode], &q = setups[all[b].setup].modes[all[b].mode];
-      const double df_Hz = std::abs(p.frequency_Hz - q.frequency_Hz), df = df_Hz / std::max(p.frequency_Hz, q.frequency_Hz);
+      const double df_Hz = std::abs(p.frequency_Hz - q.frequency_Hz);
+      const double half_bandwidth = std::min(p.damping_ratio * p.frequency_Hz, q.damping_ratio * q.frequency_Hz);
+      const double reach_Hz = std::max(rule.frequency * std::max(p.frequency_Hz, q.frequency_Hz), half_bandwidth);
       const SetupModes &first = setups[all[a].setup], &second = setups[all[b].setup];
       const Comparison shapes = compare(first, all[a].mode, second, all[b].mode);
       const double deviation_Hz =
           std::hypot(first.deviations[all[a].mode].frequency_Hz, second.deviations[all[b].mode].frequency_Hz);
-      if (may_be_one(shapes, df_Hz, deviation_Hz, df, rule))
+      if (may_be_one(shapes, df_Hz, deviation_Hz, reach_Hz, rule))
         pairs.push_back({unlikelihood(shapes, df_Hz, deviation_Hz, p.frequency_Hz), a, b});
     }
   }
@@ -190,19 +192,16 @@ std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, 
     factors[static_cast<std::size_t>(strongest)] = 1.0;
     return factors;
   }
+  std::vector<Index> moving;
   for (Index k = 0; k < n; ++k) {
-    if (signal[k] < kLeastSignal) shapes.col(k).setZero();
+    if (signal[k] >= kLeastSignal) moving.push_back(k);
   }
-  Eigen::MatrixXcd unit = shapes;
-  for (Index k = 0; k < n; ++k) {
-    // What is zero stays zero: a complex division by a tiny floor squares it, and 0/0 is left.
-    if (const double norm = unit.col(k).norm(); norm > 0.0) unit.col(k) /= norm;
-  }
+  Eigen::MatrixXcd unit = shapes(Eigen::all, moving);
+  for (Index k = 0; k < unit.cols(); ++k) unit.col(k) /= unit.col(k).norm();
   const Eigen::VectorXcd common = Eigen::JacobiSVD<Eigen::MatrixXcd>(unit, Eigen::ComputeThinU).matrixU().col(0);
-  for (Index k = 0; k < n; ++k) {
+  for (const Index k : moving) {
     const Eigen::VectorXcd weighted = weights.col(k).asDiagonal() * shapes.col(k);
-    const double norm = shapes.col(k).dot(weighted).real();
-    if (norm > 0.0) factors[static_cast<std::size_t>(k)] = weighted.dot(common) / norm;
+    factors[static_cast<std::size_t>(k)] = weighted.dot(common) / shapes.col(k).dot(weighted).real();
   }
   return factors;
 }

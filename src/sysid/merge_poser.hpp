@@ -18,8 +18,10 @@ struct SetupModes {
 };
 
 struct MergingRule {
-  double frequency = 0.02;  ///< largest relative distance of frequencies of one mode in two setups
-  double mac = 0.7;         ///< least MAC of one mode over the channels that both setups have (needs two such channels)
+  /// Largest relative distance of frequencies of one mode in two setups; half a bandwidth, of the narrower one, where that is
+  /// more: within it the automatic selection, too, takes poles of one shape for one mode.
+  double frequency = 0.02;
+  double mac = 0.7;  ///< least MAC of one mode over the channels that both setups have (needs two such channels)
   /// With a lower MAC two modes may still be the same, if their frequencies agree within three standard deviations and 1 - MAC
   /// is at most this many times its expected value for one shape with these standard deviations (two complex degrees of
   /// freedom: 98 %).

@@ -62,6 +62,10 @@ double frequency_deviation(const ShiftModels& models, const PoleFactors& factors
   return factor_of(models, factors, pole).row(0).norm();
 }
 
+double difference_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole, const Pole& other) {
+  return (factor_of(models, factors, pole).row(0) - factor_of(models, factors, other).row(0)).norm();
+}
+
 std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const PoleFactors& factors,
                                            const std::vector<std::vector<Pole>>& modes) {
   std::vector<ModeDeviation> deviations;

@@ -31,6 +31,10 @@ struct PoleFactors {
 /// Standard deviation of a pole's frequency [Hz]. @param pole  of the models
 [[nodiscard]] double frequency_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole);
 
+/// Standard deviation of the difference of two poles' frequencies [Hz]: the halves of a split pole move against each other.
+[[nodiscard]] double difference_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole,
+                                          const Pole& other);
+
 /// Deviations of modes whose frequency, damping and shape entries are medians over model orders. For each change, the median of
 /// the members' changes is used.
 /// @param modes  for each mode its poles, each of the model of its own order

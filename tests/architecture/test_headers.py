@@ -11,7 +11,7 @@ import tomllib
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MAX_ENTRIES = 34  # it only goes down; at 20 each is one that stays
+MAX_ENTRIES = 20  # it only goes down; at 20 each is one that stays
 MAIN = re.compile(r"^int main\(", re.M)
 
 

@@ -3,7 +3,7 @@
     python3 tests/bench/growth.py BIN OUT [modes=SIZES] [records=SAMPLES] [channels=CHANNELS] [steps=RUNS]
 
 BIN: folder of the executables; OUT: where modes.csv, records.csv, exponents.csv and a figure of each go. What is not named runs with the sizes
-below. A run that would take more than LIMIT_S of processor time or LIMIT_GB is ended, and its row says so; larger sizes of that program are not
+below. A run of the modes that would take more than LIMIT_S of processor time or LIMIT_GB is ended, and its row says so; larger sizes of that program are not
 tried. Everything runs on one thread. Rows of earlier runs stay unless they are measured again. IDENTIFICATION=FILE in the environment measures another
 executable of step 3, for a comparison.
 """

@@ -49,9 +49,9 @@ std::vector<Eigen::Vector3d> positions(const std::vector<diagnosis::Place>& plac
   return x;
 }
 
-Side make_side(int along, const std::vector<steps::Channel>& channels, const diagnosis::PlaceOptions& options) {
+Side make_side(int along, const std::vector<matching::Channel>& channels, const diagnosis::PlaceOptions& options) {
   Side side;
-  side.model = steps::prepare_model(steps::from_model(bridge(along)), channels, 0.6);
+  side.model = steps::prepare_model(dynamics::from_model(bridge(along)), channels, 0.6);
   const diagnosis::Structure structure = side.model->structure();
   side.places = diagnosis::find_places(structure, options);
   diagnosis::ReductionOptions reduction;
@@ -61,12 +61,12 @@ Side make_side(int along, const std::vector<steps::Channel>& channels, const dia
 }
 
 /// Permanent points M1 to M8, each upwards and across (global y).
-std::vector<steps::Channel> sixteen_channels(const fe::Model& model) {
-  std::vector<steps::Channel> channels;
+std::vector<matching::Channel> sixteen_channels(const fe::Model& model) {
+  std::vector<matching::Channel> channels;
   for (const auto& [name, node] : model.monitoring_points) {
     if (name.size() != 2 || name[0] != 'M') continue;  // the model names other points too
     for (const bool up : {true, false}) {
-      steps::Channel channel;
+      matching::Channel channel;
       channel.name = name + (up ? "z" : "y");
       channel.point = name;
       channel.x_m = model.nodes[static_cast<std::size_t>(node)].x_m;
@@ -80,7 +80,7 @@ std::vector<steps::Channel> sixteen_channels(const fe::Model& model) {
 /// The campaign: states, amplitudes, temperatures, a crowd; deviations as ten-minute records give them.
 FeatureSet campaign(const Bench& bench) {
   FeatureSet f;
-  for (const steps::Channel& channel : bench.channels) {
+  for (const matching::Channel& channel : bench.channels) {
     f.channels.push_back(channel.name);
     f.direction.push_back(channel.direction);
   }

@@ -9,7 +9,7 @@
 
 #include "core/random.hpp"
 #include "diagnosis/same_modes.hpp"
-#include "steps/identification/identification.hpp"
+#include "identification/identification.hpp"
 
 namespace twindeck::blind {
 
@@ -27,14 +27,14 @@ struct Identified {
 };
 
 Identified identify(const Bench& bench, const Eigen::MatrixXd& record, double rate_Hz) {
-  steps::IdentificationConfig config;
+  identification::IdentificationSettings config;
   config.block_rows = 50;  // 5 s: three periods of the lowest mode
   config.maximum_order = 60;
   config.lowest_Hz = 0.3;
   config.highest_Hz = 0.4 * rate_Hz;
-  steps::Conditioned conditioned;
-  for (const steps::Channel& channel : bench.channels) {
-    steps::CampaignChannel one;
+  identification::Conditioned conditioned;
+  for (const matching::Channel& channel : bench.channels) {
+    records::CampaignChannel one;
     one.name = channel.name;
     one.point = channel.point;
     one.direction = channel.direction;
@@ -43,7 +43,7 @@ Identified identify(const Bench& bench, const Eigen::MatrixXd& record, double ra
   for (const Index reference : {0, 1, 4, 5, 8, 9, 12, 13}) conditioned.references.push_back(reference);
   conditioned.records = {record};
   conditioned.rate_Hz = rate_Hz;
-  const sysid::Identification found = steps::identify_modes(conditioned, config);
+  const sysid::Identification found = identification::identify_modes(conditioned, config);
   Identified out;
   const auto n = static_cast<Index>(found.modes.size());
   out.hertz.resize(n);

@@ -22,7 +22,7 @@ struct Side {
 
 struct Bench {
   Side truth, diagnosing;
-  std::vector<steps::Channel> channels;
+  std::vector<matching::Channel> channels;
   std::vector<diagnosis::Hypothesis> catalogue;
   diagnosis::FeatureSet rows;  ///< of the diagnosing side: conditions, deviations, held-out marks; nominal values
   diagnosis::ScatterOptions scatter;

@@ -14,7 +14,7 @@
 #include "io/npy.hpp"
 #include "records/record.hpp"
 #include "records/universal.hpp"
-#include "records/write_universal.hpp"
+#include "universal_series.hpp"
 
 namespace twindeck::broken {
 namespace {

@@ -11,5 +11,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                        "points.csv",   "model.toml",   "constraints.csv"};
   if (size == 0) return 0;
   return fuzz::read_folder("model/model", names[data[0] % names.size()], data + 1, size - 1,
-                           [](const auto& folder) { static_cast<void>(steps::solvable(steps::read_model_folder(folder))); });
+                           [](const auto& folder) { static_cast<void>(dynamics::solvable(steps::read_model_folder(folder))); });
 }

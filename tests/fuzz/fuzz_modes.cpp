@@ -2,8 +2,7 @@
 #include <array>
 
 #include "fuzz/target.hpp"
-#include "steps/measured/measured.hpp"
-#include "steps/measured/measured_choice.hpp"
+#include "steps/measured/measured_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace twindeck;

@@ -4,6 +4,7 @@ Oracles: Debian's shell, which parses each command; the tree, which has the file
 are called; workflows/debian-packages.txt, the one list of packages.
 """
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -88,6 +89,22 @@ class Container(unittest.TestCase):
         if shutil.which("dpkg-query"):
             lines = (ROOT / "workflows/debian-packages.txt").read_text().splitlines()
             self.assertEqual([line.split()[0] for line in listed.stdout.splitlines()], [line for line in lines if line and not line.startswith("#")])
+
+    def test_an_installation_says_how_far_it_is_and_fails_as_apt_does(self):
+        """An apt that fetches, installs and ends with a code of its own, as its status lines have it."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for name, text in (("dpkg-query", "exit 1"), ("sudo", 'exec "$@"'),
+                           ("apt-get", 'if [ "$1" = update ]; then exit 0; fi\necho dlstatus:1:4.5:Retrieving file\necho Selecting package x\n'
+                            "for p in 0 4.2 41.0 44.9 100; do echo pmstatus:libx:$p:Installing libx; done\nexit $APT_CODE")):
+            (folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (folder / name).chmod(0o755)
+        for code in (0, 100):
+            done = subprocess.run([ROOT / "workflows/deps.sh"], capture_output=True, text=True, timeout=60,
+                                  env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}", "APT_CODE": str(code)})
+            self.assertEqual(done.returncode, code, done.stderr)
+            said = done.stdout.splitlines()[1:]
+            self.assertEqual(said, ["deps: fetching, 4 %", "deps: installing, 0 %", "deps: installing, 41 %", "deps: installing, 100 %"] +
+                             (["deps: done"] if code == 0 else []))
 
     def test_what_is_copied_into_the_build_is_not_ignored(self):
         ignored = (ROOT / ".dockerignore").read_text().split()
@@ -177,7 +194,7 @@ class Packages(unittest.TestCase):
         said = "dlstatus:1:4.2:Retrieving\\ndlstatus:1:9.9:Retrieving\\npmstatus:x:55.5:Installing\\nSetting up x\\n"
         stubs = {"dpkg-query": "exit 1", "sudo": 'exec "$@"', "apt-cache": f'case " {known} " in *" $2 "*) exit 0;; esac; exit 100',
                  "apt-get": f'[ "$1" = install ] || exit 0; shift; for w in "$@"; do case $w in -*|APT::*) ;; *) echo "$w" >>{folder}/asked;; esac; done; '
-                            f'printf "{said}"; exit {100 if fails else 0}'}
+                            f'printf "{said}"; {"echo E: no room >&2; exit 100" if fails else "exit 0"}'}
         for name, body in stubs.items():
             (folder / name).write_text(f"#!/bin/sh\n{body}\n")
             (folder / name).chmod(0o755)
@@ -189,7 +206,7 @@ class Packages(unittest.TestCase):
     def test_all_are_asked_for_and_progress_is_said(self):
         done, asked = self.deps("make calculix-ccx")
         self.assertEqual((done.returncode, asked), (0, self.wanted), done.stderr)
-        for line in ("deps: fetched 0 %", "deps: installed 50 %", "deps: done"):
+        for line in ("deps: fetching, 4 %", "deps: installing, 55 %", "deps: done"):
             self.assertEqual(done.stdout.splitlines().count(line), 1, done.stdout)
         self.assertNotIn("Setting up", done.stdout)
 
@@ -199,8 +216,8 @@ class Packages(unittest.TestCase):
 
     def test_a_failure_shows_the_words_of_apt(self):
         done, _ = self.deps("make calculix-ccx", fails=True)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("Setting up x", done.stdout)
+        self.assertEqual(done.returncode, 100)
+        self.assertIn("E: no room", done.stderr)
         self.assertNotIn("deps: done", done.stdout)
 
 

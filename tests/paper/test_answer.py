@@ -90,8 +90,9 @@ class OneStudy(unittest.TestCase):
 
     def test_five_sentences_and_no_word_of_a_truth(self):
         text = self.answer(made_up_answer.diagnosis())
-        for part in (*made_up_answer.SENTENCES.values(), "Made-up frame", "Verdict: named"):
+        for part in (*made_up_answer.SENTENCES.values(), "Verdict: named"):
             self.assertIn(part, text)
+        self.assertNotIn("Made-up frame", text, "the page's heading says it already")
         self.assertNotIn("hidden", text)
         self.assertNotIn("published", text, "measurements of one's own are not published")
         self.study.data.joinpath("paper").mkdir(parents=True)
@@ -125,6 +126,11 @@ class OneStudy(unittest.TestCase):
         for side, words in (("open", "mass not known"), ("lower limit", "mass at least 600 kg"), ("upper limit", "mass at most 1,100 kg")):
             told["effects"][0]["rivals"][0]["parameters"][0]["one_sided"] = side
             self.assertIn(f"probability 0.11: {words}", self.account(told))
+
+    def test_several_causes_are_counted(self):
+        for count, words in ((1, "One cause explains it"), (2, "2 causes explain it together")):
+            self.assertEqual(diagnosis.verdict_in_words({"verdict": "named", "effects": [{}] * count})[1], words)
+        self.assertEqual(diagnosis.verdict_in_words({"verdict": "unknown", "effects": [{}] * 2})[1], diagnosis.VERDICTS["unknown"][1])
 
     def test_a_gain_whose_interval_holds_zero_is_not_claimed(self):
         gain = made_up_answer.diagnosis()["gain"]

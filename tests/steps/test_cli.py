@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import pathlib
+import pty
 import re
 import signal
 import subprocess
@@ -240,6 +241,44 @@ class Results(unittest.TestCase):
             done = run("--model", copy / "model", "--out", pathlib.Path(folder) / "s1_model")
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("nodes.csv: was changed after s1_model wrote it", done.stderr)
+
+
+class Alive(unittest.TestCase):
+    """A computation that reports nothing for seconds, seen on a terminal."""
+
+    def on_a_terminal(self, *arguments):
+        """What stands on a pseudo terminal when the step has ended."""
+        ours, theirs = pty.openpty()
+        step = subprocess.Popen([STEP, *map(str, arguments)], cwd=ROOT, stdout=theirs, stderr=theirs)
+        os.close(theirs)
+        seen = b""
+        while True:
+            try:
+                part = os.read(ours, 4096)
+            except OSError:  # the other end is closed
+                break
+            if not part:
+                break
+            seen += part
+        os.close(ours)
+        self.assertEqual(step.wait(300), 0, seen)
+        return seen.decode()
+
+    def test_a_silent_step_says_that_it_works(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        n = 150  # 136,000 degrees of freedom: seconds on any machine
+        lines = ["*NODE"] + [f"{j * (n + 1) + i + 1}, {i}., {j}., 0." for j in range(n + 1) for i in range(n + 1)]
+        lines += ["*ELEMENT, TYPE=S4, ELSET=P"]
+        lines += [f"{j * n + i + 1}, {j * (n + 1) + i + 1}, {j * (n + 1) + i + 2}, {(j + 1) * (n + 1) + i + 2}, {(j + 1) * (n + 1) + i + 1}"
+                  for j in range(n) for i in range(n)]
+        lines += ["*SHELL SECTION, ELSET=P, MATERIAL=S", "1.", "*MATERIAL, NAME=S", "*ELASTIC", "2.E11, 0.3", "*DENSITY", "8000.", "*NSET, NSET=E, GENERATE",
+                  f"1, {n + 1}", "*BOUNDARY", "E, 1, 6"]
+        (folder / "plate.inp").write_text("\n".join(lines) + "\n")
+        arguments = ("--model", folder / "plate.inp", "--out", folder / "out", "--set", "n_modes=40")
+        seen = self.on_a_terminal(*arguments)
+        self.assertRegex(seen, r"\r\x1b\[Ks1_model: working, \d+ s so far")
+        self.assertNotIn("working", seen.splitlines()[-1].split("\x1b[K")[-1], "the line is gone at the end")
+        self.assertEqual(self.on_a_terminal(*arguments, "--quiet").count("working"), 0)
 
 
 if __name__ == "__main__":

@@ -112,6 +112,21 @@ class WhatCannotFool(OnAChain):
             self.assertFalse((self.folder / token).exists())
             self.assertEqual(len([line for line in done.stderr.splitlines() if "warning" not in line]), 1, done.stderr)
 
+    def test_a_mode_that_is_like_none_is_not_paired_however_well_updating_could_fit_it(self):
+        """A first mode at 1.85 times the model's, as 3.7 to 2 Hz, whose shape has a MAC of 0.003 with the model's first."""
+        frequency, shapes = modes()
+        unit = shapes / np.linalg.norm(shapes, axis=0)
+        strange = unit[:, N - 1] + 0.055 * unit[:, 0]
+        mac = (strange @ unit[:, 0])**2 / (strange @ strange)
+        self.assertAlmostEqual(mac, 0.003, delta=0.0005)
+        features = write_features(self.folder / "strange", {"calm": (1.85 * frequency[:1], strange[:, None])})
+        for token in ("s4_refinement", "s6_updating"):
+            done, _ = self.run_step(token, features, out=token)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("only 0 of 1 measured modes are like a computed one (MAC of at least 0.2", done.stderr)
+            self.assertIn("unpaired mode 1X", done.stderr)
+            self.assertFalse((self.folder / token).exists())
+
     def test_a_moderate_factor_is_a_warning(self):
         frequency, shapes = modes()
         done, manifest = self.run_step("s4_refinement", self.features(1.2 * frequency, shapes))

@@ -1,48 +1,71 @@
-"""The virtual campaign of the Ponte del Mare, all conditions diagnosed (TWINDECK_SLOW=1: some minutes), scored against what the campaign imposes.
+"""The diagnosis of the Ponte del Mare's virtual campaign, as `make score` leaves it, held against what the campaign imposes.
 
-Oracles: `truth/dampers.csv` of s0_campaign, which nothing but scorers reads: on the calm day no damper slides, on the windy day those of
-make C do. So a cause must sit at all dampers of make C, of the kinds that hold a damper (friction, or a mount). The bridge's stays of `vibrating_stays` in
-s0_campaign.toml swing, the model's do not: that must be named first, of these stays alone, and raise the modes explained.
+Oracles: s0_campaign.toml, which nothing but the simulation and scorers reads, says which stays vibrate, from what force on the dampers of each make slide and how
+stiff the mounts of make C are; `truth/dampers.csv` says that on the calm day no damper slides and on the windy day those of make C do. So stays as bars must
+be named, of stays that vibrate alone, with more modes explained; friction must be named at all dampers of make C, with both sizes inside their 90 % intervals
+and a gain on left-out modes whose interval lies above zero. Nothing about the size of errors is set in the study. The rules were settled while this
+campaign was looked at: it holds them where they are and is no rate.
 """
 import csv
 import json
-import os
 import pathlib
-import subprocess
 import tomllib
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "results"
+STEP = RESULTS / "ponte_del_mare_virtual/s9_diagnosis"
+UNITS = {"N": 1.0, "MN/m": 1e6}
 
 
-@unittest.skipUnless(os.environ.get("TWINDECK_SLOW"), "some minutes: set TWINDECK_SLOW=1")
+def quantity(text):
+    number, unit = text.split()
+    return float(number) * UNITS[unit]
+
+
+@unittest.skipUnless((STEP / "diagnosis.json").is_file(), "not run: make score")
 class VirtualDiagnosis(unittest.TestCase):
-    def test_what_holds_the_dampers_is_found(self):
-        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
-        done = subprocess.run(["make", "steps", "STUDY=ponte_del_mare_virtual"], cwd=ROOT, env=environment, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        out = RESULTS / "ponte_del_mare_virtual/s9_with_stays"
-        done = subprocess.run([ROOT / "build/bin/s9_diagnosis", "--study", "workflows/ponte_del_mare_virtual", "--results",
-                               "results/ponte_del_mare_virtual", "--out", out, "--set", "stays=auto"],
-                              cwd=ROOT, env=environment, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(RESULTS / "ponte_del_mare/s0_campaign/truth/dampers.csv", newline="") as stream:
+    @classmethod
+    def setUpClass(cls):
+        cls.told = json.loads((STEP / "diagnosis.json").read_text(encoding="utf-8"))
+        cls.imposed = tomllib.loads((ROOT / "workflows/ponte_del_mare/s0_campaign.toml").read_text(encoding="utf-8"))
+
+    def effect(self, cause):
+        found = [e for e in self.told["effects"] if e["cause"] == cause]
+        self.assertEqual(len(found), 1, f"{cause}: {[(e['cause'], e['location']) for e in self.told['effects']]}")
+        return found[0]
+
+    def test_two_causes_are_named_and_no_other(self):
+        self.assertEqual(self.told["verdict"], "named")
+        self.assertEqual([(e["cause"], e["location"], len(e["cluster"])) for e in self.told["effects"]],
+                         [("barstays", "global", 1), ("fric", "dampers:C1,C2,C3,C4", 1)])
+
+    def test_stays_that_vibrate_are_named_with_the_modes_that_they_explain(self):
+        forces = {p["name"] for p in self.effect("barstays")["parameters"] if p["name"].startswith("force_")}
+        self.assertTrue(forces and forces <= {f"force_{stay}_N" for stay in self.imposed["vibrating_stays"]}, forces)
+        self.assertGreater(self.told["gain"]["modes_explained_after"], self.told["gain"]["modes_explained_before"])
+
+    def test_sizes_of_friction_lie_in_their_intervals(self):
+        with open(RESULTS / "ponte_del_mare/s0_campaign/truth/dampers.csv", newline="", encoding="utf-8") as stream:
             sliding = {(r["condition"], r["damper"]): float(r["sliding_pct"]) for r in csv.DictReader(stream)}
         self.assertEqual(sliding["with_dampers", "C1"], 0.0)
         self.assertGreater(sliding["with_dampers_high", "C1"], 50.0)
-        told = json.loads((out / "diagnosis.json").read_text())
-        stays, dampers = told["effects"][:2]
-        self.assertEqual((stays["cause"], stays["location"]), ("barstays", "global"))
-        gain = told["gain"]
-        self.assertGreater(gain["modes_explained_after"], gain["modes_explained_before"])
-        campaign = tomllib.loads((ROOT / "workflows/ponte_del_mare/s0_campaign.toml").read_text())
-        swinging = {f"force_{stay}_N" for stay in campaign["vibrating_stays"]}
-        named = {p["name"] for p in stays["parameters"] if p["name"].startswith("force_")}
-        self.assertTrue(named and named <= swinging, f"{named} named, {swinging} swing")
-        self.assertEqual(dampers["location"], "dampers:C1,C2,C3,C4")
-        self.assertIn(dampers["cause"], ("fric", "dampk"))
-        print(told["verdict"], [(e["cause"], e["location"], e["parameters"]) for e in told["effects"]], told["gain"])
+        make = next(m for m in self.imposed["damper"] if m["type"] == "C")
+        sizes = {p["name"]: p for p in self.effect("fric")["parameters"]}
+        for name, truth in (("Fc_N", quantity(make["friction"])), ("k_lock_N_m", quantity(make["mount_stiffness"]))):
+            with self.subTest(name):
+                self.assertLessEqual(sizes[name]["low"], truth)
+                self.assertGreaterEqual(sizes[name]["high"], truth)
+                self.assertLess(sizes[name]["high"] / sizes[name]["low"], 30.0, "an interval as wide as the catalogue's range says nothing")
+
+    def test_left_out_modes_are_predicted_better(self):
+        gain = self.told["gain"]
+        self.assertGreater(gain["interval_pct"][0], 0.0)
+        self.assertGreater(gain["log_gain_interval"][0], 0.0)
+
+    def test_no_error_was_set_by_hand(self):
+        study = tomllib.loads((ROOT / "workflows/ponte_del_mare_virtual/s9_diagnosis.toml").read_text(encoding="utf-8"))
+        self.assertEqual(set(study.get("scatter", {})), {"damping_by_dampers"})
 
 
 if __name__ == "__main__":

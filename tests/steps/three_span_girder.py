@@ -90,11 +90,11 @@ def write_campaign(folder, seed, **truth):
     (folder / "conditions.toml").write_text("[as_found]\ntemperature_C = 14.0\n")
 
 
-def write_model(folder, bounds=(0.75, 1.3), shared_name=False):
-    """The owner's model: 28 beams, both piers alike. bounds: of the piers' factors; None: the piers are no parameters.
+def write_model(folder, bounds=(0.75, 1.3), shared_name=False, beams=28):
+    """The owner's model: 28 beams (a multiple of 7), both piers alike. bounds: of the piers' factors; None: the piers are no parameters.
     shared_name: the piers' rows in supports.csv bear the names of their springs."""
     folder.mkdir(parents=True)
-    at = np.linspace(0.0, LENGTH, 29)
+    at = np.linspace(0.0, LENGTH, beams + 1)
     table(folder / "nodes.csv", "node,x_m,y_m,z_m", [[i + 1, x, 0, 0] for i, x in enumerate(at)])
     table(folder / "materials.csv", "material,youngs_modulus_Pa,poisson_ratio,density_kg_m3", [["concrete", E, 0.2, DENSITY]])
     table(folder / "sections.csv", "section,area_m2,inertia_y_m4,inertia_z_m4,torsion_m4", [["girder", AREA, INERTIA, 2.0, 0.3]])
@@ -104,10 +104,10 @@ def write_model(folder, bounds=(0.75, 1.3), shared_name=False):
 
     table(folder / "elements.csv", "element,type,group,material,section,node1,node2,orientation_x,orientation_y,orientation_z",
           [[i + 1, "beam", span(0.5 * (a + b)), "concrete", "girder", i + 1, i + 2, 0, 0, 1] for i, (a, b) in enumerate(zip(at, at[1:]))])
-    pier_at = {round(x / 2.5): f"pier_{name}" for name, x in PIERS.items()}
-    held = {0: "abutment_W", 28: "abutment_E"} | (pier_at if shared_name else {})
+    pier_at = {round(x / LENGTH * beams): f"pier_{name}" for name, x in PIERS.items()}
+    held = {0: "abutment_W", beams: "abutment_E"} | (pier_at if shared_name else {})
     table(folder / "supports.csv", "support,node,x,y,z,rx,ry,rz",
-          [[held.get(i, "plane"), i + 1, 1, 1, int(i in (0, 28)), 1, 0, 1] for i in range(29)])
+          [[held.get(i, "plane"), i + 1, 1, 1, int(i in (0, beams)), 1, 0, 1] for i in range(beams + 1)])
     table(folder / "springs.csv", "spring,group,node,direction_x,direction_y,direction_z,quantity,stiffness_N_m",
           [[name, name, i + 1, 0, 0, 1, "translation", PIER] for i, name in pier_at.items()])
     parameters = [("E_concrete", "youngs_modulus", "concrete", "Pa", E, 0.9 * E, 1.1 * E)]

@@ -1,9 +1,5 @@
 /// Oracle: NAFEMS' plates and membrane of free vibration (sources in test_nafems_vibration.cpp) with every four-node shell cut
-/// into two triangles, and with every second one cut. CalculiX' published deck of triangles.
-#include <filesystem>
-
-#include "model_io/inp.hpp"
-#include "test_places.hpp"
+/// into two triangles, and with every second one cut.
 #include "verification_models.hpp"
 
 namespace twindeck::fe::verification {
@@ -80,16 +76,6 @@ TEST(NafemsTriangles, FV32CantileveredTaperedMembrane) {
     compare_triangles(fmt::format("NAFEMS FV32 tapered membrane ({})", mesh_words(each)), frequencies_Hz(model, 6), 1,
                       {44.623, 130.03, 162.70, 246.05, 379.90, 391.44}, 0.04);
   }
-}
-
-// 45 x 25 x 1 m in 10 x 6 rectangles of two triangles each, clamped on one side. The deck lies beside the repository. Two per
-// cent is what two shell elements differ by on so coarse a mesh; the higher modes differ by more.
-TEST(NafemsTriangles, CalculixDeckOfTriangles) {
-  const auto deck =
-      std::filesystem::path(TWINDECK_SOURCE_DIR).parent_path() / "shared/data/fe_decks/calculix/plate_tri_us3/freq_test.inp";
-  if (!std::filesystem::exists(deck)) GTEST_SKIP() << deck << " is not there";
-  compare_triangles("CalculiX deck of triangles", frequencies_Hz(model_io::read_inp(deck).model, 4), 1,
-                    {0.3971608, 1.575568, 2.516759, 5.304120}, 0.02);
 }
 
 }  // namespace

@@ -38,9 +38,11 @@ def draw(study: Study):
 
     n = len(bounds)
     columns = 3
-    figure = plt.figure(figsize=(8.2, 2.2 + 1.45 * -(-n // columns)))
+    height = 2.2 + 1.45 * -(-n // columns)
+    figure = plt.figure(figsize=(8.2, height))
+    bottom = max(0.08, 0.45 / height)  # room for the words under the axes of a low figure
     grid = figure.add_gridspec(1 + -(-n // columns), columns, height_ratios=[1.5] + [1] * -(-n // columns), hspace=0.55,
-                               wspace=0.3, left=0.09, right=0.98, top=0.95, bottom=0.08)
+                               wspace=0.3, left=0.09, right=0.98, top=0.95, bottom=bottom)
     cost = figure.add_subplot(grid[0, :])
     cost.plot(count, 1e3 * rows["cost"], color=ACCENT, marker="o", markersize=3.5, linewidth=1.2)
     cost.set_ylim(bottom=0.0)

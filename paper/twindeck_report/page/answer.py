@@ -4,12 +4,13 @@ import json
 from ..errors import InputError
 from ..manifests import sha256
 from ..study import Study
-from .diagnosis import VERDICTS
+from .diagnosis import verdict_in_words
 from .numbers import physical
 
 QUESTIONS = (("what", "What is wrong"), ("why", "Why"), ("how_sure", "How sure"), ("how_much_better", "How much better"), ("next", "What next"))
 SCORE = "score/score.json"
 MEASURED = {"published": "published measurements", "virtual": "its truth is known"}
+MOST_NAMED = 4  # parameters that fit into the sentence
 ANSWERS = {"named": "good", "in the set": "good", "missed": "bad"}
 
 
@@ -26,10 +27,26 @@ def _answer(study: Study) -> dict | None:
     if not isinstance(told.get("sentences"), dict):
         raise InputError(f"{path}: sentences: missing; it was written by an earlier version: run `make s9 STUDY={study.name}`")
     settings = study.read_toml(study.workflow / "study.toml")
-    tone, title, _ = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    tone, title, _ = verdict_in_words(told)
     return {"title": settings.get("title", study.name), "kind": _kind(study, settings), "verdict": told["verdict"],
             "tone": tone, "heading": title, "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS],
-            "score": _score(study, path)}
+            "updating": None if study.has_paper() else _updating(study), "score": _score(study, path)}
+
+
+def _updating(study: Study) -> str | None:
+    """What step 6 gained and what it changed for that, the largest changes first. None where it did not run."""
+    if "s6_updating" not in study.steps() or not (study.results / "s6_updating/summary.csv").is_file():
+        return None
+    summary = study.step_csv("s6_updating/summary.csv", ["quantity", "value"]).set_index("quantity")["value"]
+    if not {"pairs", "mean_abs_error_before_pct", "mean_abs_error_after_pct"} <= set(summary.index):
+        return None
+    changed = study.step_csv("s6_updating/parameters.csv", ["parameter", "change_pct", "bound"])
+    changed = changed.loc[changed["change_pct"].abs().sort_values(ascending=False, kind="stable").index].to_dict("records")
+    words = [f"{r['parameter']} {r['change_pct']:+.1f} %" + (f" (on its {r['bound']} bound)" if r["bound"] in ("lower", "upper") else "")
+             for r in changed[:MOST_NAMED]]
+    more = f" and {len(changed) - MOST_NAMED} more" if len(changed) > MOST_NAMED else ""
+    return (f"Mean error of {float(summary['pairs']):.0f} frequencies: {float(summary['mean_abs_error_before_pct']):.2f} % before, "
+            f"{float(summary['mean_abs_error_after_pct']):.2f} % after. Changed: {', '.join(words)}{more}.")
 
 
 def _kind(study: Study, settings: dict) -> str:

@@ -2,7 +2,7 @@
 import json
 
 from ..study import Study
-from .heatmap import heatmaps
+from .heatmap import NAMES, heatmaps
 from .numbers import physical, span
 from .places import places
 
@@ -15,19 +15,27 @@ VERDICTS = {
 }
 
 
+def verdict_in_words(told: dict) -> tuple:
+    """Tone, heading and meaning of a verdict."""
+    tone, title, meaning = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    if told["verdict"] == "named" and len(told["effects"]) > 1:
+        title = f"{len(told['effects'])} causes explain it together"
+    return tone, title, meaning
+
+
 def diagnosis_data(study: Study, settings: dict) -> dict | None:
     path = study.results / "s9_diagnosis" / "diagnosis.json"
     if "s9_diagnosis" not in study.steps() or not path.is_file():
         return None
     study.used.add(path)
     told = json.loads(path.read_text(encoding="utf-8"))
-    tone, title, meaning = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    tone, title, meaning = verdict_in_words(told)
     rows = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "residual_before", "residual_after"])
     beyond = {side: _beyond(rows, side) for side in ("before", "after")}
     tried = _tried(study)
     folder = "s6_updating/model" if "s6_updating" in study.steps() else None
     where = places(study, settings, folder, told.get("localisation", []))
-    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
+    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "beyond_held_out": _beyond(rows[rows["held_out"] == 1], "before"), "kind": _kind, "block": _block, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
             "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity, "size": _size, "physical": physical, "parameters": _parameters(told)}
 
@@ -35,6 +43,18 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
 def _parameters(told: dict) -> list:
     """The extended model's parameters in their own units, as the best admissible model has them and with the causes in it."""
     return [{"name": p["name"], "before": span(p["before"], p["unit"]), "after": span(p["after"], p["unit"])} for p in told.get("model_parameters", [])]
+
+
+def _kind(name: str) -> str:
+    """A kind of row, or of scatter, in words."""
+    words = {**NAMES, "workmanship": "Scatter from element to element"}
+    return words.get(name, name.replace("_", " "))
+
+
+def _block(name: str) -> str:
+    """A block of rows in words: "damping_ratio_pct in still_air"."""
+    kind, inside, condition = name.partition(" in ")
+    return (_kind(kind).lower() if kind in NAMES else kind) + inside + condition.replace("_", " ")
 
 
 def _sure(probability: float) -> str:
@@ -87,5 +107,5 @@ def _kinds(study: Study) -> list:
     if not (study.results / "s9_diagnosis/misfit.csv").is_file():
         return []
     table = study.step_csv("s9_diagnosis/misfit.csv", ["by", "name", "rows", "mean_square_before", "mean_square_after"])
-    return [{"name": str(r["name"]).replace("_", " "), "rows": int(r["rows"]), "before": r["mean_square_before"]**0.5,
+    return [{"name": _kind(str(r["name"])), "rows": int(r["rows"]), "before": r["mean_square_before"]**0.5,
              "after": r["mean_square_after"]**0.5} for r in table[table["by"] == "type"].to_dict("records")]

@@ -70,7 +70,7 @@ class _Finder:
         return {"spots": spots, "nodes": nodes}
 
     def _attached(self, name: str) -> list:
-        """Middle of the supports or springs that bear this name, or whose group does."""
+        """Where the supports or springs are that bear this name, or whose group does, each place once."""
         found = []
         for file, key, node in (("supports.csv", "support", "node"), ("springs.csv", "spring", "node2")):
             if self.folder and (self.study.results / self.folder / file).is_file():
@@ -78,5 +78,5 @@ class _Finder:
                 for row in table.to_dict("records"):
                     if name in (str(row[key]), str(row.get("group"))):
                         at = row.get(node) if row.get(node) == row.get(node) else row["node"]
-                        found += [self.nodes[k] for k in (str(at).removesuffix(".0"),) if k in self.nodes]
-        return [np.mean(found, axis=0).tolist()] if found else []
+                        found += [self.nodes[k] for k in (str(at).removesuffix(".0"),) if k in self.nodes and self.nodes[k] not in found]
+        return found

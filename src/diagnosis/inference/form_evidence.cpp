@@ -135,7 +135,7 @@ Quadratic FormEvidence::quadratic(double log_determinant, const MatrixXd& here, 
   return out;
 }
 
-AtScales FormEvidence::at(const ScalePoint& point) const {
+AtScales FormEvidence::at(const ScalePoint& point, int contrast) const {
   const Eliminated& e = eliminated_[static_cast<std::size_t>(point.shape)];
   const Index m = fixed_ + scatter_ + frequency_ + shape_;
   VectorXd d(m);
@@ -150,13 +150,13 @@ AtScales FormEvidence::at(const ScalePoint& point) const {
   out.without = quadratic(log_determinant, here, {}, e.removed, every_);
   for (std::size_t c = 0; c < change_first_.size(); ++c) {
     const Index first = change_first_[c], count = change_count_[c];
+    if (out.change.emplace_back(); contrast != kAll && contrast != static_cast<int>(c)) continue;
     std::vector<int> asked = {0};
     for (const int s : asked_[c]) asked.push_back(1 + s);
     const MatrixXd coupling = linalg::lower_solve(lower, d.asDiagonal() * e.gram.block(0, first, m, count));
     const MatrixXd own = e.gram.block(first, first, count, count) - linalg::product(coupling, coupling, true);
     const MatrixXd here_asked = here(Eigen::all, asked), right = e.right.middleRows(first, count)(Eigen::all, asked);
     const MatrixXd own_right = right - linalg::product(coupling, here_asked, true);
-    out.change.emplace_back();
     for (const double kappa : grid_.change) {
       MatrixXd small = kappa * kappa * own;
       small.diagonal().array() += 1.0;

@@ -48,7 +48,9 @@ struct AtScales {
 class FormEvidence {
  public:
   FormEvidence(const FormSystem& system, const ScaleGrid& grid);
-  [[nodiscard]] AtScales at(const ScalePoint& point) const;
+  /// @param contrast  the one whose kappas are computed, the others stay empty; kAll or kNone
+  [[nodiscard]] AtScales at(const ScalePoint& point, int contrast = kAll) const;
+  static constexpr int kNone = -1, kAll = -2;
   [[nodiscard]] const ScaleGrid& grid() const { return grid_; }
 
  private:

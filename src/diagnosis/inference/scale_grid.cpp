@@ -34,8 +34,8 @@ ScaleGrid scale_grid() {
   ScaleGrid grid;
   grid.frequency.resize(6);
   grid.frequency << 0.0005, 0.002, 0.005, 0.012, 0.03, 0.08;
-  grid.shape.resize(4);
-  grid.shape << 0.002, 0.008, 0.03, 0.1;
+  grid.shape.resize(5);
+  grid.shape << 0.002, 0.008, 0.03, 0.1, 0.3;
   grid.change.resize(6);
   grid.change << 0.0005, 0.002, 0.007, 0.025, 0.08, 0.2;
   const Eigen::VectorXd f = half_t_weights(grid.frequency, kFormScale), s = half_t_weights(grid.shape, kFormScale);

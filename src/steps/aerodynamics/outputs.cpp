@@ -24,22 +24,22 @@ std::string word(aero::StaticRule rule) {
   return "";
 }
 
-std::string status_of(const CriticalRow& row, double max_speed_m_s) {
+std::string status_of(const aero::CriticalRow& row, double max_speed_m_s) {
   const std::string found = row.point ? "unstable" : "stable up to " + io::format_number(max_speed_m_s) + " m/s";
   return row.lost.empty() ? found : found + "; " + row.lost;
 }
 
 }  // namespace
 
-void write_critical(const std::vector<CriticalRow>& rows, double max_speed_m_s, const std::filesystem::path& file) {
+void write_critical(const std::vector<aero::CriticalRow>& rows, double max_speed_m_s, const std::filesystem::path& file) {
   std::map<std::string, double> speed_of_A;
-  for (const CriticalRow& row : rows) {
+  for (const aero::CriticalRow& row : rows) {
     if (row.model == "A" && !row.dampers && row.point) speed_of_A.emplace(row.set, row.point->speed_m_s);
   }
   io::CsvWriter csv({"set", "model", "group", "description", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz",
                      "ratio_to_A", "f_cr_over_f1", "deck", "theta_rms_deg", "deck_share", "exponent", "V_cr_single_mode_m_s",
                      "V_den_hartog_m_s", "V_divergence_m_s", "status"});
-  for (const CriticalRow& row : rows) {
+  for (const aero::CriticalRow& row : rows) {
     using Number = std::optional<double>;
     const auto a = speed_of_A.find(row.set);
     const bool found = row.point.has_value();
@@ -55,10 +55,10 @@ void write_critical(const std::vector<CriticalRow>& rows, double max_speed_m_s, 
   csv.save(file);
 }
 
-void write_damping(const std::vector<DampingCurves>& curves, const std::filesystem::path& file) {
+void write_damping(const std::vector<aero::DampingCurves>& curves, const std::filesystem::path& file) {
   io::CsvWriter csv(
       {"set", "model", "dampers", "structural_damping_pct", "mode", "V_m_s", "frequency_Hz", "damping_ratio_pct"});
-  for (const DampingCurves& curve : curves) {
+  for (const aero::DampingCurves& curve : curves) {
     for (const aero::Branch& branch : curve.branches) {
       for (std::size_t i = 0; i < branch.points.size(); ++i) {
         csv.row({curve.set, curve.model, on_off(curve.dampers), 100.0 * curve.structural_damping, branch.mode,
@@ -82,11 +82,11 @@ void write_nodes(const std::vector<aero::Strip>& strips, const std::vector<aero:
   csv.save(file);
 }
 
-void write_static(const std::vector<StaticResponse>& responses, const std::vector<aero::Strip>& strips,
+void write_static(const std::vector<aero::StaticResponse>& responses, const std::vector<aero::Strip>& strips,
                   const std::filesystem::path& file) {
   io::CsvWriter csv({"set", "model", "deck", "node", "station_m", "yaw_deg", "drag_N", "lift_N", "moment_N_m", "x_m", "y_m",
                      "z_m", "rotation_deg"});
-  for (const StaticResponse& response : responses) {
+  for (const aero::StaticResponse& response : responses) {
     std::map<std::string, int> number;
     for (std::size_t i = 0; i < strips.size(); ++i) {
       const Eigen::Vector3d &f = response.force[i], &u = response.displacement[i];

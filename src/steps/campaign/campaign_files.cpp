@@ -15,20 +15,22 @@ using Eigen::Index;
 namespace {
 
 /// Setups that records of the decks use, in the order of the layout.
-std::vector<std::string> used_setups(const CampaignSettings& settings, const std::vector<LayoutChannel>& layout) {
+std::vector<std::string> used_setups(const virtual_bridge::CampaignSettings& settings,
+                                     const std::vector<sensors::LayoutChannel>& layout) {
   std::vector<std::string> used;
-  for (const std::string& name : setup_names(layout)) {
-    if (std::any_of(settings.records.begin(), settings.records.end(), [&](const RecordSettings& r) { return r.setup == name; }))
+  for (const std::string& name : sensors::setup_names(layout)) {
+    if (std::any_of(settings.records.begin(), settings.records.end(),
+                    [&](const virtual_bridge::RecordSettings& r) { return r.setup == name; }))
       used.push_back(name);
   }
   return used;
 }
 
 /// Channels that more than one setup has: those stay at their place while the others move.
-std::set<std::string> references(const std::vector<LayoutChannel>& layout, const std::vector<std::string>& used) {
+std::set<std::string> references(const std::vector<sensors::LayoutChannel>& layout, const std::vector<std::string>& used) {
   std::map<std::string, int> count;
   for (const std::string& setup : used) {
-    for (const LayoutChannel& channel : channels_of(layout, setup)) ++count[channel.channel];
+    for (const sensors::LayoutChannel& channel : sensors::channels_of(layout, setup)) ++count[channel.channel];
   }
   int most = 1;
   for (const auto& [name, times] : count) most = std::max(most, times);
@@ -39,8 +41,8 @@ std::set<std::string> references(const std::vector<LayoutChannel>& layout, const
   return out;
 }
 
-void write_channels(const CampaignSettings& settings, const std::vector<LayoutChannel>& layout,
-                    const std::vector<StayRecord>& stays, const fs::path& file) {
+void write_channels(const virtual_bridge::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
+                    const std::vector<virtual_bridge::StayRecord>& stays, const fs::path& file) {
   io::CsvWriter csv(
       {"channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"});
   const std::vector<std::string> used = used_setups(settings, layout);
@@ -52,7 +54,7 @@ void write_channels(const CampaignSettings& settings, const std::vector<LayoutCh
              "response"});
   };
   for (const std::string& setup : used) {
-    for (const LayoutChannel& c : channels_of(layout, setup)) row(c.channel, c.point, c.x_m, c.cosines);
+    for (const sensors::LayoutChannel& c : sensors::channels_of(layout, setup)) row(c.channel, c.point, c.x_m, c.cosines);
   }
   for (std::size_t i = 0; i < stays.size(); ++i)
     row(settings.stays[i].stay, settings.stays[i].stay, stays[i].x_m, stays[i].direction);
@@ -67,7 +69,8 @@ std::string quoted(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<RecordFile> record_files(const CampaignSettings& settings, const std::vector<LayoutChannel>& layout) {
+std::vector<RecordFile> record_files(const virtual_bridge::CampaignSettings& settings,
+                                     const std::vector<sensors::LayoutChannel>& layout) {
   std::vector<RecordFile> files;
   std::map<std::string, int> count;
   const auto add = [&](const std::string& setup, const std::string& kind, const std::string& condition,
@@ -75,18 +78,18 @@ std::vector<RecordFile> record_files(const CampaignSettings& settings, const std
     const std::string stem = fmt::format("records/{}/{}_{}", setup, condition, kind);
     files.push_back({setup, kind, condition, fmt::format("{}_{}.npy", stem, ++count[stem]), std::move(channels)});
   };
-  for (const RecordSettings& record : settings.records) {
+  for (const virtual_bridge::RecordSettings& record : settings.records) {
     (void)settings.condition(record.condition);
     std::vector<std::string> names;
-    for (const LayoutChannel& channel : channels_of(layout, record.setup)) names.push_back(channel.channel);
+    for (const sensors::LayoutChannel& channel : sensors::channels_of(layout, record.setup)) names.push_back(channel.channel);
     add(record.setup, record.kind, record.condition, names);
   }
-  for (const StayTest& test : settings.stays) add(test.stay, "stay", test.condition, {test.stay});
+  for (const virtual_bridge::StayTest& test : settings.stays) add(test.stay, "stay", test.condition, {test.stay});
   return files;
 }
 
-void write_campaign_files(const CampaignSettings& settings, const std::vector<LayoutChannel>& layout,
-                          const std::vector<StayRecord>& stays, const std::vector<RecordFile>& files,
+void write_campaign_files(const virtual_bridge::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
+                          const std::vector<virtual_bridge::StayRecord>& stays, const std::vector<RecordFile>& files,
                           const std::map<std::string, Amplitude>& amplitudes, const fs::path& folder) {
   write_channels(settings, layout, stays, folder / "channels.csv");
 
@@ -100,7 +103,7 @@ void write_campaign_files(const CampaignSettings& settings, const std::vector<La
   io::write_file_atomically(folder / "campaign.toml", campaign);
 
   std::string conditions;
-  for (const ConditionSettings& c : settings.conditions) {
+  for (const virtual_bridge::ConditionSettings& c : settings.conditions) {
     conditions += fmt::format("{}[{}]\ndampers = \"{}\"\n", conditions.empty() ? "" : "\n", c.name, c.dampers ? "on" : "off");
     if (const auto amplitude = amplitudes.find(c.name); amplitude != amplitudes.end()) {
       conditions += fmt::format("amplitude_m = {}\namplitude_channel = \"{}\"\n", io::format_number(amplitude->second.rms_m),
@@ -110,7 +113,7 @@ void write_campaign_files(const CampaignSettings& settings, const std::vector<La
                               io::format_number(c.wind_m_s), c.people);
   }
   std::set<std::string> of_stays;
-  for (const StayTest& test : settings.stays) {
+  for (const virtual_bridge::StayTest& test : settings.stays) {
     const bool known = std::any_of(settings.conditions.begin(), settings.conditions.end(),
                                    [&](const auto& c) { return c.name == test.condition; });
     if (!known && of_stays.insert(test.condition).second) conditions += fmt::format("\n[{}]\n", test.condition);
@@ -124,15 +127,16 @@ TruthTables::TruthTables()
       shapes_({"condition", "mode", "channel", "value", "value_imag"}),
       dampers_({"condition", "damper", "rms_force_N", "sliding_pct", "equivalent_slip_m_per_N_s"}) {}
 
-void TruthTables::add(const std::string& condition, const CampaignSettings& settings, const ConditionModel& model,
-                      const TrueModes& modes, const std::vector<LayoutChannel>& layout, const Eigen::MatrixXd& damper_force_N) {
+void TruthTables::add(const std::string& condition, const virtual_bridge::CampaignSettings& settings,
+                      const virtual_bridge::ConditionModel& model, const virtual_bridge::TrueModes& modes,
+                      const std::vector<sensors::LayoutChannel>& layout, const Eigen::MatrixXd& damper_force_N) {
   for (Index i = 0; i < modes.frequency_Hz.size(); ++i) {
     modes_.row({condition, modes.name[static_cast<std::size_t>(i)], modes.frequency_Hz[i], 100.0 * modes.damping_ratio[i],
                 modes.stay_share[i]});
   }
   std::set<std::string> seen;
   for (const std::string& setup : used_setups(settings, layout)) {
-    const auto channels = channels_of(layout, setup);
+    const auto channels = sensors::channels_of(layout, setup);
     const Eigen::MatrixXd at = at_channels(*model.state, model.basis.vectors, channels);
     const Eigen::VectorXd share = participation(model, modes, at);
     for (Index i = 0; i < share.size(); ++i) participation_.row({condition, setup, modes.frequency_Hz[i], share[i]});
@@ -155,7 +159,8 @@ void TruthTables::add(const std::string& condition, const CampaignSettings& sett
   }
 }
 
-void TruthTables::save(const CampaignSettings& settings, const std::vector<StayRecord>& stays, const fs::path& folder) const {
+void TruthTables::save(const virtual_bridge::CampaignSettings& settings, const std::vector<virtual_bridge::StayRecord>& stays,
+                       const fs::path& folder) const {
   fs::create_directories(folder);
   modes_.save(folder / "modes.csv");
   participation_.save(folder / "participation.csv");
@@ -164,7 +169,7 @@ void TruthTables::save(const CampaignSettings& settings, const std::vector<StayR
   io::CsvWriter csv({"condition", "stay", "length_m", "f1_Hz", "f2_Hz", "f3_Hz", "f4_Hz", "f5_Hz", "damping_ratio_pct",
                      "pull_per_mass_m2_s2", "lambda_squared"});
   for (std::size_t i = 0; i < stays.size(); ++i) {
-    const StayTruth& t = stays[i].truth;
+    const virtual_bridge::StayTruth& t = stays[i].truth;
     const auto f = [&](Index k) { return t.frequency_Hz[k]; };
     const std::optional<double> none;
     csv.row({settings.stays[i].condition, settings.stays[i].stay, t.length_m, f(0), f(1), f(2), f(3), f(4),

@@ -171,7 +171,26 @@ class Reader {
     }
     if (u.name.empty() || !low || !high)
       fail(entries.empty() ? 0 : entries.front().line, "parameter", "lacks name, low or high", "");
+    check_bounds(u);
     h_.unknowns.push_back(u);
+  }
+  void check_name(const Expression& e, const std::string& key) const {
+    if (e.name.empty() || e.name == "f_measured" || diagnosis::is_place_number(e.name)) return;
+    fail(e.line, key, fmt::format("'{}' is no number of a place{}", e.name, did_you_mean(e.name, diagnosis::place_numbers())),
+         fmt::format("use a number, or one of {}", fmt::join(diagnosis::place_numbers(), ", ")));
+  }
+  /// What of the bounds the file alone shows; their values where a place gives them are checked there.
+  void check_bounds(const diagnosis::UnknownSpec& u) const {
+    check_name(u.low, "low");
+    check_name(u.high, "high");
+    for (const Expression& e : u.start) check_name(e, "start");
+    const bool comparable = u.low.name == u.high.name && !u.low.name.starts_with("x_");  // a coordinate may be negative
+    if (comparable && !(u.low.factor < u.high.factor))
+      fail(u.low.line, u.name + ".low", fmt::format("{:g} is not below high, {:g}", u.low.factor, u.high.factor),
+           "exchange them, or correct one");
+    if (u.log && !(u.low.factor > 0.0) && !u.low.name.starts_with("x_"))
+      fail(u.low.line, u.name + ".low", fmt::format("{:g} has no logarithm", u.low.factor),
+           "give a value above 0, or scale = \"lin\"");
   }
   bool is_log(const io::TomlEntry& entry) const {
     const std::string scale = text(entry);
@@ -218,6 +237,7 @@ class Reader {
       if (value.name.starts_with('$') &&
           std::none_of(h_.unknowns.begin(), h_.unknowns.end(), [&](const auto& u) { return "$" + u.name == value.name; }))
         fail(value.line, "action." + name, fmt::format("names '{}', which is no [[parameter]]", value.name), "");
+      if (!value.name.starts_with('$')) check_name(value, "action." + name);
     }
   }
   /// One of the keys of a condition. @param key  of the catalogue that names it

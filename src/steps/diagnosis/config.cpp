@@ -29,8 +29,8 @@ io::FieldTable DiagnosisConfig::fields() {
               "nats of the best, as weighed before, within which they are")
       .integer("most_causes", most_causes, {0, 8}, "causes put into the model one after another")
       .integer("modes", modes, {4, 200}, "modes in the reduced basis")
-      .integer("zones", zones, {2, 200}, "zones that the elements are gathered in")
-      .integer("nodes", nodes, {2, 200}, "nodes at which masses, oscillators and ties are looked for")
+      .integer("zones", zones, {2, 10000}, "zones that the elements are gathered in")
+      .integer("nodes", nodes, {2, 10000}, "nodes at which masses, oscillators and ties are looked for")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
       .choice("form", form, {"auto", "on", "off"},

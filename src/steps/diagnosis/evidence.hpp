@@ -6,7 +6,7 @@
 
 #include "diagnosis/features.hpp"
 #include "diagnosis/structure.hpp"
-#include "steps/measured/measured.hpp"
+#include "steps/measured/measured_input.hpp"
 
 /// Evidence that is no row: what others publish about their own updating and validation. It goes into the account of what is
 /// wrong, never into odds.

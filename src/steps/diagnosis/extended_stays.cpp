@@ -69,7 +69,7 @@ BarStaysEffect::BarStaysEffect(std::vector<diagnosis::FoundStay> stays, double l
   effect_.cluster = {candidate_->id()};
   effect_.log_odds = log_odds;
   effect_.probability = 1.0 / (1.0 + std::exp(-log_odds));
-  effect_.sentence = sentence(stays_, before, after);
+  effect_.sentence = hypothesis_->sentence = sentence(stays_, before, after);
   effect_.remedy = "Model these stays in several elements, as the extended model does, and measure their frequencies.";
   effect_.parameters = {count(kMeasured, after.measured), count(kBefore, before.explained), count(kAfter, after.explained)};
   for (const diagnosis::FoundStay& stay : stays_)

@@ -16,7 +16,7 @@ struct ModesExplained {
 [[nodiscard]] ModesExplained modes_explained(const diagnosis::ReducedModel& model, const diagnosis::FeatureSet& features,
                                              const diagnosis::ScatterOptions& scatter, const diagnosis::ExplanationRule& rule);
 
-/// Cause `barstays` at `global` as an effect beside those of the catalogue. The model that is diagnosed holds it already.
+/// Cause `barstays` at `global` as an effect beside those of the catalogue. The extended model holds it.
 class BarStaysEffect {
  public:
   BarStaysEffect(std::vector<diagnosis::FoundStay> stays, double log_odds, const ModesExplained& before,
@@ -26,7 +26,6 @@ class BarStaysEffect {
   void put_first(diagnosis::Diagnosis& result) const;
   /// Takes out the entries that let one of these stays swing once more.
   void take_out_entries(diagnosis::Instantiated& entries) const;
-  [[nodiscard]] std::size_t stays() const { return stays_.size(); }
 
  private:
   std::vector<diagnosis::FoundStay> stays_;

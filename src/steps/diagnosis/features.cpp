@@ -8,8 +8,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "model_io/load_cases.hpp"
-#include "steps/measured/feature_rows.hpp"
-#include "steps/measured/measured_tables.hpp"
+#include "steps/measured/measured_input.hpp"
 
 namespace twindeck::steps {
 

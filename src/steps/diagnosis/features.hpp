@@ -4,14 +4,14 @@
 
 #include "diagnosis/features.hpp"
 #include "diagnosis/structure.hpp"
-#include "steps/measured/measured_choice.hpp"
+#include "steps/measured/measured_input.hpp"
 
 namespace twindeck::steps {
 
 /// All rows of a features folder (docs/my_records.md) with their conditions and channels, quality.csv and covariance.npy where
 /// they are there.
 /// @param choice  which conditions are kept, with their rows; what is put right in them first
-/// @throws InputError  with file, line, column: see steps/measured/feature_rows.hpp, measured_tables.hpp and corrections.hpp
+/// @throws InputError  with file, line, column: see records/feature_rows.hpp, measured_tables.hpp and corrections.hpp
 [[nodiscard]] diagnosis::FeatureSet read_all_features(const std::filesystem::path& folder, const MeasuredChoice& choice = {});
 
 /// @param model  null for a matrix model, which has no stays @param folder  of the features

@@ -42,6 +42,27 @@ std::vector<diagnosis::Gauge> gauges_of(const DiagnosedModel& model, const diagn
   return gauges;
 }
 
+/// Whether nothing at a node, held, sprung or linked, could be moved with the ground.
+bool stands_on_nothing(const fe::Model& model, const std::string& id) {
+  const auto is_it = [&](int node) {
+    return node >= 0 && std::to_string(model.nodes[static_cast<std::size_t>(node)].id) == id;
+  };
+  return std::none_of(model.supports.begin(), model.supports.end(), [&](const fe::Support& s) { return is_it(s.node); }) &&
+         std::none_of(model.springs.begin(), model.springs.end(),
+                      [&](const fe::Spring& s) { return is_it(s.node) || is_it(s.node2); }) &&
+         std::none_of(model.links.begin(), model.links.end(),
+                      [&](const fe::RigidLink& l) { return is_it(l.slave) || is_it(l.master); }) &&
+         std::none_of(model.constraints.begin(), model.constraints.end(),
+                      [&](const fe::Constraint& c) { return is_it(c.node); });
+}
+
+bool has_node(const ReadModel& model, const std::string& id) {
+  if (const fe::Model* fe = model.fe_model(); fe != nullptr)
+    return std::any_of(fe->nodes.begin(), fe->nodes.end(), [&](const fe::Node& n) { return std::to_string(n.id) == id; });
+  const auto& dofs = model.matrices.dofs;
+  return std::any_of(dofs.begin(), dofs.end(), [&](const auto& dof) { return dof.node == id; });
+}
+
 /// A row that no load could change says that its channel was mistaken.
 void refuse_blind_channels(const diagnosis::LoadTests& tests, const diagnosis::FeatureSet& features,
                            const std::filesystem::path& channels_file) {
@@ -60,18 +81,72 @@ void refuse_blind_channels(const diagnosis::LoadTests& tests, const diagnosis::F
   }
 }
 
+/// Names of the supports as step 9 will have them: those of supports.csv, and springs to the ground.
+std::vector<std::string> support_names(const fe::Model& model) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const fe::Support& s : model.supports)
+    add(s.name.empty() ? fmt::format("node_{}", model.nodes[static_cast<std::size_t>(s.node)].id) : s.name);
+  for (const fe::Spring& s : model.springs)
+    if (s.node2 < 0) add(s.group.empty() ? s.name : s.group);
+  return names;
+}
+
+/// Load cases and channels of the rows of load tests.
+struct InUse {
+  std::set<std::string> cases;
+  std::set<int> channels;
+};
+
+InUse in_use(const diagnosis::FeatureSet& features) {
+  InUse used;
+  for (const Row& row : features.rows) {
+    if (!is_static(row.type)) continue;
+    used.cases.insert(features.conditions[static_cast<std::size_t>(row.condition)].load);
+    used.channels.insert(row.channel);
+  }
+  return used;
+}
+
 }  // namespace
+
+void refuse_unplaced_load_tests(const diagnosis::FeatureSet& features, const std::vector<Channel>& channels,
+                                const ReadModel& model, const LoadTestFiles& files) {
+  const InUse used = in_use(features);
+  if (used.cases.empty()) return;
+  const fe::Model* fe = model.fe_model();
+  for (const diagnosis::NodalLoad& load : loads_in_use(files.model, used.cases)) {
+    const Place at{(files.model / "loads.csv").string(), load.line, "node"};
+    if (!has_node(model, load.node)) throw diagnosis::no_such_node(at, load.node);
+    if (load.ground && fe != nullptr && stands_on_nothing(*fe, load.node))
+      throw diagnosis::no_support_to_move(at, load.node, load.direction);
+  }
+  if (fe == nullptr) return;
+  for (const int c : used.channels) {
+    const auto channel = std::find_if(channels.begin(), channels.end(), [&](const Channel& each) {
+      return each.name == features.channels[static_cast<std::size_t>(c)];
+    });
+    if (channel == channels.end()) continue;
+    const auto is_it = [&](const fe::Element& e) {
+      return e.name == channel->element || std::to_string(e.id) == channel->element;
+    };
+    if (!channel->element.empty() && std::none_of(fe->elements.begin(), fe->elements.end(), is_it))
+      throw diagnosis::no_such_element({files.channels.string(), channel->line, "element"}, channel->element);
+    const std::vector<std::string> known = support_names(*fe);
+    const auto is_support = [&](const std::string& name) {
+      return name == channel->support || name + " fixed" == channel->support;  // where springs have the name of a support
+    };
+    if (!channel->support.empty() && std::none_of(known.begin(), known.end(), is_support))
+      throw diagnosis::no_such_support({files.channels.string(), channel->line, "support"}, channel->support, known);
+  }
+}
 
 diagnosis::LoadTests load_tests_in_use(const DiagnosedModel& model, const diagnosis::Structure& structure,
                                        const diagnosis::Places& places, const diagnosis::FeatureSet& features,
                                        const LoadTestFiles& files) {
-  std::set<std::string> cases;
-  std::set<int> channels;
-  for (const Row& row : features.rows) {
-    if (!is_static(row.type)) continue;
-    cases.insert(features.conditions[static_cast<std::size_t>(row.condition)].load);
-    channels.insert(row.channel);
-  }
+  const auto& [cases, channels] = in_use(features);
   if (cases.empty()) return {};
   const diagnosis::LoadTests tests =
       diagnosis::load_tests_of(structure, places, loads_in_use(files.model, cases), gauges_of(model, structure, channels),

@@ -23,4 +23,9 @@ struct LoadTestFiles {
                                                      const diagnosis::Places& places, const diagnosis::FeatureSet& features,
                                                      const LoadTestFiles& files);
 
+/// What of these the files alone show, before anything is solved: loads and gauges at nodes, supports and elements that the
+/// model does not have. @throws InputError  as above
+void refuse_unplaced_load_tests(const diagnosis::FeatureSet& features, const std::vector<Channel>& channels,
+                                const ReadModel& model, const LoadTestFiles& files);
+
 }  // namespace twindeck::steps

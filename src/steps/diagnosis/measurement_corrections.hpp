@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
-#include "steps/measured/corrections.hpp"
+#include "steps/measured/measured_input.hpp"
 
 /// What the diagnosis found wrong with single channels, as corrections that the steps can make (`--correct FILE`).
 namespace twindeck::steps {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "steps/measured/measured_shapes.hpp"
+#include "matching/shapes_at_sensors.hpp"
 
 namespace twindeck::steps {
 

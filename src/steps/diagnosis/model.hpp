@@ -8,7 +8,7 @@
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/features.hpp"
 #include "diagnosis/structure.hpp"
-#include "steps/measured/measured.hpp"
+#include "steps/measured/measured_input.hpp"
 #include "steps/shared/model_source.hpp"
 
 namespace twindeck::steps {

@@ -8,7 +8,7 @@
 #include "diagnosis/model_parameters.hpp"
 #include "steps/diagnosis/evidence.hpp"
 #include "steps/diagnosis/sentences.hpp"
-#include "steps/measured/corrections.hpp"
+#include "steps/measured/measured_input.hpp"
 
 namespace twindeck::steps {
 

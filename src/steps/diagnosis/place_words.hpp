@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "diagnosis/structure.hpp"
-#include "steps/measured/measured.hpp"
+#include "steps/measured/measured_input.hpp"
 
 /// Locations of the diagnosis ("node:725", "support:pier_W", "group:E_s") in the words of somebody who stands before the
 /// structure.

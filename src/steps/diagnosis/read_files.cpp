@@ -9,13 +9,13 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "matching/mode_name.hpp"
+#include "matching/shapes_at_sensors.hpp"
 #include "steps/diagnosis/catalogue.hpp"
 #include "steps/diagnosis/features.hpp"
+#include "steps/diagnosis/load_tests.hpp"
 #include "steps/diagnosis/model.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
-#include "steps/measured/measured_choice.hpp"
-#include "steps/measured/measured_shapes.hpp"
-#include "steps/measured/measured_tables.hpp"
+#include "steps/measured/measured_input.hpp"
 #include "steps/shared/shipped_files.hpp"
 #include "steps/shared/study.hpp"
 
@@ -101,6 +101,7 @@ ReadModel read_diagnosed_model(StepContext& context) {
 /// Names in one file or the configuration that another file must have.
 void refuse_unknown_names(const DiagnosisConfig& config, const DiagnosisFiles& files) {
   refuse_unknown_loads(files.folder, files.model.source);
+  refuse_unplaced_load_tests(files.features, files.channels, files.model, {files.model.source, files.folder / "channels.csv"});
   refuse_unknown_stays(files.features, files.model.fe_model(), files.folder);
   refuse_unplaced_channels(channels_at_points(files.channels), files.model, config.sensor_tolerance_m);
   // How many modes the basis has is known once the model is reduced.

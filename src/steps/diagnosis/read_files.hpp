@@ -8,8 +8,7 @@
 #include "diagnosis/structure.hpp"
 #include "steps/diagnosis/config.hpp"
 #include "steps/diagnosis/evidence.hpp"
-#include "steps/measured/corrections.hpp"
-#include "steps/measured/measured.hpp"
+#include "steps/measured/measured_input.hpp"
 #include "steps/shared/model_source.hpp"
 
 namespace twindeck::steps {

@@ -55,10 +55,10 @@ void choose_rows(const DiagnosisConfig& config, diagnosis::FeatureSet& features)
   keep(features, kept);
 }
 
-std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const diagnosis::ReducedModel& model,
-                                          std::size_t swinging, diagnosis::FeatureSet& features) {
-  if (!(config.least_mac > 0.0)) return std::nullopt;
-  const diagnosis::FeatureMap map(model, features, config.scatter);
+std::optional<Finding> leave_out_unpaired(double least_mac, const diagnosis::ScatterOptions& scatter,
+                                          const diagnosis::ReducedModel& model, diagnosis::FeatureSet& features) {
+  if (!(least_mac > 0.0)) return std::nullopt;
+  const diagnosis::FeatureMap map(model, features, scatter);
   const auto base = map.base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(map.nuisances().size())));
   const diagnosis::Prediction prediction = map.predict(base, {}, false);
   std::set<std::pair<int, std::string>> unpaired;
@@ -66,7 +66,7 @@ std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const d
   const auto stays = model.sets.find("stays");
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
-    const bool other = prediction.paired[m] < 0 || prediction.mac[m] < config.least_mac;
+    const bool other = prediction.paired[m] < 0 || prediction.mac[m] < least_mac;
     if (mode.real_rows.size() < 2 || !other) continue;
     unpaired.insert({mode.condition, mode.label});
     std::string name = fmt::format("{} of {} ({:.3f} Hz", mode.label,
@@ -85,15 +85,12 @@ std::optional<Finding> leave_out_unpaired(const DiagnosisConfig& config, const d
       kept.push_back(static_cast<Eigen::Index>(r));
   if (unpaired.empty()) return std::nullopt;
   if (kept.empty())
-    throw InputError({"", 0, "least_mac"}, fmt::format("no measured mode has a MAC of {} with the model's", config.least_mac),
-                     "");
+    throw InputError({"", 0, "least_mac"}, fmt::format("no measured mode has a MAC of {} with the model's", least_mac), "");
   keep(features, kept);
   found.text = fmt::format("{} of {} measured modes are like no mode of the model (MAC below {}) and are left out: {}",
-                           unpaired.size(), map.measured_modes().size(), config.least_mac, fmt::join(found.names, "; "));
+                           unpaired.size(), map.measured_modes().size(), least_mac, fmt::join(found.names, "; "));
   if (stays != model.sets.end() && !stays->second.empty())
-    found.text += swinging > 0
-                      ? fmt::format(". Stays whose own frequency this is are named; {} of the model's stays vibrate", swinging)
-                      : ". Stays whose own frequency this is are named; the model's stays do not vibrate";
+    found.text += ". Stays whose own frequency this is are named; the model's stays do not vibrate";
   return found;
 }
 

@@ -66,7 +66,7 @@ void write_tables(const diagnosis::Inference& inference, const DiagnosisInputs& 
   write_pairs(inference, result, out / "pairs.csv");
   write_misfit(inference, result, out / "misfit.csv");
   write_unknowns(inference, result, out / "parameters.csv");
-  write_extended_model(*inputs.model, inputs.places, result, out / "extended_model");
+  write_extended_model(*inputs.extended, inputs.places, result, out / "extended_model");
 }
 
 /// The winner against the full model, as many of the lowest modes as were measured.

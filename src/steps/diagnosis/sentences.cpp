@@ -92,6 +92,15 @@ std::string unit_of(RowType type) {
   }
 }
 
+/// False for a held-out damping ratio of a mode of whose damping no row is in the fit: every mode has a ratio of its own, so
+/// that nothing predicts this one.
+bool is_predicted(const diagnosis::FeatureSet& features, const Row& row) {
+  if (row.type != RowType::damping || !row.held_out) return true;
+  return std::any_of(features.rows.begin(), features.rows.end(), [&](const Row& other) {
+    return other.type == RowType::damping && !other.held_out && other.mode == row.mode;
+  });
+}
+
 std::vector<Block> blocks_of(const Inference& inference, const PlaceWords& places) {
   const diagnosis::FeatureSet& features = inference.map().features();
   std::vector<Block> blocks;
@@ -99,6 +108,7 @@ std::vector<Block> blocks_of(const Inference& inference, const PlaceWords& place
   std::map<int, Block> of_sensor;
   for (std::size_t r = 0; r < features.rows.size(); ++r) {
     const Row& row = features.rows[r];
+    if (!is_predicted(features, row)) continue;
     const std::string channel = row.channel >= 0 ? features.channels[static_cast<std::size_t>(row.channel)] : "";
     const std::string sensor = channel.empty() ? "" : places.at("channel:" + channel).words;
     const std::string when = features.conditions.size() > 1
@@ -147,13 +157,17 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
   const Block* worst = &blocks.front();
   for (const Block& block : blocks)
     if (surprise(block, before) > surprise(*worst, before)) worst = &block;
-  const double limit = sidak_limit(static_cast<std::size_t>(before.size()));
-  const auto beyond = (before.array().abs() > limit).count();
+  const diagnosis::FeatureSet& features = inference.map().features();
+  std::size_t judged = 0, beyond = 0;
+  for (const Row& row : features.rows) judged += is_predicted(features, row) ? 1 : 0;
+  const double limit = sidak_limit(judged);
+  for (Index r = 0; r < before.size(); ++r)
+    beyond += is_predicted(features, features.rows[static_cast<std::size_t>(r)]) && std::abs(before[r]) > limit ? 1 : 0;
   const std::string most = block_words(*worst, inference, result, before, after);
   if (result.verdict == diagnosis::Verdict::none && beyond == 0)
     return fmt::format("Nothing that chance does not allow. The largest deviation: {}.", most);
   return fmt::format("{}. Of {} measured values {} lie further off than the {:.1f} standard deviations that chance allows.",
-                     capitalised(most), number_in_words(static_cast<double>(before.size()), kCountDigits), beyond, limit);
+                     capitalised(most), number_in_words(static_cast<double>(judged), kCountDigits), beyond, limit);
 }
 
 /// "factor 0.55 to 0.68", "Fc at least 181 N": what is not in the sentence already.
@@ -175,9 +189,11 @@ std::string interval_words(const EffectParameter& p) {
 std::string with_intervals(const Effect& effect) {
   const std::string in_state = effect.state.empty() ? "" : fmt::format(" (state {})", effect.state);
   std::vector<std::string> words;
-  for (const EffectParameter& p : effect.parameters)
-    if (effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos)
+  for (const EffectParameter& p : effect.parameters) {
+    const bool is_a_count = p.unit.empty() && p.low == p.high;
+    if (!is_a_count && effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos)
       words.push_back(interval_words(p));
+  }
   const std::string within =
       effect.within_m > 0.0 ? fmt::format(" The place is known to {} m.", number_in_words(effect.within_m)) : "";
   return ended(effect.sentence + in_state) + within +
@@ -190,10 +206,13 @@ std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.effects.empty()) return ended(capitalised(result.message));
   std::string text = (result.verdict == diagnosis::Verdict::unknown ? "Not known. What comes nearest: " : "") +
                      with_intervals(result.effects.front());
+  if (result.effects.size() == 1) return text;
   std::vector<std::string> others;
   for (std::size_t i = 1; i < result.effects.size(); ++i)
-    others.push_back(ids.in_text(result.effects[i].cause.candidate->id()));
-  return others.empty() ? text : fmt::format("{} Beside it: {}.", text, fmt::join(others, "; "));
+    others.push_back(result.verdict == diagnosis::Verdict::unknown ? ids.in_text(result.effects[i].cause.candidate->id())
+                                                                   : with_intervals(result.effects[i]));
+  return result.verdict == diagnosis::Verdict::unknown ? fmt::format("{} Beside it: {}.", text, fmt::join(others, "; "))
+                                                       : fmt::format("{} Besides: {}", text, fmt::join(others, " "));
 }
 
 std::string probability_words(double p) {
@@ -216,6 +235,22 @@ std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
   return fmt::format("These data cannot tell it from: {}{}.", fmt::join(named, "; "), more);
 }
 
+/// Several causes that stand: each with its probability, and those that the data cannot tell from others.
+std::string how_sure_of_each(const Diagnosis& result, const IdsInWords& ids) {
+  std::vector<std::string> probabilities, rivals;
+  for (std::size_t i = 0; i < result.effects.size(); ++i) {
+    const Effect& effect = result.effects[i];
+    probabilities.push_back(probability_words(effect.probability));
+    if (!effect.rivals.empty()) rivals.push_back(fmt::format("Of cause {}: {}", i + 1, rivals_words(effect, ids)));
+  }
+  return fmt::format(
+      "Weighed against all other causes of the catalogue and against none, the causes have the probabilities {}, in this "
+      "order. "
+      "{}",
+      fmt::join(probabilities, "; "),
+      rivals.empty() ? "No rival among the causes of the catalogue is near." : fmt::format("{}", fmt::join(rivals, " ")));
+}
+
 std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.verdict == diagnosis::Verdict::none)
     return fmt::format("The best cause of the catalogue has log odds {:.1f} against none; a name needs {:.1f}.",
@@ -229,6 +264,7 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
                                          number_in_words(result.residual.statistic), result.residual.dof)
                            : result.message);
   const Effect& first = result.effects.front();
+  if (result.verdict != diagnosis::Verdict::unknown && result.effects.size() > 1) return how_sure_of_each(result, ids);
   text += fmt::format("Weighed against all other causes of the catalogue and against none, the {}cause has probability {}. ",
                       result.effects.size() > 1 ? "first " : "", probability_words(first.probability));
   if (result.verdict == diagnosis::Verdict::unknown && first.rivals.empty())

@@ -9,11 +9,11 @@
 
 #include "core/error.hpp"
 #include "diagnosis/null_calibration.hpp"
+#include "dynamics/unit_slips.hpp"
 #include "matching/mode_name.hpp"
 #include "steps/diagnosis/features.hpp"
 #include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/threshold_file.hpp"
-#include "steps/shared/unit_slips.hpp"
 
 namespace twindeck::steps {
 
@@ -33,20 +33,16 @@ std::vector<MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& fea
   return conditions;
 }
 
-/// How many modes a basis takes up.
-struct BasisSize {
-  int modes = 0;      ///< of the structure as it stands
-  int corrected = 0;  ///< least number of the lowest that corrections are made for
-};
+constexpr double kAlike = 0.6;  ///< MAC where least_mac says nothing: below it two shapes share less than they do not
 
 /// Places and reduced model of the model as it is now.
-void reduce(const diagnosis::PlaceOptions& place_options, const BasisSize& size, DiagnosisInputs& inputs) {
+void reduce(const diagnosis::PlaceOptions& place_options, int modes, DiagnosisInputs& inputs) {
   diagnosis::Structure& structure = inputs.structure;
   structure = inputs.model->structure();
   inputs.places = diagnosis::find_places(structure, place_options);
   structure.load_tests = load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
   diagnosis::ReductionOptions reduction;
-  reduction.modes = size.modes;
+  reduction.modes = modes;
   // Fits end far from where the basis is made (full_model): parameters on bounds, element scatter off by several deviations.
   reduction.parameter_vectors = 60;
   reduction.least_correction = 2.5e-4;
@@ -54,32 +50,38 @@ void reduce(const diagnosis::PlaceOptions& place_options, const BasisSize& size,
   std::set<std::string> measured;
   for (const diagnosis::Row& row : inputs.features.rows)
     if (row.type == diagnosis::RowType::frequency) measured.insert(row.mode);
-  reduction.corrected_modes = std::max({12, static_cast<int>(measured.size()) + 2, size.corrected});
+  reduction.corrected_modes = std::max(12, static_cast<int>(measured.size()) + 2);
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
 }
 
-/// Where measured modes are those of stays that swing, the model gets these stays as cables. It stays as it was where no more
-/// modes are explained then, dampers and all conditions included.
-void swing_stays(const DiagnosisConfig& config, const diagnosis::PlaceOptions& place_options,
-                 const std::vector<diagnosis::Row>& stay_rows, DiagnosisInputs& inputs) {
-  constexpr double alike = 0.6;  // MAC where least_mac says nothing: below it two shapes share less than they do not
-  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : alike,
+/// A reduced model that predicts modes: of all places only the dampers, which change them, are there.
+diagnosis::ReducedModel reduced_for_modes(const DiagnosedModel& model, int modes, int corrected) {
+  const diagnosis::Structure structure = model.structure();
+  diagnosis::Places places = diagnosis::find_places(structure, {});
+  std::erase_if(places.sets, [](const auto& set) { return set.first != "dampers"; });
+  diagnosis::ReductionOptions reduction;
+  reduction.modes = modes;
+  reduction.corrected_modes = corrected;
+  return {structure, places, reduction};
+}
+
+/// Whether measured modes are those of stays that swing. The model that is searched keeps its bars: the modes that only cables
+/// explain are left out of the search, and the extended model has the cables (decision 0014). Nothing where no more modes are
+/// explained with cables, dampers and all conditions included.
+void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row>& stay_rows, DiagnosisInputs& inputs) {
+  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : kAlike,
                                            2 * static_cast<int>(config.modes)};
   auto found = diagnosis::find_bar_stays(inputs.model->structure(), inputs.features, stay_rows, options);
   if (!found) return;
   const ModesExplained before = modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
-  auto bars = inputs.model;
-  inputs.model = std::make_shared<DiagnosedModel>(*bars);
-  inputs.model->loaded = from_model(std::move(found->extended));
-  const BasisSize as_bars{static_cast<int>(config.modes), 0};
-  reduce(place_options, {std::max(as_bars.modes, found->modes_in_basis), found->modes_in_band + 2}, inputs);
-  const ModesExplained after = modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
-  if (after.explained > before.explained) {
-    inputs.bar_stays.emplace(std::move(found->stays), found->log_odds, before, after);
-    return;
-  }
-  inputs.model = bars;
-  reduce(place_options, as_bars, inputs);
+  auto cables = std::make_shared<DiagnosedModel>(*inputs.model);
+  cables->loaded = from_model(std::move(found->extended));
+  const diagnosis::ReducedModel reduced =
+      reduced_for_modes(*cables, std::max(static_cast<int>(config.modes), found->modes_in_basis), found->modes_in_band + 2);
+  const ModesExplained after = modes_explained(reduced, inputs.features, config.scatter, found->rule);
+  if (after.explained <= before.explained) return;
+  inputs.bar_stays.emplace(std::move(found->stays), found->log_odds, before, after);
+  inputs.extended = std::move(cables);
 }
 
 }  // namespace
@@ -95,13 +97,14 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   inputs.model = prepare_model(loaded, files.channels, config.sensor_tolerance_m);
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
   place_options.moves = files.moves;
-  reduce(place_options, {static_cast<int>(config.modes), 0}, inputs);
+  reduce(place_options, static_cast<int>(config.modes), inputs);
   refuse_slack_stays(inputs.features, inputs.places, files.folder);
-  if (config.stays == "auto") swing_stays(config, place_options, files.stay_rows, inputs);
+  inputs.extended = inputs.model;
+  if (config.stays == "auto") swing_stays(config, files.stay_rows, inputs);
   inputs.account = account_of(files.claims, inputs.features, files.channels, inputs.places);
   warn_of_unit_slips(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
-  const std::size_t swinging = inputs.bar_stays ? inputs.bar_stays->stays() : 0;
-  if (const auto unpaired = leave_out_unpaired(config, *inputs.reduced, swinging, inputs.features))
+  const double least_mac = config.least_mac > 0.0 || !inputs.bar_stays ? config.least_mac : kAlike;
+  if (const auto unpaired = leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))
     inputs.account.push_back(*unpaired);
   hold_out(config, inputs.features);
   return inputs;

@@ -28,7 +28,9 @@ struct DiagnosisInputs {
   std::vector<diagnosis::Hypothesis> catalogue;
   std::vector<Finding> account;             ///< what claims and rows say before any odds
   LoadTestFiles load_tests;                 ///< where loads and gauges stand
-  std::optional<BarStaysEffect> bar_stays;  ///< where stays swing that the model had as bars; `model` has them as cables
+  std::optional<BarStaysEffect> bar_stays;  ///< where stays swing that the model has as bars
+  /// What the causes are put into: `model`, with the stays that swing as cables.
+  std::shared_ptr<const DiagnosedModel> extended;
 };
 
 /// The model reduced, with its places, and the rows that it can be compared with.

@@ -24,11 +24,11 @@ struct Point {
   std::vector<std::size_t> channels;
 };
 
-std::vector<Point> points_of(const ConditionResult& result) {
+std::vector<Point> points_of(const identification::ConditionResult& result) {
   std::vector<Point> points;
   std::map<std::string, std::size_t> at;
   for (std::size_t c = 0; c < result.channels.size(); ++c) {
-    const CampaignChannel& channel = result.channels[c];
+    const records::CampaignChannel& channel = result.channels[c];
     if (!channel.position_m.allFinite() || !channel.direction.allFinite() || channel.direction.norm() == 0.0) continue;
     const auto [entry, is_new] = at.try_emplace(channel.point, points.size());
     if (is_new) points.push_back({channel.point, channel.position_m, {}});
@@ -38,7 +38,7 @@ std::vector<Point> points_of(const ConditionResult& result) {
 }
 
 /// Shortest vector u with d_c · u = value of each channel, in the sense of least squares; zero where the mode is not known.
-Eigen::Vector3cd vector_at(const ConditionResult& result, const Point& point, const Eigen::VectorXcd& shape) {
+Eigen::Vector3cd vector_at(const identification::ConditionResult& result, const Point& point, const Eigen::VectorXcd& shape) {
   std::vector<std::size_t> known;
   for (const std::size_t c : point.channels) {
     if (!std::isnan(shape[static_cast<Index>(c)].real())) known.push_back(c);
@@ -99,7 +99,7 @@ std::string grid(const std::vector<Point>& points, const std::string& point_data
 
 }  // namespace
 
-void write_mode_exports(const ConditionResult& result, const std::filesystem::path& folder) {
+void write_mode_exports(const identification::ConditionResult& result, const std::filesystem::path& folder) {
   const std::vector<Point> points = points_of(result);
   if (points.empty() || result.modes.empty()) return;
   const std::vector<long> labels = labels_of(points);

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "steps/identification/condition.hpp"
+#include "identification/condition.hpp"
 
 namespace twindeck::steps {
 
@@ -10,6 +10,6 @@ namespace twindeck::steps {
 /// set 55 a mode) and modes.vtu (points, and for each mode the real part as a vector field). At each point the vector is the
 /// shortest that gives what its channels show along their direction cosines. Nothing is written where fewer than one point has
 /// a position and a direction.
-void write_mode_exports(const ConditionResult& result, const std::filesystem::path& folder);
+void write_mode_exports(const identification::ConditionResult& result, const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

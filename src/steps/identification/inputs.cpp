@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "steps/identification/stays.hpp"
+#include "identification/stays.hpp"
 
 namespace twindeck::steps {
 
@@ -17,15 +17,15 @@ std::filesystem::path default_campaign(const StepContext& context) {
 }
 
 /// Registered are the lists and records, and nothing else that lies there.
-Campaign read_lists(StepContext& context) {
+records::Campaign read_lists(StepContext& context) {
   const auto folder = context.campaign ? *context.campaign : default_campaign(context);
   if (!std::filesystem::exists(folder)) context.input(folder);
-  Campaign campaign = read_campaign(folder);
+  records::Campaign campaign = records::read_campaign(folder);
   for (const std::string& warning : campaign.warnings) context.say(warning);
   for (const char* name : {"campaign.toml", "channels.csv", "conditions.toml"}) {
     if (std::filesystem::exists(folder / name)) context.input(folder / name);
   }
-  for (const CampaignRecord& record : campaign.records) {
+  for (const records::CampaignRecord& record : campaign.records) {
     if (std::filesystem::exists(record.file)) context.input(record.file);
   }
   return campaign;
@@ -38,7 +38,7 @@ class LeftOut {
   void attempt(const std::string& what, const Read& read) {
     try {
       read();
-    } catch (const UnusableRecord& problem) {
+    } catch (const identification::UnusableRecord& problem) {
       if (!first_) first_ = problem;
       warnings_.push_back(what + " is left out: " + problem.what());
     }
@@ -50,16 +50,17 @@ class LeftOut {
   }
 
  private:
-  std::optional<UnusableRecord> first_;
+  std::optional<identification::UnusableRecord> first_;
   std::vector<std::string> warnings_;
 };
 
-std::vector<Conditioned> read_kind(const Campaign& campaign, const RecordChoice& choice, const IdentificationConfig& config,
-                                   Eigen::Index decimation, const StepContext& context, LeftOut& left_out) {
-  std::vector<Conditioned> records;
-  for (const RecordGroup& group : record_groups(campaign, choice, true)) {
+std::vector<identification::Conditioned> read_kind(const records::Campaign& campaign, const records::RecordChoice& choice,
+                                                   const identification::IdentificationSettings& config,
+                                                   Eigen::Index decimation, const StepContext& context, LeftOut& left_out) {
+  std::vector<identification::Conditioned> records;
+  for (const records::RecordGroup& group : records::record_groups(campaign, choice, true)) {
     left_out.attempt("setup " + group.setup, [&] {
-      records.push_back(condition_records(campaign, group, config, decimation));
+      records.push_back(identification::condition_records(campaign, group, config, decimation));
       for (const std::string& note : records.back().notes) context.say(note);
     });
   }
@@ -68,18 +69,21 @@ std::vector<Conditioned> read_kind(const Campaign& campaign, const RecordChoice&
 
 }  // namespace
 
-IdentificationInputs read_identification_inputs(const IdentificationConfig& config, StepContext& context) {
+IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config, StepContext& context) {
   IdentificationInputs read;
   read.campaign = read_lists(context);
   LeftOut left_out;
-  const RecordChoice ambient{config.setup, config.condition, config.kind, config.setups};
-  for (const std::vector<RecordGroup>& groups : by_condition(record_groups(read.campaign, ambient))) {
-    left_out.attempt("condition " + groups.front().condition,
-                     [&] { read.conditions.push_back(read_condition(read.campaign, groups, config, context)); });
+  const records::RecordChoice ambient{config.setup, config.condition, config.kind, config.setups};
+  for (const std::vector<records::RecordGroup>& groups :
+       records::by_condition(records::record_groups(read.campaign, ambient))) {
+    left_out.attempt("condition " + groups.front().condition, [&] {
+      read.conditions.push_back(identification::read_condition(read.campaign, groups, config, context));
+    });
   }
   read.decays = read_kind(read.campaign, {"", config.condition, "free_decay", {}}, config,
                           config.decay_decimation > 0 ? config.decay_decimation : config.decimation, context, left_out);
-  read.stays = read_kind(read.campaign, {"", "", "stay", {}}, stay_settings(config), config.stay_decimation, context, left_out);
+  read.stays = read_kind(read.campaign, {"", "", "stay", {}}, identification::stay_settings(config), config.stay_decimation,
+                         context, left_out);
   left_out.report(context, read.conditions.empty());
   return read;
 }

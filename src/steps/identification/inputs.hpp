@@ -2,19 +2,22 @@
 
 #include <vector>
 
-#include "steps/identification/condition.hpp"
+#include "identification/condition.hpp"
+#include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
 
 /// What the step reads: the lists of a campaign, and its records made ready for identification.
 struct IdentificationInputs {
-  Campaign campaign;
-  std::vector<ConditionResult> conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified
-  std::vector<Conditioned> decays, stays;
+  records::Campaign campaign;
+  std::vector<identification::ConditionResult>
+      conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified
+  std::vector<identification::Conditioned> decays, stays;
 };
 
 /// Reads a campaign: `--campaign`, else data/<study>/campaign, else what s0_campaign wrote.
 /// @throws InputError  as read_campaign, record_groups, read_condition and condition_records
-[[nodiscard]] IdentificationInputs read_identification_inputs(const IdentificationConfig& config, StepContext& context);
+[[nodiscard]] IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config,
+                                                              StepContext& context);
 
 }  // namespace twindeck::steps

@@ -10,7 +10,10 @@
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
+#include "steps/identification/decay_tables.hpp"
 #include "steps/identification/exports.hpp"
+#include "steps/identification/quality_table.hpp"
+#include "steps/identification/stay_tables.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -25,17 +28,17 @@ double at_least(double deviation, double smallest) { return std::max(deviation, 
 
 bool is_partial(const sysid::MergedMode& mode) { return mode.shape.array().real().isNaN().any(); }
 
-const sysid::Cluster& cluster_of(const ConditionResult& result, std::pair<std::size_t, std::size_t> member) {
+const sysid::Cluster& cluster_of(const identification::ConditionResult& result, std::pair<std::size_t, std::size_t> member) {
   return result.setups[member.first].found.modes[member.second];
 }
 
-std::size_t orders_of(const ConditionResult& result, const sysid::MergedMode& mode) {
+std::size_t orders_of(const identification::ConditionResult& result, const sysid::MergedMode& mode) {
   std::size_t most = 0;
   for (const auto& member : mode.members) most = std::max(most, cluster_of(result, member).members.size());
   return most;
 }
 
-void write_modes(const ConditionResult& result, const fs::path& file) {
+void write_modes(const identification::ConditionResult& result, const fs::path& file) {
   io::CsvWriter csv({"mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct",
                      "frequency_scatter_Hz", "damping_ratio_scatter_pct", "orders", "setups", "partial", "efdd_frequency_Hz",
                      "efdd_damping_ratio_pct"});
@@ -53,7 +56,7 @@ void write_modes(const ConditionResult& result, const fs::path& file) {
   csv.save(file);
 }
 
-void write_shapes(const ConditionResult& result, const fs::path& file) {
+void write_shapes(const identification::ConditionResult& result, const fs::path& file) {
   io::CsvWriter csv({"mode", "point", "direction", "value", "value_imag"});
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
     const Eigen::VectorXcd& shape = result.modes[m].shape;
@@ -71,7 +74,7 @@ void write_shapes(const ConditionResult& result, const fs::path& file) {
 }
 
 /// Position in the merged list of a setup's mode, "" for none.
-std::string merged_name(const ConditionResult& result, std::size_t setup, int mode) {
+std::string merged_name(const identification::ConditionResult& result, std::size_t setup, int mode) {
   if (mode < 0) return "";
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
     for (const auto& member : result.modes[m].members) {
@@ -81,7 +84,7 @@ std::string merged_name(const ConditionResult& result, std::size_t setup, int mo
   return "";
 }
 
-void write_poles(const ConditionResult& result, const fs::path& file) {
+void write_poles(const identification::ConditionResult& result, const fs::path& file) {
   io::CsvWriter csv({"setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping",
                      "stable_shape", "mode", "condition"});
   for (std::size_t s = 0; s < result.setups.size(); ++s) {
@@ -94,10 +97,10 @@ void write_poles(const ConditionResult& result, const fs::path& file) {
   csv.save(file);
 }
 
-void write_spectra(const ConditionResult& result, const fs::path& folder) {
+void write_spectra(const identification::ConditionResult& result, const fs::path& folder) {
   io::CsvWriter psd({"channel", "frequency_Hz", "psd_m2_s3", "setup", "condition"});
   io::CsvWriter singular({"setup", "frequency_Hz", "sv1", "sv2", "sv3", "condition"});
-  for (const SetupResult& setup : result.setups) {
+  for (const identification::SetupResult& setup : result.setups) {
     const std::string& name = setup.conditioned.setup;
     for (std::size_t c = 0; c < setup.conditioned.channels.size(); ++c) {
       for (Index f = 0; f < setup.spectra.frequency_Hz.size(); ++f) {
@@ -116,11 +119,11 @@ void write_spectra(const ConditionResult& result, const fs::path& folder) {
   singular.save(folder / "singular_values.csv");
 }
 
-void write_merging(const ConditionResult& result, const fs::path& file) {
+void write_merging(const identification::ConditionResult& result, const fs::path& file) {
   io::CsvWriter csv(
       {"mode", "frequency_Hz", "preger_frequency_Hz", "damping_ratio_pct", "preger_damping_ratio_pct", "mac", "setups"});
   for (std::size_t m = 0; m < result.checks.size(); ++m) {
-    const MergingCheck& check = result.checks[m];
+    const identification::MergingCheck& check = result.checks[m];
     const auto known = [&](double value) { return check.found ? std::optional(value) : std::nullopt; };
     csv.row({name_of(m), result.modes[m].frequency_Hz, known(check.frequency_Hz), 100.0 * result.modes[m].damping_ratio,
              known(100.0 * check.damping_ratio), known(check.mac), result.modes[m].members.size()});
@@ -129,12 +132,12 @@ void write_merging(const ConditionResult& result, const fs::path& file) {
 }
 
 /// The rows of the campaign's channels.csv that shapes are known at, as they stand there.
-void write_channels(const Campaign& campaign, const ConditionResult& result, const fs::path& file) {
+void write_channels(const records::Campaign& campaign, const identification::ConditionResult& result, const fs::path& file) {
   const auto table = io::CsvTable::read(campaign.folder / "channels.csv", {"channel"}, {}, true);
   io::CsvWriter csv(table.columns());
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const bool used = std::any_of(result.channels.begin(), result.channels.end(),
-                                  [&](const CampaignChannel& c) { return c.name == table.text(row, "channel"); });
+                                  [&](const records::CampaignChannel& c) { return c.name == table.text(row, "channel"); });
     if (!used) continue;
     std::vector<io::Cell> cells;
     for (const std::string& column : table.columns()) cells.emplace_back(table.text(row, column));
@@ -145,7 +148,7 @@ void write_channels(const Campaign& campaign, const ConditionResult& result, con
 
 }  // namespace
 
-void write_condition(const Campaign& campaign, const ConditionResult& result, const fs::path& folder) {
+void write_condition(const records::Campaign& campaign, const identification::ConditionResult& result, const fs::path& folder) {
   fs::create_directories(folder);
   write_modes(result, folder / "modes.csv");
   write_shapes(result, folder / "shapes.csv");
@@ -155,14 +158,14 @@ void write_condition(const Campaign& campaign, const ConditionResult& result, co
   write_channels(campaign, result, folder / "channels.csv");
 }
 
-void write_features(const Campaign& campaign, const std::vector<ConditionResult>& results,
-                    const std::vector<std::vector<io::Cell>>& more, const std::vector<ChannelQuality>& more_quality,
-                    const fs::path& folder) {
+void write_features(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
+                    const std::vector<std::vector<io::Cell>>& more,
+                    const std::vector<identification::ChannelQuality>& more_quality, const fs::path& folder) {
   fs::create_directories(folder);
   io::CsvWriter csv({"type", "mode", "channel", "condition", "value", "std"});
-  std::vector<ChannelQuality> quality;
+  std::vector<identification::ChannelQuality> quality;
   std::string conditions;
-  for (const ConditionResult& result : results) {
+  for (const identification::ConditionResult& result : results) {
     const std::string& condition = result.condition;
     conditions += "[" + condition + "]\n";
     for (std::size_t m = 0; m < result.modes.size(); ++m) {
@@ -180,7 +183,7 @@ void write_features(const Campaign& campaign, const std::vector<ConditionResult>
         csv.row({"shape_imag", name, channel, condition, mode.shape[i].imag(), at_least(mode.deviation.shape_imag[i], 1e-6)});
       }
     }
-    for (const SetupResult& setup : result.setups) {
+    for (const identification::SetupResult& setup : result.setups) {
       quality.insert(quality.end(), setup.conditioned.quality.begin(), setup.conditioned.quality.end());
     }
   }
@@ -196,10 +199,11 @@ void write_features(const Campaign& campaign, const std::vector<ConditionResult>
   write_quality(quality, folder / "quality.csv");
 }
 
-void write_identification(const Campaign& campaign, const std::vector<ConditionResult>& results,
-                          const std::vector<DecayResult>& decays, const std::vector<StayResult>& stays,
-                          const IdentificationConfig& config, const fs::path& folder) {
-  std::vector<ChannelQuality> quality;
+void write_identification(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
+                          const std::vector<identification::DecayResult>& decays,
+                          const std::vector<identification::StayResult>& stays,
+                          const identification::IdentificationSettings& config, const fs::path& folder) {
+  std::vector<identification::ChannelQuality> quality;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const fs::path place = i == 0 ? folder : folder / "conditions" / results[i].condition;
     write_condition(campaign, results[i], place);
@@ -207,12 +211,13 @@ void write_identification(const Campaign& campaign, const std::vector<ConditionR
   }
   write_decays(decays, results, config, folder);
   write_stays(stays, config.stay_level, folder);
-  for (const DecayResult& decay : decays) quality.insert(quality.end(), decay.quality.begin(), decay.quality.end());
-  for (const StayResult& stay : stays) quality.insert(quality.end(), stay.quality.begin(), stay.quality.end());
+  for (const identification::DecayResult& decay : decays)
+    quality.insert(quality.end(), decay.quality.begin(), decay.quality.end());
+  for (const identification::StayResult& stay : stays) quality.insert(quality.end(), stay.quality.begin(), stay.quality.end());
   write_features(campaign, results, stay_rows(stays), quality, folder / "features");
 }
 
-std::vector<std::string> report_lines(const ConditionResult& result) {
+std::vector<std::string> report_lines(const identification::ConditionResult& result) {
   std::vector<std::string> lines = {
       fmt::format("condition {}, {} setup{}", result.condition, result.setups.size(), result.setups.size() == 1 ? "" : "s"),
       fmt::format("{:>4} {:>10} {:>9} {:>9} {:>9} {:>7} {:>7}", "mode", "f [Hz]", "sigma", "zeta [%]", "sigma", "orders",

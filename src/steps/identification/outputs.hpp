@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
+#include "identification/condition.hpp"
+#include "identification/decays.hpp"
+#include "identification/stays.hpp"
 #include "io/csv.hpp"
-#include "steps/identification/condition.hpp"
-#include "steps/identification/decays.hpp"
-#include "steps/identification/stays.hpp"
 
 namespace twindeck::steps {
 
@@ -23,22 +23,24 @@ namespace twindeck::steps {
 /// singular_values.csv  `setup,frequency_Hz,sv1,sv2,sv3,condition` of channels scaled to unit RMS [1/Hz]
 /// merging.csv `mode,frequency_Hz,preger_frequency_Hz,damping_ratio_pct,preger_damping_ratio_pct,mac,setups` where there are
 /// several setups channels.csv rows of the campaign's channels.csv that the shapes are known at
-void write_condition(const Campaign& campaign, const ConditionResult& result, const std::filesystem::path& folder);
+void write_condition(const records::Campaign& campaign, const identification::ConditionResult& result,
+                     const std::filesystem::path& folder);
 
 /// features/: rows.csv of all conditions, conditions.toml and channels.csv of the campaign (channels.csv as it is;
 /// conditions.toml with an empty table a condition where the campaign has none), quality.csv. Shapes have unit norm there, so
 /// that every entry has a standard deviation. @param more  further rows (stays), written after those of the modes
-void write_features(const Campaign& campaign, const std::vector<ConditionResult>& results,
-                    const std::vector<std::vector<io::Cell>>& more, const std::vector<ChannelQuality>& more_quality,
-                    const std::filesystem::path& folder);
+void write_features(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
+                    const std::vector<std::vector<io::Cell>>& more,
+                    const std::vector<identification::ChannelQuality>& more_quality, const std::filesystem::path& folder);
 
 /// Everything: the first condition's files at the top and each further condition's under conditions/<condition>/, decays.csv
 /// and amplitude.csv, stays.csv and stay_tensions.csv, features/.
-void write_identification(const Campaign& campaign, const std::vector<ConditionResult>& results,
-                          const std::vector<DecayResult>& decays, const std::vector<StayResult>& stays,
-                          const IdentificationConfig& config, const std::filesystem::path& folder);
+void write_identification(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
+                          const std::vector<identification::DecayResult>& decays,
+                          const std::vector<identification::StayResult>& stays,
+                          const identification::IdentificationSettings& config, const std::filesystem::path& folder);
 
 /// What was found, for people.
-[[nodiscard]] std::vector<std::string> report_lines(const ConditionResult& result);
+[[nodiscard]] std::vector<std::string> report_lines(const identification::ConditionResult& result);
 
 }  // namespace twindeck::steps

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "io/csv.hpp"
+#include "matching/solved_model.hpp"
 #include "ponte/generator.hpp"
-#include "steps/shared/solved_model.hpp"
 
 namespace twindeck::steps {
 
@@ -17,13 +17,13 @@ void write_mesh_convergence(const Study& study, const std::string& variant, cons
                             const std::filesystem::path& file) {
   constexpr int beyond = 5;  // solved for beyond the modes shown, so that one that moves up is among them
   const auto solved = [&](const std::string& mesh) {
-    return solve_modes(from_model(ponte::generate(study.model_file, variant, mesh)), n_modes + beyond);
+    return matching::solve_modes(dynamics::from_model(ponte::generate(study.model_file, variant, mesh)), n_modes + beyond);
   };
-  const SolvedModel own = solved(study.model_mesh);
+  const matching::SolvedModel own = solved(study.model_mesh);
   io::CsvWriter csv({"mesh", "degrees_of_freedom", "mode", "frequency_Hz", "change_pct", "mac"});
   const auto known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); };
-  const auto write = [&](const std::string& mesh, const SolvedModel& model) {
-    const FollowedModes followed = follow(own, model, n_modes);
+  const auto write = [&](const std::string& mesh, const matching::SolvedModel& model) {
+    const matching::TrackedModes followed = follow(own, model, n_modes);
     for (int i = 0; i < n_modes; ++i) {
       csv.row({mesh, static_cast<long>(model.loaded.system.size()), static_cast<long>(i + 1), known(followed.frequency_Hz[i]),
                known(100.0 * (followed.frequency_Hz[i] / own.modes.frequency_Hz[i] - 1.0)), known(followed.mac[i])});

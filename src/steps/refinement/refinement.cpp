@@ -7,12 +7,16 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "dynamics/unit_slips.hpp"
+#include "matching/comparison.hpp"
+#include "matching/solved_model.hpp"
 #include "model_io/export.hpp"
-#include "steps/measured/measured.hpp"
-#include "steps/refinement/comparison.hpp"
+#include "ponte/change_study.hpp"
+#include "steps/measured/comparison_tables.hpp"
+#include "steps/measured/measured_input.hpp"
+#include "steps/refinement/change_table.hpp"
 #include "steps/shared/model_outputs.hpp"
 #include "steps/shared/study.hpp"
-#include "steps/shared/unit_slips.hpp"
 
 namespace twindeck::steps {
 
@@ -44,14 +48,14 @@ namespace {
 
 /// What the step reads.
 struct RefinementInputs {
-  ReadModel initial;
-  std::optional<Study> generated;    ///< the study whose generator writes the model; a model of the user's own has none
-  std::optional<ReadModel> refined;  ///< the generator's variant
-  std::optional<Measured> measured;
+  dynamics::ReadModel initial;
+  std::optional<Study> generated;  ///< the study whose generator writes the model; a model of the user's own has none
+  std::optional<dynamics::ReadModel> refined;  ///< the generator's variant
+  std::optional<matching::Measured> measured;
 };
 
 /// Measured modes that take part: those of the published pairs where such a list is used, otherwise all.
-std::vector<bool> compared_modes(const Measured& measured, const Pairing& refined) {
+std::vector<bool> compared_modes(const matching::Measured& measured, const matching::Pairing& refined) {
   std::vector<bool> keep(measured.labels.size(), refined.method != "published");
   for (const matching::ModePair& pair : refined.pairs) keep[static_cast<std::size_t>(pair.experimental)] = true;
   return keep;
@@ -59,65 +63,67 @@ std::vector<bool> compared_modes(const Measured& measured, const Pairing& refine
 
 Place place_of_pairs(const StepContext& context) { return {(context.study / "s4_refinement.toml").string(), 0, "pairs"}; }
 
-Pairing pair_refined(const StepContext& context, const RefinementConfig& config, const Measured& measured,
-                     const SolvedModel& refined, const matching::PairingOptions& options) {
+matching::Pairing pair_refined(const StepContext& context, const RefinementConfig& config, const matching::Measured& measured,
+                               const matching::SolvedModel& refined, const matching::PairingOptions& options) {
   if (measured.modes.has_shapes())
-    return pair_at_sensors(measured, refined.loaded, refined.modes, options, config.sensor_tolerance_m);
-  if (config.pairs.empty()) return pair_by_order(measured, refined.modes.frequency_Hz.size());
-  return pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place_of_pairs(context));
+    return matching::pair_at_sensors(measured, refined.loaded, refined.modes, options, config.sensor_tolerance_m);
+  if (config.pairs.empty()) return matching::pair_by_order(measured, refined.modes.frequency_Hz.size());
+  return matching::pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place_of_pairs(context));
 }
 
-PairingAccount compare_with_measurement(StepContext& context, const RefinementConfig& config,
-                                        const std::optional<Measured>& measured, const SolvedModel& initial,
-                                        const SolvedModel& refined) {
+matching::PairingAccount compare_with_measurement(StepContext& context, const RefinementConfig& config,
+                                                  const std::optional<matching::Measured>& measured,
+                                                  const matching::SolvedModel& initial, const matching::SolvedModel& refined) {
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
-  const Measured some = measured.value_or(Measured{});
-  warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
+  const matching::Measured some = measured.value_or(matching::Measured{});
+  dynamics::warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
   const matching::PairingOptions options{config.minimum_mac, config.maximum_frequency_error, config.cluster_gap};
-  Pairing after, before;
-  PairingAccount account;
+  matching::Pairing after, before;
+  matching::PairingAccount account;
   if (measured) {
     after = pair_refined(context, config, some, refined, options);
-    warn_of_unmeasured(context, after);
-    account = account_of(some, after, refined.modes.frequency_Hz);
-    const std::optional<std::string> factor = common_factor(some, after, refined.modes.frequency_Hz);
-    refuse_few_pairs(account, config.least_paired, config.minimum_mac, some.source, factor);
-    warn_of_pairing(context, account, factor, "");
-    before = some.modes.has_shapes() ? pair_at_sensors(some, initial.loaded, initial.modes, options, config.sensor_tolerance_m)
-                                     : pair_by_order(some, initial.modes.frequency_Hz.size(), compared_modes(some, after));
+    matching::warn_of_unmeasured(context, after);
+    account = matching::account_of(some, after, refined.modes.frequency_Hz);
+    const std::optional<std::string> factor = matching::common_factor(some, after, refined.modes.frequency_Hz);
+    matching::refuse_few_pairs(account, config.least_paired, config.minimum_mac, some.source, factor);
+    matching::warn_of_pairing(context, account, factor, "");
+    before = some.modes.has_shapes()
+                 ? matching::pair_at_sensors(some, initial.loaded, initial.modes, options, config.sensor_tolerance_m)
+                 : matching::pair_by_order(some, initial.modes.frequency_Hz.size(), compared_modes(some, after));
   }
-  std::vector<ComparisonRow> rows = compare("initial", some, initial.modes.frequency_Hz, before);
-  for (const ComparisonRow& row : compare("refined", some, refined.modes.frequency_Hz, after)) rows.push_back(row);
+  std::vector<matching::ComparisonRow> rows = compare("initial", some, initial.modes.frequency_Hz, before);
+  for (const matching::ComparisonRow& row : compare("refined", some, refined.modes.frequency_Hz, after)) rows.push_back(row);
   write_comparison(rows, context.out);
   write_mac(some, after, context.out);
   write_pairs(some, after, context.out);
   if (!rows.empty()) {
     context.say(fmt::format("mean |error| of {} pairs: initial {:.2f} %, refined {:.2f} % (pairs by {}){}", after.pairs.size(),
-                            mean_abs_error_pct(rows, "initial"), mean_abs_error_pct(rows, "refined"), after.method,
-                            pairing_words(account)));
+                            matching::mean_abs_error_pct(rows, "initial"), matching::mean_abs_error_pct(rows, "refined"),
+                            after.method, matching::pairing_words(account)));
   }
   return account;
 }
 
 Status run_refinement(StepContext& context, const RefinementConfig& config, const RefinementInputs& read) {
   // 1. Initial and refined model, with their modes. A model of the user's own is both.
-  LoadedModel initial_model = solvable(read.initial);
-  LoadedModel refined_source = read.refined ? solvable(*read.refined) : initial_model;
+  dynamics::LoadedModel initial_model = dynamics::solvable(read.initial);
+  dynamics::LoadedModel refined_source = read.refined ? dynamics::solvable(*read.refined) : initial_model;
   const auto n = static_cast<int>(
       std::min<Eigen::Index>(config.n_modes, std::min(initial_model.system.size(), refined_source.system.size())));
-  const SolvedModel initial = solve_modes(std::move(initial_model), n);
-  const SolvedModel refined = solve_modes(std::move(refined_source), n);
+  const matching::SolvedModel initial = matching::solve_modes(std::move(initial_model), n);
+  const matching::SolvedModel refined = matching::solve_modes(std::move(refined_source), n);
   model_io::write_modes(published_modes(refined.loaded.fe_model(), refined.loaded.system, refined.modes), context.out);
   save_model(refined.loaded, refined.loaded.theta, context.out / "model");
 
   // 2. Against the measurement.
-  const PairingAccount account = compare_with_measurement(context, config, read.measured, initial, refined);
+  const matching::PairingAccount account = compare_with_measurement(context, config, read.measured, initial, refined);
 
   // 3. What each as-built change does.
-  ChangeStudy changes;
+  ponte::ChangeStudy changes;
   if (read.generated) {
-    changes = study_changes(read.generated->model_file, read.generated->model_mesh, n, static_cast<int>(config.extra_modes),
-                            [&](int done, int of) { context.progress("as-built changes", done, of); });
+    changes =
+        ponte::study_changes(read.generated->model_file, read.generated->model_mesh, n, static_cast<int>(config.extra_modes),
+                             [&](int done, int of) { context.progress("as-built changes", done, of); });
   }
   write_changes(changes, context.out);
   for (const Status& status : {initial.modes.status, refined.modes.status, changes.status}) {
@@ -140,8 +146,8 @@ Computation read_refinement(StepContext& context, const RefinementConfig& config
   }
   read.measured = find_measured(context, config.condition);
   if (read.measured)
-    check_pairing(*read.measured, read.refined ? *read.refined : read.initial, config.pairs, place_of_pairs(context),
-                  config.n_modes, config.sensor_tolerance_m);
+    matching::check_pairing(*read.measured, read.refined ? *read.refined : read.initial, config.pairs, place_of_pairs(context),
+                            config.n_modes, config.sensor_tolerance_m);
   return [&context, &config, read = std::move(read)] { return run_refinement(context, config, read); };
 }
 

@@ -84,36 +84,7 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
   }
 }
 
-void refuse_rigid_bodies(const Sensitivities& found, const std::string& source) {
-  const auto rigid = (found.frequency_Hz.array() == 0.0).count();
-  if (rigid == 0) return;
-  throw InputError(
-      {source, 0, "frequency_Hz"},
-      fmt::format("{} of {} modes are computed at 0 Hz, so that no parameter changes their frequency by a share", rigid,
-                  found.frequency_Hz.size()),
-      "hold the structure by supports or springs; if it is held, look for an absurd mass or stiffness, beside which "
-      "the others are lost in rounding");
-}
-
-Eigen::MatrixXd scaled_sensitivity(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
-                                   const Sensitivities& found) {
-  std::vector<Eigen::Index> rows;
-  for (const double mode : config.compared_modes) {
-    if (mode <= static_cast<double>(found.frequency_Hz.size())) rows.push_back(static_cast<Eigen::Index>(mode) - 1);
-  }
-  if (rows.empty()) {
-    for (Eigen::Index i = 0; i < found.frequency_Hz.size(); ++i) rows.push_back(i);
-  }
-  Eigen::VectorXd half_range(found.exact.cols());
-  for (Eigen::Index p = 0; p < half_range.size(); ++p) {
-    const fe::Parameter& parameter = parameters[static_cast<std::size_t>(p)];
-    half_range(p) = 0.5 * (parameter.upper - parameter.lower);
-  }
-  const Eigen::MatrixXd shift = found.frequency_Hz.cwiseInverse().asDiagonal() * found.exact * half_range.asDiagonal();
-  return shift(rows, Eigen::all) / (0.01 * config.frequency_std_pct);
-}
-
-void write_sensitivity(const std::vector<fe::Parameter>& parameters, const Sensitivities& found,
+void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
                        const std::filesystem::path& file) {
   io::CsvWriter csv({"mode", "parameter", "unit", "exact_Hz_per_unit", "relative", "richardson_Hz_per_unit",
                      "forward_eq6_Hz_per_unit", "forward_truncation_Hz_per_unit"});
@@ -159,7 +130,8 @@ void write_identifiability(const std::vector<fe::Parameter>& parameters, const s
   csv.save(file);
 }
 
-std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters, const Sensitivities& found,
+std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,
+                                            const sensitivity::Sensitivities& found,
                                             const std::vector<sensitivity::SelectedParameter>& selection,
                                             const sensitivity::Identifiability& identified, const SensitivityConfig& config) {
   std::vector<std::string> kept, only_here, only_there, resolved, lines;

@@ -6,8 +6,8 @@
 
 #include "fe/model.hpp"
 #include "io/config.hpp"
+#include "sensitivity/frequency_sensitivities.hpp"
 #include "sensitivity/selection.hpp"
-#include "steps/sensitivity/sensitivity.hpp"
 
 namespace twindeck::steps {
 
@@ -31,20 +31,9 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
 
 [[nodiscard]] std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters);
 
-/// @param source  the model, for the message
-/// @throws InputError  if a mode has no frequency to change: a free structure, or one beside whose largest mass or stiffness
-/// the
-///         rest is rounding
-void refuse_rigid_bodies(const Sensitivities& found, const std::string& source);
-
-/// A of selection.hpp: shift of each compared frequency, in its standard deviations, over half the range of each parameter [-]
-/// (n_compared × n_parameters).
-[[nodiscard]] Eigen::MatrixXd scaled_sensitivity(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
-                                                 const Sensitivities& found);
-
 /// `sensitivity.csv`: mode,parameter,unit,exact_Hz_per_unit,relative,richardson_Hz_per_unit,forward_eq6_Hz_per_unit,
 /// forward_truncation_Hz_per_unit; truncation = Eq. (6) minus extrapolated central difference; relative = d ln f / d ln p.
-void write_sensitivity(const std::vector<fe::Parameter>& parameters, const Sensitivities& found,
+void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
                        const std::filesystem::path& file);
 /// `selection.csv`: parameter,unit,score,rank,selected,published,reason
 void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
@@ -58,7 +47,7 @@ void write_identifiability(const std::vector<fe::Parameter>& parameters, const s
 
 /// For people: agreement of the three ways, selection beside the paper's, directions that the frequencies see.
 [[nodiscard]] std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,
-                                                          const Sensitivities& found,
+                                                          const sensitivity::Sensitivities& found,
                                                           const std::vector<sensitivity::SelectedParameter>& selection,
                                                           const sensitivity::Identifiability& identified,
                                                           const SensitivityConfig& config);

@@ -133,7 +133,7 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
   summary.save(folder / "summary.csv");
 }
 
-void export_inp(const LoadedModel& loaded, int n_modes, const StepContext& context) {
+void export_inp(const dynamics::LoadedModel& loaded, int n_modes, const StepContext& context) {
   if (loaded.fe_model() == nullptr) {
     throw InputError({"command line", 0, "--export-inp"}, "a matrix model has no elements to export", "use --export-matrices");
   }

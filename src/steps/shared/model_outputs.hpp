@@ -45,6 +45,6 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
 
 /// model.inp for CalculiX, model_abaqus.inp for Abaqus, with a message about what such a file cannot hold.
 /// @throws InputError  for a matrix model, which has no elements
-void export_inp(const LoadedModel& loaded, int n_modes, const StepContext& context);
+void export_inp(const dynamics::LoadedModel& loaded, int n_modes, const StepContext& context);
 
 }  // namespace twindeck::steps

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "fe/mass_words.hpp"
 #include "model_io/ansys.hpp"
 #include "model_io/inp.hpp"
 #include "model_io/load_cases.hpp"
@@ -10,91 +11,55 @@
 #include "model_io/nastran.hpp"
 #include "model_io/printed_mass.hpp"
 #include "ponte/generator.hpp"
-#include "steps/shared/imported_mass.hpp"
-#include "steps/shared/model_check.hpp"
 #include "steps/shared/study.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
-/// @throws InputError  for an invalid model (fe::validate)
-ReadModel valid(fe::Model model) {
-  ReadModel read;
-  read.source = model.source;
-  read.structure = std::make_shared<const fe::Structure>(std::move(model));
-  return read;
-}
-
 /// Mass, centre and inertia: a lost part, a wrong density or unit shows there first.
-ReadModel with_mass_said(const StepContext& context, const std::filesystem::path& file, ReadModel read) {
-  context.say(mass_words(fe::mass_properties(*read.fe_model())));
+dynamics::ReadModel with_mass_said(const StepContext& context, const std::filesystem::path& file, dynamics::ReadModel read) {
+  context.say(fe::mass_words(fe::mass_properties(*read.fe_model())));
   if (const std::string printed = model_io::printed_mass(file); !printed.empty())
     context.say("beside it, in the deck's units: " + printed);
   return read;
 }
 
-LoadedModel prestressed(const ReadModel& read) {
-  LoadedModel loaded;
-  loaded.source = read.source;
-  loaded.structure = read.structure;
-  loaded.model = std::shared_ptr<const fe::Model>(loaded.structure, &loaded.structure->model());
-  loaded.theta = fe::initial_parameters(*loaded.model);
-  loaded.state = loaded.structure->prestress(loaded.theta);
-  loaded.system = loaded.structure->system(loaded.state);
-  // A prestress is found on the structure without its stays, which refuses a mechanism already.
-  if (loaded.model->prestress.rule == fe::PullRule::none) {
-    fe::check_no_mechanism(loaded.system, loaded.theta, loaded.source);
-  }
-  return loaded;
-}
-
 }  // namespace
 
-LoadedModel from_model(fe::Model model) { return prestressed(valid(std::move(model))); }
-
-LoadedModel solvable(const ReadModel& read) {
-  if (read.structure) return with_sound_matrices(prestressed(read));
-  LoadedModel loaded;
-  loaded.source = read.source;
-  loaded.system = read.matrices;
-  loaded.theta = loaded.system.initial();
-  return with_sound_matrices(std::move(loaded));
-}
-
-ReadModel read_model_folder(const std::filesystem::path& folder) {
-  if (!model_io::is_matrix_model(folder)) return valid(model_io::read_model(folder));
-  ReadModel read;
+dynamics::ReadModel read_model_folder(const std::filesystem::path& folder) {
+  if (!model_io::is_matrix_model(folder)) return dynamics::valid_model(model_io::read_model(folder));
+  dynamics::ReadModel read;
   read.source = folder.string();
   read.matrices = model_io::read_matrix_model(folder);
   return read;
 }
 
-ReadModel import_inp(StepContext& context, const std::filesystem::path& file) {
+dynamics::ReadModel import_inp(StepContext& context, const std::filesystem::path& file) {
   context.input(file);
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
   model_io::InpModel imported = model_io::is_ansys_deck(file) ? model_io::read_ansys(file) : model_io::read_inp(file);
   for (const std::string& note : imported.notes) context.say(note);
-  return with_mass_said(context, file, valid(std::move(imported.model)));
+  return with_mass_said(context, file, dynamics::valid_model(std::move(imported.model)));
 }
 
-ReadModel import_nastran(StepContext& context, const std::filesystem::path& file) {
+dynamics::ReadModel import_nastran(StepContext& context, const std::filesystem::path& file) {
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
   model_io::NastranModel imported = model_io::read_nastran(file);
   for (const std::filesystem::path& read : imported.files) context.input(read);
   for (const std::string& note : imported.notes) context.say(note);
-  return with_mass_said(context, file, valid(std::move(imported.model)));
+  return with_mass_said(context, file, dynamics::valid_model(std::move(imported.model)));
 }
 
-ReadModel import_file(StepContext& context, const std::filesystem::path& file) {
+dynamics::ReadModel import_file(StepContext& context, const std::filesystem::path& file) {
   return model_io::is_nastran_file(file) ? import_nastran(context, file) : import_inp(context, file);
 }
 
-ReadModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
+dynamics::ReadModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
   const std::filesystem::path folder = context.model.value_or(default_folder);
   if (std::filesystem::is_regular_file(folder)) return import_file(context, folder);
   if (!std::filesystem::is_directory(folder)) {
@@ -106,7 +71,7 @@ ReadModel load_model(StepContext& context, const std::filesystem::path& default_
   return read_model_folder(context.input(folder));
 }
 
-ReadModel load_study_model(StepContext& context, const std::string& variant) {
+dynamics::ReadModel load_study_model(StepContext& context, const std::string& variant) {
   if (context.model) return load_model(context, *context.model);
   if (context.study.empty()) {
     throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
@@ -118,18 +83,10 @@ ReadModel load_study_model(StepContext& context, const std::string& variant) {
                      "give [model] generator and file, or folder, or a model folder by --model DIR");
   }
   if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
-  return valid(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
+  return dynamics::valid_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
 }
 
-ReadModel with_displacements(ReadModel read, const std::string& displacements, int load_steps) {
-  if (displacements == "as_model" || !read.structure) return read;
-  fe::Model model = read.structure->model();
-  model.prestress.displacements = displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
-  model.prestress.load_steps = load_steps;
-  return valid(std::move(model));
-}
-
-void save_model(const LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
+void save_model(const dynamics::LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
   if (loaded.model) {
     model_io::write_model(fe::with_parameters(*loaded.model, theta), folder);
   } else {

@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <pthread.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -7,6 +9,7 @@
 #include <mutex>
 
 #include "core/printable.hpp"
+#include "steps/shared/heartbeat.hpp"
 #include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
@@ -26,6 +29,12 @@ std::mutex& screen() {
   return mutex;
 }
 
+/// When something was last written to stderr; behind screen().
+Clock::time_point& last_written() {
+  static Clock::time_point at = Clock::now();
+  return at;
+}
+
 double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
 }  // namespace
@@ -35,6 +44,7 @@ void StepContext::say(const std::string& line) const {
   const std::lock_guard lock(screen());
   const char* clear = ::isatty(STDERR_FILENO) ? "\r\033[K" : "";  // a progress line may stand there
   std::fputs(fmt::format("{}{}: {}\n", clear, token_, printable(line)).c_str(), stderr);
+  last_written() = Clock::now();
 }
 
 void StepContext::warn(const std::string& line) {
@@ -60,8 +70,50 @@ void StepContext::progress(const std::string& what, double done, double total) c
                                        done > 0.0 ? fmt::format(", about {:.0f} s left", left) : "");
   std::fputs((terminal ? "\r\033[K" + text : text + "\n").c_str(), stderr);
   std::fflush(stderr);
-  activity.shown = Clock::now();
+  activity.shown = last_written() = Clock::now();
   activity.on_screen = true;
+}
+
+Heartbeat::Heartbeat(const StepContext& context) {
+  if (context.quiet) return;
+  // Signals are for the thread that computes.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this, token = context.token_] { beat(token); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+Heartbeat::~Heartbeat() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  over_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Heartbeat::beat(const std::string& token) {
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  const double silence_s = terminal ? 2.0 : 30.0;
+  constexpr auto look = std::chrono::milliseconds(500);
+  const Clock::time_point start = Clock::now();
+  bool on_screen = false;
+  std::unique_lock lock(mutex_);
+  while (!over_.wait_for(lock, look, [this] { return ended_; })) {
+    const std::lock_guard writing(screen());
+    // The line of its own is rewritten at every look.
+    if (seconds_since(last_written()) < silence_s) {
+      on_screen = false;
+      continue;
+    }
+    const std::string text = fmt::format("{}: working, {:.0f} s so far", token, seconds_since(start));
+    std::fputs((terminal ? "\r\033[K" + text : text + "\n").c_str(), stderr);
+    std::fflush(stderr);
+    if (!terminal) last_written() = Clock::now();
+    on_screen = terminal;
+  }
+  if (on_screen) std::fputs("\r\033[K", stderr);
 }
 
 }  // namespace twindeck::steps

@@ -17,6 +17,7 @@
 #include "model_io/model_folder.hpp"
 #include "steps/shared/cli.hpp"
 #include "steps/shared/configured_inputs.hpp"
+#include "steps/shared/heartbeat.hpp"
 #include "steps/shared/plan.hpp"
 #include "steps/shared/run_step_memory.hpp"
 #include "steps/shared/run_step_signals.hpp"
@@ -152,7 +153,10 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
   // 2. The step computes and writes beside its place.
   io::FolderReplacement replacement(out);
   context.out = replacement.partial();
-  const Status status = computation();
+  const Status status = [&] {
+    const Heartbeat heartbeat(context);
+    return computation();
+  }();
 
   // 3. The manifest comes last.
   io::Manifest manifest = manifest_of(status, step, context);

@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/reporter.hpp"
 #include "io/config.hpp"
 
 namespace twindeck::steps {
 
 /// Input of a step. Files are written into `out`, a temporary folder that replaces the earlier results only when the step has
 /// finished.
-class StepContext {
+class StepContext : public Reporter {
  public:
   std::filesystem::path study;    ///< workflows/<study>; empty when the step runs on a user's own data
   std::filesystem::path results;  ///< root that inputs of earlier steps are read from: results/<study>
@@ -33,12 +34,12 @@ class StepContext {
   /// The path that a configuration names: "{results}/…" lies below --results, other paths are relative to the current folder.
   [[nodiscard]] std::filesystem::path resolved(const std::string& path) const;
   /// A line for people on stderr, prefixed with the step's token; nothing with --quiet.
-  void say(const std::string& line) const;
+  void say(const std::string& line) const override;
   /// A doubtful input that the step uses unchanged: printed as "warning: …" and kept in the manifest, with --quiet too.
-  void warn(const std::string& line);
+  void warn(const std::string& line) override;
   /// Progress with remaining time on anything over two seconds (terminal: one line rewritten; otherwise a line every ten
   /// seconds).
-  void progress(const std::string& what, double done, double total) const;
+  void progress(const std::string& what, double done, double total) const override;
 
   std::vector<std::filesystem::path> inputs_;
   std::map<std::string, std::string> input_hashes_;  ///< path as given -> SHA-256 when it was registered

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "io/csv.hpp"
+#include "steps/measured/comparison_tables.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -115,14 +116,14 @@ void write_costs(const updating::UpdatingResult& result, const std::filesystem::
   csv.save(file);
 }
 
-void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs,
+void write_leave_one_out(const std::vector<matching::ComparisonRow>& comparison, std::size_t pairs,
                          const updating::UpdatingResult& result, const std::filesystem::path& file) {
   if (result.left_out.empty()) return;
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "measured_Hz", "before_Hz", "fitted_Hz", "predicted_Hz",
                      "error_before_pct", "error_fitted_pct", "error_predicted_pct", "parameters_on_bounds", "followed_mac",
                      "converged"});
   for (std::size_t i = 0; i < pairs; ++i) {
-    const ComparisonRow &before = comparison.at(i), &after = comparison.at(pairs + i);
+    const matching::ComparisonRow &before = comparison.at(i), &after = comparison.at(pairs + i);
     const updating::LeftOut& left = result.left_out.at(i);
     csv.row({before.experimental, before.numerical, before.measured_Hz, before.computed_Hz, after.computed_Hz,
              left.frequency_Hz, before.error_pct(), after.error_pct(), error_left_out_pct(left, before.measured_Hz),
@@ -131,19 +132,19 @@ void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size
   csv.save(file);
 }
 
-void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+void write_updating_summary(const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                             const updating::UpdatingResult& result, const std::filesystem::path& file) {
-  std::vector<ComparisonRow> alike;
-  std::copy_if(comparison.begin(), comparison.end(), std::back_inserter(alike), [&](const ComparisonRow& row) {
+  std::vector<matching::ComparisonRow> alike;
+  std::copy_if(comparison.begin(), comparison.end(), std::back_inserter(alike), [&](const matching::ComparisonRow& row) {
     return std::find(common.begin(), common.end(), row.experimental) != common.end();
   });
   io::CsvWriter csv({"quantity", "value", "unit"});
-  csv.row({"mean_abs_error_before_pct", mean_abs_error_pct(comparison, "before"), "%"});
-  csv.row({"mean_abs_error_after_pct", mean_abs_error_pct(comparison, "after"), "%"});
+  csv.row({"mean_abs_error_before_pct", matching::mean_abs_error_pct(comparison, "before"), "%"});
+  csv.row({"mean_abs_error_after_pct", matching::mean_abs_error_pct(comparison, "after"), "%"});
   csv.row({"pairs", comparison.size() / 2, "-"});
   if (!alike.empty()) {
-    csv.row({"mean_abs_error_common_before_pct", mean_abs_error_pct(alike, "before"), "%"});
-    csv.row({"mean_abs_error_common_after_pct", mean_abs_error_pct(alike, "after"), "%"});
+    csv.row({"mean_abs_error_common_before_pct", matching::mean_abs_error_pct(alike, "before"), "%"});
+    csv.row({"mean_abs_error_common_after_pct", matching::mean_abs_error_pct(alike, "after"), "%"});
     csv.row({"pairs_common", alike.size() / 2, "-"});
   }
   if (!result.left_out.empty()) {
@@ -173,7 +174,7 @@ void write_updating_summary(const std::vector<ComparisonRow>& comparison, const 
 }
 
 void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                    const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                    const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                     const updating::UpdatingResult& result, const std::filesystem::path& folder) {
   write_parameters(parameters, active, result, folder / "parameters.csv");
   write_comparison(comparison, folder);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fe/model.hpp"
-#include "steps/refinement/comparison.hpp"
+#include "matching/comparison.hpp"
 #include "updating/updating.hpp"
 
 namespace twindeck::steps {
@@ -38,7 +38,7 @@ void write_costs(const updating::UpdatingResult& result, const std::filesystem::
 /// error_fitted_pct,error_predicted_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without
 /// updating, fitted with all pairs, and predicted by an update to the other pairs. No file where no pair was left out.
 /// @param comparison  rows of the stages `before` and `after`, `pairs` of each, in the order of the targets
-void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size_t pairs,
+void write_leave_one_out(const std::vector<matching::ComparisonRow>& comparison, std::size_t pairs,
                          const updating::UpdatingResult& result, const std::filesystem::path& file);
 
 /// `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over the
@@ -46,12 +46,12 @@ void write_leave_one_out(const std::vector<ComparisonRow>& comparison, std::size
 /// pairs, where there are any; cost and
 /// optimality of the best start, and its cost by a smooth map of the bounds; numbers of starts, of distinct optima, of
 /// parameters on a bound.
-void write_updating_summary(const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+void write_updating_summary(const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                             const updating::UpdatingResult& result, const std::filesystem::path& file);
 
 /// All of these tables. @param comparison  rows of the stages `before` and `after`, in the order of the targets
 void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                    const std::vector<ComparisonRow>& comparison, const std::vector<std::string>& common,
+                    const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                     const updating::UpdatingResult& result, const std::filesystem::path& folder);
 
 /// What was found, for people: values before and after, bounds hit, cost and optimality of each start.

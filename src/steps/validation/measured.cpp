@@ -4,16 +4,16 @@
 #include <filesystem>
 
 #include "buffeting/response.hpp"
+#include "core/error.hpp"
+#include "records/campaign.hpp"
 #include "signal/condition.hpp"
-#include "steps/campaign/campaign.hpp"
-#include "steps/validation/validation.hpp"
 
 namespace twindeck::steps {
 
 MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config) {
   MeasuredRms out;
-  const bool wanted =
-      std::any_of(config.events.begin(), config.events.end(), [](const WindEvent& e) { return !e.condition.empty(); });
+  const bool wanted = std::any_of(config.events.begin(), config.events.end(),
+                                  [](const buffeting::WindEvent& e) { return !e.condition.empty(); });
   const std::filesystem::path folder = context.campaign.value_or(context.results / "s0_campaign");
   if (!wanted) return out;
   if (!std::filesystem::exists(folder)) {
@@ -25,19 +25,19 @@ MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config) {
   }
   context.input(folder / "campaign.toml");
   context.input(folder / "channels.csv");
-  const Campaign campaign = read_campaign(folder);
+  const records::Campaign campaign = records::read_campaign(folder);
   for (const std::string& warning : campaign.warnings) context.say(warning);
-  for (const WindEvent& event : config.events) {
+  for (const buffeting::WindEvent& event : config.events) {
     if (event.condition.empty()) continue;
-    RecordChoice choice;
+    records::RecordChoice choice;
     choice.condition = event.condition;
     choice.kind = "wind";
     double samples = 0.0;
     std::map<std::string, double> sum;
-    for (const RecordGroup& group : record_groups(campaign, choice)) {
-      for (const CampaignRecord& record : group.records) {
+    for (const records::RecordGroup& group : records::record_groups(campaign, choice)) {
+      for (const records::CampaignRecord& record : group.records) {
         context.input(record.file);
-        const RecordSamples recorded = read_record(campaign, record);
+        const records::RecordSamples recorded = records::read_record(campaign, record);
         for (const std::string& note : recorded.notes) context.say(note);
         const Eigen::MatrixXd data = signal::detrended(recorded.values);
         if (!data.allFinite())

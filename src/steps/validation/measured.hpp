@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "steps/shared/run_step.hpp"
-#include "steps/validation/config.hpp"
+#include "steps/validation/validation_config.hpp"
 
 namespace twindeck::steps {
 

@@ -20,13 +20,13 @@ std::string word(aero::StaticRule rule) {
 
 }  // namespace
 
-void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
-               const ValidationConfig& config, const std::filesystem::path& folder) {
+void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
+               const MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "run", "model", "channel", "direction", "rms_m_s2", "rms_low_m_s2", "rms_high_m_s2",
                      "seed_deviation_m_s2", "peak_m_s2", "spectral_rms_m_s2", "spectral_rms_each_frequency_m_s2",
                      "measured_rms_m_s2", "error_pct", "error_low_pct", "error_high_pct"});
   const std::array<std::string, 3> axes = {"x", "y", "z"};
-  for (const RunResult& result : results) {
+  for (const buffeting::RunResult& result : results) {
     for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
       for (Index d = 0; d < 3; ++d) {
         const Index row = 3 * static_cast<Index>(p) + d;
@@ -48,11 +48,11 @@ void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge
   csv.save(folder / "rms.csv");
 }
 
-void write_comfort(const std::vector<RunResult>& results, const BridgeInWind& bridge, const ValidationConfig& config,
-                   const std::filesystem::path& folder) {
+void write_comfort(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
+                   const ValidationConfig& config, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "run", "direction", "deck", "station_m", "peak_m_s2", "peak_low_m_s2", "peak_high_m_s2",
                      "limit_m_s2", "verdict"});
-  for (const RunResult& result : results) {
+  for (const buffeting::RunResult& result : results) {
     for (const bool vertical : {true, false}) {
       std::size_t worst = 0;
       double highest = -1.0;
@@ -74,18 +74,18 @@ void write_comfort(const std::vector<RunResult>& results, const BridgeInWind& br
   csv.save(folder / "comfort.csv");
 }
 
-void write_wind_check(const std::vector<FieldCheck>& checks, const std::filesystem::path& folder) {
+void write_wind_check(const std::vector<buffeting::FieldCheck>& checks, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "quantity", "target", "found", "allowed", "verdict"});
-  for (const FieldCheck& check : checks) {
+  for (const buffeting::FieldCheck& check : checks) {
     csv.row({check.event, check.quantity, check.target, check.found, check.allowed,
              std::abs(check.found - check.target) <= check.allowed ? "met" : "missed"});
   }
   csv.save(folder / "wind_check.csv");
 }
 
-void write_time_checks(const std::vector<TimeCheck>& checks, const std::filesystem::path& folder) {
+void write_time_checks(const std::vector<buffeting::TimeCheck>& checks, const std::filesystem::path& folder) {
   io::CsvWriter csv({"check", "channel", "reference_m_s2", "found_m_s2", "difference_pct", "allowed_pct", "verdict"});
-  for (const TimeCheck& check : checks) {
+  for (const buffeting::TimeCheck& check : checks) {
     const double difference = 100.0 * (check.found_m_s2 / check.reference_m_s2 - 1.0);
     csv.row({check.name, check.channel, check.reference_m_s2, check.found_m_s2, difference, check.allowed_pct,
              std::abs(difference) <= check.allowed_pct ? "met" : "missed"});
@@ -93,13 +93,13 @@ void write_time_checks(const std::vector<TimeCheck>& checks, const std::filesyst
   csv.save(folder / "checks.csv");
 }
 
-void write_hybrid(const BridgeInWind& bridge, const std::filesystem::path& folder) {
+void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::path& folder) {
   io::CsvWriter zones({"deck", "theta_from_deg", "theta_to_deg", "zone", "model", "statics", "lookup_cos_power",
                        "block_inverse_cos_power", "nodes"});
   io::CsvWriter nodes({"deck", "node", "station_m", "x_m", "y_m", "yaw_deg", "model", "static_factor", "block_factor"});
   if (!bridge.aerodynamics.hybrid.empty()) {
-    const aero::Deployment deployment = deployment_of(bridge.aerodynamics, "hybrid");
-    for (const HybridZone& zone : bridge.aerodynamics.hybrid) {
+    const aero::Deployment deployment = buffeting::deployment_of(bridge.aerodynamics, "hybrid");
+    for (const aero::HybridZone& zone : bridge.aerodynamics.hybrid) {
       std::vector<double> yaw;
       for (const aero::Strip& strip : bridge.model.strips) {
         if (strip.deck != zone.deck) continue;

@@ -5,8 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "steps/validation/field.hpp"
-#include "steps/validation/validation.hpp"
+#include "buffeting/bridge_in_wind.hpp"
+#include "buffeting/field_statistics.hpp"
+#include "buffeting/interval.hpp"
+#include "buffeting/simulated_runs.hpp"
+#include "buffeting/time_checks.hpp"
+#include "steps/validation/measured.hpp"
 
 /// What s8_validation writes.
 namespace twindeck::steps {
@@ -17,23 +21,23 @@ namespace twindeck::steps {
 /// scatters, and the frequency domain's value, with derivatives frozen as in time and at each frequency's own; then
 /// `measured_rms_m_s2,error_pct, error_low_pct,error_high_pct` of the vertical direction, Eq. (18), 100 (RMS_num / RMS_exp -
 /// 1), empty without a measured side. The bounds are those of the mean over seeds.
-void write_rms(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
-               const ValidationConfig& config, const std::filesystem::path& folder);
+void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
+               const MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder);
 
 /// comfort.csv: `event,run,direction,deck,station_m,peak_m_s2,peak_low_m_s2,peak_high_m_s2,limit_m_s2,verdict`: the aerodynamic
 /// node with the largest mean peak, against the comfort limits.
-void write_comfort(const std::vector<RunResult>& results, const BridgeInWind& bridge, const ValidationConfig& config,
-                   const std::filesystem::path& folder);
+void write_comfort(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
+                   const ValidationConfig& config, const std::filesystem::path& folder);
 
 /// wind_check.csv: `event,quantity,target,found,allowed,verdict`.
-void write_wind_check(const std::vector<FieldCheck>& checks, const std::filesystem::path& folder);
+void write_wind_check(const std::vector<buffeting::FieldCheck>& checks, const std::filesystem::path& folder);
 
 /// hybrid.csv: the zones of Table 14, `deck,theta_from_deg,theta_to_deg,zone,model,statics,lookup_cos_power,
 /// block_inverse_cos_power,nodes`; the ends are the yaw at the decks' end stays. hybrid_nodes.csv:
 /// `deck,node,station_m,x_m,y_m,yaw_deg, model,static_factor,block_factor` (Fig. 21).
-void write_hybrid(const BridgeInWind& bridge, const std::filesystem::path& folder);
+void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::path& folder);
 
 /// checks.csv: `check,channel,reference_m_s2,found_m_s2,difference_pct,allowed_pct,verdict`.
-void write_time_checks(const std::vector<TimeCheck>& checks, const std::filesystem::path& folder);
+void write_time_checks(const std::vector<buffeting::TimeCheck>& checks, const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

@@ -19,8 +19,8 @@ namespace {
 /// Errors of Eq. (18) by run, event and channel [%].
 class Errors {
  public:
-  Errors(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured) {
-    for (const RunResult& result : results) {
+  Errors(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge, const MeasuredRms& measured) {
+    for (const buffeting::RunResult& result : results) {
       for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
         const auto found = measured.find({result.event, bridge.sensors.points[p]});
         if (found == measured.end()) continue;
@@ -54,8 +54,8 @@ class Errors {
 
 }  // namespace
 
-void write_statements(const std::vector<RunResult>& results, const BridgeInWind& bridge, const MeasuredRms& measured,
-                      const std::filesystem::path& folder) {
+void write_statements(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
+                      const MeasuredRms& measured, const std::filesystem::path& folder) {
   io::CsvWriter csv({"statement", "found", "verdict"});
   const Errors errors(results, bridge, measured);
   if (errors.complete()) {

@@ -76,7 +76,7 @@ void explain_form_case(std::uint64_t seed) {
              hidden.hidden.turn.family, hidden.hidden.words);
   fmt::print("form error {:.2f} % in frequency, {:.2f} % in shape, severity {:.3f}; what features leave alone:\n",
              100.0 * hidden.calibrated.reached, 100.0 * hidden.calibrated.shape, form.severity);
-  const steps::LoadedModel loaded = steps::from_model(coarse_model(layout));
+  const dynamics::LoadedModel loaded = dynamics::from_model(coarse_model(layout));
   for (std::size_t i = 0; i < form.features.size(); ++i)
     fmt::print("  {:<28} at {:>3} size {:>8.4f}: {:.3f} %\n", word_of(form.features[i].what), form.features[i].place + 1,
                form.severity * form.features[i].size,

@@ -43,10 +43,10 @@ const std::vector<diagnosis::Hypothesis>& catalogue() {
   return all;
 }
 
-std::vector<steps::Channel> channels_of(const Layout& layout) {
-  std::vector<steps::Channel> channels;
+std::vector<matching::Channel> channels_of(const Layout& layout) {
+  std::vector<matching::Channel> channels;
   for (std::size_t c = 0; c < layout.channel_nodes.size(); ++c) {
-    steps::Channel channel;
+    matching::Channel channel;
     channel.name = channel_name(layout, static_cast<int>(c));
     const Eigen::Vector2d& x = layout.nodes[static_cast<std::size_t>(layout.channel_nodes[c])];
     channel.x_m = Eigen::Vector3d(x.x(), 0.0, x.y());
@@ -72,7 +72,7 @@ diagnosis::ReductionOptions reduction_for(int modes) {
 bool names_main_feature(const FormCase& hidden, const std::vector<std::string>& answers) {
   const auto& features = hidden.calibrated.form.features;
   if (answers.empty() || features.empty()) return false;
-  const steps::LoadedModel loaded = steps::from_model(coarse_model(hidden.truth.layout));
+  const dynamics::LoadedModel loaded = dynamics::from_model(coarse_model(hidden.truth.layout));
   std::size_t main = 0;
   double most = -1.0;
   for (std::size_t i = 0; i < features.size(); ++i)
@@ -118,7 +118,7 @@ FormCase make_form_case(std::uint64_t seed, std::optional<double> level) {
   // 1. The structure, its true parameters, and a form error of the size that is asked for.
   out.truth.layout = draw_layout(turn.kind, random);
   out.truth.factors = draw_factors(out.truth.layout, random);
-  const steps::LoadedModel loaded = steps::from_model(coarse_model(out.truth.layout));
+  const dynamics::LoadedModel loaded = dynamics::from_model(coarse_model(out.truth.layout));
   out.calibrated = calibrate(loaded.system, out.truth, turn.level, random);
   out.truth.form = out.calibrated.form;
   // 2. What happens to it: drawn anew while the rows hardly show it.
@@ -191,7 +191,7 @@ void run_form_case(const FormCase& hidden, FormScore& score, const std::function
   const Layout& layout = hidden.truth.layout;
   const double begin = cpu_seconds();
   constexpr double kTolerance_m = 0.5;  // of step 9
-  const auto model = steps::prepare_model(steps::from_model(coarse_model(layout)), channels_of(layout), kTolerance_m);
+  const auto model = steps::prepare_model(dynamics::from_model(coarse_model(layout)), channels_of(layout), kTolerance_m);
   const diagnosis::Structure structure = model->structure();
   const diagnosis::Places places = diagnosis::find_places(structure, {});
   const diagnosis::ReducedModel reduced(structure, places, reduction_for(layout.modes));

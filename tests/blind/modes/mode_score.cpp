@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "blind/exact_intervals.hpp"
+#include "identification/identification.hpp"
 #include "signal/condition.hpp"
-#include "steps/identification/identification.hpp"
 
 namespace twindeck::blind::modes {
 
@@ -113,20 +113,20 @@ double known_mac(const Eigen::VectorXd& truth, const Eigen::VectorXcd& shape) {
 }
 
 IdentifiedRecords identify_records(const RandomRecords& records) {
-  steps::IdentificationConfig config;
+  identification::IdentificationSettings config;
   config.block_rows = 40;
   config.maximum_order = 80;
   IdentifiedRecords result;
   std::vector<sysid::SetupModes> setups;
   for (std::size_t s = 0; s < records.setups.size(); ++s) {
-    steps::Conditioned conditioned;
+    identification::Conditioned conditioned;
     conditioned.setup = "S" + std::to_string(s + 1);
     conditioned.rate_Hz = records.rate_Hz;
     conditioned.channels.resize(records.setups[s].channels.size());
     for (std::size_t c = 0; c < conditioned.channels.size(); ++c) conditioned.references.push_back(static_cast<Index>(c));
     conditioned.records.push_back(signal::detrended(records.setups[s].record));
-    result.scale.push_back(steps::channel_rms(conditioned.records));
-    result.setups.push_back(steps::identify_modes(conditioned, config));
+    result.scale.push_back(identification::channel_rms(conditioned.records));
+    result.setups.push_back(identification::identify_modes(conditioned, config));
   }
   std::vector<sysid::Identification*> all;
   for (sysid::Identification& setup : result.setups) all.push_back(&setup);

@@ -10,9 +10,9 @@
 #include <filesystem>
 
 #include "chain.hpp"
+#include "records/measured_tables.hpp"
 #include "steps/diagnosis/features.hpp"
 #include "steps/diagnosis/setup.hpp"
-#include "steps/measured/measured_tables.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::tests {
@@ -26,7 +26,7 @@ std::vector<steps::Finding> account() {
                              {"support:mast", {0.0, 0.0, 0.0}, {}, {}, {}, {}, {}}};
   places.sets["damper_types"] = {{"dampers:C1,C2,C3,C4", {0.0, 0.0, 0.0}, {}, {}, {}, {}, {}}};
   return steps::account_of(steps::read_claims(kFeatures), steps::read_all_features(kFeatures),
-                           steps::read_channels(kFeatures / "channels.csv"), places);
+                           records::read_channels(kFeatures / "channels.csv"), places);
 }
 
 const steps::Finding& finding(const std::vector<steps::Finding>& all, const std::string& kind) {

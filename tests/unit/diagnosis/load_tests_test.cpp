@@ -62,13 +62,13 @@ class Girder {
     add_channel("r0", 1, {0.0, 1.0, 0.0}, RowType::static_rotation);
     add_channel("r1", elements + 1, {0.0, 1.0, 0.0}, RowType::static_rotation);
     for (int s = 0; s <= spans; ++s) {
-      steps::Channel force;
+      matching::Channel force;
       force.name = "F" + std::to_string(s);
       force.support = s == 1 && bearing > 0.0 ? "bearing" : "S" + std::to_string(s);
       force.direction = Eigen::Vector3d::UnitZ();
       put(force, RowType::static_force);
     }
-    steps::Channel strain;
+    matching::Channel strain;
     strain.name = "e";
     strain.element = std::to_string(at_middle_);
     strain.xi = 1.0;
@@ -84,7 +84,7 @@ class Girder {
         features_.rows.push_back(
             {types_[c], "", static_cast<int>(c), "", static_cast<int>(features_.conditions.size()) - 1, 1.0, 0.1, false});
     }
-    prepared_ = steps::prepare_model(steps::from_model(model), channels_, 0.01);
+    prepared_ = steps::prepare_model(dynamics::from_model(model), channels_, 0.01);
     structure_ = prepared_->structure();
     places_ = diagnosis::find_places(structure_, {});
     std::vector<diagnosis::Gauge> gauges;
@@ -130,14 +130,14 @@ class Girder {
   }
 
  private:
-  void put(const steps::Channel& channel, RowType type) {
+  void put(const matching::Channel& channel, RowType type) {
     channels_.push_back(channel);
     types_.push_back(type);
     features_.channels.push_back(channel.name);
     features_.direction.push_back(channel.direction);
   }
   void add_channel(const std::string& name, int node, const Eigen::Vector3d& direction, RowType type) {
-    steps::Channel channel;
+    matching::Channel channel;
     channel.name = name;
     channel.point = std::to_string(node);
     channel.direction = direction;
@@ -145,7 +145,7 @@ class Girder {
   }
 
   std::vector<diagnosis::NodalLoad> loads_;
-  std::vector<steps::Channel> channels_;
+  std::vector<matching::Channel> channels_;
   std::vector<RowType> types_;
   diagnosis::FeatureSet features_;
   int at_middle_ = 0;

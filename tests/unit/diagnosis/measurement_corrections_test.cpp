@@ -27,7 +27,7 @@ struct Faulty {
     for (const auto& effect : result.effects) list.push_back(effect.cause);
     return list;
   }
-  [[nodiscard]] std::vector<steps::Correction> corrections() const {
+  [[nodiscard]] std::vector<records::Correction> corrections() const {
     return steps::corrections_of(result, e.map->features().channels);
   }
 };
@@ -42,14 +42,14 @@ TEST(CorrectionsOf, UndoWhatTheModelOfTheChannelsDoes) {
   const auto base = faulty.e.map->base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(faulty.e.map->nuisances().size())));
   const Eigen::VectorXd right = faulty.e.map->predict(base, {}, false).g,
                         wrong = faulty.e.map->predict(base, faulty.causes(), false).g;
-  const std::vector<steps::Correction> corrections = faulty.corrections();
+  const std::vector<records::Correction> corrections = faulty.corrections();
   ASSERT_EQ(corrections.size(), 4U);
   std::map<std::string, std::map<std::string, double>> plain, mended;  // by mode and channel
   for (std::size_t r = 0; r < features.rows.size(); ++r) {
     const diagnosis::Row& row = features.rows[r];
     if (row.type != diagnosis::RowType::shape) continue;
     const std::string& channel = features.channels[static_cast<std::size_t>(row.channel)];
-    const steps::CorrectedChannel now = steps::corrected(corrections, channel);
+    const records::CorrectedChannel now = records::corrected(corrections, channel);
     plain[row.mode][channel] = right[static_cast<Eigen::Index>(r)];
     mended[row.mode][now.name] = now.factor * wrong[static_cast<Eigen::Index>(r)];
   }
@@ -76,15 +76,15 @@ TEST(CorrectionsOf, LeavesOutWhatIsNotDecidedAndWhatIsNoFaultOfSignGainOrName) {
 
 TEST(WriteCorrections, AddsToWhatWasGivenAndTakesBackWhatWasWrong) {
   const auto file = std::filesystem::temp_directory_path() / "twindeck_measurement_corrections.toml";
-  const steps::Correction a{"a", steps::Correction::Action::reverse, "", 1.0, {}},
-      b{"b", steps::Correction::Action::scale, "", 0.5, {}};
+  const records::Correction a{"a", records::Correction::Action::reverse, "", 1.0, {}},
+      b{"b", records::Correction::Action::scale, "", 0.5, {}};
   std::filesystem::remove(file);
   steps::write_corrections({a}, {}, file);
   EXPECT_FALSE(std::filesystem::exists(file));
   steps::write_corrections({a}, {b}, file);
-  EXPECT_EQ(steps::read_corrections(file).size(), 2U);
+  EXPECT_EQ(records::read_corrections(file).size(), 2U);
   steps::write_corrections({a, b}, {a}, file);
-  const auto left = steps::read_corrections(file);
+  const auto left = records::read_corrections(file);
   std::filesystem::remove(file);
   ASSERT_EQ(left.size(), 1U);
   EXPECT_EQ(left[0].channel, "b");

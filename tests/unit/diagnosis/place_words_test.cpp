@@ -11,8 +11,8 @@ namespace {
 using Eigen::Vector3d;
 using steps::PlaceWords;
 
-steps::Channel sensor(const std::string& name, const std::string& point, std::optional<Vector3d> x = {}) {
-  steps::Channel channel;
+matching::Channel sensor(const std::string& name, const std::string& point, std::optional<Vector3d> x = {}) {
+  matching::Channel channel;
   channel.name = name;
   channel.point = point;
   channel.x_m = x;

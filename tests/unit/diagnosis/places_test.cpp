@@ -47,11 +47,11 @@ TEST(ReducedModel, DriveStiffnessIsThatOfAUnitForce) {
 TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
   // The refined bridge on a coarse mesh: a place's changed frequencies in the reduced basis against a full solve, within 0.1 %.
   const fe::Model model = ponte::generate(std::string(TWINDECK_SOURCE_DIR) + "/data/ponte_del_mare/bridge.toml", "refined");
-  steps::Channel channel;
+  matching::Channel channel;
   channel.name = channel.point = "M3";
   channel.x_m = model.nodes[static_cast<std::size_t>(model.monitoring_points.at("M3"))].x_m;
   channel.direction = Eigen::Vector3d::UnitZ();
-  const auto prepared = steps::prepare_model(steps::from_model(model), {channel}, 0.6);
+  const auto prepared = steps::prepare_model(dynamics::from_model(model), {channel}, 0.6);
   const auto structure = prepared->structure();
   const auto places = diagnosis::find_places(
       structure, {.max_zones = 8, .max_nodes = 4, .moves = {}, .zone_centres = {}, .node_positions = {}});

@@ -83,7 +83,7 @@ class ThreeSpans {
       model.elements.push_back(element);
     }
     model.parameters.push_back({"E", fe::Target::youngs_modulus, {"concrete"}, "Pa", modulus, 0.85 * modulus, 1.15 * modulus});
-    loaded_ = steps::from_model(std::move(model));
+    loaded_ = dynamics::from_model(std::move(model));
     for (const double x : {4.0, 8.0, 12.0, 21.0, 26.0, 31.0, 36.0, 45.0, 50.0, 55.0}) channels_.push_back(node_at(x));
   }
   ThreeSpans(const ThreeSpans&) = delete;
@@ -150,7 +150,7 @@ class ThreeSpans {
   }
 
  private:
-  steps::LoadedModel loaded_;
+  dynamics::LoadedModel loaded_;
   std::vector<std::string> channels_;
 };
 

@@ -27,9 +27,9 @@ struct Spoken {
 Spoken speak(const Chain& chain, const diagnosis::FeatureSet& features) {
   Spoken out{diagnosed(chain, features, catalogue()), {}, {}};
   diagnosis::Diagnosis& result = out.examined.result;
-  std::vector<steps::Channel> channels;
+  std::vector<matching::Channel> channels;
   for (const std::string& name : features.channels) {
-    steps::Channel channel;
+    matching::Channel channel;
     channel.name = name;
     channel.point = name.substr(1);
     channels.push_back(channel);

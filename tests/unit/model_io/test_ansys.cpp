@@ -225,9 +225,48 @@ TEST(AnsysDeck, RigidArms) {
   expect_near_part(deck_frequencies_Hz(start + equations, 1)[0], f, 1e-9);
   // Nodes at one place, tied in all directions.
   expect_near_part(deck_frequencies_Hz(start + "N,4\nCP,1,ALL,2,4\nCERIG,4,3\n", 1)[0], f, 1e-9);
-  EXPECT_NE(
-      message_of([&] { (void)ansys_model(start + "N,4\nE,3\nCP,1,UX,2,3\n"); }).find("CP: ties nodes 2 and 3, which lie apart"),
-      std::string::npos);
+}
+
+/// Two masses of 2 and 6 kg on springs of 600 N/m along X, free of each other.
+const std::string two_oscillators =
+    "/PREP7\nET,1,COMBIN14\nKEYOPT,1,2,1\nET,2,MASS21,,,2\nR,1,600\nR,2,2\nR,3,6\nN,1\nN,2,1\nN,11,,5\nN,12,1,5\n"
+    "E,1,2\nE,11,12\nTYPE,2\nREAL,2\nE,2\nREAL,3\nE,12\nD,1,ALL\nD,11,ALL\nD,2,UY,,,12,10,UZ\n";
+
+TEST(AnsysDeck, CoupledDisplacementsAndEquations) {
+  const auto first_Hz = [](const std::string& rest) { return deck_frequencies_Hz(two_oscillators + rest, 1)[0] * 2.0 * pi; };
+  EXPECT_NEAR(first_Hz(""), std::sqrt(600.0 / 6.0), 1e-6);
+  EXPECT_NEAR(first_Hz("CP,1,UX,2,12\n"), std::sqrt(1200.0 / 8.0), 1e-6);  // apart, in one direction
+  // u_2 = 2 u_12: k = 600 (4 + 1), m = 2 * 4 + 6. As CDWRITE and as a command write it, in either order.
+  for (const char* equation :
+       {"CE,1,0,2,UX,1,12,UX,-2\n", "CE,1,0,12,UX,-2,2,UX,1\n", "CE,R5.0,DEFI,1,2,0.\nCE,R5.0,NODE,2,UX,1.,12,UX,-2.\n"})
+    EXPECT_NEAR(first_Hz(equation), std::sqrt(3000.0 / 14.0), 1e-6) << equation;
+  // A displacement that is held takes its fellow with it; one that follows already lets another follow.
+  EXPECT_NEAR(first_Hz("N,13,2,5\nE,12\nCP,1,UX,1,12\n"), std::sqrt(600.0 / 2.0), 1e-6);
+}
+
+TEST(AnsysDeck, RigidRegionsInSomeDirections) {
+  // The mass follows the arm in Y alone, and hangs on a spring of its own in X.
+  const std::string deck =
+      "/PREP7\nET,1,COMBIN14\nKEYOPT,1,2,6\nET,2,MASS21,,,2\nET,3,COMBIN14\nKEYOPT,3,2,1\nR,1,1200\nR,2,3\nR,3,4800\nN,1\nN,2\n"
+      "N,3,2\nN,4,3\nE,1,2\nTYPE,2\nREAL,2\nE,3\nTYPE,3\nREAL,3\nE,3,4\nD,1,ALL\nD,4,ALL\nD,2,ALL\nDDELE,2,ROTZ\nD,3,UZ\n"
+      "CERIG,2,3,UY\n";
+  const Eigen::VectorXd f = deck_frequencies_Hz(deck, 2);
+  EXPECT_NEAR(f[0] * 2.0 * pi, 10.0, 1e-6);
+  EXPECT_NEAR(f[1] * 2.0 * pi, 40.0, 1e-6);
+}
+
+TEST(AnsysDeck, TetrahedraAmongTheSolids) {
+  // A confined rod of one tetrahedron: what is read has its four nodes.
+  const fe::Model model = ansys_model("/PREP7\nET,1,SOLID185\n" + std::string(steel) +
+                                      "N,1\nN,2,1\nN,3,0,1\nN,4,0,0,1\nE,1,2,3,3,4,4,4,4\nD,1,ALL,,,3\n")
+                              .model;
+  ASSERT_EQ(model.elements.size(), 1u);
+  EXPECT_EQ(model.elements[0].nodes, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_NE(message_of([&] {
+              (void)ansys_model("/PREP7\nET,1,SOLID185\n" + std::string(steel) +
+                                "N,1\nN,2,1\nN,3,0,1\nN,4,0,0,1\nN,5,1,0,1\nN,6,0,1,1\nE,1,2,3,3,4,5,6,6\nD,1,ALL\n");
+            }).find("of 6 different nodes: prism and pyramid are not supported"),
+            std::string::npos);
 }
 
 TEST(AnsysDeck, FileBesideGivesWhatTheDeckDoesNot) {

@@ -26,11 +26,13 @@ TEST(AnsysRefusals, NameLineAndCommand) {
   };
   for (const Case& c : {
            Case{"TB,BKIN,1", "deck.dat:9: TB: material tables (BKIN)"},
-           {"CE,1,0,1,UX,1,2,UX,-1", "deck.dat:9: CE: the equations of nodes 1 and 2 are no rigid link"},
+           {"CE,1,0,1,UX,1,2,TEMP,-1", "deck.dat:9: CE: 'TEMP' is no degree of freedom"},
            {"CE,1,0.5,1,UX,1,2,UX,-1", "deck.dat:9: CE: has a constant that is not 0"},
-           {"N,5\nCE,1,0,1,UX,1,2,UX,-0.5,5,UX,-0.5", "deck.dat:10: CE: equation 1 is no part of a rigid link"},
+           {"N,5,5,5,,30\nCE,1,0,2,UX,1,5,UX,-1", "deck.dat:10: CE: ties along the axes of node 5, which are turned"},
+           {"CERIG,1,2,UX,TEMP", "deck.dat:9: CERIG: 'TEMP' is no degree of freedom"},
            {"VMESH,ALL", "deck.dat:9: VMESH: unsupported command"},
-           {"CP,1,ROTX,1,2", "deck.dat:9: CP: ties nodes 1 and 2, which lie apart"},
+           {"N,5\nCP,1,UX,2,5", "deck.dat:10: CP: ties node 5, which no element holds"},
+           {"CP,1,UX,2", "deck.dat:9: CP: ties less than two nodes"},
            {"*DO,I,1,3\nN,I,I\n*ENDDO", "deck.dat:10: N: depends on the *DO of line 9"},
            {"*IF,A,EQ,1,THEN\nN,9,9\n*ENDIF", "deck.dat:10: N: depends on the *IF of line 9"},
            {"*IF,A,EQ,1,EXIT", "deck.dat:9: *IF: depends on"},

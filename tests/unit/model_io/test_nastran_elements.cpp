@@ -243,7 +243,10 @@ TEST(NastranElements, EveryRefusalNamesItsLine) {
   const TestFolder folder;
   // Each stands in line 5, below the four of two_grids.
   const std::vector<Refusal> refusals = {
-      {"CTETRA,1,2,1,2,3,4", "hexahedra"},
+      {"CTETRA,1,2,1,2,3,4,5,6\n,7,8,9,10", "nodes on its edges (10 in all)"},
+      {"CHEXA,1,2,1,2,3,4,5,6\n,7,8,9,10,11,12,13,14\n,15,16,17,18,19,20", "nodes on its edges (20 in all)"},
+      {"CTRIA6,1,2,1,2,3,4,5,6", "mesh with linear elements"},
+      {"CPENTA,1,2,1,2,3,4,5,6", "hexahedra"},
       {"RBE3,1,,1,456,1.,123,2", "do not determine component 4 of grid 1"},
       {"RBE3,1,,1,123,1,123,2", "a weight is '1'"},
       {"RBE3,1,,1,123,1.,123,2\n,UM,2,1", "UM"},
@@ -281,8 +284,8 @@ TEST(NastranElements, EveryRefusalNamesItsLine) {
     EXPECT_NE(message.find("deck.bdf:"), std::string::npos) << refusal.cards << "\n" << message;
     EXPECT_NE(message.find(refusal.words), std::string::npos) << refusal.cards << "\n" << message;
   }
-  const std::string line = message_of([&] { (void)import_deck(folder, two_grids + "CTETRA,1,2,1,2,3,4\n"); });
-  EXPECT_NE(line.find("deck.bdf:5: CTETRA 1: "), std::string::npos) << line;
+  const std::string line = message_of([&] { (void)import_deck(folder, two_grids + "CPENTA,1,2,1,2,3,4,5,6\n"); });
+  EXPECT_NE(line.find("deck.bdf:5: CPENTA 1: "), std::string::npos) << line;
 }
 
 TEST(NastranElements, WhatIsPassedOverIsSaid) {

@@ -2,6 +2,10 @@
 /// exactly.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+
 #include "model_io/matrix_market.hpp"
 #include "model_io/matrix_model.hpp"
 #include "model_io/op4.hpp"
@@ -49,6 +53,129 @@ TEST(Op4, EveryFormHoldsTheSameMatrix) {
   EXPECT_EQ(read_text_op4(folder, op4_header + triangle + op4_end), expected);
 }
 
+/// Fortran's unformatted records of the same matrix, with words of `word` bytes, in the other order of bytes if `reversed`.
+class BinaryFile {
+ public:
+  BinaryFile(int word, bool reversed) : word_(word), reversed_(reversed) {}
+  BinaryFile& whole(std::initializer_list<long> numbers) {
+    for (const long number : numbers)
+      word_ == 4 ? put(static_cast<std::int32_t>(number)) : put(static_cast<std::int64_t>(number));
+    return *this;
+  }
+  BinaryFile& real(std::initializer_list<double> numbers) {
+    for (const double number : numbers) put(number);
+    return *this;
+  }
+  BinaryFile& single(std::initializer_list<double> numbers) {
+    for (const double number : numbers) put(static_cast<float>(number));
+    return *this;
+  }
+  BinaryFile& name() {
+    record_ += word_ == 4 ? "KGG     " : "KGG             ";
+    return *this;
+  }
+  BinaryFile& end_record() {
+    const std::string body = record_;
+    record_.clear();
+    put(static_cast<std::int32_t>(body.size()));
+    const std::string length = record_;
+    record_.clear();
+    bytes_ += length + body + length;
+    return *this;
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  template <class T>
+  void put(T value) {
+    std::string raw(reinterpret_cast<const char*>(&value), sizeof(T));
+    if (reversed_) std::reverse(raw.begin(), raw.end());
+    record_ += raw;
+  }
+  int word_;
+  bool reversed_;
+  std::string record_, bytes_;
+};
+
+/// Dense columns (nonzero from the first to the last), strings, strings of BIGMAT. @param words  of a number
+std::string binary_op4(int word, bool reversed, const std::string& form) {
+  const long words = word == 4 ? 2 : 1;
+  BinaryFile file(word, reversed);
+  file.whole({3, form == "bigmat" ? -3 : 3, 6, 2}).name().end_record();
+  const auto string_head = [&](long count, long row) {
+    if (form == "bigmat")
+      file.whole({count * words + 1, row});
+    else
+      file.whole({row + 65536 * (count * words + 1)});
+  };
+  if (form == "dense") {
+    file.whole({1, 1, 2 * words}).real({4.0, -1.0}).end_record();
+    file.whole({2, 1, 3 * words}).real({-1.0, 5.0, -2.0}).end_record();
+    file.whole({3, 2, 2 * words}).real({-2.0, 6.0}).end_record();
+  } else {
+    file.whole({1, 0, 2 * words + 1});
+    string_head(2, 1);
+    file.real({4.0, -1.0}).end_record();
+    file.whole({2, 0, 3 * words + 1});
+    string_head(3, 1);
+    file.real({-1.0, 5.0, -2.0}).end_record();
+    file.whole({3, 0, 2 * words + 2});  // as two strings of one
+    string_head(1, 2);
+    file.real({-2.0});
+    string_head(1, 3);
+    file.real({6.0}).end_record();
+  }
+  return file.whole({4, 1, words}).real({1.0}).end_record().bytes();
+}
+
+TEST(Op4, BinaryFilesHoldTheSameMatrix) {
+  const TestFolder folder;
+  const Eigen::Matrix3d expected{{4.0, -1.0, 0.0}, {-1.0, 5.0, -2.0}, {0.0, -2.0, 6.0}};
+  for (const int word : {4, 8})
+    for (const bool reversed : {false, true})
+      for (const char* form : {"dense", "strings", "bigmat"}) {
+        EXPECT_EQ(read_text_op4(folder, binary_op4(word, reversed, form)), expected) << word << reversed << form;
+        EXPECT_EQ(op4_rows(folder.path() / "K.op4"), 3);
+      }
+  // Single precision has one word a number.
+  BinaryFile single(4, false);
+  single.whole({1, 1, 6, 1}).name().end_record();
+  single.whole({1, 1, 1}).single({2.5}).end_record();
+  single.whole({2, 1, 1}).single({1.0}).end_record();
+  EXPECT_EQ(read_text_op4(folder, single.bytes()), Eigen::MatrixXd::Constant(1, 1, 2.5));
+}
+
+TEST(Op4, DamagedBinaryFilesNameTheirByte) {
+  const TestFolder folder;
+  const auto expect = [&](const std::string& bytes, const std::string& words) {
+    const std::string message = message_of([&] { (void)read_text_op4(folder, bytes); });
+    EXPECT_NE(message.find("K.op4: byte "), std::string::npos) << message;
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  const std::string sound = binary_op4(4, false, "strings");
+  for (std::size_t length = 4; length < sound.size(); length += 7) {  // cut anywhere
+    const std::string message = message_of([&] { (void)read_text_op4(folder, sound.substr(0, length)); });
+    EXPECT_NE(message.find("K.op4: byte "), std::string::npos) << length << message;
+  }
+  expect(sound + sound, "a second matrix follows");
+  std::string other = sound;
+  other.at(28) = 25;  // the header's second length
+  expect(other, "two lengths differ");
+  const auto headed = [](std::initializer_list<long> header) {
+    return BinaryFile(4, false).whole(header).name().end_record().bytes();
+  };
+  expect(headed({3, 3, 6, 4}), "holds numbers of type 4");
+  expect(headed({3, 2, 2, 2}), "is 2 x 3");
+  expect(headed({1000000, 1000000, 6, 2}), "says 1000000 columns, more than a file of 32 bytes holds");
+  BinaryFile far(4, false);
+  far.whole({3, 3, 6, 2}).name().end_record().whole({1, 3, 4}).real({4.0, -1.0}).end_record();
+  expect(far.bytes(), "row 4 lies outside");
+  BinaryFile twice(4, false);
+  twice.whole({3, 3, 6, 2}).name().end_record();
+  twice.whole({1, 1, 2}).real({4.0}).end_record().whole({1, 1, 2}).real({4.0}).end_record();
+  expect(twice.bytes(), "entry (1, 1) stands twice");
+}
+
 TEST(Op4, AMatrixModelTakesIt) {
   const TestFolder folder;
   folder.write("K.op4", op4_header + strings + op4_end);
@@ -70,7 +197,7 @@ TEST(Op4, RefusalsNameTheirLine) {
   };
   const std::string sound = op4_header + dense_columns + op4_end;
   expect("", "K.op4:1: '' is no whole number");
-  expect(std::string("\x18\0\0\0\x03\0\0\0", 8), "K.op4:1: is a binary file");
+  expect(std::string("\x17\0\0\0\x03\0\0\0", 8), "K.op4:1: is neither formatted nor a binary file");
   expect("       3       3       6       4KGG     1P,3E23.16\n", "K.op4:1: holds numbers of type 4");
   expect("       3       2       2       2KGG     1P,3E23.16\n", "K.op4:1: is 2 x 3");
   expect("       3       3       6       2KGG     free\n", "K.op4:1: ");

@@ -1,6 +1,7 @@
 /// Oracle: identity (what was written comes back), the VTK numbers of a hexahedron (type 12, eight points), and messages that
 /// name file, line and column.
 #include "model_io/export.hpp"
+#include "model_io/inp.hpp"
 #include "model_io/model_folder.hpp"
 #include "test_folder.hpp"
 
@@ -50,6 +51,23 @@ TEST(SolidFolder, ComesBackAsItWas) {
   const std::string first = folder.read("elements.csv");
   write_model(back, folder.path());
   EXPECT_EQ(folder.read("elements.csv"), first);
+}
+
+TEST(SolidFolder, TetrahedraComeBackFromFolderAndInp) {
+  const TestFolder folder;
+  fe::Model model = cube();
+  model.nodes.resize(4);
+  for (const int i : {0, 1, 2, 3})
+    model.nodes[static_cast<std::size_t>(i)].x_m =
+        i == 0 ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(Eigen::Vector3d::Unit(i - 1));
+  model.elements = {model.elements[0]};
+  model.elements[0].nodes = {0, 1, 2, 3};
+  write_model(model, folder.path());
+  EXPECT_EQ(read_model(folder.path()).elements.at(0).nodes, model.elements[0].nodes);
+  EXPECT_EQ(folder.read("elements.csv").find("node5"), std::string::npos);
+  (void)write_inp(model, {}, InpFlavour::abaqus, 3, folder.path() / "again.inp");
+  EXPECT_NE(folder.read("again.inp").find("TYPE=C3D4"), std::string::npos) << folder.read("again.inp");
+  EXPECT_EQ(read_inp(folder.path() / "again.inp").model.elements.at(0).nodes, model.elements[0].nodes);
 }
 
 TEST(TaperedFolder, ComesBackAsItWas) {

@@ -10,6 +10,7 @@
 #include "records/universal_lines.hpp"
 #include "records/write_universal.hpp"
 #include "scratch.hpp"
+#include "universal_series.hpp"
 
 namespace twindeck::records {
 namespace {

@@ -25,10 +25,12 @@ class Orbit {
     }
     this.along = 0.5 * Math.atan2(2 * xy, xx - yy);
     this.aspect = 16 / 9;
+    this.moved = false;  // by hand: then a picture of another shape keeps what the reader chose
     this.home('space');
   }
 
   home(view) {
+    this.moved = false;
     this.target = [...this.middle];
     this.azimuth = this.along - Math.PI / 2 + { space: -0.55, plan: 0, side: 0, end: Math.PI / 2 }[view];
     this.elevation = { space: 0.42, plan: Math.PI / 2 - 1e-4, side: 0, end: 0 }[view];
@@ -99,6 +101,7 @@ class Orbit {
       const last = held.get(e.pointerId);
       if (!last) return;
       const dx = e.clientX - last[0], dy = e.clientY - last[1];
+      this.moved = true;
       held.set(e.pointerId, [e.clientX, e.clientY]);
       if (held.size === 2) {  // two fingers: nearer or further
         const [a, b] = [...held.values()], now = Math.hypot(a[0] - b[0], a[1] - b[1]);
@@ -123,6 +126,7 @@ class Orbit {
     canvas.addEventListener('keydown', e => {
       const turn = { ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }[e.key];
       if (turn) {
+        this.moved = true;
         this.azimuth += turn[0];
         this.elevation = Math.max(-1.5, Math.min(Math.PI / 2 - 1e-4, this.elevation + turn[1]));
       } else if (e.key === '+' || e.key === '-') {
@@ -136,6 +140,7 @@ class Orbit {
   }
 
   zoom(factor) {
+    this.moved = true;
     this.distance = Math.max(0.02 * this.size, Math.min(20 * this.size, this.distance * factor));
   }
 }

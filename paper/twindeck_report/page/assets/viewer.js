@@ -44,7 +44,6 @@ class Viewer {
       const orbit = new Orbit(scene.base.length ? scene.base : scene.spots);
       if (this.orbit) Object.assign(this.orbit, orbit);
       else (this.orbit = orbit).listen(this.canvas, () => this.paint());
-      this.fresh = true;
     }
     this.moved = new Float32Array(scene.base);
     this.colours = new Float32Array(scene.base.length);
@@ -60,8 +59,7 @@ class Viewer {
     if (!this.scene) return;
     this.renderer.size(width, height, Math.min(2, window.devicePixelRatio || 1));
     this.orbit.aspect = width / height;
-    if (this.fresh) this.orbit.fit();
-    this.fresh = false;
+    if (!this.orbit.moved) this.orbit.fit();
     this.paint();
   }
 

@@ -204,7 +204,7 @@ TEST(FormEvidence, SumsAreLogarithmsOfSumsAndProbabilitiesSumToOne) {
 
 TEST(ScaleGrid, PriorsAreThoseOfTheHalfTLaw) {
   const ScaleGrid grid = diagnosis::scale_grid();
-  EXPECT_EQ(grid.points.size(), 48u);
+  EXPECT_EQ(grid.points.size(), 60u);
   double sum = 0.0;
   for (const ScalePoint& point : grid.points) sum += std::exp(point.log_prior);
   EXPECT_NEAR(sum, 1.0, 1e-12);

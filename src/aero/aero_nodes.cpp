@@ -1,0 +1,240 @@
+#include "aero/aero_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/error.hpp"
+
+namespace twindeck::aero {
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// A line of nodes across a deck.
+struct CrossSection {
+  int edge_a = -1, edge_b = -1;
+  std::vector<int> nodes;
+  Eigen::Vector3d centre, across;  // middle of the edges; from edge a to edge b
+  double station = 0.0;
+};
+
+const Eigen::Vector3d& position(const fe::Model& model, int node) { return model.nodes[static_cast<std::size_t>(node)].x_m; }
+
+// Elements that share nodes, taken together, are one line across; its edges are the nodes that one element alone touches.
+std::vector<CrossSection> cross_sections(const fe::Model& model, const std::string& group) {
+  std::map<int, std::vector<int>> neighbours;
+  for (const fe::Element& e : model.elements) {
+    if (e.group != group || e.nodes.size() != 2) continue;
+    neighbours[e.nodes[0]].push_back(e.nodes[1]);
+    neighbours[e.nodes[1]].push_back(e.nodes[0]);
+  }
+  std::vector<CrossSection> lines;
+  std::set<int> done;
+  for (const auto& [start, linked] : neighbours) {
+    if (linked.size() != 1 || done.contains(start)) continue;
+    CrossSection line;
+    for (int node = start, before = -1; node >= 0;) {
+      line.nodes.push_back(node);
+      done.insert(node);
+      int next = -1;
+      for (const int other : neighbours[node]) next = other != before && !done.contains(other) ? other : next;
+      before = node;
+      node = next;
+    }
+    line.edge_a = line.nodes.front();
+    line.edge_b = line.nodes.back();
+    line.across = position(model, line.edge_b) - position(model, line.edge_a);
+    line.centre = 0.5 * (position(model, line.edge_a) + position(model, line.edge_b));
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+// In order along the deck: by the chord between the two sections farthest apart, which an arc of less than half a circle passes
+// monotonically.
+void order(std::vector<CrossSection>& lines) {
+  Eigen::Vector3d chord = Eigen::Vector3d::Zero();
+  for (const CrossSection& a : lines) {
+    for (const CrossSection& b : lines) {
+      if ((b.centre - a.centre).norm() > chord.norm()) chord = b.centre - a.centre;
+    }
+  }
+  // From south to north (or west to east), whatever the numbering.
+  if (chord.x() < 0.0 || (chord.x() == 0.0 && chord.y() < 0.0)) chord = -chord;
+  std::sort(lines.begin(), lines.end(),
+            [&](const CrossSection& a, const CrossSection& b) { return a.centre.dot(chord) < b.centre.dot(chord); });
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    lines[i].station = lines[i - 1].station + (lines[i].centre - lines[i - 1].centre).norm();
+    if (lines[i].across.dot(lines[i - 1].across) < 0.0) {
+      std::swap(lines[i].edge_a, lines[i].edge_b);
+      lines[i].across = -lines[i].across;
+    }
+  }
+}
+
+// Stations of the outermost stay anchorages; the whole deck if there are none.
+std::pair<double, double> between_end_stays(const fe::Model& model, const std::vector<CrossSection>& lines) {
+  std::map<int, int> carrier;
+  for (const fe::RigidLink& link : model.links) carrier[link.slave] = link.master;
+  std::map<int, double> station;
+  for (const CrossSection& line : lines) {
+    for (const int node : line.nodes) station[node] = line.station;
+  }
+  double first = lines.back().station, last = lines.front().station;
+  for (const fe::Element& e : model.elements) {
+    if (e.type != fe::ElementType::stay) continue;
+    for (int node : e.nodes) {
+      if (const auto link = carrier.find(node); link != carrier.end()) node = link->second;
+      if (const auto found = station.find(node); found != station.end()) {
+        first = std::min(first, found->second);
+        last = std::max(last, found->second);
+      }
+    }
+  }
+  return first < last ? std::pair{first, last} : std::pair{lines.front().station, lines.back().station};
+}
+
+// Direction of the deck at a section: horizontal, across its edges.
+Eigen::Vector3d tangent_at(const CrossSection& line, const Eigen::Vector3d& along) {
+  Eigen::Vector3d t = Eigen::Vector3d::UnitZ().cross(line.across);
+  t.z() = 0.0;
+  t.normalize();
+  return t.dot(along) < 0.0 ? Eigen::Vector3d(-t) : t;
+}
+
+void add_interpolated(const fe::Model& model, const std::string& deck, std::vector<CrossSection>& lines, int count,
+                      AeroNodes& out, Triplets& entries) {
+  const auto [first, last] = between_end_stays(model, lines);
+  const double length = (last - first) / count;
+  std::size_t k = 0;
+  for (int i = 0; i < count; ++i) {
+    const double s = first + (i + 0.5) * length;
+    while (k + 2 < lines.size() && lines[k + 1].station < s) ++k;
+    const CrossSection &a = lines[k], &b = lines[k + 1];
+    const double span = b.station - a.station, t = (s - a.station) / span;
+    const Eigen::Vector3d along = b.centre - a.centre;
+    AeroNode node;
+    node.deck = deck;
+    node.station_m = s - 0.5 * (first + last);
+    node.length_m = length;
+    node.x_m = a.centre + t * along;
+    node.tangent = ((1.0 - t) * tangent_at(a, along) + t * tangent_at(b, along)).normalized();
+
+    const int row = 6 * static_cast<int>(out.nodes.size());
+    const auto put = [&](int r, int at, int direction, double value) {
+      entries.emplace_back(row + r, 6 * at + direction, value);
+    };
+    for (const auto& [line, weight] : {std::pair{&a, 1.0 - t}, std::pair{&b, t}}) {
+      for (int d = 0; d < 3; ++d) {
+        put(d, line->edge_a, d, 0.5 * weight);
+        put(d, line->edge_b, d, 0.5 * weight);
+      }
+      // w tangent × across = rise of edge b over edge a
+      const double lever = node.tangent.cross(line->across).z();
+      for (int d = 0; d < 2; ++d) {
+        put(3 + d, line->edge_b, 2, weight * node.tangent(d) / lever);
+        put(3 + d, line->edge_a, 2, -weight * node.tangent(d) / lever);
+      }
+    }
+    // w normal × tangent = slope; normal = e_z × tangent gives -1
+    const Eigen::Vector3d normal = Eigen::Vector3d::UnitZ().cross(node.tangent);
+    for (int d = 0; d < 2; ++d) {
+      for (const int edge : {b.edge_a, b.edge_b}) put(3 + d, edge, 2, -0.5 * normal(d) / span);
+      for (const int edge : {a.edge_a, a.edge_b}) put(3 + d, edge, 2, 0.5 * normal(d) / span);
+    }
+    out.nodes.push_back(node);
+  }
+}
+
+std::vector<int> named_nodes(const fe::Model& model, const std::string& deck) {
+  std::vector<int> nodes;
+  for (const auto& [name, node] : model.monitoring_points) {  // a map: in the order of their names
+    if (name.starts_with("aero_" + deck + "_")) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+void add_named(const fe::Model& model, const std::string& deck, std::vector<int> named, AeroNodes& out, Triplets& entries) {
+  if (position(model, named.front()).x() > position(model, named.back()).x()) std::reverse(named.begin(), named.end());
+  std::vector<double> station(named.size(), 0.0);
+  for (std::size_t i = 1; i < named.size(); ++i)
+    station[i] = station[i - 1] + (position(model, named[i]) - position(model, named[i - 1])).norm();
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, named.size() - 1);
+    AeroNode node;
+    node.deck = deck;
+    node.station_m = station[i] - 0.5 * station.back();
+    // Nodes stand in the middle of their lengths, the outermost too: half way to each neighbour, at an end twice the one half.
+    node.length_m = (before == i || after == i ? 1.0 : 0.5) * (station[after] - station[before]);
+    node.x_m = position(model, named[i]);
+    // The circle through three neighbours: its tangent at the middle one; at an end that of the neighbour, mirrored in the
+    // chord.
+    Eigen::Vector3d along = position(model, named[after]) - position(model, named[before]);
+    if (i > 0 && i + 1 < named.size()) {
+      const Eigen::Vector3d u = node.x_m - position(model, named[before]), v = position(model, named[after]) - node.x_m;
+      along = u / u.squaredNorm() + v / v.squaredNorm();
+    } else if (named.size() > 2) {
+      const std::size_t middle = i == 0 ? 1 : i - 1, far = i == 0 ? 2 : i - 2;
+      const Eigen::Vector3d u = position(model, named[middle]) - node.x_m,
+                            v = position(model, named[far]) - position(model, named[middle]);
+      const Eigen::Vector3d at_middle = (u / u.squaredNorm() + v / v.squaredNorm()).normalized(), chord = u.normalized();
+      along = (i == 0 ? 1.0 : -1.0) * (2.0 * at_middle.dot(chord) * chord - at_middle);
+    }
+    along.z() = 0.0;
+    node.tangent = along.normalized();
+    for (int d = 0; d < 6; ++d) entries.emplace_back(6 * static_cast<int>(out.nodes.size()) + d, 6 * named[i] + d, 1.0);
+    out.nodes.push_back(node);
+  }
+}
+
+}  // namespace
+
+AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>& decks,
+                          const std::vector<std::string>& cross_groups, int per_deck) {
+  TWINDECK_ASSERT(decks.size() == cross_groups.size() && per_deck > 0);
+  AeroNodes out;
+  Triplets entries;
+  for (std::size_t i = 0; i < decks.size(); ++i) {
+    if (const std::vector<int> named = named_nodes(model, decks[i]);
+        named.size() > 1 && static_cast<int>(named.size()) == per_deck) {
+      add_named(model, decks[i], named, out, entries);
+      continue;
+    }
+    std::vector<CrossSection> lines = cross_sections(model, cross_groups[i]);
+    if (lines.size() < 2) {
+      throw InputError(
+          {model.source, 0, "deck " + decks[i]},
+          fmt::format("has {} lines of elements '{}' across it, expected at least 2", lines.size(), cross_groups[i]),
+          "name the group of its floor beams in cross_group, or give points aero_" + decks[i] + "_01 ... in points.csv");
+    }
+    order(lines);
+    add_interpolated(model, decks[i], lines, per_deck, out, entries);
+  }
+  out.motion.resize(6 * static_cast<int>(out.nodes.size()), 6 * static_cast<int>(model.nodes.size()));
+  out.motion.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+std::vector<Strip> strips_of(const AeroNodes& nodes, const std::vector<std::string>& decks, const Wind& wind) {
+  std::vector<Strip> strips;
+  for (const AeroNode& node : nodes.nodes) {
+    const auto section = static_cast<int>(std::find(decks.begin(), decks.end(), node.deck) - decks.begin());
+    strips.push_back(aero::make_strip(node.deck, section, node.station_m, node.length_m, node.x_m, node.tangent, wind));
+  }
+  return strips;
+}
+
+std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> motions_of(const AeroNodes& nodes,
+                                                                 const Eigen::Ref<const Eigen::MatrixXd>& displacement) {
+  const Eigen::MatrixXd all = nodes.motion * displacement;
+  std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> motions;
+  for (std::size_t i = 0; i < nodes.nodes.size(); ++i)
+    motions.emplace_back(all.middleRows<6>(6 * static_cast<Eigen::Index>(i)));
+  return motions;
+}
+
+}  // namespace twindeck::aero

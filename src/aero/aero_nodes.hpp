@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "aero/strip.hpp"
+#include "fe/model.hpp"
+#include "linalg/types.hpp"
+
+namespace twindeck::aero {
+
+/// Points of a model's decks at which wind acts.
+struct AeroNode {
+  std::string deck;
+  double station_m = 0.0;  ///< along the deck's axis from the middle between its end nodes
+  double length_m = 0.0;   ///< influence length
+  Eigen::Vector3d x_m = Eigen::Vector3d::Zero(), tangent = Eigen::Vector3d::UnitX();
+};
+
+struct AeroNodes {
+  std::vector<AeroNode> nodes;
+  /// Motions (x y z rx ry rz of node 0, …) from displacements of all nodes of the model, (6 n_aero × 6 n_nodes); its transpose
+  /// takes wind forces to nodal ones.
+  linalg::SparseMatrix motion;
+};
+
+/// Aerodynamic nodes of a finite element model, `per_deck` between the end stays of each deck.
+///
+/// Where the model names its own (points.csv: aero_<deck>_01 … as many as asked for), those nodes and their rotations are
+/// taken, each in the middle of its length: half the way to its neighbours, the outermost as far outwards. Otherwise they are
+/// laid evenly, by interpolation between the deck's cross sections: lines of elements of the group `cross_group` across the
+/// deck. A section moves with the mean of its two edges and turns about the deck's axis by their difference, about the
+/// horizontal normal by the slope to the next section (rotation about the vertical does not meet any wind force and is left
+/// zero). A deck without stays is taken from end to end.
+/// @throws InputError  for a deck that the model does not have
+[[nodiscard]] AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>& decks,
+                                        const std::vector<std::string>& cross_groups, int per_deck);
+
+/// Strips of the nodes in a wind. @param alpha_rad  mean angle of attack of each node
+[[nodiscard]] std::vector<Strip> strips_of(const AeroNodes& nodes, const std::vector<std::string>& decks, const Wind& wind);
+
+/// Motions of each node by columns of displacements of all nodes. @param displacement (6 n_nodes × m)
+[[nodiscard]] std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> motions_of(
+    const AeroNodes& nodes, const Eigen::Ref<const Eigen::MatrixXd>& displacement);
+
+}  // namespace twindeck::aero

@@ -1,0 +1,180 @@
+#include "aero/wind_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "aero/analytic_derivatives.hpp"
+#include "aero/derivative_table.hpp"
+#include "aero/stability.hpp"
+#include "core/angle.hpp"
+#include "linalg/cholesky.hpp"
+#include "transient/reduced_basis.hpp"
+
+namespace twindeck::aero {
+namespace {
+
+constexpr double kLevelTolerance = 1e-9;  ///< [-] of a set's level: far finer than it is printed
+constexpr int kLevelSteps = 100;          ///< a third of them halves the bracket: enough for any
+
+}  // namespace
+
+std::vector<const fe::Spring*> dampers_of(const fe::Model& model) {
+  std::vector<const fe::Spring*> dampers;
+  for (const fe::Spring& spring : model.springs) {
+    if (spring.group.starts_with("damper")) dampers.push_back(&spring);
+  }
+  return dampers;
+}
+
+Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers) {
+  Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(loaded.system.expansion.rows(), static_cast<Eigen::Index>(dampers.size()));
+  for (std::size_t j = 0; j < dampers.size(); ++j) {
+    const fe::Spring& s = *dampers[j];
+    const int offset = s.rotation ? 3 : 0;
+    const auto column = static_cast<Eigen::Index>(j);
+    nodal.col(column).segment<3>(6 * s.node + offset) += s.direction.normalized();
+    if (s.node2 >= 0) nodal.col(column).segment<3>(6 * s.node2 + offset) -= s.direction.normalized();
+  }
+  return loaded.system.expansion.transpose() * nodal;
+}
+
+std::vector<SectionAero> sections_of(const WindSettings& config, const std::vector<DeckAerodynamics>& data,
+                                     const std::string& set, double level) {
+  const std::vector<std::string> known = {"standin", "quasi_steady"};
+  if (std::find(known.begin(), known.end(), set) == known.end()) {
+    throw InputError({"", 0, "sets"}, "'" + set + "' is no aerodynamic set" + did_you_mean(set, known),
+                     "choose standin or quasi_steady");
+  }
+  std::vector<SectionAero> sections;
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const DeckWind& deck = config.decks[i];
+    const Polar polar = set == "standin" ? data[i].polar : data[i].polar.with_lift_slope_factor(level);
+    DerivativesPtr derivatives;
+    if (set == "standin") {
+      derivatives = std::make_shared<DerivativeTable>(data[i].flutter->scaled(level));
+    } else {
+      derivatives = std::make_shared<QuasiSteady>(polar, QuasiSteady::Arms{deck.arm_drag, deck.arm_lift, deck.arm_moment});
+    }
+    sections.push_back({deck.name, deck.chord_m, polar, derivatives});
+  }
+  return sections;
+}
+
+AeroNodes aero_nodes_of(const WindSettings& config, const fe::Model* model, const std::string& source) {
+  if (model == nullptr) {
+    throw InputError({source, 0, ""}, "is a matrix model, whose decks are not known",
+                     "give a model folder with nodes and elements");
+  }
+  std::vector<std::string> groups;
+  for (const DeckWind& deck : config.decks) groups.push_back(deck.cross_group);
+  return find_aero_nodes(*model, config.deck_names(), groups, static_cast<int>(config.nodes_per_deck));
+}
+
+WindModel prepare_wind_model(const WindSettings& config, const dynamics::LoadedModel& loaded) {
+  WindModel out;
+  out.nodes = aero_nodes_of(config, loaded.fe_model(), loaded.source);
+  out.strips = strips_of(out.nodes, config.deck_names(), config.wind());
+  const auto shape = motions_of(out.nodes, loaded.state.displacement);
+  for (std::size_t i = 0; i < out.strips.size(); ++i) {
+    out.strips[i].alpha_rad = config.attack_deg * radians + aero::nose_up(out.strips[i], shape[i].col(0).tail<3>());
+  }
+  dynamics::ModalSolver solver(loaded.system);
+  const auto n_modes = static_cast<int>(std::min<Eigen::Index>(config.n_modes, loaded.system.size()));
+  out.modes = solver.solve(loaded.theta, n_modes);
+  out.motions = motions_of(out.nodes, loaded.system.expand(out.modes.shapes));
+  return out;
+}
+
+ReducedStructure bare_structure(const WindModel& model, double damping_ratio) {
+  ReducedStructure s;
+  s.omega_rad_s = model.modes.eigenvalue.cwiseSqrt();
+  s.damping_ratio = Eigen::VectorXd::Constant(s.size(), damping_ratio);
+  return s;
+}
+
+DampedModel reduce(const WindModel& model, const dynamics::LoadedModel& loaded, double damping_ratio,
+                   const Reduction& reduction) {
+  const std::vector<const fe::Spring*> dampers =
+      reduction.dampers ? dampers_of(*loaded.model) : std::vector<const fe::Spring*>();
+  const Eigen::MatrixXd patterns = damper_patterns(loaded, dampers);
+  const linalg::SparseMatrix stiffness = loaded.system.stiffness(loaded.theta), mass = loaded.system.mass(loaded.theta);
+  linalg::Cholesky factor;
+  const Status factored = factor.factorize(stiffness);
+  TWINDECK_ASSERT(factored.converged);  // the modes were found with the same matrix
+  // Dampers are strong against modes: between their ends the structure must be able to yield as it really does.
+  const Eigen::MatrixXd& modes = model.modes.shapes;
+  const Eigen::MatrixXd of_dampers = transient::static_corrections(factor, mass, modes, patterns, patterns.cols());
+  const Eigen::MatrixXd of_loads =
+      transient::static_corrections(factor, mass, modes, reduction.patterns, reduction.static_shapes);
+  const Eigen::MatrixXd of_points = transient::krylov_shapes(factor, mass, reduction.points, reduction.point_generations);
+  Eigen::MatrixXd shapes(modes.rows(), of_dampers.cols() + of_loads.cols() + of_points.cols());
+  shapes << of_dampers, of_loads, of_points;
+  const transient::ReducedBasis basis = transient::reduced_basis(stiffness, mass, modes, shapes);
+
+  DampedModel out;
+  out.dampers = static_cast<int>(dampers.size());
+  out.structure.omega_rad_s = basis.omega_rad_s;
+  out.structure.damping_ratio = Eigen::VectorXd::Constant(basis.omega_rad_s.size(), damping_ratio);
+  out.structure.viscous = Eigen::MatrixXd::Zero(basis.omega_rad_s.size(), basis.omega_rad_s.size());
+  for (std::size_t j = 0; j < dampers.size(); ++j) {
+    const Eigen::VectorXd direction = basis.vectors.transpose() * patterns.col(static_cast<Eigen::Index>(j));
+    if (dampers[j]->series) {
+      out.structure.maxwell.push_back({dampers[j]->stiffness, dampers[j]->damping, direction});
+    } else {
+      out.structure.viscous += dampers[j]->damping * direction * direction.transpose();
+    }
+  }
+  out.motions = motions_of(model.nodes, loaded.system.expand(basis.vectors));
+  out.vectors = basis.vectors;
+  return out;
+}
+
+DampedModel with_dampers(const WindModel& model, const dynamics::LoadedModel& loaded, double damping_ratio) {
+  return reduce(model, loaded, damping_ratio, {});
+}
+
+std::optional<double> fit_level(const WindSettings& config, const std::vector<DeckAerodynamics>& data, const std::string& set,
+                                const WindModel& model) {
+  if (config.fit_speed_m_s == 0.0) return 1.0;
+  const ReducedStructure structure = bare_structure(model, config.structural_damping);
+  const Deployment deployment = aero::everywhere(aero::published_yaw_rule(config.fit_model));
+  const std::vector<ComplexMode> start = aero::still_air_modes(structure);
+  std::vector<double> speeds;
+  for (int i = 1; i <= 8; ++i) speeds.push_back(config.fit_speed_m_s * i / 8);
+  // Growth of mode 1 at that speed: rises with the level.
+  const auto growth = [&](double level) -> std::optional<double> {
+    const AeroelasticSystem system(structure, sections_of(config, data, set, level), model.strips, model.motions, config.wind(),
+                                   deployment);
+    const Branch branch = aero::follow_mode(system, start.front(), 1, speeds);
+    if (!branch.status.converged) return std::nullopt;
+    return branch.points.back().lambda.real();
+  };
+  double low = 0.05, high = 20.0;
+  std::optional<double> at_low = growth(low), at_high;
+  for (double level = 1.0; level <= high; level *= 2.0) {
+    const std::optional<double> here = growth(level);
+    if (!here) return std::nullopt;
+    if (*here > 0.0) {
+      high = level;
+      at_high = here;
+      break;
+    }
+    low = level;
+    at_low = here;
+  }
+  if (!at_low || !at_high || *at_low >= 0.0) return std::nullopt;
+  double f_low = *at_low, f_high = *at_high;
+  for (int i = 0; i < kLevelSteps && high - low > kLevelTolerance * high; ++i) {
+    const double guess = i % 3 == 2 ? 0.5 * (low + high) : low - f_low * (high - low) / (f_high - f_low);
+    const std::optional<double> here = growth(guess);
+    if (!here) return std::nullopt;
+    if (*here == 0.0) return guess;
+    (*here < 0.0 ? low : high) = guess;
+    (*here < 0.0 ? f_low : f_high) = *here;
+    (*here < 0.0 ? f_high : f_low) *= 0.5;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace twindeck::aero

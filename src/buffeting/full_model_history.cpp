@@ -1,0 +1,117 @@
+#include "buffeting/full_model_history.hpp"
+
+#include "linalg/cholesky.hpp"
+
+namespace twindeck::buffeting {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+RayleighDamping RayleighDamping::with_ratio(double ratio, double omega1, double omega2) {
+  return {2.0 * ratio * omega1 * omega2 / (omega1 + omega2), 2.0 * ratio / (omega1 + omega2)};
+}
+
+namespace {
+
+/// Adds factor d d' to a lower triangle; d has few entries.
+void add_outer(std::vector<Eigen::Triplet<double>>& entries, const VectorXd& d, double factor) {
+  std::vector<int> rows;
+  for (Index i = 0; i < d.size(); ++i) {
+    if (d[i] != 0.0) rows.push_back(static_cast<int>(i));
+  }
+  for (const int i : rows) {
+    for (const int j : rows) {
+      if (i >= j) entries.emplace_back(i, j, factor * d[i] * d[j]);
+    }
+  }
+}
+
+/// The dampers within time steps: a Maxwell unit is eliminated by the trapezoidal rule.
+class StepwiseDampers {
+ public:
+  StepwiseDampers(const std::vector<const fe::Spring*>& dampers, double step_s) : dampers_(dampers), dt_(step_s) {
+    inner_ = inner_rate_ = within_ = VectorXd::Zero(static_cast<Index>(dampers.size()));
+    for (std::size_t j = 0; j < dampers.size(); ++j) {
+      const double dashpot = 2.0 * dampers[j]->damping / dt_, spring = dampers[j]->stiffness;
+      within_[static_cast<Index>(j)] = dampers[j]->series ? spring * dashpot / (spring + dashpot) : dashpot + spring;
+    }
+  }
+  /// Stiffness of each damper within a step.
+  [[nodiscard]] const VectorXd& stiffness() const { return within_; }
+  /// Forces at a predicted elongation and its rate.
+  [[nodiscard]] VectorXd force(const VectorXd& elongation, const VectorXd& rate) const {
+    VectorXd force(within_.size());
+    for (Index j = 0; j < force.size(); ++j) {
+      const fe::Spring& damper = *dampers_[static_cast<std::size_t>(j)];
+      const double dashpot = 2.0 * damper.damping / dt_;
+      force[j] = damper.series ? within_[j] * elongation[j] - damper.stiffness / (damper.stiffness + dashpot) * damper.damping *
+                                                                  (2.0 / dt_ * inner_[j] + inner_rate_[j])
+                               : damper.damping * rate[j] + damper.stiffness * elongation[j];
+    }
+    return force;
+  }
+  /// Moves the inner points of the Maxwell units to the end of the step.
+  void advance(const VectorXd& elongation) {
+    for (Index j = 0; j < within_.size(); ++j) {
+      const fe::Spring& damper = *dampers_[static_cast<std::size_t>(j)];
+      if (!damper.series) continue;
+      const double dashpot = 2.0 * damper.damping / dt_;
+      const double next = (damper.stiffness * elongation[j] + damper.damping * (2.0 / dt_ * inner_[j] + inner_rate_[j])) /
+                          (damper.stiffness + dashpot);
+      inner_rate_[j] = 2.0 / dt_ * (next - inner_[j]) - inner_rate_[j];
+      inner_[j] = next;
+    }
+  }
+
+ private:
+  const std::vector<const fe::Spring*>& dampers_;
+  double dt_;
+  VectorXd within_, inner_, inner_rate_;  ///< inner point of a Maxwell unit, and its rate
+};
+
+}  // namespace
+
+MatrixXd full_model_history(const dynamics::LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers,
+                            const RayleighDamping& damping, const Eigen::Ref<const MatrixXd>& patterns,
+                            const Eigen::Ref<const MatrixXd>& amplitude, const Eigen::Ref<const MatrixXd>& observed,
+                            double step_s) {
+  const linalg::SparseMatrix k = loaded.system.stiffness(loaded.theta), m = loaded.system.mass(loaded.theta);
+  const MatrixXd direction = aero::damper_patterns(loaded, dampers);
+  const double dt = step_s, quarter = 0.25 * dt * dt;
+
+  // M + dt/2 C + dt²/4 K, with each damper as what it is within a step.
+  StepwiseDampers stepwise(dampers, dt);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index j = 0; j < direction.cols(); ++j) add_outer(entries, direction.col(j), quarter * stepwise.stiffness()[j]);
+  linalg::SparseMatrix extra(k.rows(), k.cols());
+  extra.setFromTriplets(entries.begin(), entries.end());
+  const double mass_part = 1.0 + 0.5 * dt * damping.mass_part, stiffness_part = quarter + 0.5 * dt * damping.stiffness_part;
+  linalg::SparseMatrix effective = mass_part * m + stiffness_part * k;
+  effective += extra;
+  linalg::Cholesky factor;
+  const Status status = factor.factorize(effective);
+  TWINDECK_ASSERT(status.converged);
+
+  const auto mass = m.selfadjointView<Eigen::Lower>();
+  const auto stiffness = k.selfadjointView<Eigen::Lower>();
+  VectorXd q = VectorXd::Zero(k.rows()), v = q, a = q;
+  MatrixXd out = MatrixXd::Zero(observed.rows(), amplitude.cols());
+  for (Index i = 1; i < amplitude.cols(); ++i) {
+    q += dt * v + quarter * a;  // predictors
+    v += 0.5 * dt * a;
+    VectorXd right = patterns * amplitude.col(i);
+    right -= damping.mass_part * VectorXd(mass * v);
+    right -= stiffness * VectorXd(q + damping.stiffness_part * v);
+    const VectorXd elongation = direction.transpose() * q, rate = direction.transpose() * v;
+    right -= direction * stepwise.force(elongation, rate);
+    a = factor.solve(right);
+    q += quarter * a;
+    v += 0.5 * dt * a;
+    stepwise.advance(direction.transpose() * q);
+    out.col(i) = observed * a;
+  }
+  return out;
+}
+
+}  // namespace twindeck::buffeting

@@ -1,0 +1,246 @@
+#include "dynamics/unit_slips.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+
+namespace twindeck::dynamics {
+
+namespace {
+
+using Eigen::Index;
+
+struct Band {
+  double low, high;
+  [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
+};
+
+constexpr Band material_speed_m_s{1000.0, 13000.0};  ///< from lead to carbon fibre: what a mended unit has to lead to
+constexpr Band usual_speed_m_s{2500.0, 6500.0};      ///< concrete, timber, aluminium, steel
+constexpr double heavy_kg_m3 = 2200.0;               ///< concrete and metals; soil and rubber, which are slow, lie below
+constexpr double longest_structure_m = 10000.0;      ///< one model; the longest bridges have spans of 2 km
+constexpr double long_structure_m = 500.0;           ///< from here on members are looked at
+constexpr double slenderest_member = 2000.0;  ///< [-] median of element length over depth; a cable in few pieces has 1000
+constexpr Band structure_Hz{0.01, 10000.0};   ///< first mode: the longest suspension bridges have 0.03 to 0.05 Hz
+constexpr double rigid_body = 1e-5;           ///< [-] of the highest computed frequency: rounding of zero
+constexpr double stands_off = 50.0;           ///< [-] from one measured frequency to the next; bands are not that far apart
+constexpr double most_model_error = 5.0;      ///< [-] between measured and computed frequencies
+
+/// Another unit for a number, with what it multiplies the number by.
+struct OtherUnit {
+  double factor;
+  const char* name;
+};
+
+std::optional<std::string> modulus_slip(const fe::Material& m, double speed) {
+  for (const OtherUnit& unit : {OtherUnit{1e6, "MPa (N/mm2)"}, OtherUnit{1e9, "GPa"}, OtherUnit{1e3, "kPa"}}) {
+    const Band& band = unit.factor == 1e3 ? usual_speed_m_s : material_speed_m_s;  // soft soil is near metals in kPa
+    if (unit.factor == 1e3 && m.density_kg_m3 < heavy_kg_m3) continue;
+    if (!band.holds(speed * std::sqrt(unit.factor))) continue;
+    return fmt::format(
+        "material '{}' has E = {:g} Pa, so that waves run at {:.3g} m/s in it; steel has 5200, concrete 3500: is E "
+        "in {}? Give pascals",
+        m.name, m.youngs_modulus_Pa, speed, unit.name);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> density_slip(const fe::Material& m, double speed) {
+  for (const OtherUnit& unit : {OtherUnit{1e3, "t/m3"}, OtherUnit{1000.0 / 9.81, "kN/m3, a weight"}, OtherUnit{1e12, "t/mm3"},
+                                OtherUnit{1e9, "kg/mm3"}}) {
+    const double density = m.density_kg_m3 * unit.factor;
+    const double modulus = unit.factor >= 1e9 && m.youngs_modulus_Pa < 1e7 ? 1e6 : 1.0;  // N, mm and t go together
+    if (!Band{300.0, 23000.0}.holds(density)) continue;
+    if (!usual_speed_m_s.holds(speed * std::sqrt(modulus / unit.factor))) continue;
+    return fmt::format(
+        "material '{}' has a density of {:g} kg/m3, so that waves run at {:.3g} m/s in it; steel has 5200, concrete "
+        "3500: is the density in {}? Give kg/m3",
+        m.name, m.density_kg_m3, speed, unit.name);
+  }
+  return std::nullopt;
+}
+
+double span_of(const fe::Model& model) {
+  Eigen::Vector3d low = model.nodes.front().x_m, high = low;
+  for (const fe::Node& node : model.nodes) {
+    low = low.cwiseMin(node.x_m);
+    high = high.cwiseMax(node.x_m);
+  }
+  return (high - low).norm();
+}
+
+/// Length over depth of beams and shells (a depth is that of a rectangle of the same radius of gyration), unsorted.
+std::vector<double> slenderness_of(const fe::Model& model) {
+  std::vector<double> all;
+  for (const fe::Element& e : model.elements) {
+    if (e.type != fe::ElementType::beam && e.type != fe::ElementType::shell) continue;
+    const fe::Section& s = model.sections[static_cast<std::size_t>(e.section)];
+    const double depth = e.type == fe::ElementType::shell
+                             ? s.thickness_m
+                             : std::sqrt(12.0 * std::max(s.inertia_y_m4, s.inertia_z_m4) / s.area_m2);
+    const auto at = [&](std::size_t i) { return model.nodes[static_cast<std::size_t>(e.nodes[i])].x_m; };
+    if (depth > 0.0) all.push_back((at(1) - at(0)).norm() / depth);
+  }
+  return all;
+}
+
+std::optional<std::string> length_slip(const fe::Model& model) {
+  const double span = span_of(model);
+  std::vector<double> slenderness = slenderness_of(model);
+  double middle = 0.0;
+  if (!slenderness.empty()) {
+    const auto half = slenderness.begin() + static_cast<std::ptrdiff_t>(slenderness.size() / 2);
+    std::nth_element(slenderness.begin(), half, slenderness.end());
+    middle = *half;
+  }
+  if (span > longest_structure_m || (span > long_structure_m && middle > slenderest_member))
+    return fmt::format("the structure spans {:.4g} m{}: are the coordinates in mm? Give metres", span,
+                       middle > 0.0
+                           ? fmt::format(", and half of its elements are {:.3g} and more times as long as deep", middle)
+                           : std::string());
+  return std::nullopt;
+}
+
+std::optional<std::string> section_slip(const fe::Model& model) {
+  const double span = span_of(model);
+  for (const fe::Element& e : model.elements) {
+    if (e.type == fe::ElementType::solid) continue;
+    const fe::Section& s = model.sections[static_cast<std::size_t>(e.section)];
+    const double size = e.type == fe::ElementType::shell ? s.thickness_m : std::sqrt(s.area_m2);
+    if (!(size > span)) continue;
+    return fmt::format(
+        "section '{}' is {:.3g} m across, more than the whole structure ({:.3g} m): is it in mm or cm? Give "
+        "m, m2 and m4",
+        s.name, size, span);
+  }
+  return std::nullopt;
+}
+
+/// Translating mass: the part of M that moves with a unit displacement along x, y and z, a third of their sum.
+double moving_mass(const LoadedModel& loaded) {
+  const linalg::SparseMatrix mass = loaded.system.mass(loaded.theta);
+  double sum = 0.0;
+  for (int direction = 0; direction < 3; ++direction) {
+    Eigen::VectorXd unit(mass.rows());
+    for (Index i = 0; i < unit.size(); ++i)
+      unit[i] = loaded.system.dofs[static_cast<std::size_t>(i)].direction == direction ? 1.0 : 0.0;
+    sum += unit.dot(mass.selfadjointView<Eigen::Lower>() * unit);
+  }
+  return sum / 3.0;
+}
+
+/// Position of the first frequency that is no rigid body's, or the size.
+Index first_elastic(const Eigen::VectorXd& ascending_Hz) {
+  Index at = 0;
+  while (at < ascending_Hz.size() && !(ascending_Hz[at] > rigid_body * ascending_Hz[ascending_Hz.size() - 1])) ++at;
+  return at;
+}
+
+/// The measured frequencies on the smaller side of a gap of `stands_off`, each with the factor that brings it back.
+std::vector<std::string> outliers(const MeasuredFrequencies& measured) {
+  const Eigen::VectorXd& measured_Hz = measured.frequency_Hz;
+  std::vector<Index> order(static_cast<std::size_t>(measured_Hz.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return measured_Hz[a] < measured_Hz[b]; });
+  std::vector<std::string> slips;
+  for (std::size_t gap = 1; gap < order.size(); ++gap) {
+    const double below = measured_Hz[order[gap - 1]], above = measured_Hz[order[gap]];
+    if (!(above > stands_off * below)) continue;
+    const bool upper = order.size() - gap <= gap;  // the fewer are odd; of equally many the upper ones
+    const std::size_t from = upper ? gap : 0, to = upper ? order.size() : gap;
+    const double low = measured_Hz[order[upper ? 0 : gap]], high = measured_Hz[order[upper ? gap - 1 : order.size() - 1]];
+    for (std::size_t i = from; i < to; ++i) {
+      const double value = measured_Hz[order[i]], scaled = upper ? value / 1000.0 : value * 1000.0;
+      const bool fits = scaled >= low / 3.0 && scaled <= 3.0 * high;
+      slips.push_back(fmt::format("mode {} is measured at {:g} Hz, but the others lie between {:g} and {:g} Hz{}",
+                                  measured.names[static_cast<std::size_t>(order[i])], value, low, high,
+                                  fits ? fmt::format(": is it in {}, or is the decimal point lost? {:g} Hz would be among them",
+                                                     upper ? "mHz" : "kHz", scaled)
+                                       : std::string(": check its unit")));
+    }
+    return slips;
+  }
+  return slips;
+}
+
+}  // namespace
+
+std::vector<std::string> unit_slips(const fe::Model& model) {
+  std::vector<std::string> slips;
+  if (model.nodes.empty()) return slips;
+  std::set<int> used;
+  for (const fe::Element& e : model.elements) used.insert(e.material);
+  for (const int at : used) {
+    const fe::Material& m = model.materials[static_cast<std::size_t>(at)];
+    if (!(m.density_kg_m3 > 0.0)) continue;  // a part without mass may be as stiff as one likes
+    const double speed = std::sqrt(m.youngs_modulus_Pa / m.density_kg_m3);
+    if (speed < usual_speed_m_s.low)
+      if (const auto slip = modulus_slip(m, speed)) slips.push_back(*slip);
+    if (speed > material_speed_m_s.high)
+      if (const auto slip = density_slip(m, speed)) slips.push_back(*slip);
+  }
+  if (const auto slip = length_slip(model)) slips.push_back(*slip);
+  if (const auto slip = section_slip(model)) slips.push_back(*slip);
+  return slips;
+}
+
+std::vector<std::string> frequency_slips(const Eigen::VectorXd& computed_Hz, double mass_kg, double span_m) {
+  const Index at = first_elastic(computed_Hz);
+  if (at == computed_Hz.size() || structure_Hz.holds(computed_Hz[at])) return {};
+  const bool slow = computed_Hz[at] < structure_Hz.low;
+  return {fmt::format("the first mode is computed at {:.3g} Hz ({:.4g} kg move{}), {} than any structure: {}", computed_Hz[at],
+                      mass_kg, span_m > 0.0 ? fmt::format(", span {:.4g} m", span_m) : std::string(),
+                      slow ? "slower" : "faster",
+                      slow ? "look for a modulus in MPa, coordinates in mm, a stiffness in kN/m or a mass in grams"
+                           : "look for a mass in tonnes, a density in t/m3, or sections in mm")};
+}
+
+std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
+  std::vector<std::string> slips = outliers(measured);
+  const Index first = first_elastic(computed_Hz), n = std::min(measured.frequency_Hz.size(), computed_Hz.size() - first);
+  if (!slips.empty() || n < 1) return slips;
+  Eigen::VectorXd sorted = measured.frequency_Hz;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> ratios;
+  for (Index i = 0; i < n; ++i) ratios.push_back(sorted[i] / computed_Hz[first + i]);
+  std::nth_element(ratios.begin(), ratios.begin() + n / 2, ratios.end());
+  const double ratio = ratios[static_cast<std::size_t>(n / 2)];
+  if (ratio < most_model_error && ratio > 1.0 / most_model_error) return slips;
+  struct Likely {
+    double ratio;
+    const char* words;
+  };
+  const std::array<Likely, 6> known = {{{2.0 * std::numbers::pi, "are the measured ones in rad/s?"},
+                                        {60.0, "are the measured ones cycles per minute?"},
+                                        {1000.0, "are the measured ones in mHz, or is a modulus of the model in MPa?"},
+                                        {1e-3, "are the measured ones in kHz, or are masses of the model in milligrams?"},
+                                        {std::sqrt(1000.0), "is the model's stiffness in kN/m, or its mass in grams?"},
+                                        {std::sqrt(1e-3), "is the model's mass in tonnes, or its stiffness in N/mm?"}}};
+  std::string guess = "check the units of both";
+  for (const Likely& likely : known)
+    if (std::abs(std::log(ratio / likely.ratio)) < std::log(1.3)) guess = likely.words;
+  slips.push_back(
+      fmt::format("the measured frequencies ({:g} to {:g} Hz) are {:.3g} times the computed ones ({:.3g} to {:.3g} Hz) in "
+                  "the order of both: {}",
+                  sorted[0], sorted[sorted.size() - 1], ratio, computed_Hz[first], computed_Hz[computed_Hz.size() - 1], guess));
+  return slips;
+}
+
+void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
+                        const std::vector<MeasuredFrequencies>& measured) {
+  std::vector<std::string> slips;
+  if (loaded.model) slips = unit_slips(*loaded.model);
+  for (const std::string& slip : frequency_slips(computed_Hz, moving_mass(loaded), loaded.model ? span_of(*loaded.model) : 0.0))
+    slips.push_back(slip);
+  const Eigen::VectorXd compared_Hz = slips.empty() ? computed_Hz : Eigen::VectorXd();
+  for (const MeasuredFrequencies& condition : measured)
+    for (const std::string& slip : measured_slips(condition, compared_Hz)) slips.push_back(slip);
+  for (const std::string& slip : slips) reporter.warn(slip);
+}
+
+}  // namespace twindeck::dynamics

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/reporter.hpp"
+#include "dynamics/loaded_model.hpp"
+#include "fe/model.hpp"
+
+/// Detects likely unit errors: a modulus in MPa, coordinates in millimetres, a frequency in millihertz among hertz. Such
+/// numbers are possible, but the structure is not plausible. Each function returns one line per likely error, with the model's
+/// own figures; warn_of_unit_slips passes them to the reporter as warnings.
+namespace twindeck::dynamics {
+
+/// By the speed of waves sqrt(E / rho) of each material that elements use, the span, the slenderness of members and the size of
+/// sections.
+[[nodiscard]] std::vector<std::string> unit_slips(const fe::Model& model);
+
+/// By the lowest computed frequency that is not a rigid-body mode: lower or higher than that of any structure.
+/// @param computed_Hz  ascending
+/// @param mass_kg      that moves in translation
+/// @param span_m       0 if unknown
+[[nodiscard]] std::vector<std::string> frequency_slips(const Eigen::VectorXd& computed_Hz, double mass_kg, double span_m);
+
+/// Measured modes of one condition.
+struct MeasuredFrequencies {
+  std::vector<std::string> names;
+  Eigen::VectorXd frequency_Hz;
+};
+/// Measured frequencies among themselves (one that stands a factor of 50 and more off the rest), and against the computed ones
+/// in their order (a factor that is 2 pi, 60 or a thousand rather than a model's error).
+/// @param computed_Hz  ascending; empty to leave the comparison out
+[[nodiscard]] std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz);
+
+/// Runs all checks and warns. If the model itself shows an error, the comparison with the measurement is left out, because it
+/// would show the same error.
+/// @param measured  one for each condition; empty without a measurement
+void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
+                        const std::vector<MeasuredFrequencies>& measured);
+
+}  // namespace twindeck::dynamics

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "fe/element_matrices.hpp"
+
+namespace twindeck::fe {
+
+/// Two-node 3D beam. Local x from end 1 to end 2; local z the component of `orientation` normal to x (orientation zero: global
+/// Z, or global X when the beam is within 1e-6 rad of vertical); local y = z × x. Bit i of `releases` frees local end
+/// displacement i (0-5 = x y z rx ry rz of end 1, 6-11 of end 2).
+struct BeamGeometry {
+  std::array<Eigen::Vector3d, 2> node_m;
+  std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< node -> end, global axes
+  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
+  std::uint16_t releases = 0;
+};
+struct BeamStiffnessProperties {
+  double youngs_modulus_Pa, shear_modulus_Pa, area_m2, inertia_y_m4, inertia_z_m4, inertia_yz_m4, torsion_m4, shear_area_y_m2,
+      shear_area_z_m2;  ///< shear area 0 = rigid in shear
+};
+/// Rows: local x, y, z in global axes (3 × 3, orthonormal).
+/// @throws InputError for a beam without length, or an orientation along its axis
+[[nodiscard]] Eigen::Matrix3d beam_axes(const BeamGeometry& geometry);
+[[nodiscard]] double beam_length(const BeamGeometry& geometry);
+/// Timoshenko beam, exact for end loads (Przemieniecki 1968, section 5.6); releases condensed out, end offsets rigid. With
+/// inertia_yz = ∫ y z dA the two bending planes couple; no principal axes are needed. Shear areas belong to local y and z.
+[[nodiscard]] Matrix12 beam_stiffness(const BeamGeometry& geometry, const BeamStiffnessProperties& properties);
+/// Axial force (tension positive) at mid-length from end displacements in global axes.
+[[nodiscard]] double beam_axial_force(const BeamGeometry& geometry, const BeamStiffnessProperties& properties,
+                                      const Vector12& u);
+
+}  // namespace twindeck::fe

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Inside of the library: strain and elasticity of solids, in the order xx, yy, zz, xy, yz, zx with engineering shears.
+namespace twindeck::fe {
+
+/// Columns 3i, 3i+1, 3i+2 of the strain matrix (6 × 3n) from the gradient of function i.
+template <typename Strain>
+void set_strain(const Eigen::Vector3d& g, int i, Strain& b) {
+  b.col(3 * i) << g.x(), 0.0, 0.0, g.y(), 0.0, g.z();
+  b.col(3 * i + 1) << 0.0, g.y(), 0.0, g.x(), g.z(), 0.0;
+  b.col(3 * i + 2) << 0.0, 0.0, g.z(), 0.0, g.y(), g.x();
+}
+
+/// Isotropic elasticity for unit E: stresses from strains.
+inline Eigen::Matrix<double, 6, 6> elasticity(double nu) {
+  Eigen::Matrix<double, 6, 6> d = Eigen::Matrix<double, 6, 6>::Zero();
+  d.topLeftCorner<3, 3>().setConstant(nu);
+  d.topLeftCorner<3, 3>().diagonal().setConstant(1.0 - nu);
+  d.bottomRightCorner<3, 3>().diagonal().setConstant(0.5 - nu);
+  return d / ((1.0 + nu) * (1.0 - 2.0 * nu));
+}
+
+}  // namespace twindeck::fe

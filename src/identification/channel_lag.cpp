@@ -1,0 +1,80 @@
+#include "identification/channel_lag.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+using std::numbers::pi;
+
+namespace {
+
+struct Phase {
+  double omega = 0.0, angle = 0.0, weight = 0.0;  ///< relative to the first channel; 1/variance
+};
+
+/// Into [-pi/2, pi/2): a shape's sign does not count.
+double half_turn(double angle) { return angle - pi * std::round(angle / pi); }
+
+struct Lag {
+  double seconds = 0.0, deviation = 0.0;
+};
+
+std::optional<Lag> fitted(const std::vector<Phase>& phases) {
+  if (phases.size() < 2) return {};
+  double highest = 0.0, information = 0.0;
+  for (const Phase& p : phases) {
+    highest = std::max(highest, p.omega);
+    information += p.weight * p.omega * p.omega;
+  }
+  const double reach = 0.5 * pi / highest;
+  const auto cost = [&](double tau) {
+    double sum = 0.0;
+    for (const Phase& p : phases) sum += p.weight * std::pow(half_turn(p.angle + p.omega * tau), 2);
+    return sum;
+  };
+  double best = 0.0, least = cost(0.0);
+  for (int k = -200; k <= 200; ++k) {
+    const double tau = reach * k / 200.0, value = cost(tau);
+    if (value < least) {
+      least = value;
+      best = tau;
+    }
+  }
+  // One Gauss-Newton step on the branch found.
+  double gradient = 0.0;
+  for (const Phase& p : phases) gradient += p.weight * p.omega * half_turn(p.angle + p.omega * best);
+  best -= gradient / information;
+  // Modes are a little complex by themselves: what the lag leaves counts too.
+  const double scatter = std::max(1.0, cost(best) / static_cast<double>(phases.size() - 1));
+  return Lag{best, std::sqrt(scatter / information)};
+}
+
+}  // namespace
+
+void estimate_lags(Conditioned& conditioned, const sysid::Identification& found) {
+  for (std::size_t c = 0; c < conditioned.channels.size(); ++c) {
+    const auto at = static_cast<Index>(c);
+    std::vector<Phase> phases;
+    for (std::size_t m = 0; m < found.modes.size() && m < found.deviations.size(); ++m) {
+      const Eigen::VectorXcd& shape = found.modes[m].shape;
+      const double size = std::abs(shape[at]), first = std::abs(shape[0]);
+      const double deviation = found.deviations[m].shape_imag[at], first_deviation = found.deviations[m].shape_imag[0];
+      // A component no larger than its noise has no phase.
+      if (size < 5.0 * deviation || first < 5.0 * first_deviation || deviation <= 0.0) continue;
+      const double variance = std::pow(deviation / size, 2) + std::pow(first_deviation / first, 2);
+      phases.push_back({2.0 * pi * found.modes[m].frequency_Hz, std::arg(shape[at] * std::conj(shape[0])), 1.0 / variance});
+    }
+    const auto lag = at == 0 ? std::optional<Lag>(Lag{}) : fitted(phases);
+    if (!lag) continue;
+    for (ChannelQuality& quality : conditioned.quality) {
+      if (quality.channel != conditioned.channels[c].name) continue;
+      quality.lag_s = lag->seconds;
+      quality.lag_std_s = lag->deviation;
+    }
+  }
+}
+
+}  // namespace twindeck::identification

@@ -1,0 +1,263 @@
+#include "identification/condition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "identification/channel_lag.hpp"
+#include "identification/limits.hpp"
+#include "sysid/common_motion.hpp"
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+
+namespace {
+
+Index position_of(const std::vector<records::CampaignChannel>& channels, const std::string& name) {
+  const auto at =
+      std::find_if(channels.begin(), channels.end(), [&](const records::CampaignChannel& c) { return c.name == name; });
+  return at == channels.end() ? -1 : static_cast<Index>(at - channels.begin());
+}
+
+std::vector<Index> positions(const ConditionResult& result, const std::vector<records::CampaignChannel>& channels) {
+  std::vector<Index> list;
+  for (const records::CampaignChannel& channel : channels) list.push_back(position_of(result.channels, channel.name));
+  return list;
+}
+
+/// Positions of the references that every setup has, in the list of all.
+std::vector<Index> common_references(const ConditionResult& result) {
+  std::vector<Index> common;
+  for (const Index r : result.setups.front().conditioned.references) {
+    const std::string& name = result.setups.front().conditioned.channels[static_cast<std::size_t>(r)].name;
+    const bool everywhere = std::all_of(result.setups.begin(), result.setups.end(), [&](const SetupResult& setup) {
+      return position_of(setup.conditioned.channels, name) >= 0;
+    });
+    if (everywhere) common.push_back(position_of(result.channels, name));
+  }
+  return common;
+}
+
+/// MAC over the channels where both shapes are known.
+double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+  std::complex<double> product = 0.0;
+  double aa = 0.0, bb = 0.0;
+  for (Index i = 0; i < a.size(); ++i) {
+    if (std::isnan(a[i].real()) || std::isnan(b[i].real())) continue;
+    product += std::conj(a[i]) * b[i];
+    aa += std::norm(a[i]);
+    bb += std::norm(b[i]);
+  }
+  return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
+}
+
+/// PreGER of the same records: reference channels on one scale in all setups, the others each on its own.
+sysid::Identification preger(const ConditionResult& result, const std::vector<Index>& references,
+                             const IdentificationSettings& config, Eigen::VectorXd& scale) {
+  const auto n_channels = static_cast<Index>(result.channels.size());
+  const double rate = result.setups.front().conditioned.rate_Hz;
+  const sysid::IdentifyOptions options = config.options(rate, result.channels);
+  Eigen::VectorXd log_scale = Eigen::VectorXd::Zero(n_channels), seen = log_scale;
+  for (const SetupResult& setup : result.setups) {
+    const Eigen::VectorXd rms = channel_rms(setup.conditioned.records);
+    const std::vector<Index> at = positions(result, setup.conditioned.channels);
+    for (std::size_t c = 0; c < at.size(); ++c) {
+      log_scale[at[c]] += std::log(rms[static_cast<Index>(c)]);
+      seen[at[c]] += 1.0;
+    }
+  }
+  scale = (log_scale.array() / seen.array().max(1.0)).exp();
+  std::vector<sysid::SetupCorrelations> setups;
+  for (const SetupResult& setup : result.setups) {
+    sysid::SetupCorrelations one{setup.conditioned.setup, positions(result, setup.conditioned.channels), {}, {}};
+    for (const Index r : references) {
+      one.references.push_back(position_of(setup.conditioned.channels, result.channels[static_cast<std::size_t>(r)].name));
+    }
+    Eigen::VectorXd own(static_cast<Index>(one.channels.size()));
+    for (Index c = 0; c < own.size(); ++c) own[c] = scale[one.channels[static_cast<std::size_t>(c)]];
+    signal::BlockCorrelations blocks;
+    for (const Samples& record : setup.conditioned.records) {
+      blocks.append(
+          signal::correlations(scaled_channels(record, own.cwiseInverse()), one.references, 2 * config.block_rows, 1));
+    }
+    one.lags = blocks.mean();
+    setups.push_back(std::move(one));
+  }
+  sysid::Identification found;
+  // References alone must carry the orders.
+  std::vector<int> orders = options.orders();
+  const auto most = static_cast<int>((config.block_rows - 1) * static_cast<Index>(references.size()));
+  std::erase_if(orders, [&](int order) { return order > most; });
+  if (orders.empty()) return found;
+  const auto poles = sysid::merge_preger(setups, n_channels, config.block_rows, orders, rate);
+  found.diagram = sysid::stabilisation_diagram(poles, options.criteria, options.limits);
+  found.modes = options.selection == sysid::Selection::paper
+                    ? sysid::identify_clusters(found.diagram, orders, options.cleaning)
+                    : sysid::automatic_clusters(found.diagram, orders, options.automatic);
+  to_physical_shapes(found, result.channels, scale);
+  return found;
+}
+
+/// A mode that PreGER's own selection lacks: of each order the pole nearest in frequency, within half a per cent; their median
+/// and mean.
+MergingCheck nearest_poles(const sysid::Identification& before, const sysid::MergedMode& mode) {
+  std::map<int, const sysid::Pole*> nearest;
+  const auto off = [&](const sysid::Pole& pole) { return std::abs(pole.frequency_Hz - mode.frequency_Hz); };
+  for (const sysid::DiagramPole& p : before.diagram) {
+    if (off(p.pole) > 0.005 * mode.frequency_Hz) continue;
+    const auto [at, is_new] = nearest.try_emplace(p.pole.order, &p.pole);
+    if (!is_new && off(p.pole) < off(*at->second)) at->second = &p.pole;
+  }
+  MergingCheck check;
+  if (nearest.size() < 3) return check;
+  check.found = true;
+  std::vector<double> frequencies, dampings;
+  const sysid::Pole* reference = nearest.rbegin()->second;
+  check.shape = Eigen::VectorXcd::Zero(reference->shape.size());
+  for (const auto& [order, pole] : nearest) {
+    frequencies.push_back(pole->frequency_Hz);
+    dampings.push_back(pole->damping_ratio);
+    check.shape += pole->shape * std::polar(1.0, std::arg(pole->shape.dot(reference->shape)));
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  std::sort(dampings.begin(), dampings.end());
+  check.frequency_Hz = frequencies[frequencies.size() / 2];
+  check.damping_ratio = dampings[dampings.size() / 2];
+  return check;
+}
+
+void check_merging(ConditionResult& result, const std::vector<Index>& references, const IdentificationSettings& config) {
+  Eigen::VectorXd scale;
+  const sysid::Identification before = preger(result, references, config, scale);
+  for (sysid::MergedMode& mode : result.modes) {
+    MergingCheck check;
+    for (const sysid::Cluster& other : before.modes) {
+      if (std::abs(other.frequency_Hz - mode.frequency_Hz) > 0.02 * mode.frequency_Hz) continue;
+      const double mac = known_mac(mode.shape, other.shape);
+      if (check.found && mac <= check.mac) continue;
+      check = {true, other.frequency_Hz, other.damping_ratio, mac, other.shape};
+    }
+    if (!check.found) {
+      check = nearest_poles(before, mode);
+      if (check.found) {
+        check.shape = physical_shape(check.shape, result.channels, scale, check.frequency_Hz, check.damping_ratio);
+        check.mac = known_mac(mode.shape, check.shape);
+      }
+    }
+    if (check.found && config.merge == "preger") {
+      mode.frequency_Hz = check.frequency_Hz;
+      mode.damping_ratio = check.damping_ratio;
+      Eigen::VectorXcd shape = check.shape;
+      for (Index i = 0; i < shape.size(); ++i) {
+        if (std::isnan(mode.shape[i].real())) shape[i] = mode.shape[i];
+      }
+      mode.shape = shape;
+    }
+    result.checks.push_back(std::move(check));
+  }
+}
+
+/// Where the configuration leaves the band open, it ends where the sensors no longer move together. @return says so
+std::string limit_band(SetupResult& setup) {
+  constexpr double kBeyond = 1.1;  // of the last common motion: the flank of a mode there
+  const double nyquist = 0.5 * setup.conditioned.rate_Hz, widest = 0.8 * nyquist;
+  const double common = sysid::highest_common_Hz(setup.conditioned.records, setup.conditioned.rate_Hz);
+  const bool limited = kBeyond * common > setup.limits.lowest_Hz && kBeyond * common < widest;
+  setup.limits.highest_Hz = limited ? kBeyond * common : widest;
+  return fmt::format("setup {}: modes are looked for up to {:.4g} Hz, {}; band.highest sets another limit",
+                     setup.conditioned.setup, setup.limits.highest_Hz,
+                     limited ? "above which the sensors show no common motion" : "0.8 of the Nyquist frequency");
+}
+
+/// The records of one setup with the limits that they carry.
+SetupResult read_setup(const records::Campaign& campaign, const records::RecordGroup& group,
+                       const IdentificationSettings& config, Reporter& reporter) {
+  SetupResult setup;
+  setup.conditioned = condition_records(campaign, group, config, config.decimation);
+  for (const std::string& note : setup.conditioned.notes) reporter.say(note);
+  auto [limits, note] = carried_by(setup.conditioned, config);
+  setup.limits = std::move(limits);
+  if (!note.empty()) reporter.warn(note);
+  return setup;
+}
+
+}  // namespace
+
+ConditionResult read_condition(const records::Campaign& campaign, const std::vector<records::RecordGroup>& groups,
+                               const IdentificationSettings& config, Reporter& reporter) {
+  ConditionResult result;
+  std::vector<std::string> left_out;
+  result.condition = groups.front().condition;
+  for (const records::RecordGroup& group : groups) {
+    reporter.progress("reading records of condition " + result.condition, static_cast<double>(result.setups.size()),
+                      static_cast<double>(groups.size()));
+    SetupResult setup;
+    try {
+      setup = read_setup(campaign, group, config, reporter);
+    } catch (const UnusableRecord& problem) {
+      if (&group == &groups.back() && result.setups.empty()) throw;
+      left_out.push_back(fmt::format("setup {} of condition {} is left out: {}", group.setup, group.condition, problem.what()));
+      continue;
+    }
+    if (!result.setups.empty() && setup.conditioned.rate_Hz != result.setups.front().conditioned.rate_Hz) {
+      throw InputError({(campaign.folder / "campaign.toml").string(), group.records.front().line, "sampling_rate_Hz"},
+                       fmt::format("is {} Hz in setup {}, but {} Hz in setup {}, which it is merged with",
+                                   group.records.front().sampling_rate_Hz, group.setup,
+                                   groups.front().records.front().sampling_rate_Hz, groups.front().setup),
+                       "bring the records to one rate, or choose one setup: --set setup=…");
+    }
+    for (const records::CampaignChannel& channel : setup.conditioned.channels) {
+      if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
+    }
+    result.setups.push_back(std::move(setup));
+  }
+  for (const std::string& warning : left_out) reporter.warn(warning);
+  if (result.setups.size() > 1 && common_references(result).empty()) {
+    throw InputError(
+        {(campaign.folder / "channels.csv").string(), 0, "reference"},
+        fmt::format("no reference channel is in each of the {} setups of condition {}", result.setups.size(), result.condition),
+        "mark the sensors that stayed in place, or choose one setup: --set setup=…");
+  }
+  return result;
+}
+
+void identify_condition(ConditionResult& result, const IdentificationSettings& config, const Reporter& reporter) {
+  std::vector<sysid::SetupModes> setups;
+  std::size_t done = 0;
+  for (SetupResult& setup : result.setups) {
+    const std::string& name = setup.conditioned.setup;
+    reporter.progress(fmt::format("identifying {} in condition {}", name, result.condition), static_cast<double>(done++),
+                      static_cast<double>(result.setups.size()));
+    setup.spectra = average_spectra(setup.conditioned, setup.limits);
+    setup.singular = singular_spectra(setup.conditioned, setup.limits);
+    const std::string band = config.highest_Hz == 0.0 ? limit_band(setup) : "";
+    setup.found = identify_modes(setup.conditioned, setup.limits);
+    if (!band.empty()) reporter.say(band);
+    for (const sysid::PeriodicLine& line : setup.found.periodic) {
+      reporter.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
+                               line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
+    }
+  }
+  std::vector<sysid::Identification*> found;
+  for (SetupResult& setup : result.setups) found.push_back(&setup.found);
+  if (config.selection == "automatic") sysid::drop_lines_of_others(found, config.periodic);
+  for (SetupResult& setup : result.setups) {
+    estimate_lags(setup.conditioned, setup.found);
+    setups.push_back(
+        {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
+  }
+  const std::vector<Index> references = common_references(result);
+  result.modes = sysid::merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
+  if (result.setups.size() > 1 && config.kind != "free_decay" && result.setups.front().conditioned.excitation.empty()) {
+    const auto fewest =
+        std::min_element(result.setups.begin(), result.setups.end(),
+                         [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
+    check_merging(result, references, fewest->limits);
+  }
+}
+
+}  // namespace twindeck::identification

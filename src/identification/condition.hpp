@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/reporter.hpp"
+#include "identification/identification.hpp"
+#include "sysid/merging.hpp"
+
+namespace twindeck::identification {
+
+/// One setup of a condition, identified.
+struct SetupResult {
+  Conditioned conditioned;
+  IdentificationSettings limits;  ///< the configuration as far as its records carry it
+  sysid::Identification found;
+  signal::PowerSpectra spectra;
+  sysid::SingularSpectra singular;
+};
+
+/// PoSER against PreGER for one mode.
+struct MergingCheck {
+  bool found = false;  ///< PreGER has the mode
+  double frequency_Hz = 0.0, damping_ratio = 0.0, mac = 0.0;
+  Eigen::VectorXcd shape;  ///< (all channels)
+};
+
+/// All setups of a condition.
+struct ConditionResult {
+  std::string condition;
+  std::vector<records::CampaignChannel> channels;  ///< of all setups, in the order of their first appearance
+  std::vector<SetupResult> setups;
+  std::vector<sysid::MergedMode> modes;  ///< ascending in frequency
+  std::vector<MergingCheck> checks;      ///< one a mode where there are several setups
+};
+
+/// The records of each setup made ready, none identified yet. A setup whose records cannot be used is left out with a warning,
+/// as long as another is left.
+/// @param groups  of one condition
+/// @throws InputError  as condition_records; for setups of two rates, or without a common reference @throws UnusableRecord  if
+/// no setup is left
+[[nodiscard]] ConditionResult read_condition(const records::Campaign& campaign, const std::vector<records::RecordGroup>& groups,
+                                             const IdentificationSettings& config, Reporter& reporter);
+
+/// Identifies each setup and merges them. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has
+/// the mode; standard deviations are PoSER's in either case.
+/// @param result  as read_condition gives it
+void identify_condition(ConditionResult& result, const IdentificationSettings& config, const Reporter& reporter);
+
+}  // namespace twindeck::identification

@@ -1,0 +1,283 @@
+#include "identification/identification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "signal/condition.hpp"
+#include "sysid/input_output.hpp"
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+
+namespace {
+
+bool listed(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void require_known(const std::vector<std::string>& asked, const std::vector<std::string>& known, const std::string& key) {
+  for (const std::string& name : asked) {
+    if (!listed(known, name)) {
+      throw InputError({"", 0, key}, fmt::format("'{}' is no channel of the record{}", name, did_you_mean(name, known)),
+                       "name its columns");
+    }
+  }
+}
+
+/// Columns that are used: responses that are not left out.
+std::vector<Index> used_columns(const records::Campaign& campaign, const records::CampaignRecord& record,
+                                const IdentificationSettings& config) {
+  require_known(config.exclude, record.channels, "exclude");
+  std::vector<Index> columns;
+  for (std::size_t c = 0; c < record.channels.size(); ++c) {
+    if (!campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
+      columns.push_back(static_cast<Index>(c));
+  }
+  if (columns.empty() && config.exclude.empty()) {
+    throw InputError({(campaign.folder / "channels.csv").string(), 0, "role"}, "no channel of the record is a response",
+                     "give one at least the role response");
+  }
+  if (columns.empty()) throw InputError({"", 0, "exclude"}, "leaves no response channel", "leave out fewer");
+  return columns;
+}
+
+std::vector<Index> inputs_of(const records::Campaign& campaign, const records::CampaignRecord& record,
+                             const IdentificationSettings& config) {
+  std::vector<Index> columns;
+  for (std::size_t c = 0; c < record.channels.size(); ++c) {
+    if (campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
+      columns.push_back(static_cast<Index>(c));
+  }
+  return columns;
+}
+
+void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked) {
+  std::vector<std::string> names;
+  for (const records::CampaignChannel& channel : conditioned.channels) names.push_back(channel.name);
+  require_known(asked, names, "references");
+  const bool marked =
+      std::any_of(conditioned.channels.begin(), conditioned.channels.end(), [](const auto& c) { return c.reference; });
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const bool chosen = !asked.empty() ? listed(asked, names[c]) : !marked || conditioned.channels[c].reference;
+    if (chosen) conditioned.references.push_back(static_cast<Index>(c));
+  }
+}
+
+/// Channels that are used must move, and within their range.
+void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vector<records::CampaignChannel>& used,
+                     double clipping) {
+  for (const ChannelQuality& q : quality) {
+    const bool is_used = std::any_of(used.begin(), used.end(), [&](const auto& c) { return c.name == q.channel; });
+    if (!is_used) continue;
+    const std::string without = "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'";
+    if (q.dead) {
+      throw UnusableRecord({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples),
+                           without);
+    }
+    const double share = static_cast<double>(q.clipped) / static_cast<double>(q.samples);
+    if (share > clipping) {
+      throw UnusableRecord(
+          {q.record, 0, q.channel},
+          fmt::format("stands at its largest or smallest value over {} of {} samples ({:.3g} %), expected at most "
+                      "{:.3g} %: it was driven past its range",
+                      q.clipped, q.samples, 100.0 * share, 100.0 * clipping),
+          without + fmt::format(", or allow it (--set largest_clipping={:.2g})", 1.1 * share));
+    }
+  }
+}
+
+}  // namespace
+
+Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
+                              const IdentificationSettings& config, Index decimation) {
+  const records::CampaignRecord& first = group.records.front();
+  const std::vector<Index> columns = used_columns(campaign, first, config), input_columns = inputs_of(campaign, first, config);
+  Conditioned conditioned;
+  conditioned.setup = first.setup;
+  conditioned.condition = first.condition;
+  conditioned.rate_Hz = first.sampling_rate_Hz / static_cast<double>(decimation);
+  std::vector<std::string> names;
+  for (const Index c : columns) {
+    names.push_back(first.channels[static_cast<std::size_t>(c)]);
+    conditioned.channels.push_back(campaign.channel(names.back()));
+  }
+  std::vector<std::string> input_names;
+  for (const Index c : input_columns) {
+    input_names.push_back(first.channels[static_cast<std::size_t>(c)]);
+    conditioned.inputs.push_back(campaign.channel(input_names.back()));
+  }
+  choose_references(conditioned, config.references);
+  static_cast<void>(config.options(conditioned.rate_Hz, conditioned.channels));  // refuses a band beyond the records'
+  // Channel by channel, so that beside the record one channel more lies in memory.
+  const auto ready = [&](const Samples& raw, const std::vector<Index>& chosen, const std::vector<std::string>& called,
+                         const std::string& file) {
+    Samples out;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      Eigen::MatrixXd channel = raw.col(chosen[k]);
+      fill_gaps(channel, {called[k]}, config.longest_gap, file);
+      channel = signal::detrended(signal::decimated(signal::detrended(channel), decimation));
+      if (k == 0) out = Samples(channel.rows(), static_cast<Index>(chosen.size()));
+      out.col(static_cast<Index>(k)) = channel;
+    }
+    return out;
+  };
+  for (const records::CampaignRecord& record : group.records) {
+    const auto [raw, notes] = records::read_record(campaign, record);
+    const std::string file = record.file.lexically_relative(campaign.folder).generic_string();
+    const auto quality = channel_quality(raw, record.channels, record.setup, file);
+    try {
+      refuse_unusable(quality, conditioned.channels, config.largest_clipping);
+      refuse_unusable(quality, conditioned.inputs, config.largest_clipping);
+      Samples responses = ready(raw, columns, names, record.file.string());
+      if (!input_columns.empty())
+        conditioned.excitation.push_back(ready(raw, input_columns, input_names, record.file.string()));
+      conditioned.records.push_back(std::move(responses));
+    } catch (const UnusableRecord& problem) {
+      if (conditioned.records.empty() && &record == &group.records.back()) throw;
+      conditioned.notes.push_back(fmt::format("{} is left out: {}", file, problem.what()));
+      continue;
+    }
+    conditioned.notes.insert(conditioned.notes.end(), notes.begin(), notes.end());
+    conditioned.files.push_back(file);
+    conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
+  }
+  return conditioned;
+}
+
+Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(records.front().cols());
+  for (const Samples& record : records)
+    squares += record.colwise().squaredNorm().transpose() / static_cast<double>(record.rows());
+  return (squares / static_cast<double>(records.size())).cwiseSqrt();
+}
+
+Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape, const std::vector<records::CampaignChannel>& channels,
+                                const Eigen::VectorXd& scale, double frequency_Hz, double damping_ratio) {
+  const std::complex<double> lambda = 2.0 * std::numbers::pi * frequency_Hz *
+                                      std::complex<double>(-damping_ratio, std::sqrt(1.0 - damping_ratio * damping_ratio));
+  Eigen::VectorXcd physical = shape;
+  for (Index c = 0; c < shape.size(); ++c) {
+    const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
+    physical[c] *= scale[c] * std::pow(lambda, -order);
+  }
+  return sysid::normalised_shape(physical);
+}
+
+void to_physical_shapes(sysid::Identification& found, const std::vector<records::CampaignChannel>& channels,
+                        const Eigen::VectorXd& scale) {
+  const auto n = static_cast<Index>(channels.size());
+  for (std::size_t m = 0; m < found.modes.size(); ++m) {
+    sysid::Cluster& mode = found.modes[m];
+    const std::complex<double> lambda = found.diagram[mode.representative].pole.eigenvalue;
+    Eigen::VectorXcd factor(n);
+    for (Index c = 0; c < n; ++c) {
+      const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
+      factor[c] = scale[c] * std::pow(lambda, -order);
+    }
+    const Eigen::VectorXcd physical = mode.shape.cwiseProduct(factor);
+    const double norm = physical.norm();
+    mode.shape = sysid::normalised_shape(physical);
+    if (m >= found.deviations.size()) continue;
+    // The turn by 0, 90 or 180 degrees between quantities mixes real and imaginary parts: the larger of both holds for either.
+    sysid::ModeDeviation& deviation = found.deviations[m];
+    const Eigen::VectorXd magnitude = factor.cwiseAbs() / norm;
+    if ((factor.imag().array() != 0.0).any())
+      deviation.shape_real = deviation.shape_imag = deviation.shape_real.cwiseMax(deviation.shape_imag);
+    deviation.shape_real.array() *= magnitude.array();
+    deviation.shape_imag.array() *= magnitude.array();
+  }
+}
+
+namespace {
+
+sysid::Identification identify_ambient(const std::vector<Samples>& scaled, const Conditioned& conditioned,
+                                       const IdentificationSettings& config, const sysid::IdentifyOptions& options) {
+  signal::BlockCorrelations blocks;
+  for (const Samples& record : scaled) {
+    blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
+  }
+  return config.method == "data"
+             ? sysid::identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
+             : sysid::identify(blocks, conditioned.rate_Hz, options);
+}
+
+}  // namespace
+
+sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config) {
+  const sysid::IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
+  // Channels on one scale, so that a large or a distant one does not hide the others and units do not matter.
+  const Eigen::VectorXd scale = channel_rms(conditioned.records);
+  std::vector<Samples> scaled;
+  for (const Samples& record : conditioned.records) scaled.push_back(scaled_channels(record, scale.cwiseInverse()));
+  sysid::Identification found;
+  if (!conditioned.excitation.empty()) {
+    if (scaled.size() > 1) {
+      throw InputError(
+          {"", 0, "setup"},
+          fmt::format("setup {} has {} records with measured inputs, expected one", conditioned.setup, scaled.size()),
+          "give each its own setup");
+    }
+    const Samples& input = conditioned.excitation.front();
+    const Eigen::VectorXd input_scale = channel_rms(conditioned.excitation);
+    found = sysid::identify_input_output(input * input_scale.cwiseInverse().asDiagonal(), scaled.front(), conditioned.rate_Hz,
+                                         options);
+  } else {
+    found = identify_ambient(scaled, conditioned, config, options);
+  }
+  if (options.selection == sysid::Selection::automatic && conditioned.excitation.empty()) {
+    sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic);
+    if (!found.periodic.empty()) {
+      // A line beside a mode pulls the mode's poles to itself at small orders: once more, without the lines.
+      const std::vector<sysid::PeriodicLine> lines = sysid::without_lines(
+          scaled, found.periodic, conditioned.rate_Hz, options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
+      found = identify_ambient(scaled, conditioned, config, options);
+      sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic, lines);
+    }
+  } else {
+    found.periodic.clear();  // candidates that nobody judged
+  }
+  to_physical_shapes(found, conditioned.channels, scale);
+  return found;
+}
+
+sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config) {
+  const Eigen::VectorXd scale = channel_rms(conditioned.records);
+  signal::CrossSpectra average;
+  for (const Samples& record : conditioned.records) {
+    const signal::CrossSpectra one =
+        signal::cross_spectra(scaled_channels(record, scale.cwiseInverse()), conditioned.rate_Hz, {config.welch_segment, 0.5});
+    const auto weight = static_cast<double>(one.n_segments);
+    if (average.density.empty()) average.density.assign(one.density.size(), Eigen::MatrixXcd::Zero(scale.size(), scale.size()));
+    for (std::size_t f = 0; f < one.density.size(); ++f) average.density[f] += weight * one.density[f];
+    average.frequency_Hz = one.frequency_Hz;
+    average.n_segments += one.n_segments;
+  }
+  for (Eigen::MatrixXcd& density : average.density) density /= static_cast<double>(average.n_segments);
+  return sysid::singular_spectra(average, 3);
+}
+
+signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationSettings& config) {
+  signal::PowerSpectra average;
+  for (const Samples& record : conditioned.records) {
+    const signal::PowerSpectra one = signal::power_spectra(record, conditioned.rate_Hz, {config.welch_segment, 0.5});
+    const double weight = static_cast<double>(one.n_segments);
+    average.frequency_Hz = one.frequency_Hz;
+    average.density = average.n_segments == 0 ? Eigen::MatrixXd(weight * one.density)
+                                              : Eigen::MatrixXd(average.density + weight * one.density);
+    average.n_segments += one.n_segments;
+  }
+  average.density /= static_cast<double>(average.n_segments);
+  const Eigen::ArrayXd omega = 2.0 * std::numbers::pi * average.frequency_Hz.array();
+  for (std::size_t c = 0; c < conditioned.channels.size(); ++c) {
+    const int missing = 2 - derivative(conditioned.channels[c].quantity);
+    for (int k = 0; k < missing; ++k) average.density.col(static_cast<Index>(c)).array() *= omega.square();
+  }
+  return average;
+}
+
+}  // namespace twindeck::identification

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/samples.hpp"
+#include "identification/identification_settings.hpp"
+#include "identification/quality.hpp"
+#include "records/campaign.hpp"
+#include "signal/welch.hpp"
+#include "sysid/efdd.hpp"
+#include "sysid/identify.hpp"
+
+/// Records of a campaign to modes with standard deviations: judged, made ready, identified setup by setup, merged; free decays
+/// and stays beside them. It takes records as the campaign's reader gives them; it gives modes, spectra and the quality of the
+/// channels.
+namespace twindeck::identification {
+
+/// Records of one setup and condition made ready for identification.
+struct Conditioned {
+  std::vector<records::CampaignChannel> channels;  ///< response columns that are used
+  std::vector<records::CampaignChannel> inputs;    ///< input columns
+  std::vector<Eigen::Index> references;            ///< positions among channels
+  std::vector<Samples> records;                    ///< detrended, decimated, SI units
+  std::vector<Samples> excitation;                 ///< of the inputs, one a record
+  double rate_Hz = 0.0;                            ///< after decimation
+  std::string setup, condition;
+  std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
+  std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
+  std::vector<std::string> notes;       ///< what the user should know of how the records were read
+};
+
+/// Reads, judges, repairs as asked, detrends and decimates. A record that cannot be used is left out with a note, as long as
+/// another of the group is left.
+/// @throws UnusableRecord  if none is left: a gap that is not to be filled, a dead or clipped channel
+/// @throws InputError  for an unknown reference, no response channel, a band beyond the records'
+[[nodiscard]] Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
+                                            const IdentificationSettings& config, Eigen::Index decimation);
+
+/// Identification of one setup by the method asked for: covariance-driven or data-driven of responses alone, input-output where
+/// the group has measured inputs. Records are pooled. Shapes are brought to the first channel's quantity: with lambda the pole,
+/// a velocity is lambda times a displacement.
+/// @throws InputError  if the records are too short or the orders too large
+[[nodiscard]] sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config);
+
+/// A shape over scaled channels (value = recorded / scale) as a physical one of the first channel's quantity, unit norm.
+[[nodiscard]] Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape,
+                                              const std::vector<records::CampaignChannel>& channels,
+                                              const Eigen::VectorXd& scale, double frequency_Hz, double damping_ratio);
+/// Brings shapes of scaled channels (value = recorded / scale) to physical ones of the first channel's quantity, deviations
+/// with them.
+void to_physical_shapes(sysid::Identification& found, const std::vector<records::CampaignChannel>& channels,
+                        const Eigen::VectorXd& scale);
+
+/// RMS of each channel over the records.
+[[nodiscard]] Eigen::VectorXd channel_rms(const std::vector<Samples>& records);
+
+/// Power spectra averaged over the records, of accelerations [m²/s³]: those of other quantities are multiplied by (2 pi f)².
+[[nodiscard]] signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
+
+/// Singular values of the cross spectral matrix, channels scaled to unit RMS: [1/Hz].
+[[nodiscard]] sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
+
+}  // namespace twindeck::identification

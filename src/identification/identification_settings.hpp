@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "records/campaign_channels.hpp"
+#include "sysid/identify.hpp"
+
+namespace twindeck::identification {
+
+/// A stay whose records are read as those of a string.
+struct StaySettings {
+  std::string name;  ///< setup, point or channel of its records
+  double length_m = 0.0;
+};
+
+/// How records are identified; the step's configuration has a sentence for each value.
+struct IdentificationSettings {
+  std::string setup, condition, kind = "ambient", method = "covariance", selection = "automatic", merge = "poser";
+  std::vector<std::string> setups, references, exclude;
+  long decimation = 1, block_rows = 30, minimum_order = 2, maximum_order = 60, order_step = 2, blocks = 20, longest_gap = 0;
+  long welch_segment = 2048;
+  double largest_clipping = 1e-3;
+  double lowest_Hz = 0.0;
+  double highest_Hz = 0.0;  ///< 0: left open, at most 0.8 of the Nyquist frequency after decimation, the filter's passband
+  sysid::StabilisationCriteria criteria;
+  double largest_damping = 0.20;
+  double largest_deviation = 0.01, largest_law_ratio = 10.0, largest_shape_deviation = 0.6;
+  sysid::CleaningRule cleaning;
+  sysid::AutomaticRule automatic;
+  sysid::PeriodicRule periodic;
+  // Free decays (ERA).
+  long decay_decimation = 0, decay_block_rows = 60, decay_maximum_order = 40;
+  double decay_start_s = 0.3, decay_length_s = 20.0, decay_band_Hz = 0.08;
+  long decay_bands = 4;
+  // Stays.
+  long stay_decimation = 4, stay_block_rows = 100, stay_maximum_order = 40, stay_harmonics = 5;
+  double stay_lowest_Hz = 0.3, stay_highest_Hz = 3.0, stay_level = 0.95;
+  std::vector<StaySettings> stays;
+
+  /// Settings of the subspace identification for records of this rate (after decimation) and these responses.
+  [[nodiscard]] sysid::IdentifyOptions options(double rate_Hz, const std::vector<records::CampaignChannel>& channels) const;
+};
+
+/// 2 for an acceleration, 1 for a velocity, 0 for a displacement.
+[[nodiscard]] int derivative(const std::string& quantity);
+
+}  // namespace twindeck::identification

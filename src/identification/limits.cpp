@@ -1,0 +1,85 @@
+#include "identification/limits.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr long kFewestBlocks = 8;      // deviations from fewer blocks are known to worse than 30 %
+constexpr long kFewestBlockRows = 10;  // fewer hardly carry one mode
+constexpr long kLeastSegment = 64;     // samples of a spectrum that shows anything
+
+/// Samples of a block for each block row: twice the lags, which are two a row (signal::correlations).
+constexpr long kSamplesPerRow = 4;
+
+long shortest(const std::vector<Samples>& records) {
+  const auto least =
+      std::min_element(records.begin(), records.end(), [](const Samples& a, const Samples& b) { return a.rows() < b.rows(); });
+  return static_cast<long>(least->rows());
+}
+
+/// Samples that an input-output identification needs for each block row (sysid::identify_input_output).
+long samples_per_row_with_inputs(const Conditioned& conditioned) {
+  return static_cast<long>(4 * (conditioned.channels.size() + conditioned.inputs.size()) + 2);
+}
+
+class Limits {
+ public:
+  explicit Limits(const IdentificationSettings& config) : config_(config) {}
+  /// Lowers one limit, and remembers it.
+  void lower(const char* name, long IdentificationSettings::*limit, long to) {
+    if (config_.*limit <= to) return;
+    changed_.push_back(fmt::format("{} {} -> {}", name, config_.*limit, to));
+    config_.*limit = to;
+  }
+  [[nodiscard]] const IdentificationSettings& config() const { return config_; }
+  [[nodiscard]] const std::vector<std::string>& changed() const { return changed_; }
+
+ private:
+  IdentificationSettings config_;
+  std::vector<std::string> changed_;
+};
+
+}  // namespace
+
+CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSettings& config) {
+  const long n = shortest(conditioned.records);
+  const bool with_inputs = !conditioned.excitation.empty();
+  // Who asks for less than these gets it.
+  const long fewest_rows = std::min(config.block_rows, kFewestBlockRows), blocks = std::min(config.blocks, kFewestBlocks);
+  const long identified = fewest_rows * (with_inputs ? samples_per_row_with_inputs(conditioned) : kSamplesPerRow * blocks);
+  const long least = std::max(identified, std::min(config.welch_segment, kLeastSegment));
+  if (n < least) {
+    throw UnusableRecord({conditioned.files.front(), 0, ""},
+                         fmt::format("has {} samples after decimation, expected at least {}", n, least),
+                         "give a longer record, or a smaller decimation");
+  }
+  Limits limits(config);
+  if (with_inputs) {
+    limits.lower("block_rows", &IdentificationSettings::block_rows, n / samples_per_row_with_inputs(conditioned));
+  } else {
+    limits.lower("blocks", &IdentificationSettings::blocks, std::max(blocks, n / (kSamplesPerRow * config.block_rows)));
+    limits.lower("block_rows", &IdentificationSettings::block_rows, n / (kSamplesPerRow * limits.config().blocks));
+  }
+  // What the configured block rows do not carry is a slip of the configuration, and refused later; what fewer rows do not carry
+  // follows them.
+  if (limits.config().block_rows < config.block_rows) {
+    const auto rows = static_cast<Index>(limits.config().block_rows), outputs = static_cast<Index>(conditioned.channels.size());
+    const auto references = static_cast<Index>(conditioned.references.size());
+    const Index most = with_inputs ? (rows - 1) * outputs : std::min((rows - 1) * outputs, rows * references);
+    limits.lower("maximum_order", &IdentificationSettings::maximum_order, std::max<long>(2, static_cast<long>(most)));
+    limits.lower("minimum_order", &IdentificationSettings::minimum_order, limits.config().maximum_order);
+  }
+  limits.lower("welch_segment", &IdentificationSettings::welch_segment, n);
+  if (limits.changed().empty()) return {limits.config(), ""};
+  return {limits.config(), fmt::format("setup {}: {} has {} samples, too few for all limits: {}", conditioned.setup,
+                                       conditioned.files.front(), n, fmt::join(limits.changed(), ", "))};
+}
+
+}  // namespace twindeck::identification

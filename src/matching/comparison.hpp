@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/reporter.hpp"
+#include "dynamics/eigenmodes.hpp"
+#include "dynamics/loaded_model.hpp"
+#include "matching/measured.hpp"
+#include "matching/mode_name.hpp"
+#include "matching/pairing.hpp"
+
+/// Measured against computed modes: who is whose, and how far apart.
+namespace twindeck::matching {
+
+/// How measured modes were given their numerical partners.
+struct Pairing {
+  std::vector<ModePair> pairs;          ///< in the order of the measured modes
+  std::string method;                   ///< "order" | "published" | "mac"
+  Eigen::MatrixXd mac;                  ///< (n_N × n_X) at the sensors; empty where no shape was measured
+  Eigen::MatrixXcd shapes;              ///< (n_channels × n_N) computed ones at the sensors; empty likewise
+  std::vector<std::string> unmeasured;  ///< measured modes of a published list that are not among the measured ones
+};
+
+/// First measured with first computed mode, and so on; only the measured modes for which `keep` is true (all if it is empty).
+[[nodiscard]] Pairing pair_by_order(const Measured& measured, Eigen::Index n_numerical, const std::vector<bool>& keep = {});
+
+/// A published assignment such as {"1X-1N", "7X-8N"}. Pairs whose measured mode is not in `measured` are passed over, and
+/// listed in `unmeasured`.
+/// @param place  where the list stands, for messages
+/// @throws InputError  for an entry of another form, a mode named twice, or a numerical mode beyond `n_numerical`
+[[nodiscard]] Pairing pair_as_published(const Measured& measured, Eigen::Index n_numerical,
+                                        const std::vector<std::string>& published, const Place& place);
+
+/// What of the pairing can be refused before anything is solved. @param n_modes  that will be computed
+/// @throws InputError  as pair_as_published, or as pair_at_sensors where shapes were measured
+void check_pairing(const Measured& measured, const dynamics::ReadModel& model, const std::vector<std::string>& published,
+                   const Place& place, long n_modes, double sensor_tolerance_m);
+
+/// Names the pairs of a list that were passed over.
+void warn_of_unmeasured(Reporter& reporter, const Pairing& pairing);
+
+/// By MAC at the sensors, one-to-one.
+/// @throws InputError  if no shape was measured, or a sensor can't be placed on the model
+[[nodiscard]] Pairing pair_at_sensors(const Measured& measured, const dynamics::LoadedModel& model,
+                                      const dynamics::EigenModes& modes, const PairingOptions& options,
+                                      double sensor_tolerance_m);
+
+/// A row of comparison.csv; error = (f_N - f_X)/f_X as in Tables 6, 7 and 9.
+struct ComparisonRow {
+  std::string stage, experimental, numerical;
+  double measured_Hz = 0.0, computed_Hz = 0.0;
+  std::optional<double> mac;
+  std::string pairing;
+  [[nodiscard]] double error_pct() const { return 100.0 * (computed_Hz - measured_Hz) / measured_Hz; }
+};
+[[nodiscard]] std::vector<ComparisonRow> compare(const std::string& stage, const Measured& measured,
+                                                 const Eigen::VectorXd& computed_Hz, const Pairing& pairing);
+/// Mean of |error| over the rows of a stage [%]; NaN for none.
+[[nodiscard]] double mean_abs_error_pct(const std::vector<ComparisonRow>& rows, const std::string& stage);
+
+}  // namespace twindeck::matching

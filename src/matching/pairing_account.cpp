@@ -1,0 +1,149 @@
+#include "matching/pairing_account.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "matching/reversed_channel.hpp"
+
+namespace twindeck::matching {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr double same_shape_mac = 0.9;  ///< [-] the usual mark of one and the same mode
+constexpr int fewest_same_shapes = 3;   ///< two ratios agree by chance
+constexpr double least_factor = 1.10;   ///< [-] between frequencies: models as drawn are nearer than that, or off mode by mode
+constexpr double factor_spread =
+    0.25;  ///< [-] of ln(factor): how far the single ratios may lie from it and still be one factor
+constexpr double known_factor_within = 1.15;  ///< [-] of the factor of a slip, which sits on top of a model's own error
+
+/// A slip of units or masses, and what it multiplies computed frequencies by.
+struct Slip {
+  double computed_over_measured;
+  const char* words;
+};
+
+std::string guess_of(double ratio) {
+  const double thousand = std::sqrt(1000.0), gravity = std::sqrt(9.80665);
+  const std::array<Slip, 8> slips = {{{1.0 / thousand, "is the model's stiffness in kN/m, or its mass in grams?"},
+                                      {thousand, "is the model's mass in tonnes, or its stiffness in N/mm?"},
+                                      {1e-3, "is a modulus of the model in MPa, or are the measured frequencies in mHz?"},
+                                      {1e3, "are masses of the model in milligrams, or the measured frequencies in kHz?"},
+                                      {1.0 / gravity, "is a weight in newtons given as a mass in kilograms?"},
+                                      {gravity, "is a mass divided by g once too often?"},
+                                      {1.0 / (2.0 * std::numbers::pi), "are the measured frequencies in rad/s?"},
+                                      {1.0 / 60.0, "are the measured frequencies in cycles per minute?"}}};
+  for (const Slip& slip : slips)
+    if (std::abs(std::log(ratio / slip.computed_over_measured)) < std::log(known_factor_within)) return slip.words;
+  return fmt::format("look for a unit or a mass; stiffness over mass is {:.3g} times what was measured", ratio * ratio);
+}
+
+/// Each measured mode's computed one by shape alone, one-to-one; -1 where none is the same.
+std::vector<int> same_shapes(const Eigen::MatrixXd& mac) {
+  const Eigen::MatrixXd alike = (mac.array() >= same_shape_mac).select(mac.array(), 0.0).matrix().transpose();
+  std::vector<int> at = matching::follow_modes(alike);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (at[i] >= 0 && !(alike(static_cast<Index>(i), at[i]) > 0.0)) at[i] = -1;
+  return at;
+}
+
+std::string few(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 6;  // a line is read to its end only if it is short
+  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{} and {} more", fmt::join(names.begin(), names.begin() + most, ", "), names.size() - most);
+}
+
+}  // namespace
+
+PairingAccount account_of(const Measured& measured, const Pairing& pairing, const Eigen::VectorXd& computed_Hz) {
+  PairingAccount account;
+  account.by_shape = pairing.method == "mac";
+  account.reversed = reversed_channel(measured, pairing);
+  const double highest = computed_Hz.size() > 0 ? computed_Hz.maxCoeff() : 0.0;
+  for (Index i = 0; i < measured.modes.size(); ++i) {
+    const std::string& label = measured.labels[static_cast<std::size_t>(i)];
+    const auto pair =
+        std::find_if(pairing.pairs.begin(), pairing.pairs.end(), [&](const auto& p) { return p.experimental == i; });
+    if (pair == pairing.pairs.end()) {
+      const bool reached = measured.modes.frequency_Hz[i] <= highest;
+      (reached ? account.unpaired : account.beyond).push_back(label);
+      account.measured += reached ? 1 : 0;
+      continue;
+    }
+    ++account.measured;
+    const std::string name = label + "-" + numerical_label(pair->numerical);
+    if (std::isnan(pair->mac)) continue;
+    if (!(account.worst_mac <= pair->mac)) {
+      account.worst_mac = pair->mac;
+      account.worst = name;
+    }
+    if (pair->mac < agreeing_mac) account.unlike.push_back(fmt::format("{} (MAC {:.2f})", name, pair->mac));
+  }
+  return account;
+}
+
+std::string pairing_words(const PairingAccount& account) {
+  if (!account.by_shape) return "";
+  std::string words = fmt::format("; {} of {} measured modes unpaired", account.unpaired.size(), account.measured);
+  if (!account.beyond.empty()) words += fmt::format(", {} above the highest computed", account.beyond.size());
+  if (!account.worst.empty()) words += fmt::format(", worst MAC {:.2f} ({})", account.worst_mac, account.worst);
+  if (!account.unlike.empty()) words += "; WARNING: shapes disagree";
+  return words;
+}
+
+Status outcome(Status status, const PairingAccount& account) {
+  if (status.converged && !account.unlike.empty()) status.message = "shapes disagree: " + few(account.unlike);
+  return status;
+}
+
+std::optional<std::string> common_factor(const Measured& measured, const Pairing& pairing, const Eigen::VectorXd& computed_Hz) {
+  if (pairing.mac.size() == 0) return std::nullopt;
+  std::vector<double> ratios;
+  const std::vector<int> same = same_shapes(pairing.mac);
+  for (std::size_t i = 0; i < same.size(); ++i)
+    if (same[i] >= 0) ratios.push_back(computed_Hz[same[i]] / measured.modes.frequency_Hz[static_cast<Index>(i)]);
+  const auto n = static_cast<Index>(ratios.size());
+  if (n < fewest_same_shapes || 2 * n < measured.modes.size()) return std::nullopt;
+  std::sort(ratios.begin(), ratios.end());
+  const double ratio = ratios[ratios.size() / 2], off = std::abs(std::log(ratio));
+  if (!(off > std::log(least_factor))) return std::nullopt;
+  for (const double each : {ratios.front(), ratios.back()})
+    if (!(std::abs(std::log(each / ratio)) < factor_spread * off)) return std::nullopt;
+  return fmt::format(
+      "the shapes of {} measured modes agree with computed ones (MAC of {} and more) whose frequencies are all {:.3g} "
+      "times the measured ({:.3g} to {:.3g}): {}",
+      n, same_shape_mac, ratio, ratios.front(), ratios.back(), guess_of(ratio));
+}
+
+void warn_of_pairing(Reporter& reporter, const PairingAccount& account, const std::optional<std::string>& factor,
+                     const std::string& stage) {
+  if (factor) reporter.warn(*factor);
+  if (account.reversed) reporter.warn(*account.reversed);
+  if (account.unlike.empty()) return;
+  reporter.warn(
+      fmt::format("shapes disagree{}: {}; frequencies that fit say nothing there. A channel may be reversed, exchanged or "
+                  "mis-scaled (s9_diagnosis finds out, --correct puts it right), or the model lacks something",
+                  stage.empty() ? "" : " " + stage, few(account.unlike)));
+}
+
+void refuse_few_pairs(const PairingAccount& account, double least_paired, double minimum_mac, const std::string& source,
+                      const std::optional<std::string>& factor) {
+  if (!account.by_shape || account.paired() >= least_paired * std::max(account.measured, 1)) return;
+  const std::vector<std::string>& lacking = account.measured > 0 ? account.unpaired : account.beyond;
+  const std::size_t of = account.measured > 0 ? static_cast<std::size_t>(account.measured) : account.beyond.size();
+  throw InputError(
+      {source, 0, ""},
+      fmt::format("only {} of {} measured modes are like a computed one (MAC of at least {:g}, frequency within "
+                  "maximum_frequency_error), expected a share of at least {:g}: unpaired {} {}",
+                  account.paired(), of, minimum_mac, least_paired, lacking.size() == 1 ? "mode" : "modes", few(lacking)),
+      factor.value_or("check directions, signs and places of the channels and the model's axes; s9_diagnosis looks for "
+                      "wrong channels; `minimum_mac` and `least_paired` say what is enough"));
+}
+
+}  // namespace twindeck::matching

@@ -1,0 +1,294 @@
+#include "records/campaign.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/error.hpp"
+#include "io/config.hpp"
+#include "io/limits.hpp"
+#include "io/regular_file.hpp"
+#include "io/toml_value.hpp"
+#include "records/column_match.hpp"
+#include "records/record.hpp"
+#include "records/recorded_unit.hpp"
+
+namespace twindeck::records {
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+const std::vector<std::string> kKinds = {"ambient", "free_decay", "wind", "earthquake", "stay"};
+
+std::vector<std::string> condition_names(const fs::path& file) {
+  if (!fs::exists(file)) return {};
+  std::vector<std::string> names;
+  for (const io::TomlEntry& entry : io::read_toml(file)) {
+    if (entry.value.as<io::TomlValue::Table>() == nullptr) {
+      throw InputError({file.string(), entry.line, entry.key}, fmt::format("is {}, expected a table", io::shown(entry.value)),
+                       "write [" + entry.key + "], and below it what is known of the condition");
+    }
+    names.push_back(entry.key);
+  }
+  return names;
+}
+
+/// Lines of the [[record]] tables and of their keys, for messages.
+struct RecordLines {
+  long table = 0;
+  std::map<std::string, long> keys;
+};
+
+std::vector<RecordLines> record_lines(const fs::path& file) {
+  std::vector<RecordLines> lines;
+  for (const io::TomlEntry& entry : io::read_toml(file)) {
+    const auto* records = entry.value.as<io::TomlValue::Array>();
+    if (entry.key != "record" || records == nullptr) continue;
+    for (const io::TomlValue& record : *records) {
+      lines.push_back({record.line, {}});
+      const auto* keys = record.as<io::TomlValue::Table>();
+      if (keys == nullptr) continue;
+      for (const io::TomlEntry& key : *keys) lines.back().keys[key.key] = key.line;
+    }
+  }
+  return lines;
+}
+
+void check_record(const Campaign& campaign, const CampaignRecord& record, const fs::path& file) {
+  std::vector<std::string> known;
+  for (const CampaignChannel& channel : campaign.channels) known.push_back(channel.name);
+  if (record.channels.empty())
+    throw InputError({file.string(), record.line_of("channels"), "channels"}, "is empty", "list the columns of the record");
+  std::set<std::string> seen;
+  for (const std::string& name : record.channels) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError({file.string(), record.line_of("channels"), "channels"},
+                       fmt::format("channel '{}' is not in channels.csv{}", name, did_you_mean(name, known)),
+                       "add it there, or correct the name");
+    }
+    if (!seen.insert(name).second)
+      throw InputError({file.string(), record.line_of("channels"), "channels"}, fmt::format("names '{}' twice", name), "");
+  }
+  if (!record.columns.empty() && record.columns.size() != record.channels.size()) {
+    throw InputError({file.string(), record.line_of("columns"), "columns"},
+                     fmt::format("has {} entries for {} channels", record.columns.size(), record.channels.size()),
+                     "give each entry of `channels` its column in the file");
+  }
+  const auto& conditions = campaign.conditions;
+  if (!conditions.empty() && std::find(conditions.begin(), conditions.end(), record.condition) == conditions.end()) {
+    throw InputError(
+        {file.string(), record.line_of("condition"), "condition"},
+        fmt::format("'{}' is no table of conditions.toml{}", record.condition, did_you_mean(record.condition, conditions)),
+        "add a table [" + record.condition + "] there");
+  }
+}
+
+void check_rate(const Campaign& campaign, const CampaignRecord& record, const RecordInfo& info) {
+  if (info.rate_Hz > 0.0 && std::abs(info.rate_Hz / record.sampling_rate_Hz - 1.0) > 1e-3) {
+    throw InputError({(campaign.folder / "campaign.toml").string(), record.line_of("sampling_rate_Hz"), "sampling_rate_Hz"},
+                     fmt::format("is {}, but {} runs at {:.6g} Hz ({})", record.sampling_rate_Hz, record.file.string(),
+                                 info.rate_Hz, info.rate_source),
+                     "correct one of them; two clocks or a mixed rate show so");
+  }
+  for (const std::string& note : info.notes) {
+    if (note.find("backwards") != std::string::npos || note.find("different rates") != std::string::npos) {
+      throw InputError({record.file.string(), 0, ""}, note,
+                       "split the record where its clock jumps, or give each rate its own record");
+    }
+  }
+}
+
+/// What the file says of itself, for people: its notes, the names it was not read by, units other than those of channels.csv.
+std::vector<std::string> notes_of(const Campaign& campaign, const CampaignRecord& record, const RecordInfo& info,
+                                  const ColumnMatch& match) {
+  std::vector<std::string> notes;
+  for (const std::string& note : info.notes) notes.push_back(record.file.string() + ": " + note);
+  if (!match.warning.empty()) notes.push_back(match.warning);
+  for (std::size_t c = 0; c < match.columns.size(); ++c) {
+    const CampaignChannel& channel = campaign.channel(record.channels[c]);
+    const std::string& unit = info.channels[static_cast<std::size_t>(match.columns[c])].unit;
+    const double stated = records::si_factor(unit), used = std::abs(channel.gain);
+    constexpr double other_unit = 2.0;  // two units of a quantity lie a factor of 9.8 apart or more; a calibration stays below
+    if (stated > 0.0 && (used > other_unit * stated || used < stated / other_unit)) {
+      notes.push_back(
+          fmt::format("{}: says that {} is in {}, but channels.csv has the unit {} and the gain {:.6g}, which is used",
+                      record.file.string(), channel.name, unit, channel.unit, channel.gain));
+    }
+  }
+  return notes;
+}
+
+/// Numbers beyond this are no record of a motion or force in any unit; their squares would be beyond what a number can hold.
+constexpr double kLargestValue = 1e100;
+
+void refuse_absurd(const RecordSamples& samples, const CampaignRecord& record) {
+  for (Index c = 0; c < samples.values.cols(); ++c) {
+    for (Index t = 0; t < samples.values.rows(); ++t) {
+      const double value = std::abs(samples.values(t, c));
+      if (!(value > kLargestValue) || std::isnan(value)) continue;
+      throw InputError({record.file.string(), 0, record.channels[static_cast<std::size_t>(c)]},
+                       fmt::format("holds {:.6g} in sample {}, which no sensor gives", samples.values(t, c), t + 1),
+                       "check the file and its type of numbers");
+    }
+  }
+}
+
+}  // namespace
+
+long CampaignRecord::line_of(const std::string& key) const {
+  const auto at = lines.find(key);
+  return at == lines.end() ? line : at->second;
+}
+
+const CampaignChannel& Campaign::channel(const std::string& name) const {
+  const auto at = std::find_if(channels.begin(), channels.end(), [&](const CampaignChannel& c) { return c.name == name; });
+  TWINDECK_ASSERT(at != channels.end());
+  return *at;
+}
+
+Campaign read_campaign(const fs::path& folder) {
+  Campaign campaign;
+  campaign.folder = folder;
+  const fs::path file = folder / "campaign.toml";
+  if (!fs::exists(file)) {
+    throw InputError({file.string(), 0, ""}, "is not there, expected one table [[record]] for each record",
+                     "write it as docs/my_records.md says");
+  }
+  campaign.channels = read_campaign_channels(folder / "channels.csv", campaign.warnings);
+  campaign.conditions = condition_names(folder / "conditions.toml");
+  const std::vector<RecordLines> lines = record_lines(file);
+
+  // The list is reserved, so that the fields bound to an element stay where they are.
+  struct Raw {
+    CampaignRecord record;
+    std::string file;
+  };
+  std::vector<Raw> raw;
+  raw.reserve(lines.size() + 1);
+  io::FieldTable fields;
+  fields.tables(
+      "record",
+      [&raw] {
+        raw.push_back({});
+        Raw& r = raw.back();
+        r.record.condition = "as_measured";
+        r.record.kind = "ambient";
+        io::FieldTable table;
+        table.path_name("setup", r.record.setup, "setup", "name of the setup", true)
+            .choice("kind", r.record.kind, kKinds, "what was recorded")
+            .text("file", r.file,
+                  "samples: CSV as loggers write it, NPY, MAT 4, 5 or 7.3, HDF5, universal file; relative to campaign.toml",
+                  true)
+            .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", {io::lowest_rate_Hz, kNoLimit},
+                    "samples a second of each channel", true)
+            .texts("channels", r.record.channels,
+                   "what is recorded, names of channels.csv; the columns' order where the file has no names")
+            .texts("columns", r.record.columns,
+                   "what the file calls each of `channels` (\"column 3\": the third); empty: it calls them so itself")
+            .boolean("skip_stray_lines", r.record.skip_stray_lines,
+                     "leave out and count lines of a text file that are no rows of its table, instead of refusing them")
+            .path_name("condition", r.record.condition, "condition", "table of conditions.toml");
+        return table;
+      },
+      "a record");
+  fields.load(file);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    CampaignRecord record = raw[i].record;
+    record.file = folder / raw[i].file;
+    if (i < lines.size()) {
+      record.line = lines[i].table;
+      record.lines = lines[i].keys;
+    }
+    check_record(campaign, record, file);
+    campaign.records.push_back(record);
+  }
+  if (campaign.records.empty()) throw InputError({file.string(), 0, "record"}, "lists no record", "add a table [[record]]");
+  return campaign;
+}
+
+std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordChoice& choice, bool or_none) {
+  std::vector<RecordGroup> groups;
+  std::set<std::string> there;
+  for (const CampaignRecord& record : campaign.records) {
+    there.insert(fmt::format("{}/{}/{}", record.setup, record.condition, record.kind));
+    const bool fits =
+        (choice.setup.empty() || record.setup == choice.setup) &&
+        (choice.condition.empty() || record.condition == choice.condition) &&
+        (choice.kind.empty() || record.kind == choice.kind) &&
+        (choice.setups.empty() || std::find(choice.setups.begin(), choice.setups.end(), record.setup) != choice.setups.end());
+    if (!fits) continue;
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const RecordGroup& g) { return g.setup == record.setup && g.condition == record.condition; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {record.setup, record.condition, {}});
+    if (!group->records.empty()) {
+      const CampaignRecord& first = group->records.front();
+      if (record.sampling_rate_Hz != first.sampling_rate_Hz || record.channels != first.channels) {
+        throw InputError(
+            {(campaign.folder / "campaign.toml").string(), record.line, "record"},
+            fmt::format("differs in rate or channels from the record on line {} of the same setup and condition", first.line),
+            "give it a setup of its own");
+      }
+    }
+    group->records.push_back(record);
+  }
+  if (groups.empty() && !or_none) {
+    throw InputError({(campaign.folder / "campaign.toml").string(), 0, "record"},
+                     fmt::format("no record has setup '{}', condition '{}', kind '{}'; there are {}", choice.setup,
+                                 choice.condition, choice.kind, fmt::join(there, ", ")),
+                     "choose by --set setup=…, condition=…, kind=…");
+  }
+  // Conditions stay together, in the order in which they first appear.
+  std::vector<std::string> order;
+  for (const RecordGroup& group : groups) {
+    if (std::find(order.begin(), order.end(), group.condition) == order.end()) order.push_back(group.condition);
+  }
+  std::stable_sort(groups.begin(), groups.end(), [&](const RecordGroup& a, const RecordGroup& b) {
+    return std::find(order.begin(), order.end(), a.condition) < std::find(order.begin(), order.end(), b.condition);
+  });
+  return groups;
+}
+
+std::vector<std::vector<RecordGroup>> by_condition(const std::vector<RecordGroup>& groups) {
+  std::vector<std::vector<RecordGroup>> conditions;
+  for (const RecordGroup& group : groups) {
+    if (conditions.empty() || conditions.back().front().condition != group.condition) conditions.emplace_back();
+    conditions.back().push_back(group);
+  }
+  return conditions;
+}
+
+RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record) {
+  const ReadOptions options{record.skip_stray_lines};
+  constexpr std::uintmax_t large = std::uintmax_t{64} << 20U;  // bytes
+  RecordSamples samples;
+  const auto match = [&](const RecordInfo& info) {
+    check_rate(campaign, record, info);
+    const ColumnMatch found = records::match_columns(info, record.channels, record.columns, record.file);
+    samples.notes = notes_of(campaign, record, info, found);
+    return found.columns;
+  };
+  // What the file's columns are called is known at its end only: a large file is walked through twice, so that columns that
+  // nobody asked for never lie in memory.
+  if (io::require_regular_file(record.file) > large) {
+    Index rows = 0;
+    const auto columns = match(records::scan(
+        record.file, [&](Index row, Index, const Eigen::MatrixXd& block) { rows = std::max(rows, row + block.rows()); },
+        options));
+    samples.values = records::read(record.file, columns, rows, options);
+  } else {
+    const Record file = records::read(record.file, options);
+    samples.values = file.samples(Eigen::all, match(file.info));
+  }
+  refuse_absurd(samples, record);
+  for (Index c = 0; c < samples.values.cols(); ++c)
+    samples.values.col(c) *= campaign.channel(record.channels[static_cast<std::size_t>(c)]).gain;
+  return samples;
+}
+
+}  // namespace twindeck::records

@@ -1,0 +1,149 @@
+#include "sensitivity/frequency_sensitivities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "core/parallel.hpp"
+#include "dynamics/eigenmodes.hpp"
+#include "matching/mode_following.hpp"
+#include "sensitivity/eigen_sensitivity.hpp"
+
+namespace twindeck::sensitivity {
+namespace {
+
+// Frequencies of the reference modes in a perturbed system.
+class PerturbedFrequencies {
+ public:
+  PerturbedFrequencies(const fe::ParametricSystem& system, const matching::ModeFollower& follower, const Eigen::VectorXd& theta,
+                       int n_modes)
+      : solver_(system), follower_(follower), theta_(theta), n_modes_(n_modes) {}
+
+  Eigen::VectorXd at(int parameter, double change) {
+    Eigen::VectorXd theta = theta_;
+    theta(parameter) += change;
+    const dynamics::EigenModes modes = solver_.solve(theta, n_modes_);
+    if (!modes.status.converged) {
+      if (status.converged) status = modes.status;
+      return Eigen::VectorXd::Constant(n_modes_, std::nan(""));
+    }
+    const matching::FollowedModes followed = follower_.follow(modes.shapes);
+    Eigen::VectorXd frequency(n_modes_);
+    for (int i = 0; i < n_modes_; ++i) frequency(i) = modes.frequency_Hz(followed.position[static_cast<std::size_t>(i)]);
+    return frequency;
+  }
+
+  Status status;
+
+ private:
+  dynamics::ModalSolver solver_;
+  const matching::ModeFollower& follower_;
+  const Eigen::VectorXd& theta_;
+  int n_modes_;
+};
+
+// A step that moves the most sensitive frequency by the change aimed at: small enough for close modes, large enough for a
+// parameter that hardly matters to stand above rounding.
+double central_step(const Sensitivities& known, const Eigen::MatrixXd& relative, int parameter,
+                    const SensitivityOptions& options) {
+  const double strongest = relative.col(parameter).cwiseAbs().maxCoeff();
+  const double step = strongest > 0.0 ? options.frequency_change / strongest : options.largest_central_step;
+  return std::min(step, options.largest_central_step) * known.scale(parameter);
+}
+
+Status differentiate(const fe::ParametricSystem& system, const matching::ModeFollower& follower, int n_solved, int parameter,
+                     double central, const SensitivityOptions& options, Sensitivities& out) {
+  PerturbedFrequencies frequencies(system, follower, out.theta, n_solved);
+  const auto n = out.frequency_Hz.size();
+  const auto slope = [&](double h) -> Eigen::VectorXd {
+    return ((frequencies.at(parameter, h) - frequencies.at(parameter, -h)) / (2.0 * h)).head(n);
+  };
+  const Eigen::VectorXd whole = slope(central), half = slope(0.5 * central);
+  out.richardson.col(parameter) = (4.0 * half - whole) / 3.0;
+  const double dp = options.forward_step * out.scale(parameter);
+  out.forward.col(parameter) = (frequencies.at(parameter, dp).head(n) - out.frequency_Hz) / dp;
+  return frequencies.status;
+}
+
+}  // namespace
+
+Eigen::MatrixXd Sensitivities::relative() const {
+  return frequency_Hz.cwiseInverse().asDiagonal() * exact * scale.asDiagonal();
+}
+
+Sensitivities frequency_sensitivities(const fe::ParametricSystem& system, const Eigen::VectorXd& theta,
+                                      const SensitivityOptions& options, const std::function<void(int, int)>& progress) {
+  const auto n_parameters = static_cast<int>(system.parameters.size());
+  Sensitivities out;
+  out.theta = theta;
+  out.scale.resize(n_parameters);
+  for (int p = 0; p < n_parameters; ++p) {
+    const fe::Parameter& parameter = system.parameters[static_cast<std::size_t>(p)];
+    out.scale(p) = theta(p) != 0.0 ? std::abs(theta(p)) : std::max(parameter.upper - parameter.lower, 1e-12);
+  }
+
+  // A few more are followed than shown, so that a mode pushed up by a step is still among them.
+  int n_solved = std::min(options.n_modes + 3, static_cast<int>(system.size()));
+  dynamics::ModalSolver solver(system);
+  dynamics::EigenModes modes = solver.solve(theta, n_solved);
+  const auto found = static_cast<int>(modes.frequency_Hz.size());
+  if (!modes.status.converged && found > 0 && found < n_solved) {  // a small structure with fewer modes than asked for
+    n_solved = found;
+    modes = solver.solve(theta, n_solved);
+  }
+  out.status = modes.status;
+  if (!modes.status.converged) return out;
+  const int n_modes = std::min(options.n_modes, n_solved);
+  out.frequency_Hz = modes.frequency_Hz.head(n_modes);
+  out.exact = sensitivity::frequency_jacobian(system, theta, modes).topRows(n_modes);
+  out.richardson = out.forward = Eigen::MatrixXd::Zero(n_modes, n_parameters);
+  const matching::ModeFollower follower(solver.mass(), modes);
+  const Eigen::MatrixXd relative = out.relative();
+
+  std::vector<Status> of_parameter(static_cast<std::size_t>(n_parameters));
+  std::mutex counting;
+  int done = 0;
+  parallel_for(n_parameters, [&](int p) {
+    of_parameter[static_cast<std::size_t>(p)] =
+        differentiate(system, follower, n_solved, p, central_step(out, relative, p, options), options, out);
+    const std::scoped_lock lock(counting);
+    if (progress) progress(++done, n_parameters);
+  });
+  for (const Status& status : of_parameter) {
+    if (!status.converged && out.status.converged) out.status = status;
+  }
+  return out;
+}
+
+void refuse_rigid_bodies(const Sensitivities& found, const std::string& source) {
+  const auto rigid = (found.frequency_Hz.array() == 0.0).count();
+  if (rigid == 0) return;
+  throw InputError(
+      {source, 0, "frequency_Hz"},
+      fmt::format("{} of {} modes are computed at 0 Hz, so that no parameter changes their frequency by a share", rigid,
+                  found.frequency_Hz.size()),
+      "hold the structure by supports or springs; if it is held, look for an absurd mass or stiffness, beside which "
+      "the others are lost in rounding");
+}
+
+Eigen::MatrixXd scaled_sensitivity(const std::vector<double>& compared_modes, double frequency_std_pct,
+                                   const std::vector<fe::Parameter>& parameters, const Sensitivities& found) {
+  std::vector<Eigen::Index> rows;
+  for (const double mode : compared_modes) {
+    if (mode <= static_cast<double>(found.frequency_Hz.size())) rows.push_back(static_cast<Eigen::Index>(mode) - 1);
+  }
+  if (rows.empty()) {
+    for (Eigen::Index i = 0; i < found.frequency_Hz.size(); ++i) rows.push_back(i);
+  }
+  Eigen::VectorXd half_range(found.exact.cols());
+  for (Eigen::Index p = 0; p < half_range.size(); ++p) {
+    const fe::Parameter& parameter = parameters[static_cast<std::size_t>(p)];
+    half_range(p) = 0.5 * (parameter.upper - parameter.lower);
+  }
+  const Eigen::MatrixXd shift = found.frequency_Hz.cwiseInverse().asDiagonal() * found.exact * half_range.asDiagonal();
+  return shift(rows, Eigen::all) / (0.01 * frequency_std_pct);
+}
+
+}  // namespace twindeck::sensitivity

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+
+/// Where sensors may stand and how setups place them: data of a study, shared by the campaign and the search for layouts.
+namespace twindeck::sensors {
+
+/// A row of points.csv (`point,line,s_m,x_m,y_m,z_m,rx,ry,rz`): a point, the line that it stands on ("foot_inner"), how far
+/// along that line, and the horizontal direction across it.
+struct LayoutPoint {
+  std::string name, line;
+  double s_m = 0.0;
+  Eigen::Vector3d x_m = Eigen::Vector3d::Zero(), radial = Eigen::Vector3d::Zero();
+};
+
+/// A row of setups.csv (`setup,family,channel,point,direction`), direction vertical (z) or radial.
+struct LayoutChannel {
+  std::string setup, family, channel, point, direction;
+  Eigen::Vector3d x_m = Eigen::Vector3d::Zero(), cosines = Eigen::Vector3d::Zero();
+};
+
+/// A channel at a point.
+[[nodiscard]] LayoutChannel channel_at(const LayoutPoint& point, const std::string& direction, const std::string& name);
+/// Those of one setup, in the order of the file. @throws InputError  naming the setups that there are
+[[nodiscard]] std::vector<LayoutChannel> channels_of(const std::vector<LayoutChannel>& all, const std::string& setup);
+/// Names of the setups in the order of the file.
+[[nodiscard]] std::vector<std::string> setup_names(const std::vector<LayoutChannel>& all);
+
+/// Positions of the model's nodes that stand for places. @throws InputError  if the nearest node is further than `tolerance_m`
+[[nodiscard]] std::vector<int> nodes_at(const fe::Model& model, const std::vector<Eigen::Vector3d>& places, double tolerance_m);
+
+}  // namespace twindeck::sensors

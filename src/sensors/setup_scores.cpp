@@ -1,0 +1,223 @@
+#include "sensors/setup_scores.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "sensors/score.hpp"
+#include "sensors/search.hpp"
+
+namespace twindeck::sensors {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+MatrixXd rows_of(const MatrixXd& phi, const std::vector<Index>& rows) { return phi(rows, Eigen::all); }
+
+/// Random whole numbers below n, one after the other.
+class Draw {
+ public:
+  Draw(std::uint64_t seed, std::uint64_t stream) : seed_(seed), stream_(stream) {}
+  Index below(Index n) { return static_cast<Index>(uniform_number(seed_, stream_, at_++) * static_cast<double>(n)); }
+
+ private:
+  std::uint64_t seed_, stream_, at_ = 0;
+};
+
+/// Points by how far along their deck they stand: "foot_inner" and "foot_outer" at one s are one place of deck "foot".
+struct Places {
+  std::map<std::string, std::vector<double>> s_m;                                   // of a deck, ascending
+  std::map<std::pair<std::string, double>, std::map<std::string, std::size_t>> at;  // (deck, s) -> line -> point
+};
+
+std::string deck_of(const std::string& line) { return line.substr(0, line.find('_')); }
+
+Places places_of(const std::vector<LayoutPoint>& points) {
+  Places places;
+  for (std::size_t i = 0; i < points.size(); ++i) places.at[{deck_of(points[i].line), points[i].s_m}][points[i].line] = i;
+  for (const auto& [place, lines] : places.at) places.s_m[place.first].push_back(place.second);
+  return places;
+}
+
+/// A setup of the same family: each place of each deck goes to another that has the lines that are wanted, no two to one.
+std::vector<Index> moved(const ScoredSetup& setup, const std::vector<LayoutPoint>& points, const Places& places, Draw& draw) {
+  std::map<std::pair<std::string, double>, std::vector<std::pair<std::string, Index>>>
+      by_place;  // -> (line, 0 vertical or 1 radial)
+  for (const Index row : setup.rows) {
+    const LayoutPoint& point = points[static_cast<std::size_t>(row / 2)];
+    by_place[{deck_of(point.line), point.s_m}].emplace_back(point.line, row % 2);
+  }
+  std::vector<Index> rows;
+  std::set<std::pair<std::string, double>> taken;
+  for (const auto& [place, channels] : by_place) {
+    const std::vector<double>& choices = places.s_m.at(place.first);
+    while (true) {
+      const std::pair<std::string, double> target(place.first,
+                                                  choices[static_cast<std::size_t>(draw.below(std::ssize(choices)))]);
+      const auto& lines = places.at.at(target);
+      const bool has_all =
+          std::all_of(channels.begin(), channels.end(), [&](const auto& c) { return lines.contains(c.first); });
+      if (!has_all || !taken.insert(target).second) continue;
+      for (const auto& [line, direction] : channels) rows.push_back(2 * static_cast<Index>(lines.at(line)) + direction);
+      break;
+    }
+  }
+  return rows;
+}
+
+std::vector<Index> free_draw(Index n_candidates, long count, Draw& draw) {
+  std::set<Index> rows;
+  while (std::ssize(rows) < count) rows.insert(draw.below(n_candidates));
+  return {rows.begin(), rows.end()};
+}
+
+void summarise(ScoredSetup& setup, std::vector<double> drawn) {
+  if (drawn.empty()) return;
+  std::sort(drawn.begin(), drawn.end());
+  setup.draws = std::ssize(drawn);
+  setup.best_drawn = drawn.front();
+  setup.median_drawn = drawn[drawn.size() / 2];
+  const auto better = std::lower_bound(drawn.begin(), drawn.end(), setup.score) - drawn.begin();
+  setup.better_drawn_pct = 100.0 * static_cast<double>(better) / static_cast<double>(drawn.size());
+}
+
+ScoredSetup named(const std::string& name, const std::string& family, std::vector<Index> rows,
+                  const std::vector<LayoutChannel>& candidates) {
+  ScoredSetup setup{name, family, std::move(rows), {}};
+  for (const Index row : setup.rows) setup.channels.push_back(candidates[static_cast<std::size_t>(row)].channel);
+  return setup;
+}
+
+ScoredSetup from_file(const std::string& name, const std::vector<LayoutChannel>& setups,
+                      const std::vector<LayoutChannel>& candidates) {
+  ScoredSetup setup;
+  setup.name = name;
+  for (const LayoutChannel& channel : sensors::channels_of(setups, name)) {
+    setup.family = channel.family;
+    setup.channels.push_back(channel.channel);
+    const auto at = std::find_if(candidates.begin(), candidates.end(), [&](const LayoutChannel& c) {
+      return c.point == channel.point && c.direction == channel.direction;
+    });
+    TWINDECK_ASSERT(at != candidates.end());
+    setup.rows.push_back(at - candidates.begin());
+  }
+  return setup;
+}
+
+/// Setups that are searched for, in this order.
+const std::vector<std::string> kSearches = {"effective_independence", "greatest_determinant", "least_R_k"};
+
+std::string free_name(long i) { return "DC" + std::to_string(i + 1); }
+
+}  // namespace
+
+void refuse_unknown_blind_setups(const LayoutSettings& config, const std::vector<LayoutChannel>& setups) {
+  std::vector<std::string> known = sensors::setup_names(setups);
+  for (long i = 0; i < std::min(config.free_setups, config.draws); ++i) known.push_back(free_name(i));
+  known.insert(known.end(), kSearches.begin(), kSearches.end());
+  for (const std::string& name : config.blind_setups) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError({"", 0, "blind.setups"}, "'" + name + "' is no setup" + did_you_mean(name, known),
+                       "name setups of the layout, DC1 … or a search");
+  }
+}
+
+std::vector<LayoutChannel> candidate_channels(const std::vector<LayoutPoint>& points) {
+  std::vector<LayoutChannel> candidates;
+  for (const LayoutPoint& point : points) {
+    candidates.push_back(sensors::channel_at(point, "vertical", point.name + "z"));
+    candidates.push_back(sensors::channel_at(point, "radial", point.name + "r"));
+  }
+  return candidates;
+}
+
+namespace {
+
+double score_of(const MatrixXd& phi, const std::vector<Index>& rows) { return sensors::decoupling_score(rows_of(phi, rows)); }
+
+/// Appends those of the file, each among candidates of its family.
+void append_given(const LayoutSettings& config, const std::vector<LayoutPoint>& points,
+                  const std::vector<LayoutChannel>& candidates, const std::vector<LayoutChannel>& setups, const MatrixXd& phi,
+                  std::uint64_t seed, std::uint64_t& stream, std::vector<ScoredSetup>& out) {
+  const Places places = places_of(points);
+  for (const std::string& name : setup_names(setups)) {
+    out.push_back(from_file(name, setups, candidates));
+    out.back().score = score_of(phi, out.back().rows);
+    Draw draw(seed, ++stream);
+    std::vector<double> drawn;
+    for (long i = 0; i < config.draws; ++i) drawn.push_back(score_of(phi, moved(out.back(), points, places, draw)));
+    summarise(out.back(), drawn);
+  }
+}
+
+/// Appends those of the freely drawn setups that decouple most.
+void append_drawn(const LayoutSettings& config, const std::vector<LayoutChannel>& candidates, const MatrixXd& phi,
+                  std::uint64_t seed, std::uint64_t& stream, std::vector<ScoredSetup>& out) {
+  Draw draw(seed, ++stream);
+  std::vector<std::pair<double, std::vector<Index>>> free;
+  std::vector<double> drawn;
+  for (long i = 0; i < config.draws; ++i) {
+    std::vector<Index> rows = free_draw(phi.rows(), config.channels, draw);
+    drawn.push_back(score_of(phi, rows));
+    free.emplace_back(drawn.back(), std::move(rows));
+  }
+  std::sort(free.begin(), free.end());
+  for (long i = 0; i < std::min<long>(config.free_setups, std::ssize(free)); ++i) {
+    ScoredSetup setup = named(free_name(i), "dec", free[static_cast<std::size_t>(i)].second, candidates);
+    setup.score = free[static_cast<std::size_t>(i)].first;
+    summarise(setup, drawn);
+    out.push_back(setup);
+  }
+}
+
+/// Appends setups that are searched for, which may start from those before them. @param scaled  modes of unit norm
+void append_searched(const LayoutSettings& config, const std::vector<LayoutChannel>& candidates, const MatrixXd& scaled,
+                     std::vector<ScoredSetup>& out) {
+  const Index count = config.channels;
+  const auto determinant = [](const MatrixXd& part) { return sensors::log_determinant(part); };
+  const auto decoupling = [](const MatrixXd& part) { return -sensors::decoupling_score(part); };
+  const std::vector<Index> independent = sensors::effective_independence(scaled, count).rows;
+  out.push_back(named(kSearches[0], "search", independent, candidates));
+  // The determinant is zero for fewer sensors than modes, so that a greedy start from nothing is blind; it starts where
+  // Kammer's ends.
+  out.push_back(
+      named(kSearches[1], "search", sensors::greedy_exchange(scaled, count, determinant, independent).rows, candidates));
+  // Exchange ends at a layout that no single exchange betters, of which there are many: it starts from nothing, from Kammer's,
+  // and from every setup above that has as many channels.
+  Layout least = sensors::greedy_exchange(scaled, count, decoupling);
+  std::vector<std::vector<Index>> starts = {independent};
+  for (const ScoredSetup& setup : out) {
+    if (std::ssize(setup.rows) == count) starts.push_back(setup.rows);
+  }
+  for (const std::vector<Index>& start : starts) {
+    Layout found = sensors::greedy_exchange(scaled, count, decoupling, start);
+    if (found.worth > least.worth) least = std::move(found);
+  }
+  out.push_back(named(kSearches[2], "search", least.rows, candidates));
+}
+
+}  // namespace
+
+std::vector<ScoredSetup> score_setups(const LayoutSettings& config, const std::vector<LayoutPoint>& points,
+                                      const std::vector<LayoutChannel>& candidates, const std::vector<LayoutChannel>& setups,
+                                      const MatrixXd& phi, std::uint64_t seed) {
+  const MatrixXd scaled = phi.colwise().normalized();
+  std::vector<ScoredSetup> out;
+  std::uint64_t stream = 0;
+  append_given(config, points, candidates, setups, phi, seed, stream, out);
+  append_drawn(config, candidates, phi, seed, stream, out);
+  append_searched(config, candidates, scaled, out);
+  for (ScoredSetup& setup : out) {
+    setup.score = score_of(phi, setup.rows);
+    setup.log_determinant = sensors::log_determinant(rows_of(scaled, setup.rows));
+  }
+  return out;
+}
+
+}  // namespace twindeck::sensors

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "sensors/layout.hpp"
+#include "sensors/layout_settings.hpp"
+
+/// How well setups tell a model's modes apart, and which would do it better (paper section 3.1, Table 3).
+namespace twindeck::sensors {
+
+/// A setup with its scores.
+struct ScoredSetup {
+  std::string name, family;
+  std::vector<Eigen::Index> rows;  ///< candidates, in the order of its channels
+  std::vector<std::string> channels;
+  double score = 0.0;            ///< R_k, Eq. (1)
+  double log_determinant = 0.0;  ///< of modes scaled to unit norm over all candidates
+  long draws = 0;                ///< candidate setups of its family that were drawn
+  double best_drawn = 0.0, median_drawn = 0.0;
+  double better_drawn_pct = 0.0;  ///< how many of them score lower
+};
+
+/// All candidates: two channels a point, vertical and radial.
+[[nodiscard]] std::vector<LayoutChannel> candidate_channels(const std::vector<LayoutPoint>& points);
+
+/// Scores of the given setups; for each, `draws` candidates of its family: the same lines and directions, points that share a
+/// place moved together to another at random; and of 16 channels drawn freely the lowest `free_setups`, family "dec" (DC1, DC2,
+/// …). Then the searches: effective independence, greatest determinant, least R_k by greedy start and exchange.
+/// @param phi  (n_candidates × n_modes)
+[[nodiscard]] std::vector<ScoredSetup> score_setups(const LayoutSettings& config, const std::vector<LayoutPoint>& points,
+                                                    const std::vector<LayoutChannel>& candidates,
+                                                    const std::vector<LayoutChannel>& setups, const Eigen::MatrixXd& phi,
+                                                    std::uint64_t seed);
+
+/// @throws InputError  for a setup of the blind test that score_setups will not score
+void refuse_unknown_blind_setups(const LayoutSettings& config, const std::vector<LayoutChannel>& setups);
+
+}  // namespace twindeck::sensors

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "matching/comparison.hpp"
+
+/// Tables of measured against computed modes, which s4_refinement and s6_updating write.
+namespace twindeck::steps {
+
+/// comparison.csv: `stage,experimental_mode,numerical_mode,measured_Hz,computed_Hz,error_pct,mac,pairing`.
+void write_comparison(const std::vector<matching::ComparisonRow>& rows, const std::filesystem::path& folder);
+/// mac.csv: `experimental_mode,numerical_mode,mac`; header only where no shape was measured.
+void write_mac(const matching::Measured& measured, const matching::Pairing& pairing, const std::filesystem::path& folder);
+/// pairs.csv: `experimental_mode,numerical_mode,mac,clustered` (0 or 1).
+void write_pairs(const matching::Measured& measured, const matching::Pairing& pairing, const std::filesystem::path& folder);
+
+}  // namespace twindeck::steps

@@ -1,0 +1,115 @@
+#include "steps/measured/measured_input.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "io/csv.hpp"
+#include "matching/mode_name.hpp"
+#include "model_io/export.hpp"
+#include "steps/shared/study.hpp"
+
+namespace twindeck::steps {
+
+std::vector<Flag> measured_flags() {
+  return {{"condition", true, "condition of the measurement to look at: a table of conditions.toml"},
+          {"state", true, "state of the structure to look at: the key `state` in conditions.toml (missing there: reference)"},
+          {"correct", true,
+           "file of corrections of single channels, as s9_diagnosis writes it (corrections.toml), made before anything else"}};
+}
+
+std::vector<records::Correction> asked_corrections(StepContext& context) {
+  const std::optional<std::string> file = context.flag("correct");
+  if (!file) return {};
+  if (!std::filesystem::is_regular_file(*file))
+    throw InputError({"command line", 0, "--correct"}, "'" + *file + "' is no file",
+                     "name a corrections.toml, as s9_diagnosis writes it");
+  std::vector<records::Correction> corrections = records::read_corrections(context.input(*file));
+  for (const records::Correction& correction : corrections) context.corrections_.push_back(words_of(correction));
+  return corrections;
+}
+
+records::MeasuredChoice asked_choice(StepContext& context, const std::string& condition) {
+  records::MeasuredChoice choice;
+  const auto name = [&](const char* flag) {
+    const std::optional<std::string> given = context.flag(flag);
+    if (given && given->empty())
+      throw InputError({"command line", 0, std::string("--") + flag}, "is empty", "give a name, or leave the option out");
+    return given.value_or("");
+  };
+  choice.conditions = {name("condition"), name("state")};
+  if (choice.conditions.condition.empty() && choice.conditions.state.empty()) choice.conditions.condition = condition;
+  choice.corrections = asked_corrections(context);
+  return choice;
+}
+
+matching::Measured read_measured_modes(const std::filesystem::path& folder, const records::MeasuredChoice& choice) {
+  matching::Measured measured;
+  measured.source = folder.string();
+  std::vector<long> lines;
+  measured.modes = model_io::read_modes(folder, &lines);
+  for (Eigen::Index i = 0; i < measured.modes.size(); ++i) {
+    const std::string& name = measured.modes.names[static_cast<std::size_t>(i)];
+    if (!(measured.modes.frequency_std_Hz[i] > 0.0)) {
+      throw InputError({(folder / "modes.csv").string(), lines[static_cast<std::size_t>(i)], "frequency_std_Hz"},
+                       fmt::format("mode {} has no standard deviation", name),
+                       "state it; a frequency without one can't be weighed");
+    }
+    if (!(measured.modes.frequency_Hz[i] > 0.0)) {
+      throw InputError({(folder / "modes.csv").string(), lines[static_cast<std::size_t>(i)], "frequency_Hz"},
+                       fmt::format("mode {} has no frequency above 0 Hz", name), "");
+    }
+    measured.labels.push_back(matching::experimental_label(name));
+    measured.rows.push_back({i, -1, false, measured.modes.frequency_Hz[i]});
+  }
+  measured.covariance = measured.modes.frequency_std_Hz.cwiseAbs2().asDiagonal();
+  if (std::filesystem::exists(folder / "channels.csv")) measured.channels = records::read_channels(folder / "channels.csv");
+  correct(choice.corrections, measured.modes, (folder / "shapes.csv").string());
+  return measured;
+}
+
+namespace {
+
+/// Comparing and updating go by modes: that rows of load tests were left is said.
+void warn_of_load_tests(const std::filesystem::path& folder, StepContext& context) {
+  const auto table = io::CsvTable::read(folder / "rows.csv", {"type"}, {}, true);
+  int count = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) count += table.text(row, "type").starts_with("static_") ? 1 : 0;
+  if (count > 0) context.warn(fmt::format("{} rows of load tests are not used here: s9_diagnosis compares them", count));
+}
+
+}  // namespace
+
+std::optional<matching::Measured> find_measured(StepContext& context, const std::string& condition) {
+  if (context.modes) {
+    for (const char* flag : {"condition", "state"}) {
+      if (context.has_flag(flag))
+        throw InputError({"command line", 0, std::string("--") + flag},
+                         "does not go with --modes: modes.csv knows no conditions", "leave it out, or give --features");
+    }
+    return read_measured_modes(context.input(*context.modes), asked_choice(context));
+  }
+  std::filesystem::path folder;
+  if (context.features)
+    folder = *context.features;
+  else if (!context.study.empty())
+    folder = read_study(context.study).features;
+  const records::MeasuredChoice choice = asked_choice(context, condition);
+  if (!folder.empty()) {
+    matching::Measured measured = records::read_measured_features(context.input(folder), choice);
+    warn_of_load_tests(folder, context);
+    return measured;
+  }
+  for (const Flag& flag : measured_flags()) {
+    if (context.has_flag(flag.name))
+      throw InputError({"command line", 0, "--" + flag.name}, "is given, but no measured modes are",
+                       "give --features DIR or --modes DIR");
+  }
+  return std::nullopt;
+}
+
+std::vector<dynamics::MeasuredFrequencies> frequencies_of(const std::optional<matching::Measured>& measured) {
+  if (!measured) return {};
+  return {{measured->modes.names, measured->modes.frequency_Hz}};
+}
+
+}  // namespace twindeck::steps

@@ -1,0 +1,188 @@
+#include "steps/sensors/sensors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "dynamics/eigenmodes.hpp"
+#include "dynamics/model_check.hpp"
+#include "io/csv.hpp"
+#include "sensors/blind_test.hpp"
+#include "sensors/score.hpp"
+#include "sensors/setup_scores.hpp"
+#include "steps/layout/layout_files.hpp"
+#include "steps/shared/model_source.hpp"
+
+namespace twindeck::steps {
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+void write_setups(const std::vector<sensors::ScoredSetup>& setups, const std::vector<sensors::LayoutChannel>& candidates,
+                  const fs::path& folder) {
+  std::vector<std::size_t> order(setups.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return setups[a].score < setups[b].score; });
+  std::vector<long> rank(setups.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<long>(i) + 1;
+  io::CsvWriter csv({"setup", "family", "channels", "R_k", "rank", "log_determinant", "draws", "best_drawn_R_k",
+                     "median_drawn_R_k", "better_drawn_pct"});
+  io::CsvWriter layout({"setup", "channel", "point", "direction", "x_m", "y_m", "z_m", "dx", "dy", "dz"});
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    const sensors::ScoredSetup& s = setups[i];
+    const std::optional<double> none;
+    const auto drawn = [&](double value) { return s.draws > 0 ? std::optional<double>(value) : none; };
+    csv.row({s.name, s.family, s.rows.size(), s.score, rank[i],
+             std::isfinite(s.log_determinant) ? std::optional<double>(s.log_determinant) : none, s.draws, drawn(s.best_drawn),
+             drawn(s.median_drawn), drawn(s.better_drawn_pct)});
+    for (std::size_t c = 0; c < s.rows.size(); ++c) {
+      const sensors::LayoutChannel& at = candidates[static_cast<std::size_t>(s.rows[c])];
+      layout.row({s.name, s.channels[c], at.point, at.direction, at.x_m.x(), at.x_m.y(), at.x_m.z(), at.cosines.x(),
+                  at.cosines.y(), at.cosines.z()});
+    }
+  }
+  csv.save(folder / "setups.csv");
+  layout.save(folder / "layout.csv");
+}
+
+void write_auto_mac(const std::vector<sensors::ScoredSetup>& setups, const MatrixXd& phi, const fs::path& folder) {
+  io::CsvWriter csv({"setup", "mode", "other_mode", "mac"});
+  for (const sensors::ScoredSetup& s : setups) {
+    const MatrixXd mac = sensors::auto_mac(phi(s.rows, Eigen::all));
+    for (Index i = 0; i < mac.rows(); ++i) {
+      for (Index j = 0; j < mac.cols(); ++j) csv.row({s.name, static_cast<long>(i + 1), static_cast<long>(j + 1), mac(i, j)});
+    }
+  }
+  csv.save(folder / "automac.csv");
+}
+
+/// A true mode's partner: of those within 5 % in frequency that no other has, the one of highest MAC, a point off for each 10
+/// %.
+void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResult& result,
+                      const std::vector<sensors::ScoredSetup>& setups, const VectorXd& frequency_Hz, const MatrixXd& phi,
+                      const fs::path& folder) {
+  io::CsvWriter csv({"setup", "mode", "frequency_Hz", "damping_ratio_pct", "found", "identified_frequency_Hz",
+                     "identified_damping_ratio_pct", "frequency_error_pct", "damping_ratio_error_pct", "mac", "recursion"});
+  io::CsvWriter poles({"setup", "frame", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping",
+                       "stable_shape", "cluster"});
+  io::CsvWriter psd({"setup", "channel", "frequency_Hz", "psd_m2_s3"});
+  for (std::size_t i = 0; i < result.tests.size(); ++i) {
+    const sensors::BlindTest& test = result.tests[i];
+    const sensors::ScoredSetup& setup =
+        *std::find_if(setups.begin(), setups.end(), [&](const sensors::ScoredSetup& s) { return s.name == test.setup; });
+    std::vector<bool> taken(test.modes.size(), false);
+    for (Index m = 0; m < frequency_Hz.size(); ++m) {
+      const VectorXd shape = phi(setup.rows, m);
+      double best = -1.0;
+      std::size_t at = 0;
+      for (std::size_t k = 0; k < test.modes.size(); ++k) {
+        const double distance = std::abs(test.modes[k].frequency_Hz / frequency_Hz[m] - 1.0);
+        const double mac = std::norm(test.modes[k].shape.dot(shape.cast<std::complex<double>>())) /
+                           (test.modes[k].shape.squaredNorm() * shape.squaredNorm());
+        if (!taken[k] && distance < 0.05 && mac - 10.0 * distance > best) {
+          best = mac - 10.0 * distance;
+          at = k;
+        }
+      }
+      const double zeta = 100.0 * config.damping_ratio;
+      if (best < 0.0) {
+        csv.row({test.setup, static_cast<long>(m + 1), frequency_Hz[m], zeta, 0, "", "", "", "", "", ""});
+        continue;
+      }
+      taken[at] = true;
+      const sysid::Cluster& mode = test.modes[at];
+      const double mac =
+          std::norm(mode.shape.dot(shape.cast<std::complex<double>>())) / (mode.shape.squaredNorm() * shape.squaredNorm());
+      csv.row({test.setup, static_cast<long>(m + 1), frequency_Hz[m], zeta, 1, mode.frequency_Hz, 100.0 * mode.damping_ratio,
+               100.0 * (mode.frequency_Hz / frequency_Hz[m] - 1.0), 100.0 * mode.damping_ratio - zeta, mac,
+               mode.members.size()});
+    }
+    for (std::size_t k = 0; k < test.modes.size(); ++k) {
+      if (taken[k]) continue;
+      csv.row({test.setup, "spurious", "", "", 0, test.modes[k].frequency_Hz, 100.0 * test.modes[k].damping_ratio, "", "", "",
+               test.modes[k].members.size()});
+    }
+    for (const sysid::DiagramPole& p : test.diagram) {
+      poles.row({test.setup, static_cast<long>(p.pole.order / 1000 + 1), static_cast<long>(p.pole.order % 1000),
+                 p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio, p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0,
+                 p.stable_shape ? 1 : 0, p.mode < 0 ? std::string() : std::to_string(p.mode + 1)});
+    }
+    for (std::size_t c = 0; c < setup.channels.size(); ++c) {
+      for (Index f = 0; f < result.psd_frequency_Hz.size(); ++f) {
+        psd.row({test.setup, setup.channels[c], result.psd_frequency_Hz[f], result.psd_m2_s3[i](f, static_cast<Index>(c))});
+      }
+    }
+  }
+  csv.save(folder / "blind_test.csv");
+  poles.save(folder / "blind_poles.csv");
+  psd.save(folder / "blind_psd.csv");
+}
+
+/// What the step reads.
+struct SensorsInputs {
+  std::vector<sensors::LayoutPoint> points;
+  std::vector<sensors::LayoutChannel> setups, candidates;
+  dynamics::ReadModel model;
+  std::vector<int> nodes;  ///< of the model, one a point
+};
+
+Status run_sensors(StepContext& context, const SensorsConfig& config, const SensorsInputs& read) {
+  // 1. The model's modes at the candidates.
+  const auto& [points, setups, candidates, model, nodes] = read;
+  const dynamics::LoadedModel loaded = dynamics::solvable(model);
+  dynamics::ModalSolver solver(loaded.system);
+  const dynamics::EigenModes modes = solver.solve_available(loaded.theta, static_cast<int>(config.n_modes));
+  if (!modes.status.converged) return modes.status;
+  dynamics::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
+  const MatrixXd full = loaded.system.expand(modes.shapes);
+  MatrixXd translations(3 * std::ssize(points), config.n_modes);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    translations.middleRows(3 * static_cast<Index>(i), 3) = full.middleRows(6 * nodes[i], 3);
+  MatrixXd phi(std::ssize(candidates), config.n_modes);
+  for (Index c = 0; c < phi.rows(); ++c)
+    phi.row(c) = candidates[static_cast<std::size_t>(c)].cosines.transpose() * translations.middleRows(3 * (c / 2), 3);
+
+  // 2. Scores and searches.
+  const std::vector<sensors::ScoredSetup> scored = sensors::score_setups(config, points, candidates, setups, phi, context.seed);
+  for (const sensors::ScoredSetup& s : scored) context.say(fmt::format("{:<24} R_k {:.4f}", s.name, s.score));
+
+  // 3. The blind test.
+  const sensors::BlindTestResult blind = sensors::blind_test(config, modes.frequency_Hz, scored, phi, context.seed);
+  for (const sensors::BlindTest& test : blind.tests)
+    context.say(fmt::format("blind test with {}: {} modes", test.setup, test.modes.size()));
+
+  write_setups(scored, candidates, context.out);
+  write_auto_mac(scored, phi, context.out);
+  write_blind_test(config, blind, scored, modes.frequency_Hz, phi, context.out);
+  return {};
+}
+
+}  // namespace
+
+Computation read_sensors(StepContext& context, const SensorsConfig& config) {
+  SensorsInputs read;
+  read.points = read_points(context.input(config.points));
+  read.setups = read_setups(context.input(config.setups), read.points);
+  read.candidates = sensors::candidate_channels(read.points);
+  if (config.channels > std::ssize(read.candidates))
+    throw InputError({"", 0, "channels"},
+                     fmt::format("is {}, but {} has {} candidates", config.channels, config.points, read.candidates.size()),
+                     "ask for fewer channels, or give more points");
+  sensors::refuse_unknown_blind_setups(config, read.setups);
+  read.model = load_model(context, context.results / "s1_model" / "model");
+  const fe::Model* model = read.model.fe_model();
+  if (model == nullptr)
+    throw InputError({read.model.source, 0, ""}, "is a matrix model, whose points have no place",
+                     "give a model of finite elements");
+  std::vector<Eigen::Vector3d> places;
+  for (const sensors::LayoutPoint& point : read.points) places.push_back(point.x_m);
+  read.nodes = sensors::nodes_at(*model, places, config.tolerance_m);
+  return [&context, &config, read = std::move(read)] { return run_sensors(context, config, read); };
+}
+
+}  // namespace twindeck::steps

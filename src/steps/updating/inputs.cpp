@@ -1,0 +1,114 @@
+#include "steps/updating/inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/csv.hpp"
+#include "matching/comparison.hpp"
+#include "steps/measured/measured_input.hpp"
+#include "steps/shared/model_source.hpp"
+#include "updating/weighing.hpp"
+
+namespace twindeck::steps {
+namespace {
+
+std::vector<std::string> selected_by_sensitivity(StepContext& context) {
+  const std::filesystem::path file = context.results / "s5_sensitivity" / "selection.csv";
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InputError({file.string(), 0, ""}, "is not there, but parameters_from is \"s5_sensitivity\"",
+                     "run s5_sensitivity first, or list the parameters");
+  }
+  const io::CsvTable table = io::CsvTable::read(context.input(file), {"parameter", "selected"}, {}, true);
+  std::vector<std::string> names;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.integer(row, "selected") != 0) names.push_back(table.text(row, "parameter"));
+  }
+  return names;
+}
+
+bool has_range(const fe::Parameter& parameter) { return parameter.lower < parameter.upper; }
+
+}  // namespace
+
+std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics::ReadModel& model, StepContext& context) {
+  const std::vector<fe::Parameter>& parameters = model.parameters();
+  std::vector<std::string> known;
+  for (const fe::Parameter& parameter : parameters) known.push_back(parameter.name);
+  const bool from_s5 = config.parameters_from == "s5_sensitivity";
+  const std::vector<std::string> names = from_s5 ? selected_by_sensitivity(context) : config.parameters;
+  std::vector<int> active;
+  if (names.empty() && !from_s5) {
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      if (has_range(parameters[p])) active.push_back(static_cast<int>(p));
+    }
+  }
+  for (const std::string& name : names) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at == known.end()) {
+      throw InputError({"", 0, "parameters"},
+                       fmt::format("'{}' is no parameter of {}{}", name, model.source, did_you_mean(name, known)),
+                       "list parameters of the model");
+    }
+    const auto p = static_cast<int>(at - known.begin());
+    if (std::find(active.begin(), active.end(), p) != active.end()) {
+      throw InputError({"", 0, "parameters"}, fmt::format("names '{}' twice", name), "list each parameter once");
+    }
+    if (!has_range(parameters[static_cast<std::size_t>(p)])) {
+      throw InputError({model.source, 0, name}, "is fixed (its bounds coincide), but is listed for updating",
+                       "give it a range in the model, or take it off the list");
+    }
+    active.push_back(p);
+  }
+  if (active.empty()) {
+    throw InputError({model.source, 0, "parameter"}, "no parameter to update: none is listed or selected, or none has a range",
+                     "define parameters with lower < upper in model.toml");
+  }
+  return active;
+}
+
+std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, const std::vector<fe::Parameter>& parameters,
+                                              const std::vector<int>& active, StepContext& context) {
+  if (config.published_values.empty()) return {};
+  const io::CsvTable table =
+      io::CsvTable::read(context.input(config.published_values), {"parameter", "unit", "final_value"}, {}, true);
+  std::vector<std::string> updated;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(active.size()));
+  for (std::size_t j = 0; j < active.size(); ++j) {
+    updated.push_back(parameters[static_cast<std::size_t>(active[j])].name);
+    values(static_cast<Eigen::Index>(j)) = parameters[static_cast<std::size_t>(active[j])].initial;
+  }
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string name = table.text(row, "parameter");
+    const auto at = std::find(updated.begin(), updated.end(), name);
+    if (at == updated.end())
+      table.fail(row, "parameter", "'" + name + "' is not updated here" + did_you_mean(name, updated), "take the row out");
+    const auto j = at - updated.begin();
+    const std::string unit = table.text(row, "unit"),
+                      own = parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])].unit;
+    const auto plain = [](const std::string& text) { return text == "-" ? std::string() : text; };
+    values(j) =
+        parse_quantity(table.text(row, "final_value") + " " + plain(unit), plain(own), {table.file().string(), 0, name});
+  }
+  return {values};
+}
+
+UpdatingInputs read_updating(const UpdatingConfig& config, StepContext& context) {
+  UpdatingInputs read;
+  read.model = load_model(context, context.results / "s4_refinement" / "model");
+  std::optional<matching::Measured> measured = find_measured(context, config.condition);
+  if (!measured)
+    throw InputError({"", 0, ""}, "no measured modes were given", "give --features DIR or --modes DIR, or a study");
+  read.measured = std::move(*measured);
+  matching::check_pairing(read.measured, read.model, config.pairs, {"", 0, "pairs"}, config.n_modes, config.sensor_tolerance_m);
+  if (config.weighs_shapes()) updating::refuse_unweighable_shapes(read.measured);
+  read.active = active_parameters(config, read.model, context);
+  read.published = published_values(config, read.model.parameters(), read.active, context);
+  return read;
+}
+
+}  // namespace twindeck::steps

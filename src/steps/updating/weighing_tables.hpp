@@ -1,0 +1,19 @@
+#pragma once
+
+#include "steps/shared/run_step.hpp"
+#include "updating/weighing.hpp"
+
+namespace twindeck::steps {
+
+/// Writes, for an update with weighed rows and converged modes,
+///  - `posterior.csv`: parameter,unit,final_value,std,std_with_misfit,prior_std,held; std empty for a parameter held by its
+///  bound
+///  - `correlations.csv`: parameter,other_parameter,correlation, one row a pair of free parameters
+///  - `weighed_rows.csv`:
+///  type,experimental_mode,numerical_mode,channel,value,std,computed_start,computed_updated,difference_std
+///  - `weighing.csv`: quantity,value,unit: chi_squared, degrees_of_freedom, misfit, rows, free_scales
+/// and says in words how well the model agrees, what cannot be told apart, and which directions are flat. Nothing without
+/// weighed rows.
+void report_weighing(StepContext& context, const updating::Weighed& weighed);
+
+}  // namespace twindeck::steps

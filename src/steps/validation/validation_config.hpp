@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "buffeting/wind_event_settings.hpp"
+#include "io/config.hpp"
+
+namespace twindeck::steps {
+
+/// Configuration of s8_validation; decks, data, direction and damping are those of s7_aerodynamics.toml.
+struct ValidationConfig : buffeting::WindEventSettings {
+  std::string aerodynamics;  ///< file of step 7's configuration; empty: the study's
+  std::string set = "standin";
+  std::string turbulence_file = "data/wind/turbulence_sets.csv", turbulence_set = "printed";
+
+  [[nodiscard]] io::FieldTable fields();
+};
+
+}  // namespace twindeck::steps

@@ -1,0 +1,68 @@
+#include "steps/wind/deck_files.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "aero/laws.hpp"
+#include "aero_io/aero_data.hpp"
+#include "core/error.hpp"
+
+namespace twindeck::steps {
+namespace {
+
+aero::OutOfRange choice(const std::string& word) { return word == "hold" ? aero::OutOfRange::hold : aero::OutOfRange::refuse; }
+
+// What the deck states of laws that its data break: {law: reason}.
+std::map<std::string, std::string> exceptions_of(const aero::DeckWind& deck) {
+  constexpr int least_words = 3;  // a reason is a sentence
+  std::map<std::string, std::string> exceptions;
+  for (const std::string& entry : deck.exceptions) {
+    const Place place{"", 0, "deck " + deck.name + ": exceptions"};
+    const std::size_t colon = entry.find(": ");
+    const std::string law = entry.substr(0, colon), reason = colon == std::string::npos ? "" : entry.substr(colon + 2);
+    const std::vector<std::string>& known = aero::law_names();
+    if (std::find(known.begin(), known.end(), law) == known.end())
+      throw InputError(place, "names the law '" + law + "'" + did_you_mean(law, known), "laws are listed in aero/laws.hpp");
+    std::istringstream words(reason);
+    if (std::distance(std::istream_iterator<std::string>(words), {}) < least_words)
+      throw InputError(place, "gives no reason for '" + law + "'", "write it as \"" + law + ": why the data break it\"");
+    exceptions[law] = reason;
+  }
+  return exceptions;
+}
+
+void check_laws(const aero::DeckWind& deck, const aero::DeckAerodynamics& data) {
+  std::map<std::string, std::string> exceptions = exceptions_of(deck);
+  for (const aero::BrokenLaw& broken :
+       aero::broken_laws(data.polar, *data.flutter, {deck.arm_drag, deck.arm_lift, deck.arm_moment})) {
+    if (exceptions.erase(broken.law) == 0) {
+      throw InputError({"", 0, "deck " + deck.name}, "breaks the law '" + broken.law + "': " + broken.told,
+                       "mend the file, or say why in the deck's exceptions: \"" + broken.law + ": reason\"");
+    }
+  }
+  if (!exceptions.empty()) {
+    throw InputError({"", 0, "deck " + deck.name + ": exceptions"},
+                     "'" + exceptions.begin()->first + "' is excepted, but holds", "take the entry out");
+  }
+}
+
+}  // namespace
+
+std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSettings& config, StepContext& context) {
+  if (config.decks.empty())
+    throw InputError({"", 0, "deck"}, "no deck is given", "add a [[deck]] with name, chord, polar and flutter");
+  std::vector<aero::DeckAerodynamics> data;
+  for (const aero::DeckWind& deck : config.decks) {
+    data.push_back({aero_io::read_polar(context.input(deck.polar)),
+                    std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
+                        context.input(deck.flutter), choice(config.below_range), choice(config.above_range)))});
+    check_laws(deck, data.back());
+  }
+  return data;
+}
+
+}  // namespace twindeck::steps

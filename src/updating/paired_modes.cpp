@@ -1,0 +1,103 @@
+#include "updating/paired_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace twindeck::updating {
+namespace {
+
+matching::PairingOptions pairing_options(const UpdatingSettings& config) {
+  matching::PairingOptions options;
+  options.minimum_mac = config.minimum_mac;
+  options.maximum_frequency_error = config.maximum_frequency_error;
+  options.cluster_gap = config.cluster_gap;
+  return options;
+}
+
+}  // namespace
+
+matching::Pairing pair_for_updating(Reporter& reporter, const UpdatingSettings& config, const dynamics::LoadedModel& loaded,
+                                    const dynamics::EigenModes& modes, const matching::Measured& measured) {
+  matching::Pairing pairing;
+  if (measured.modes.has_shapes()) {
+    pairing = matching::pair_at_sensors(measured, loaded, modes, pairing_options(config), config.sensor_tolerance_m);
+  } else if (!config.pairs.empty()) {
+    pairing = matching::pair_as_published(measured, modes.frequency_Hz.size(), config.pairs, {"", 0, "pairs"});
+  } else {
+    pairing = matching::pair_by_order(measured, modes.frequency_Hz.size());
+  }
+  matching::warn_of_unmeasured(reporter, pairing);
+  const matching::PairingAccount account = matching::account_of(measured, pairing, modes.frequency_Hz);
+  const std::optional<std::string> factor = matching::common_factor(measured, pairing, modes.frequency_Hz);
+  matching::refuse_few_pairs(account, config.least_paired, config.minimum_mac, measured.source, factor);
+  if (factor) reporter.warn(*factor);
+  if (pairing.pairs.empty()) {
+    throw InputError({measured.source, 0, ""}, "no measured mode has a computed partner",
+                     "check frequencies and pairs, or raise maximum_frequency_error");
+  }
+  return pairing;
+}
+
+std::vector<FrequencyTarget> frequency_targets(const matching::Measured& measured, const matching::Pairing& pairing) {
+  std::vector<FrequencyTarget> targets;
+  for (const matching::ModePair& pair : pairing.pairs) {
+    targets.push_back(
+        {measured.labels[static_cast<std::size_t>(pair.experimental)] + "-" + matching::numerical_label(pair.numerical),
+         static_cast<int>(pair.numerical), measured.modes.frequency_Hz(pair.experimental),
+         measured.modes.frequency_std_Hz(pair.experimental)});
+  }
+  return targets;
+}
+
+Refresh prestress_refresh(const dynamics::LoadedModel& loaded) {
+  if (!loaded.structure) return {};
+  return
+      [structure = loaded.structure](const Eigen::VectorXd& theta) { return structure->system(structure->prestress(theta)); };
+}
+
+matching::Pairing followed_pairing(const UpdatingSettings& config, const matching::Pairing& before,
+                                   const UpdatingResult& result, const dynamics::LoadedModel& after,
+                                   const dynamics::EigenModes& modes, const matching::Measured& measured) {
+  matching::Pairing pairing = before;
+  if (measured.modes.has_shapes()) {
+    const matching::Pairing now =
+        matching::pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
+    pairing.mac = now.mac;
+    pairing.shapes = now.shapes;
+  }
+  for (std::size_t i = 0; i < pairing.pairs.size(); ++i) {
+    matching::ModePair& pair = pairing.pairs[i];
+    pair.numerical = result.mode_after.at(i);
+    if (pairing.mac.size() > 0) pair.mac = pairing.mac(pair.numerical, pair.experimental);
+  }
+  return pairing;
+}
+
+matching::PairingAccount account_after(Reporter& reporter, const UpdatingSettings& config, const matching::Pairing& followed,
+                                       const dynamics::LoadedModel& after, const dynamics::EigenModes& modes,
+                                       const matching::Measured& measured) {
+  matching::Pairing judged = followed;
+  if (measured.modes.has_shapes()) {
+    const matching::Pairing anew =
+        matching::pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
+    for (matching::ModePair& pair : judged.pairs)
+      for (const matching::ModePair& other : anew.pairs)
+        if (other.clustered && other.experimental == pair.experimental && other.numerical == pair.numerical)
+          pair.mac = other.mac;
+  }
+  const matching::PairingAccount account = matching::account_of(measured, judged, modes.frequency_Hz);
+  matching::warn_of_pairing(reporter, account, std::nullopt, "after the updating");
+  return account;
+}
+
+std::string summary_line(const std::vector<matching::ComparisonRow>& comparison, const matching::PairingAccount& account) {
+  return fmt::format("mean |error| of {} pairs: {:.2f} % before, {:.2f} % after{}", comparison.size() / 2,
+                     matching::mean_abs_error_pct(comparison, "before"), matching::mean_abs_error_pct(comparison, "after"),
+                     matching::pairing_words(account));
+}
+
+}  // namespace twindeck::updating

@@ -1,0 +1,26 @@
+#include "updating/updating_settings.hpp"
+
+#include <algorithm>
+
+namespace twindeck::updating {
+
+bool UpdatingSettings::weighs_shapes() const {
+  return std::find(residuals.begin(), residuals.end(), "shape") != residuals.end();
+}
+
+bool UpdatingSettings::weighs() const { return weights == "covariance" || weighs_shapes(); }
+
+UpdatingOptions UpdatingSettings::options(std::uint64_t seed) const {
+  UpdatingOptions options;
+  options.trust_radius = trust_radius;
+  options.starts = static_cast<int>(starts);
+  options.n_modes = static_cast<int>(n_modes);
+  options.max_iterations = static_cast<int>(max_iterations);
+  options.outer_iterations = static_cast<int>(outer_iterations);
+  options.optimality_tolerance = optimality_tolerance;
+  options.seed = seed;
+  options.leave_one_out = leave_one_out;
+  return options;
+}
+
+}  // namespace twindeck::updating

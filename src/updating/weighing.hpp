@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/loaded_model.hpp"
+#include "matching/comparison.hpp"
+#include "matching/measured.hpp"
+#include "updating/posterior.hpp"
+#include "updating/updating.hpp"
+#include "updating/updating_settings.hpp"
+
+/// An update that weighs frequencies and shapes by the covariance of the measurement: its rows, and what became of them.
+namespace twindeck::updating {
+
+/// @throws InputError  where no shape was measured, or none has a standard deviation
+void refuse_unweighable_shapes(const matching::Measured& measured);
+
+/// The rows of the paired modes with their covariance, and the model's own error added to it. Modes closer to a pair's computed
+/// one than `cluster_gap` span its shape together.
+/// @return rows that are not given() where the configuration asks for Eq. (5)
+[[nodiscard]] MeasuredRows weighed_rows(const UpdatingSettings& config, const matching::Measured& measured,
+                                        const matching::Pairing& pairing, const dynamics::LoadedModel& loaded,
+                                        const dynamics::EigenModes& modes);
+
+/// What the tables and words about a weighed update come from.
+struct Weighed {
+  const dynamics::LoadedModel& loaded;
+  const std::vector<int>& active;
+  const matching::Measured& measured;
+  const matching::Pairing& pairing;
+  const MeasuredRows& rows;
+  const UpdatingResult& result;
+};
+
+}  // namespace twindeck::updating

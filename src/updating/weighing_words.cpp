@@ -1,0 +1,153 @@
+#include "updating/weighing_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "updating/twins.hpp"
+
+namespace twindeck::updating {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr double named_component = 0.2;    ///< [prior standard deviations] of a flat direction: smaller ones are left out
+constexpr double as_good = 4.0;            ///< [-] of chi²: two standard deviations of one parameter
+constexpr double doubtful_score = 3.09;    ///< [-] of chi²: one sound measurement in a thousand is above
+constexpr double most_of_misfit = 0.4;     ///< [-] share of the squared differences that singles a channel out
+constexpr double close_correlation = 0.9;  ///< [-] from it on the deviations alone mislead
+
+const std::string& name_of(const Weighed& weighed, Index j) {
+  return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])].name;
+}
+
+std::vector<std::vector<std::string>> sets_at(const Weighed& weighed, const Eigen::MatrixXd& jacobian) {
+  if (jacobian.size() == 0) return {};
+  const Eigen::VectorXd half = 0.5 * (weighed.result.box.upper - weighed.result.box.lower);
+  return named_sets(weighed.loaded, weighed.active, updating::indistinct_sets(jacobian * half.asDiagonal()));
+}
+
+void say_parameters(Reporter& reporter, const Weighed& weighed, const Posterior& posterior) {
+  for (Index j = 0; j < posterior.std.size(); ++j) {
+    const double value = weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]);
+    reporter.say(posterior.is_held[static_cast<std::size_t>(j)]
+                     ? fmt::format("{:<14} {:>13.6g}  held by its bound", name_of(weighed, j), value)
+                     : fmt::format("{:<14} {:>13.6g} +- {:.2g} (standard deviation)", name_of(weighed, j), value,
+                                   posterior.std[j] * posterior.misfit()));
+  }
+  for (Index j = 0; j < posterior.std.size(); ++j)
+    for (Index k = j + 1; k < posterior.std.size(); ++k)
+      if (std::abs(posterior.correlation(j, k)) >= close_correlation)
+        reporter.say(fmt::format("{} and {} are known together only: correlation {:+.3f}", name_of(weighed, j),
+                                 name_of(weighed, k), posterior.correlation(j, k)));
+}
+
+}  // namespace
+
+std::vector<WeighedRow> weighed_row_list(const Weighed& weighed) {
+  std::vector<WeighedRow> list;
+  const auto n_targets = static_cast<Index>(weighed.pairing.pairs.size());
+  for (Index i = 0; i < weighed.rows.covariance.rows(); ++i) {
+    WeighedRow& row = list.emplace_back();
+    row.at = i;
+    row.std = std::sqrt(weighed.rows.covariance(i, i));
+    row.updated = weighed.result.at_optimum.predicted[i];
+    if (i < n_targets) {
+      row.target = static_cast<std::size_t>(i);
+      row.type = "frequency_Hz";
+      row.value = weighed.measured.modes.frequency_Hz[weighed.pairing.pairs[row.target].experimental];
+      continue;
+    }
+    const ShapeRow& shape = weighed.rows.shape[static_cast<std::size_t>(i - n_targets)];
+    row.target = static_cast<std::size_t>(shape.target);
+    row.type = shape.imaginary ? "shape_imag" : "shape";
+    row.channel = weighed.measured.modes.dofs[static_cast<std::size_t>(shape.channel)].direction;
+    row.value = shape.value;
+  }
+  return list;
+}
+
+std::vector<std::string> twin_sentences(const Weighed& weighed) {
+  std::vector<std::string> sentences;
+  const auto at_optimum = sets_at(weighed, weighed.result.at_optimum.jacobian);
+  const auto at_start = sets_at(weighed, weighed.result.at_start.jacobian);
+  const auto add = [&](const std::vector<std::string>& names, const char* where) {
+    sentences.push_back(
+        fmt::format("what is weighed cannot tell {} apart {}: what one does another does as well, so that "
+                    "blame may fall on the wrong one. Update one of them, or measure where they differ",
+                    fmt::join(names, ", "), where));
+  };
+  for (const auto& names : at_optimum) add(names, "at the optimum");
+  for (const auto& names : at_start)
+    if (std::find(at_optimum.begin(), at_optimum.end(), names) == at_optimum.end()) add(names, "at the initial values");
+  return sentences;
+}
+
+std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior& posterior, bool several) {
+  std::vector<std::string> sentences;
+  for (const FlatDirection& flat : posterior.flat) {
+    std::vector<std::string> parts;
+    for (Index j = 0; j < flat.step.size(); ++j)
+      if (std::abs(flat.step[j]) >= named_component * posterior.prior_std[j])
+        parts.push_back(fmt::format("{} by {:+.3g}", name_of(weighed, j), flat.step[j]));
+    if ((parts.size() > 1) != several) continue;
+    sentences.push_back(fmt::format(
+        "flat direction: moving {}{} changes what is weighed by {:.2g} standard deviations only; {}", fmt::join(parts, " and "),
+        several ? " together" : "", flat.change,
+        several ? "the measurement does not say how they share it" : "its bounds say more of it than the measurement"));
+  }
+  return sentences;
+}
+
+std::vector<std::string> rival_sentences(const Weighed& weighed) {
+  const UpdatingResult& result = weighed.result;
+  std::vector<std::string> sentences;
+  const double least = 2.0 * result.starts.at(static_cast<std::size_t>(result.best)).cost;
+  for (const int k : result.optima) {
+    const StartResult& start = result.starts.at(static_cast<std::size_t>(k));
+    if (k == result.starts.at(static_cast<std::size_t>(result.best)).optimum || 2.0 * start.cost > least + as_good) continue;
+    std::vector<std::string> values;
+    for (Index j = 0; j < start.theta.size(); ++j)
+      values.push_back(fmt::format("{} {:.4g}", name_of(weighed, j), start.theta[j]));
+    sentences.push_back(fmt::format("another optimum is as good (chi² {:.4g} against {:.4g}): {}", 2.0 * start.cost, least,
+                                    fmt::join(values, ", ")));
+  }
+  return sentences;
+}
+
+std::string misfit_sentence(const Weighed& weighed, const Posterior& posterior) {
+  if (posterior.chi_squared_score() < doubtful_score) return "";
+  std::map<std::string, double> by_channel;
+  double sum = 0.0;
+  for (const WeighedRow& row : weighed_row_list(weighed)) {
+    by_channel[row.channel] += row.difference_std() * row.difference_std();
+    sum += row.difference_std() * row.difference_std();
+  }
+  const auto worst =
+      std::max_element(by_channel.begin(), by_channel.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::string sentence = fmt::format(
+      "chi² is {:.4g} with {} degrees of freedom: model and measurement differ {:.2g} times as much as the covariance says, "
+      "and "
+      "standard deviations count that much more (std_with_misfit)",
+      posterior.chi_squared, posterior.degrees, posterior.misfit());
+  if (worst->second < most_of_misfit * sum) return sentence;
+  const std::string share = fmt::format(". {:.0f} % of the squared differences ", 100.0 * worst->second / sum);
+  if (worst->first.empty()) return sentence + share + "are the frequencies'";
+  return sentence + share + "are channel " + worst->first +
+         "'s: it may be reversed, exchanged or mis-scaled (s9_diagnosis finds out, --correct puts it right)";
+}
+
+void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& posterior) {
+  say_parameters(reporter, weighed, posterior);
+  reporter.say(fmt::format("chi² {:.4g} with {} degrees of freedom ({} rows, {} free scales)", posterior.chi_squared,
+                           posterior.degrees, weighed.rows.covariance.rows(), weighed.result.at_optimum.scales));
+  for (const std::string& sentence : flat_sentences(weighed, posterior, false)) reporter.say(sentence);
+  if (const std::string sentence = misfit_sentence(weighed, posterior); !sentence.empty()) reporter.warn(sentence);
+  for (const std::string& sentence : twin_sentences(weighed)) reporter.warn(sentence);
+  for (const std::string& sentence : flat_sentences(weighed, posterior, true)) reporter.warn(sentence);
+  for (const std::string& sentence : rival_sentences(weighed)) reporter.warn(sentence);
+}
+
+}  // namespace twindeck::updating

@@ -1,0 +1,126 @@
+/// Oracle: numbers of real materials and structures, each with one slip put in; the same numbers without it are left in peace.
+#include "dynamics/unit_slips.hpp"
+
+#include <gtest/gtest.h>
+
+namespace twindeck::dynamics {
+namespace {
+
+/// A steel beam of ten metres in ten elements, 0.2 m x 0.4 m.
+fe::Model beam() {
+  fe::Model model;
+  for (int i = 0; i <= 10; ++i) model.nodes.push_back({i + 1, Eigen::Vector3d(i, 0.0, 0.0)});
+  model.materials = {{"steel", 210e9, 81e9, 0.3, 7850.0}};
+  fe::Section section;
+  section.name = "box";
+  section.area_m2 = 0.08;
+  section.inertia_y_m4 = 1.0667e-3;
+  section.inertia_z_m4 = 2.6667e-4;
+  section.torsion_m4 = 7e-4;
+  model.sections = {section};
+  for (int i = 0; i < 10; ++i) {
+    fe::Element element;
+    element.id = i + 1;
+    element.material = element.section = 0;
+    element.nodes = {i, i + 1};
+    model.elements.push_back(element);
+  }
+  return model;
+}
+
+std::string only(const std::vector<std::string>& slips) {
+  EXPECT_EQ(slips.size(), 1U);
+  return slips.empty() ? "" : slips.front();
+}
+
+void expect_slip(const fe::Model& model, const std::string& said) {
+  const std::string slip = only(unit_slips(model));
+  EXPECT_NE(slip.find(said), std::string::npos) << slip;
+}
+
+TEST(UnitSlips, SoundMaterialsPass) {
+  const std::vector<std::pair<double, double>> materials = {{210e9, 7850.0}, {30e9, 2500.0}, {70e9, 2700.0}, {11e9, 450.0},
+                                                            {36e9, 25000.0}, {3e6, 1100.0},  {50e6, 1800.0}, {16e9, 11340.0},
+                                                            {1e15, 7850.0},  {210e9, 0.0},   {140e9, 1600.0}};
+  for (const auto& [modulus, density] : materials) {
+    fe::Model model = beam();
+    model.materials[0].youngs_modulus_Pa = modulus;
+    model.materials[0].density_kg_m3 = density;
+    EXPECT_TRUE(unit_slips(model).empty()) << modulus << " " << density << ": " << unit_slips(model)[0];
+  }
+}
+
+TEST(UnitSlips, ModulusInAnotherUnit) {
+  fe::Model model = beam();
+  for (const auto& [modulus, unit] : {std::pair(210e3, "MPa"), std::pair(210.0, "GPa"), std::pair(210e6, "kPa")}) {
+    model.materials[0].youngs_modulus_Pa = modulus;
+    expect_slip(model, std::string("is E in ") + unit);
+  }
+  model.materials[0] = {"concrete", 33e3, 14e3, 0.2, 2500.0};
+  expect_slip(model, "is E in MPa");
+}
+
+TEST(UnitSlips, DensityInAnotherUnit) {
+  fe::Model model = beam();
+  for (const auto& [density, unit] : {std::pair(7.85, "t/m3"), std::pair(77.0, "kN/m3")}) {
+    model.materials[0].density_kg_m3 = density;
+    expect_slip(model, std::string("is the density in ") + unit);
+  }
+  model.materials[0].youngs_modulus_Pa = 210e3;  // N, mm and t
+  model.materials[0].density_kg_m3 = 7.85e-9;
+  expect_slip(model, "is the density in t/mm3");
+}
+
+TEST(UnitSlips, CoordinatesInMillimetres) {
+  fe::Model model = beam();
+  for (fe::Node& node : model.nodes) node.x_m *= 1000.0;
+  expect_slip(model,
+              "spans 1e+04 m, and half of its elements are 2.5e+03 and more times as long as deep: are the coordinates in mm?");
+  for (fe::Node& node : model.nodes) node.x_m *= 0.2;  // two kilometres in ten elements: a long bridge, drawn coarsely
+  EXPECT_TRUE(unit_slips(model).empty());
+}
+
+TEST(UnitSlips, SectionsLargerThanTheStructure) {
+  fe::Model model = beam();
+  model.sections[0].area_m2 = 8e4;  // mm2
+  expect_slip(model, "section 'box' is 283 m across");
+}
+
+TEST(UnitSlips, FirstFrequencyOfNoStructure) {
+  const std::string slow = only(frequency_slips(Eigen::Vector3d(0.0042, 0.005, 0.02), 6280.0, 10.0));
+  EXPECT_NE(slow.find("the first mode is computed at 0.0042 Hz (6280 kg move, span 10 m), slower than any structure"),
+            std::string::npos)
+      << slow;
+  EXPECT_TRUE(frequency_slips(Eigen::Vector3d(1e-7, 1.2, 3.0), 6280.0, 10.0).empty());  // a rigid body's comes before it
+  EXPECT_TRUE(frequency_slips(Eigen::Vector3d(0.03, 0.05, 0.1), 1e8, 3000.0).empty());
+  EXPECT_TRUE(frequency_slips(Eigen::VectorXd(), 0.0, 0.0).empty());
+}
+
+TEST(UnitSlips, OneMeasuredFrequencyAmongHertz) {
+  const MeasuredFrequencies measured{{"1", "2", "3", "4"}, Eigen::Vector4d(1.21, 2.43, 3618.7, 5.9)};
+  const std::string slip = only(measured_slips(measured, Eigen::Vector4d(1.2, 2.4, 3.6, 6.0)));
+  EXPECT_NE(slip.find("mode 3 is measured at 3618.7 Hz, but the others lie between 1.21 and 5.9 Hz: is it in mHz"),
+            std::string::npos)
+      << slip;
+  const std::string low = only(measured_slips({{"1", "2", "3"}, Eigen::Vector3d(0.0024, 2.9, 3.6)}, {}));
+  EXPECT_NE(low.find("mode 1 is measured at 0.0024 Hz"), std::string::npos) << low;
+  EXPECT_NE(low.find("kHz"), std::string::npos) << low;
+  EXPECT_TRUE(measured_slips({{"1", "2"}, Eigen::Vector2d(0.2, 6.0)}, {}).empty());
+}
+
+TEST(UnitSlips, MeasuredAgainstComputed) {
+  const Eigen::Vector3d computed(1.2, 2.4, 3.6);
+  const auto slip_of = [&](double factor) {
+    return only(measured_slips({{"1", "2", "3"}, Eigen::Vector3d(factor * Eigen::Vector3d(1.25, 2.3, 3.7))}, computed));
+  };
+  EXPECT_NE(slip_of(6.2832).find("rad/s"), std::string::npos) << slip_of(6.2832);
+  EXPECT_NE(slip_of(1000.0).find("mHz"), std::string::npos) << slip_of(1000.0);
+  EXPECT_NE(slip_of(60.0).find("cycles per minute"), std::string::npos) << slip_of(60.0);
+  EXPECT_NE(slip_of(31.6).find("kN/m"), std::string::npos) << slip_of(31.6);
+  EXPECT_NE(slip_of(150.0).find("check the units of both"), std::string::npos) << slip_of(150.0);
+  for (const double error : {0.3, 0.8, 1.0, 1.5, 3.0})  // a poor model, no slip
+    EXPECT_TRUE(measured_slips({{"1", "2", "3"}, Eigen::Vector3d(error * computed)}, computed).empty());
+}
+
+}  // namespace
+}  // namespace twindeck::dynamics

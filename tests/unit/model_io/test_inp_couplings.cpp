@@ -1,0 +1,123 @@
+/// *COUPLING and JOINTC. Oracles: closed forms of masses on springs, and the same structure with *RIGID BODY or single springs.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "model_io/inp.hpp"
+#include "nastran_deck.hpp"
+
+namespace twindeck::model_io::test::inp_couplings {
+namespace {
+
+using std::numbers::pi;
+
+InpModel deck_model(const std::string& deck) {
+  const TestFolder folder;
+  folder.write("deck.inp", deck);
+  return read_inp(folder.path() / "deck.inp");
+}
+
+std::string refusal_of(const std::string& deck) {
+  return message_of([&] { (void)deck_model(deck); });
+}
+
+/// A mass of 2 kg at node 2, 3 m beside the reference node 1, which turns about z on a spring of 450 N m/rad.
+std::string pendulum(const std::string& coupling) {
+  return "*NODE\n1, 0, 0, 0\n2, 3, 0, 0\n*ELEMENT, TYPE=SPRING1, ELSET=HINGE\n1, 1\n*SPRING, ELSET=HINGE\n6\n450.\n"
+         "*ELEMENT, TYPE=MASS, ELSET=BOB\n2, 2\n*MASS, ELSET=BOB\n2.\n*SURFACE, TYPE=NODE, NAME=ARM\n2\n" +
+         coupling + "*BOUNDARY\n1, 1, 5\n";
+}
+
+TEST(InpCouplings, KinematicIsARigidArm) {
+  const double f = std::sqrt(450.0 / (2.0 * 9.0)) / (2.0 * pi);
+  for (const char* coupling : {"*COUPLING, REF NODE=1, SURFACE=ARM, CONSTRAINT NAME=C\n*KINEMATIC\n",
+                               "*COUPLING, REF NODE=1, SURFACE=ARM, CONSTRAINT NAME=C\n*KINEMATIC\n1, 3\n",
+                               "*KINEMATIC COUPLING, REF NODE=1\n2, 1, 6\n"}) {
+    EXPECT_NEAR(frequencies(deck_model(pendulum(coupling)).model, 1).at(0) / f, 1.0, 1e-9) << coupling;
+  }
+}
+
+TEST(InpCouplings, KinematicInSomeDirectionsLeavesTheOthers) {
+  // Only y follows; in x and z the mass hangs on springs of its own.
+  const std::string deck = pendulum(
+      "*COUPLING, REF NODE=1, SURFACE=ARM, CONSTRAINT NAME=C\n*KINEMATIC\n2, 2\n"
+      "*ELEMENT, TYPE=SPRING1, ELSET=X\n3, 2\n*SPRING, ELSET=X\n1\n800.\n"
+      "*ELEMENT, TYPE=SPRING1, ELSET=Z\n4, 2\n*SPRING, ELSET=Z\n3\n3200.\n");
+  const std::vector<double> f = frequencies(deck_model(deck).model, 3);
+  EXPECT_NEAR(f.at(0) * 2.0 * pi, 5.0, 1e-6);
+  EXPECT_NEAR(f.at(1) * 2.0 * pi, 20.0, 1e-6);
+  EXPECT_NEAR(f.at(2) * 2.0 * pi, 40.0, 1e-6);
+}
+
+/// Four masses of 1 kg at the corners of a square of 2 m in the plane, each on a spring in z of 100 N/m; the reference node
+/// hangs above them.
+std::string square(const std::string& rest) {
+  return "*NODE, NSET=CORNERS\n1, -1, -1, 0\n2, 1, -1, 0\n3, 1, 1, 0\n4, -1, 1, 0\n*NODE\n9, 0.5, 0, 1\n"
+         "*ELEMENT, TYPE=SPRING1, ELSET=Z\n1, 1\n2, 2\n3, 3\n4, 4\n*SPRING, ELSET=Z\n3\n100.\n"
+         "*ELEMENT, TYPE=MASS, ELSET=M\n11, 1\n12, 2\n13, 3\n14, 4\n*MASS, ELSET=M\n1.\n"
+         "*ELEMENT, TYPE=MASS, ELSET=TOP\n15, 9\n*MASS, ELSET=TOP\n4.\n*SURFACE, TYPE=NODE, NAME=FACE\nCORNERS\n"
+         "*BOUNDARY\nCORNERS, 1, 2\n" +
+         rest;
+}
+
+TEST(InpCouplings, DistributingIsTheMean) {
+  // The top's u_z is the mean + 0.5 (u of the right - u of the left)/2 = (1/8, 3/8, 3/8, 1/8) u, its u_x the height times the
+  // slope, and so on: M = I + 4 Sᵀ S over the corners, S of displacements of the top by those of the corners.
+  const InpModel read =
+      deck_model(square("*COUPLING, REF NODE=9, SURFACE=FACE, CONSTRAINT NAME=C\n*DISTRIBUTING, WEIGHTING METHOD=UNIFORM\n"));
+  Eigen::Matrix<double, 3, 4> s;
+  s.row(0) << 0.25, -0.25, -0.25, 0.25;  // theta_y = -du_z/dx; u_x = theta_y times the height of 1 m
+  s.row(1) << 0.25, 0.25, -0.25, -0.25;  // theta_x = du_z/dy; u_y = -theta_x
+  s.row(2) << 0.125, 0.375, 0.375, 0.125;
+  const Eigen::Matrix4d mass = Eigen::Matrix4d::Identity() + 4.0 * s.transpose() * s;
+  const Eigen::Vector4d inverse = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(mass).eigenvalues();
+  const std::vector<double> f = frequencies(read.model, 4);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(f.at(i) * 2.0 * pi, std::sqrt(100.0 / inverse[3 - static_cast<Eigen::Index>(i)]), 1e-6) << i;
+  EXPECT_NE(fmt::format("{}", fmt::join(read.notes, " ")).find("every node of 'FACE' has the same weight"), std::string::npos);
+}
+
+TEST(InpCouplings, RefusalsNameTheirLine) {
+  const std::string head = "*COUPLING, REF NODE=9, SURFACE=FACE, CONSTRAINT NAME=C\n";
+  const auto expect = [](const std::string& deck, const std::string& words) {
+    const std::string said = refusal_of(deck);
+    EXPECT_NE(said.find("deck.inp:"), std::string::npos) << said;
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  expect(square(head), "is followed by neither *KINEMATIC nor *DISTRIBUTING");
+  expect(square("*DISTRIBUTING\n"), "unsupported card");
+  expect(square("*COUPLING, REF NODE=9, SURFACE=FASE\n*DISTRIBUTING\n"), "no surface is called 'FASE' (did you mean 'FACE'?)");
+  expect(square("*COUPLING, REF NODE=9, SURFACE=FACE, INFLUENCE RADIUS=1.\n*DISTRIBUTING\n"), "INFLUENCE RADIUS");
+  expect(square(head + "*DISTRIBUTING, WEIGHTING METHOD=LINEAR\n"), "unsupported WEIGHTING METHOD=LINEAR");
+  expect(square(head + "*KINEMATIC\n3, 7\n"), "'3, 7' are no degrees of freedom");
+  expect(square("*SURFACE, TYPE=NODE, NAME=SIDE\n1\n2\n*COUPLING, REF NODE=9, SURFACE=SIDE\n*DISTRIBUTING\n"),
+         "its nodes do not determine degree of freedom");
+}
+
+TEST(InpJoints, AreSpringsAlongTheAxesOfTheirOrientation) {
+  const std::string deck =
+      "*NODE\n1, 0, 0, 0\n2, 0, 0, 0\n7, 0, 1, 0\n8, -1, 0, 0\n9, 0, 0, 0\n*ELEMENT, TYPE=JOINTC, ELSET=J\n1, 1, 2\n"
+      "*ORIENTATION, NAME=TURNED, DEFINITION=NODES\n7, 8, 9\n*JOINT, ELSET=J, ORIENTATION=TURNED\n*SPRING\n1, 1\n200.\n"
+      "*SPRING\n2, 2\n800.\n*SPRING\n3, 3\n1800.\n*DASHPOT\n1, 1\n5.\n"
+      "*ELEMENT, TYPE=MASS, ELSET=M\n2, 2\n*MASS, ELSET=M\n2.\n*BOUNDARY\n1, 1, 6\n";
+  const fe::Model model = deck_model(deck).model;
+  const std::vector<double> f = frequencies(model, 3);
+  EXPECT_NEAR(f.at(0) * 2.0 * pi, 10.0, 1e-6);
+  EXPECT_NEAR(f.at(1) * 2.0 * pi, 20.0, 1e-6);
+  EXPECT_NEAR(f.at(2) * 2.0 * pi, 30.0, 1e-6);
+  EXPECT_NEAR(std::abs(model.springs.at(0).direction.y()), 1.0, 1e-12);  // x' lies along global y
+  EXPECT_EQ(model.springs.at(3).damping, 5.0);
+  const auto without = [&](const std::string& what, const std::string& put) {
+    std::string other = deck;
+    other.replace(other.find(what), what.size(), put);
+    return refusal_of(other);
+  };
+  EXPECT_NE(without("*JOINT, ELSET=J, ORIENTATION=TURNED\n", "").find("ELSET is missing"), std::string::npos)
+      << without("*JOINT, ELSET=J, ORIENTATION=TURNED\n", "");
+  EXPECT_NE(without("1, 1\n200.", "1, 2\n200.").find("names no single degree of freedom"), std::string::npos);
+  EXPECT_NE(without("TYPE=JOINTC", "TYPE=SPRING2").find("*JOINT is for JOINTC"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace twindeck::model_io::test::inp_couplings
