@@ -5,20 +5,18 @@
 ///
 /// prints `cpu_s peak_MB modes_found spurious`. Peak memory is that of the whole process with the record in it, up to the end
 /// of the task; modes are judged afterwards, as the product reports them, with what the standard deviations drop.
-#include <sys/resource.h>
-
 #include <cstdio>
-#include <ctime>
 #include <numeric>
 #include <string>
 
+#include "bench/cost.hpp"
+#include "bench/sysid_record.hpp"
 #include "io/npy.hpp"
 #include "linalg/one_thread.hpp"
 #include "signal/condition.hpp"
 #include "sysid/identify.hpp"
 #include "sysid/ssi_cov.hpp"
 #include "sysid/ssi_data.hpp"
-#include "sysid_record.hpp"
 
 namespace {
 
@@ -26,14 +24,6 @@ using namespace twindeck;
 using Eigen::Index;
 
 constexpr Index kBlockRows = 50, kBlocks = 50;
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-double peak_megabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 void judge(const std::vector<sysid::Cluster>& modes, int& found, int& spurious) {
   std::vector<bool> taken(modes.size(), false);
@@ -77,32 +67,32 @@ int main(int argc, char** argv) {
   };
   double seconds = 0.0;
   int found = 0, spurious = 0;
-  const double start = cpu_seconds();
+  const double start = bench::cpu_seconds();
   if (task == "data") {
     const auto samples = static_cast<double>(data.rows() - 2 * kBlockRows + 1);
     const auto subspace = sysid::ssi_data({sysid::hankel_gram(data, references, kBlockRows)}, samples, data.cols(), data.cols(),
                                           kBlockRows, orders.back());
     const auto models = sysid::shift_models(subspace.observability, orders, bench::kRecordRate_Hz);
-    seconds = cpu_seconds() - start;
+    seconds = bench::cpu_seconds() - start;
   } else {
     const auto blocks = signal::correlations(data, references, 2 * kBlockRows, task == "deviations" ? kBlocks : 1);
     const auto observability = sysid::ssi_cov(blocks.mean(), kBlockRows, data.cols(), orders.back());
     const auto models = sysid::shift_models(observability, orders, bench::kRecordRate_Hz);
-    seconds = cpu_seconds() - start;
-    const double after = cpu_seconds();
+    seconds = bench::cpu_seconds() - start;
+    const double after = bench::cpu_seconds();
     if (task == "deviations") {
       // Standard deviations of every pole of every order, beyond the identification itself.
       const auto factors =
           sysid::pole_factors(observability, models, sysid::covariance_changes(blocks, kBlockRows, observability, models));
-      seconds = cpu_seconds() - after;
+      seconds = bench::cpu_seconds() - after;
       if (factors.of.empty()) return 3;
     }
-    const double before = cpu_seconds();
+    const double before = bench::cpu_seconds();
     const auto modes = select(models);
-    if (task == "clustering") seconds = cpu_seconds() - before;
+    if (task == "clustering") seconds = bench::cpu_seconds() - before;
     if (modes.empty()) return 3;
   }
-  const double megabytes = peak_megabytes();
+  const double megabytes = bench::peak_MB();
   judge(reported(), found, spurious);
   std::printf("%.3f %.0f %d %d\n", seconds, megabytes, found, spurious);
   return 0;

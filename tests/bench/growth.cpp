@@ -6,8 +6,6 @@
 ///     bench_growth record FILE.npy CHANNELS SAMPLES    the structure of sysid_record.hpp, single precision, written in blocks
 ///
 /// prints `name value` lines, as table.py reads them.
-#include <sys/resource.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -15,13 +13,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/cost.hpp"
 #include "bench/sysid_record.hpp"
 #include "fe/structure.hpp"
 #include "io/npy.hpp"
@@ -32,20 +29,10 @@
 namespace {
 
 using namespace twindeck;
+using bench::peak_MB;
+using bench::seconds;
 using Eigen::Index;
 constexpr int kModes = 15;
-
-double seconds(const std::function<void()>& work) {
-  const std::clock_t begin = std::clock();
-  work();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-double peak_MB() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 fe::Model empty_model() {
   fe::Model model;

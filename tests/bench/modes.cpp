@@ -5,16 +5,14 @@
 ///     bench_modes bridge [FILE]     the study's bridge: assembly, a solve after a change of parameters, derivatives
 ///     bench_modes machine           the machine's bandwidth and arithmetic on one thread, for the bound
 #include <cholmod.h>
-#include <sys/resource.h>
 
 #include <Eigen/Dense>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <string>
 
+#include "bench/cost.hpp"
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
@@ -30,20 +28,9 @@
 namespace {
 
 using namespace twindeck;
+using bench::peak_MB;
+using bench::seconds;
 constexpr int kModes = 15;
-
-/// Processor time of one thread: what else runs on the machine hardly matters.
-double seconds(const std::function<void()>& work) {
-  const std::clock_t begin = std::clock();
-  work();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-double peak_MB() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 /// Largest residual of the pairs, |K⁻¹ M x - x / λ| λ in the norm of M.
 double residual(const linalg::SparseMatrix& stiffness, const linalg::SparseMatrix& mass, const Eigen::VectorXd& lambda,
