@@ -174,7 +174,7 @@ MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const P
   return basis.orthonormal(own);
 }
 
-constexpr Eigen::Index kGathered = 960;  // columns of an eigenproblem, half a second
+constexpr Eigen::Index kGathered = 960;  // columns of one eigenproblem: its time grows with their cube
 
 Basis::Held side_by_side(std::span<const Basis::Held> blocks) {
   Index columns = 0, at = 0;
