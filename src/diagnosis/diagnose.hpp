@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,6 +75,8 @@ struct Diagnosis {
   Fit before, after;
   std::vector<Scored> ranking;     ///< of the first search; odds widened as those of the effects
   std::optional<FormReport> form;  ///< set if the model's form was a hypothesis
+  /// Rows with that form error in their covariance: what their residuals are told by. Null without a form.
+  std::shared_ptr<const FeatureMap> with_form;
 };
 
 /// Finds what is wrong, why, and the gain from naming it (docs/diagnosis.md): forward steps with a backward check, clusters,

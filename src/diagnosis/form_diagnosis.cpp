@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/statistics.hpp"
@@ -73,6 +74,7 @@ Weighing weighing_of(const FormSearch& search, const std::vector<Scored>& rankin
   out.weighed.size_error =
       size_error(setting.grid.frequency[setting.grid.points[static_cast<std::size_t>(leader.evidence.best.point)].frequency]);
   out.weighed.between_states = !leader.candidate->state.empty();
+  out.weighed.tuned = leader.candidate->tuned >= 0;
   const double misfit = std::max(1.0, out.weighed.chi_squared_ratio);
   for (std::size_t i = 0; i < search.entries.size(); ++i) {
     const double gap = (leader.log_weight - search.entries[i].log_weight) / misfit;
@@ -85,11 +87,22 @@ Weighing weighing_of(const FormSearch& search, const std::vector<Scored>& rankin
   return out;
 }
 
+/// Odds of something else to the leader. A generic change has no signature, and what the catalogue lacks often acts like an
+/// entry: what is else_within behind the leader is as probable as an entry that is set_within behind.
+double odds_of_something_else(const FormSearch& search, double misfit) {
+  const RuleOptions rules;
+  double sum = 0.0;
+  for (const double w : search.else_weight) {
+    const double behind = (search.entries.front().log_weight - w) / misfit;
+    sum += std::exp(-(behind > 0.0 ? rules.set_within / rules.else_within * behind : behind));
+  }
+  return sum;
+}
+
 /// Posterior of the leader over the catalogue, nothing and something else, the likelihoods widened by the misfit.
 double probability_of_leader(const FormSearch& search, double misfit) {
   const double leader = search.entries.front().log_weight;
-  double sum = std::exp((search.none_weight - leader) / misfit);
-  for (const double w : search.else_weight) sum += std::exp((w - leader) / misfit);
+  double sum = std::exp((search.none_weight - leader) / misfit) + odds_of_something_else(search, misfit);
   for (const FormEntry& entry : search.entries) sum += std::exp((entry.log_weight - leader) / misfit);
   return 1.0 / sum;
 }
@@ -110,27 +123,21 @@ std::vector<Rival> form_rivals(const FormSearch& search, const Weighing& weighin
   return out;
 }
 
-double probability_of_something_else(const FormSearch& search, const Weighing& weighing, double probability_of_leader) {
-  const double misfit = std::max(1.0, weighing.weighed.chi_squared_ratio), leader = search.entries.front().log_weight;
-  double sum = 0.0;
-  for (const double w : search.else_weight) sum += std::exp((w - leader) / misfit);
-  return probability_of_leader * sum;
-}
-
 Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking, const Weighing& weighing, const Ruling& ruling,
                    const FormSetting& setting) {
   Effect effect;
   effect.cause = {search.entries.front().candidate, search.entries.front().a};
   effect.state = effect.cause.candidate->state;
   effect.log_odds = ruling.against_none;
-  effect.probability = probability_of_leader(search, std::max(1.0, weighing.weighed.chi_squared_ratio));
+  const double misfit = std::max(1.0, weighing.weighed.chi_squared_ratio);
+  effect.probability = probability_of_leader(search, misfit);
   std::vector<const Scored*> members;
   for (const std::size_t i : weighing.members) members.push_back(&ranking[i]);
   for (const Scored* member : members) effect.cluster.push_back(member->candidate->id());
   effect.rivals = form_rivals(search, weighing, members, effect.probability, setting);
   if (ruling.something_else_in_set) {
     effect.cluster.emplace_back("other@global");
-    effect.rivals.push_back({"other@global", nullptr, probability_of_something_else(search, weighing, effect.probability), {}});
+    effect.rivals.push_back({"other@global", nullptr, effect.probability * odds_of_something_else(search, misfit), {}});
   }
   effect.split_by = splitting_measurement(setting.plain, search.base, members);
   return effect;
@@ -201,8 +208,9 @@ Fit fit_from(const Inference& inference, const std::vector<Cause>& causes, const
 /// @param fitted  with the causes, at the level that the search used; it stands where no fit can be made at this one
 void finish(const Inference& plain, const std::vector<Cause>& causes, const Fit& fitted, double without_cause,
             const DiagnoseOptions& options, std::uint64_t seed, Diagnosis& out) {
-  const FeatureMap levelled =
-      with_form_error(plain.map(), out.before.base, out.before.all.g, {out.form->frequency.level, out.form->shape.level});
+  out.with_form = std::make_shared<FeatureMap>(
+      with_form_error(plain.map(), out.before.base, out.before.all.g, {out.form->frequency.level, out.form->shape.level}));
+  const FeatureMap& levelled = *out.with_form;
   const Inference inference(levelled, plain.candidates());
   const auto n = static_cast<Index>(plain.map().nuisances().size());
   if (Fit before = fit_from(inference, {}, out.before.map.x.head(n)); before.made()) out.before = std::move(before);
@@ -225,8 +233,10 @@ void finish(const Inference& plain, const std::vector<Cause>& causes, const Fit&
   out.localisation = location_map(inference, out.after, out.ranking);
   out.residual = residual_test(inference, out.after);
   out.on_bounds = parameters_on_bounds(levelled, out.before);
-  out.gain = held_out_gain(plain, out.before, out.after, options.bootstrap, seed);
+  out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
 }
+
+constexpr int kRoundsOfJudging = 2;
 
 /// Causes one after another, and what the rules say of each.
 class Chain {
@@ -237,7 +247,7 @@ class Chain {
   void run() {
     for (int step = 0; step <= options_.most_causes; ++step)
       if (!take(step)) break;
-    if (causes_.size() > 1 && in_part_) judge_again();
+    if (in_part_) judge_again();
     out_.verdict = verdict_;
   }
   [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
@@ -290,20 +300,47 @@ class Chain {
     if (number == 0) begin_with(step);
     if (number > 0 && !in_part_ && is_error_of_the_first(step)) return false;
     if (number == 0 || verdict_ != Verdict::unknown) ruling_ = step.ruling;
-    const bool stands_out = step.ruling.against_none > step.ruling.threshold;
+    const bool by_a_channel = step.of_rules.verdict == Verdict::unknown && channel_first(step);
+    const bool stands_out = by_a_channel || step.ruling.against_none > step.ruling.threshold;
     const bool accepted = step.ruling.verdict == Verdict::named || step.ruling.verdict == Verdict::ambiguous;
     // Between two states several parts may have changed: the first of them leaves the others unexplained. It is judged when
     // they are in the model. A wrong channel leaves what is wrong with the structure unexplained too.
     const auto goes_beside = [](const Candidate& c) { return !c.state.empty() || c.hypothesis->measurement; };
     const bool of_a_change = stands_out && goes_beside(*step.search.entries.front().candidate);
     const bool goes_on = (accepted || of_a_change) && number < options_.most_causes;
-    if (step.of_rules.verdict == Verdict::unknown && !(of_a_change && goes_on))
-      be_unknown(step.ruling);  // a name that leaves the main change unexplained is none
+    if (step.of_rules.verdict == Verdict::unknown && !(of_a_change && goes_on)) {
+      if (in_part_)
+        rest_ = step.ruling;  // of causes that are still to be judged
+      else
+        be_unknown(step.ruling);  // a name that leaves the main change unexplained is none
+    }
     search_ = std::move(step.search);
     if (!goes_on) return false;
     if (!accept(step.ranking, step.weighing)) return false;
-    if (!accepted) in_part_ = true;
+    if (!accepted) {
+      in_part_ = true;
+      if (number == 0) verdict_ = Verdict::named;  // until it is judged beside the others
+    }
     if (step.ruling.verdict == Verdict::ambiguous) verdict_ = Verdict::ambiguous;
+    return true;
+  }
+
+  /// Two wrong channels together look like something in the structure that explains a part of them. Where the leader leaves too
+  /// much and acts in all conditions, the best fault of a channel that stands out by itself goes before it. @return whether
+  /// there is one
+  static bool channel_first(Step& step) {
+    std::vector<FormEntry>& entries = step.search.entries;
+    const double misfit = std::max(1.0, step.weighing.weighed.chi_squared_ratio);
+    if (entries.front().contrast >= 0 || entries.front().candidate->hypothesis->measurement) return false;
+    const auto channel = std::find_if(entries.begin(), entries.end(),
+                                      [](const FormEntry& entry) { return entry.candidate->hypothesis->measurement; });
+    if (channel == entries.end() || (channel->log_weight - step.search.none_weight) / misfit < RuleOptions{}.in_all)
+      return false;
+    const auto at = channel - entries.begin();
+    std::rotate(entries.begin(), channel, channel + 1);
+    std::rotate(step.ranking.begin(), step.ranking.begin() + at, step.ranking.begin() + at + 1);
+    step.weighing.members = {0};
+    step.weighing.weighed.members = 1;
     return true;
   }
 
@@ -333,7 +370,7 @@ class Chain {
     if (!with.made()) return withdraw("the best cause cannot be put into the model");
     if (may_be_zero(effect_parameters(setting_.informed, with, causes_.size() - 1), *causes_.back().candidate))
       return causes_.size() > 1 ? leave_out() : withdraw("the size of the best cause cannot be told from zero");
-    if (leader.contrast < 0 && at_its_least(with.causes.back()))
+    if ((leader.contrast < 0 || leader.candidate->tuned >= 0) && at_its_least(with.causes.back()))
       return causes_.size() > 1 ? leave_out()
                                 : withdraw(
                                       "the best cause fits best where it is as small as it can be: something outside the "
@@ -364,14 +401,34 @@ class Chain {
   }
 
   /// Each cause anew beside all the others: what was taken while a part of the change was unexplained has had no fair rivals.
+  /// Where that puts another cause in the place of one, those judged before it are judged once more.
   void judge_again() {
-    const auto n = static_cast<Index>(setting_.plain.map().nuisances().size());
-    const VectorXd x = current_.map.x.head(n);
-    if (verdict_ != Verdict::unknown) verdict_ = Verdict::named;
+    const bool open = verdict_ != Verdict::unknown;
+    bool others_now = true, any = false;
+    for (int round = 0; round < kRoundsOfJudging && others_now; ++round) {
+      if (open) verdict_ = Verdict::named;
+      others_now = judge_each();
+      any = any || others_now;
+    }
+    if (causes_.empty() && verdict_ == Verdict::named) verdict_ = Verdict::unknown;
+    if (Fit fit = fit_from(setting_.informed, causes_, parameters_now()); fit.made()) {
+      current_ = std::move(fit);
+    } else {
+      causes_.clear();
+      out_.effects.clear();
+      return;
+    }
+    if (any) judge_the_rest();
+    if (rest_) be_unknown(*rest_);
+  }
+
+  /// @return whether a cause was left out, or replaced by another
+  bool judge_each() {
+    bool others_now = false;
     for (std::size_t i = 0; i < causes_.size();) {
       std::vector<Cause> others = causes_;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      const Fit base = fit_from(setting_.informed, others, x);
+      const Fit base = fit_from(setting_.informed, others, parameters_now());
       if (!base.made()) {
         Ruling why = ruling_;
         why.reason =
@@ -386,6 +443,7 @@ class Chain {
       if (step.ruling.against_none > step.ruling.threshold) {  // it stays, named or not
         search_ = std::move(step.search);
         out_.effects[i] = effect_from(search_, step.ranking, step.weighing, step.ruling, setting_);
+        others_now = others_now || causes_[i].candidate != out_.effects[i].cause.candidate;
         causes_[i] = out_.effects[i].cause;
         if (verdict_ != Verdict::unknown) ruling_ = step.ruling;
         if (step.ruling.verdict == Verdict::ambiguous && verdict_ == Verdict::named) verdict_ = Verdict::ambiguous;
@@ -393,15 +451,21 @@ class Chain {
         continue;
       }
       causes_ = others;
+      others_now = true;
       out_.effects.erase(out_.effects.begin() + static_cast<std::ptrdiff_t>(i));
     }
-    if (causes_.empty() && verdict_ == Verdict::named) verdict_ = Verdict::unknown;
-    if (Fit fit = fit_from(setting_.informed, causes_, x); fit.made()) {
-      current_ = std::move(fit);
-    } else {
-      causes_.clear();
-      out_.effects.clear();
-    }
+    return others_now;
+  }
+
+  [[nodiscard]] VectorXd parameters_now() const {
+    return current_.map.x.head(static_cast<Index>(setting_.plain.map().nuisances().size()));
+  }
+
+  /// What is left beside the causes that stand after they were judged.
+  void judge_the_rest() {
+    const Step step = look(current_, leftover_, false);
+    rest_.reset();
+    if (step.of_rules.verdict == Verdict::unknown || step.ruling.against_none > step.ruling.threshold) rest_ = step.ruling;
   }
 
   /// The first reason why nothing can be named is the one that is told.
@@ -418,6 +482,7 @@ class Chain {
   std::vector<Cause> causes_;
   Leftover leftover_;
   Ruling ruling_;
+  std::optional<Ruling> rest_;  ///< why what is left beside the causes forbids a name
   FormSearch search_;
   HypothesisEvidence winner_;
   double without_cause_ = 0.0;

@@ -4,7 +4,7 @@ import json
 
 import made_up_study
 
-SENTENCES = {"what": "The frequency of mode 1 (windy) is measured as 0.748 Hz, the best admissible model has 0.69 Hz: 3.4 standard deviations.",
+SENTENCES = {"what": "The frequency of mode 1 (windy) is measured as 0.748 Hz, the model fitted within its bounds has 0.69 Hz: 3.4 standard deviations.",
              "why": "The dampers C1 and C2 do not move below 434 N each.", "how_sure": "The cause has probability 0.87.",
              "how_much_better": "On 12 values that no fit has seen the misfit goes from 2.00 to 1.50 standard deviations, 25 % less (90 % interval 8 to 40 %).",
              "next": "The modes with dampers at two or more amplitudes."}

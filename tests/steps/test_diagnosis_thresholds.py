@@ -29,7 +29,7 @@ class Thresholds(unittest.TestCase):
         arguments = [item for setting in settings for item in ("--set", setting)]
         return chain.subprocess.run(
             [chain.BIN / "s9_diagnosis", "--model", self.folder / "model", "--features", self.folder / "features", "--out", self.folder / name,
-             "--catalogue", catalogue, "--quiet", *arguments, *more], capture_output=True, text=True, check=False)
+             "--catalogue", catalogue, "--set", "form=off", "--quiet", *arguments, *more], capture_output=True, text=True, check=False)
 
     def diagnose(self, name, *settings, **options):
         done = self.run_step(name, *settings, **options)

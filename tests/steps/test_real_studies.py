@@ -147,33 +147,23 @@ class RealStudies(unittest.TestCase):
         self.softening_is_diagnosed(self.root / "results/meloland_overpass")
 
     def softening_is_diagnosed(self, folder):
-        # One linear model does for the four weak earthquakes, and is too stiff for each of the three that it did not see.
-        weak = json.loads((folder / "weak_fit/diagnosis.json").read_text())
-        self.assertEqual(weak["verdict"], "none")
+        # The frequencies of the four weak earthquakes are met by one linear model, which is too stiff for each of the three that it did not see.
         with open(folder / "weak_fit/residuals.csv", newline="") as stream:
-            strong = [float(r["residual_before"]) for r in csv.DictReader(stream) if r["type"] == "frequency_Hz" and r["held_out"] == "1"]
-        self.assertEqual(len(strong), 3)
+            frequencies = [r for r in csv.DictReader(stream) if r["type"] == "frequency_Hz"]
+        weak, strong = ([float(r["residual_before"]) for r in frequencies if r["held_out"] == held] for held in "01")
+        self.assertEqual((len(weak), len(strong)), (4, 3))
+        self.assertLess(max(map(abs, weak)), 3.7)
         self.assertLess(max(strong), -2.0)
-        told = json.loads((folder / "s9_diagnosis/diagnosis.json").read_text())
-        self.assertIn(told["verdict"], ("named", "ambiguous"))
-        found = [(e["cause"], e["location"]) for e in told["effects"]]
-        self.assertEqual(found, [("soften", "group:abutments")])
-        for entry in told["effects"][0]["cluster"]:
-            self.assertIn(entry.split("@")[0], ("soften", "soften_all", "brgfric", "geo"), "every candidate goes with amplitude")
-        self.assertEqual(told["gain"]["held_out"], "oct1979_484 mode 1")
-        self.assertLess(told["gain"]["after"], told["gain"]["before"])
-        gain = told["gain"]
-        print(f"Meloland: {told['message']} Held out: {gain['before']:.2f} -> {gain['after']:.2f} deviations")
-        # The strong records in two parts: the same cause, and the strong part of 1979, which no fit saw, within two deviations.
+        # Shapes change between earthquakes by more than their deviations, and no cause explains that: nothing is named. What comes nearest,
+        # and predicts the earthquakes that are left out, is the published finding. Whole records and the strong ones in two parts agree.
         done = self.make("windows", "STUDY=meloland_overpass", f"DATA={DATA / 'meloland_overpass'}")
         self.assertEqual(done.returncode, 0, done.stderr)
-        parts = json.loads((folder / "windows/s9_diagnosis/diagnosis.json").read_text())
-        self.assertEqual([(e["cause"], e["location"]) for e in parts["effects"]], [("soften", "group:abutments")])
-        self.assertGreater(parts["gain"]["reduction_pct"], 0.0)
-        with open(folder / "windows/s9_diagnosis/residuals.csv", newline="") as stream:
-            held = {r["condition"]: r for r in csv.DictReader(stream) if r["type"] == "frequency_Hz" and r["held_out"] == "1"}
-        self.assertLess(abs(float(held["oct1979_484_strong"]["residual_after"])), 2.0)
-        self.assertLess(float(held["oct1979_484_strong"]["residual_before"]), -2.0)
+        for part in ("s9_diagnosis", "windows/s9_diagnosis"):
+            told = json.loads((folder / part / "diagnosis.json").read_text())
+            self.assertEqual(told["verdict"], "unknown")
+            self.assertIn("stiffness that falls as motion grows at the group abutments", told["message"])
+            self.assertGreater(told["gain"]["log_gain_interval"][0], 10.0, "nats")
+            print(f"Meloland, {part}: {told['message']}")
 
     @at_hand("gt_pedestrian_bridge")
     def test_gt_pairs_and_updating(self):

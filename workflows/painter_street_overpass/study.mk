@@ -9,10 +9,10 @@ $(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DAT
 	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
 
 # The transverse mode of each part and a model of it; the model fitted to the weak parts (below 0.3 mm), the parts of December 2022 held out; then the
-# diagnosis, which starts from that model, and beside it the same with a form error that is estimated, and with the largest amplitude held out by rule.
+# diagnosis, which starts from that model, and beside it the same with every mode left out in turn.
 INPUTS := $(RESULTS)/inputs
 WEAK_FIT := $(RESULTS)/weak_fit
-BESIDE := $(RESULTS)/with_form $(RESULTS)/by_rule
+BESIDE := $(RESULTS)/mode_by_mode
 
 INPUTS_s9_diagnosis += $(WEAK_FIT)/manifest.json $(BESIDE:%=%/manifest.json) $(wildcard workflows/meloland_overpass/hypotheses/*)
 
@@ -24,7 +24,6 @@ $(WEAK_FIT)/manifest.json: $(INPUTS)/model/model.toml $(WORKFLOW)/s9_diagnosis.t
 	  --set most_causes=0 --set 'hold_out=["dec2022_603_strong","dec2022_603_after"]'
 	@$(PRODUCT)workflows/python.sh $(PRODUCT)workflows/common/narrow.py $(WEAK_FIT)/extended_model $(INPUTS)/fitted_model
 
-$(RESULTS)/with_form/manifest.json: OTHER := --set form=on
-$(RESULTS)/by_rule/manifest.json: OTHER := --set 'hold_out=[]'
+$(RESULTS)/mode_by_mode/manifest.json: OTHER := --set 'hold_out=[]'
 $(BESIDE:%=%/manifest.json): %/manifest.json: $(WEAK_FIT)/manifest.json
 	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $* --threads $(THREADS) --quiet $(OTHER)

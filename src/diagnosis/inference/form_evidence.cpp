@@ -39,9 +39,18 @@ std::vector<std::vector<int>> coupled_groups(const MatrixXd& gram) {
 
 double log_diagonal(const MatrixXd& lower) { return lower.diagonal().array().log().sum(); }
 
+/// Factor of the identity plus a Gram matrix. Where rows are measured far more exactly than the unknowns are known, the
+/// identity is below the rounding of the products. The diagonal is then raised by the least part of its largest entry that
+/// does.
 MatrixXd factor_of(const MatrixXd& symmetric) {
+  constexpr double kRounding = 1e-15, kLargest = 1e-6;
   MatrixXd lower = linalg::cholesky_factor(symmetric);
-  TWINDECK_ASSERT(lower.size() == symmetric.size());  // identity plus a Gram matrix
+  for (double part = kRounding; lower.size() != symmetric.size() && part < kLargest; part *= 10.0) {
+    MatrixXd raised = symmetric;
+    raised.diagonal().array() += part * symmetric.diagonal().maxCoeff();
+    lower = linalg::cholesky_factor(raised);
+  }
+  TWINDECK_ASSERT(lower.size() == symmetric.size());
   return lower;
 }
 

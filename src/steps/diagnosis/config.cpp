@@ -33,10 +33,9 @@ io::FieldTable DiagnosisConfig::fields() {
       .integer("nodes", nodes, {2, 10000}, "nodes at which masses, oscillators and ties are looked for")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
-      .choice("form", form, {"auto", "on", "off"},
+      .choice("form", form, {"on", "off"},
               "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is "
-              "exact but for scatter; "
-              "auto: on where two states are compared")
+              "exact but for scatter")
       .boolean(
           "refine_locations", refine_locations,
           "look at the nodes, ties and halves of zones round the leading cause before it is named; takes about three times "

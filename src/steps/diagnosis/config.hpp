@@ -24,8 +24,8 @@ struct DiagnosisConfig {
   long most_refined = search.most_refined;
   long nulls = 0, most_causes = 4, modes = 24, zones = 24, nodes = 24;
   double sensor_tolerance_m = 0.5;
-  std::string form = "auto";  ///< "on": the model's form may be wrong, and competes with every cause (decision 0013); "auto":
-                              ///< where states are compared
+  std::string form =
+      "on";  ///< the model's form may be wrong, and competes with every cause (decision 0013); "off": it is exact
   bool refine_locations = false;      ///< look round the leading cause before it is named (decision 0018): triples the time
   std::string stays = "as_modelled";  ///< "as_modelled": stays stay the bars that they are in the model
   std::string threshold_cache;        ///< folder of thresholds by hash

@@ -98,7 +98,7 @@ bool with_form(const DiagnosisConfig& config, const diagnosis::FeatureSet& featu
   // The form error is one of modes: load tests alone have none, and a part of the covariance instead.
   const bool modes =
       std::any_of(features.rows.begin(), features.rows.end(), [](const diagnosis::Row& row) { return !is_static(row.type); });
-  return modes && (config.form == "on" || (config.form == "auto" && diagnosis::states_of(features).size() > 1));
+  return modes && config.form == "on";
 }
 
 void hold_out(const DiagnosisConfig& config, diagnosis::FeatureSet& features) {

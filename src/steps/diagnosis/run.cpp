@@ -117,13 +117,14 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
   const IdsInWords ids = ids_in_words(places, inference, result.ranking);
   put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
-  write_tables(inference, inputs, entries, result, context.out);
+  const diagnosis::Inference judged(result.with_form ? *result.with_form : map, entries.candidates);
+  write_tables(judged, inputs, entries, result, context.out);
   const diagnosis::FullCheck check = checked(inputs, map, result, context);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
   const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
   const Told told{
-      places,     ids, sentences_of(inference, result, places, ids, next), next, diagnosis::model_parameters(inference, result),
+      places,     ids, sentences_of(judged, result, places, ids, next), next, diagnosis::model_parameters(inference, result),
       corrections};
   std::vector<Finding> account = inputs.account;
   for (Finding& finding : account) finding.text = ids.in_text(finding.text);

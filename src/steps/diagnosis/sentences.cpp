@@ -142,8 +142,8 @@ std::string block_words(const Block& block, const Inference& inference, const Di
     const auto r = static_cast<Index>(block.rows.front());
     const double transformed = result.before.all.g[r],
                  computed = is_logarithmic(row.type) ? std::exp(transformed) : transformed;
-    text = fmt::format("{} is measured as {} {}, the best admissible model has {} {}: {:.1f} standard deviations", block.words,
-                       number_in_words(row.value, kMeasuredDigits), unit_of(row.type),
+    text = fmt::format("{} is measured as {} {}, the model fitted within its bounds has {} {}: {:.1f} standard deviations",
+                       block.words, number_in_words(row.value, kMeasuredDigits), unit_of(row.type),
                        number_in_words(computed, kMeasuredDigits), unit_of(row.type), std::abs(before[r]));
   }
   if (!result.effects.empty()) text += fmt::format("; with what is named below, {:.1f}", std::sqrt(mean_square(block, after)));
@@ -165,7 +165,8 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
     beyond += is_predicted(features, features.rows[static_cast<std::size_t>(r)]) && std::abs(before[r]) > limit ? 1 : 0;
   const std::string most = block_words(*worst, inference, result, before, after);
   if (result.verdict == diagnosis::Verdict::none && beyond == 0)
-    return fmt::format("Nothing that chance does not allow. The largest deviation: {}.", most);
+    return fmt::format("Nothing beyond what {} allows. The largest deviation: {}.",
+                       result.form ? "the error of the model's form" : "chance", most);
   return fmt::format("{}. Of {} measured values {} lie further off than the {:.1f} standard deviations that chance allows.",
                      capitalised(most), number_in_words(static_cast<double>(judged), kCountDigits), beyond, limit);
 }
@@ -201,6 +202,12 @@ std::string with_intervals(const Effect& effect) {
 }
 
 std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
+  if (result.verdict == diagnosis::Verdict::none && result.form)
+    return fmt::format(
+        "Nothing stands out of the error of the model's form, which is about {:.1f} % in frequency and {:.1f} % in shape. A "
+        "cause that "
+        "acts in every condition and changes less than that cannot be seen.",
+        100.0 * result.form->frequency.level, 100.0 * result.form->shape.level);
   if (result.verdict == diagnosis::Verdict::none)
     return "No cause is needed: the model with its parameters inside their bounds explains the measurement.";
   if (result.effects.empty()) return ended(capitalised(result.message));
@@ -253,8 +260,10 @@ std::string how_sure_of_each(const Diagnosis& result, const IdsInWords& ids) {
 
 std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.verdict == diagnosis::Verdict::none)
-    return fmt::format("The best cause of the catalogue has log odds {:.1f} against none; a name needs {:.1f}.",
-                       result.log_odds, result.threshold);
+    return fmt::format(
+        "No cause of the catalogue explains enough to be named. The best one has log odds of {:.1f} against no cause, and a "
+        "name needs {:.1f}.",
+        result.log_odds, result.threshold);
   if (result.effects.empty()) return "No cause of the catalogue is likely enough to be named.";
   std::string text;
   if (result.verdict == diagnosis::Verdict::unknown)
@@ -409,6 +418,11 @@ Sentences sentences_of(const Inference& inference, const Diagnosis& result, cons
     out.next = next.front();
   else if (!result.effects.empty())
     out.next = ended(result.effects.front().remedy);
+  else if (result.form)
+    out.next =
+        "To see more, measure again at another temperature or amplitude, or in another state: the error of the model's form is "
+        "the same in "
+        "both and cancels.";
   else
     out.next = "Nothing more has to be measured for this question.";
   return out;

@@ -11,8 +11,9 @@
 namespace twindeck::steps {
 
 struct Sentences {
-  std::string what;  ///< the measured quantity that the best admissible model misses most, and by how many standard deviations
-  std::string why;   ///< the cause in words, its place, its sizes with intervals
+  std::string
+      what;  ///< the measured quantity that the model fitted within its bounds misses most, and by how many standard deviations
+  std::string why;              ///< the cause in words, its place, its sizes with intervals
   std::string how_sure;         ///< probability and rivals
   std::string how_much_better;  ///< the gain with its interval, or that none is shown
   std::string next;             ///< one thing to do

@@ -87,7 +87,7 @@ TEST(Sentences, NothingWrongIsSaid) {
   const Chain chain({.masses = 8, .modes = 6});
   const Spoken spoken = speak(chain, chain.measure(chain.as_modelled()));
   ASSERT_EQ(spoken.examined.result.verdict, diagnosis::Verdict::none);
-  EXPECT_TRUE(spoken.sentences.what.starts_with("Nothing that chance does not allow."));
+  EXPECT_TRUE(spoken.sentences.what.starts_with("Nothing beyond what chance allows."));
   EXPECT_NE(spoken.sentences.how_much_better.find("no gain"), std::string::npos);
   // What cannot be asked is one line, however many families it is.
   const auto cannot = std::count_if(spoken.next.begin(), spoken.next.end(),

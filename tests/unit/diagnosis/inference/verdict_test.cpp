@@ -49,7 +49,21 @@ TEST(Rules, SeveralMembersAreAmbiguous) {
   EXPECT_FALSE(rule(w).something_else_in_set);
 }
 
-TEST(Rules, SomethingElseWithinThreeNatsIsAMember) {
+TEST(Rules, SomethingElseIsAMemberUnlessTheLeaderIsFarAhead) {
+  Weighed w = change(-90.0);
+  w.none = -300.0;
+  w.something_else = -114.9;
+  EXPECT_EQ(rule(w).verdict, Verdict::ambiguous);
+  EXPECT_TRUE(rule(w).something_else_in_set);
+  w.something_else = -115.1;
+  EXPECT_EQ(rule(w).verdict, Verdict::named);
+  EXPECT_FALSE(rule(w).something_else_in_set);
+  w.something_else = -114.9;
+  w.none = -114.8;  // a generic change explains nothing: it is no rival
+  EXPECT_EQ(rule(w).verdict, Verdict::named);
+}
+
+TEST(Rules, SomethingElseThatExplainsMoreMakesItUnknown) {
   Weighed w = change(-90.0);
   w.something_else = -92.0;
   auto r = rule(w);
@@ -100,6 +114,32 @@ TEST(Rules, ALargeLeftoverBesideTheEffectIsUnknown) {
   EXPECT_EQ(rule(w).verdict, Verdict::unknown);
 }
 
+TEST(Rules, BetweenStatesALargeLeftoverDoesNotCountFarAheadOfSomethingElse) {
+  Weighed w = change(-90.0);
+  w.none = -300.0;
+  w.kappa = 0.02;
+  w.something_else = -125.1;
+  EXPECT_EQ(rule(w).verdict, Verdict::unknown);  // an amplitude or a temperature: there it counts
+  w.between_states = true;
+  EXPECT_EQ(rule(w).verdict, Verdict::named);
+  w.something_else = -124.9;
+  EXPECT_EQ(rule(w).verdict, Verdict::unknown);
+}
+
+TEST(Rules, WhatIsTunedNeedsMoreAndMayLeaveLess) {
+  Weighed w = change(-55.1);
+  w.tuned = true;
+  w.in_all_conditions = true;
+  EXPECT_EQ(rule(w).verdict, Verdict::none);
+  w.leader = -54.9;
+  EXPECT_EQ(rule(w).verdict, Verdict::named);
+  w.chi_squared_ratio = 1.6;
+  w.leader = 0.0;
+  EXPECT_EQ(rule(w).verdict, Verdict::unknown);
+  w.tuned = false;
+  EXPECT_EQ(rule(w).verdict, Verdict::named);
+}
+
 TEST(Rules, WithoutACauseAChangeOrAMisfitIsUnknownAndElseNone) {
   Weighed w = change(-99.0);
   EXPECT_EQ(rule(w).verdict, Verdict::none);
@@ -119,8 +159,8 @@ TEST(Rules, AnEmptyCatalogueSaysNone) {
 
 TEST(Guard, ANameThatPredictsNothingIsTakenBack) {
   const auto named = rule(change(-90.0));
-  EXPECT_EQ(guarded(named, 0.1, false).verdict, Verdict::named);
-  EXPECT_EQ(guarded(named, 0.0, false).verdict, Verdict::unknown);
+  EXPECT_EQ(guarded(named, 1.1, false).verdict, Verdict::named);
+  EXPECT_EQ(guarded(named, 0.9, false).verdict, Verdict::unknown);
   EXPECT_EQ(guarded(named, -1.0, true).verdict, Verdict::none);
   const auto none = rule(change(-100.0));
   EXPECT_EQ(guarded(none, -1.0, false).verdict, Verdict::none);
