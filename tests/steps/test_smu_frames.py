@@ -94,13 +94,14 @@ class EighteenStoreyFrame(Frame):
 
     def test_a_shear_building_does_not_say_the_mode_that_it_did_not_see(self):
         for folder in ("s9_diagnosis", "as_published"):
-            told = self.told(folder)
-            self.assertGreaterEqual(len(told["parameters_on_bounds"]), 5, folder)
             self.assertLess(self.third(folder), -0.10, folder)
-        self.assertLess(abs(self.told("s9_diagnosis")["gain"]["reduction_pct"]), 5.0, "what is named there predicts nothing")
+        self.assertGreaterEqual(len(self.told("as_published")["parameters_on_bounds"]), 5, "taken as exact, it bends its storeys")
+        told = self.told("s9_diagnosis")
+        self.assertEqual(told["verdict"], "none", "an oscillator that predicts nothing is not named")
+        self.assertGreater(told["form"]["frequency_pct"]["level"], 2.0, "and its form is known to be off")
 
     def test_with_bending_it_is_met_far_better(self):
-        shear, bending = self.told("s9_diagnosis"), self.told("with_bending")
+        shear, bending = self.told("as_published"), self.told("with_bending")
         self.assertLess(abs(self.third("with_bending")), 0.05)
         self.assertLess(bending["gain"]["before"], 0.5 * shear["gain"]["before"])
         self.assertLessEqual(len(bending["parameters_on_bounds"]), 2)
