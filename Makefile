@@ -126,8 +126,8 @@ N ?= 400
 TIER ?= features
 SEED ?= 1
 BLIND = $(if $(filter features,$(TIER)),blind_trials,$(if $(filter form,$(TIER)),blind_form,blind_records))
-BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))
-blind-trials: build ## make blind-trials N=400 TIER=features, form, records or time: hidden effects looked for on another mesh or by a model of another class, scored with intervals
+BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))$(if $(filter on,$(FORM)),--form)
+blind-trials: build ## make blind-trials N=400 TIER=features, form, records or time (FORM=on: features, and the model's form may be wrong): hidden effects looked for on another mesh or by a model of another class, scored with intervals
 	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
 	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(BLIND_LAST)
 

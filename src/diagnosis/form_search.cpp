@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace twindeck::diagnosis {
@@ -273,14 +274,6 @@ Linearised linearised(const FormSetting& setting, const FormEntry& entry, const 
   return out;
 }
 
-/// Whether an extended model has derivatives and shapes that mean something: rows are logarithms and shapes, unknowns have unit
-/// deviation.
-bool solvable(const FormSystem& system) {
-  constexpr double largest = 1e5;
-  const auto sound = [](const MatrixXd& m) { return m.size() == 0 || (m.allFinite() && m.cwiseAbs().maxCoeff() < largest); };
-  return sound(system.fixed) && sound(system.scatter) && sound(system.shape) && sound(system.kinks) && sound(system.signatures);
-}
-
 void refine_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover, FormEntry& entry) {
   const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
   std::vector<Cause> causes = base.causes;
@@ -294,7 +287,7 @@ void refine_with_form(const FormSetting& setting, const Fit& base, const Leftove
     const double effect =
         without.valid ? effect_of(setting.plain, with.all.g - without.g, *entry.candidate, contrast) : entry.effect;
     FormSystem system = form_system(setting.plain, with, setting.contrasts, setting.many, entry.a.size());
-    if (!solvable(system)) continue;  // costs the entry, not the results
+    if (!can_be_weighed(system)) continue;  // costs the entry, not the results
     const Linearised found = linearised(setting, entry, system, with.causes.back().a, effect, leftover);
     const double log_weight = found.evidence.log_evidence + log_prior_of(*entry.candidate);
     if (!(log_weight > entry.log_weight)) continue;
@@ -358,6 +351,10 @@ FormSearch search_with_form(const FormSetting& setting, const Fit& base, const L
   FormSearch out;
   out.base = base;
   out.system = form_system(setting.plain, base, setting.contrasts, setting.many);
+  if (!can_be_weighed(out.system))
+    throw InputError({"", 0, "scatter"},
+                     "rows are measured more exactly than 16 digits can weigh against what the model leaves open",
+                     "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
   const auto& candidates = setting.plain.candidates();
   std::vector<FormEntry> entries(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t i) {

@@ -12,6 +12,7 @@
 
 #include "blind/explain.hpp"
 #include "core/parallel.hpp"
+#include "diagnosis/form_diagnosis.hpp"
 
 namespace twindeck::blind {
 
@@ -371,11 +372,12 @@ Coverage coverage(const Bench& bench, std::uint64_t seed, int campaigns) {
   return out;
 }
 
-Score run_case(const Bench& bench, const Case& hidden) {
+Score run_case(const Bench& bench, const Case& hidden, bool with_form) {
   timespec begin{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
   return on_inference(bench, hidden, [&](auto& inference) {  // what is found refers to the inference's entries
-    const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
+    const diagnosis::Diagnosis result = with_form ? diagnosis::diagnose_with_form(inference, {}, hidden.seal.seed)
+                                                  : diagnosis::diagnose(inference, {}, hidden.seal.seed);
     timespec end{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
     Score score =

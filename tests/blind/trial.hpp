@@ -110,6 +110,7 @@ struct Score {
 [[nodiscard]] diagnosis::Cause cause_of(const diagnosis::Candidate& entry, const Sealed& seal);
 
 [[nodiscard]] Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double seconds);
-[[nodiscard]] Score run_case(const Bench& bench, const Case& hidden);
+/// @param with_form  the model's form may be wrong (the default of step 9); false: it is exact, as this bench's is
+[[nodiscard]] Score run_case(const Bench& bench, const Case& hidden, bool with_form = false);
 
 }  // namespace twindeck::blind

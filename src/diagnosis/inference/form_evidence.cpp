@@ -39,18 +39,9 @@ std::vector<std::vector<int>> coupled_groups(const MatrixXd& gram) {
 
 double log_diagonal(const MatrixXd& lower) { return lower.diagonal().array().log().sum(); }
 
-/// Factor of the identity plus a Gram matrix. Where rows are measured far more exactly than the unknowns are known, the
-/// identity is below the rounding of the products. The diagonal is then raised by the least part of its largest entry that
-/// does.
 MatrixXd factor_of(const MatrixXd& symmetric) {
-  constexpr double kRounding = 1e-15, kLargest = 1e-6;
   MatrixXd lower = linalg::cholesky_factor(symmetric);
-  for (double part = kRounding; lower.size() != symmetric.size() && part < kLargest; part *= 10.0) {
-    MatrixXd raised = symmetric;
-    raised.diagonal().array() += part * symmetric.diagonal().maxCoeff();
-    lower = linalg::cholesky_factor(raised);
-  }
-  TWINDECK_ASSERT(lower.size() == symmetric.size());
+  TWINDECK_ASSERT(lower.size() == symmetric.size());  // identity plus a Gram matrix, of columns that can_be_weighed
   return lower;
 }
 
@@ -68,6 +59,15 @@ double log_sum(const std::vector<double>& v) {
   double sum = 0.0;
   for (const double x : v) sum += std::exp(x - top);
   return top + std::log(sum);
+}
+
+bool can_be_weighed(const FormSystem& system) {
+  constexpr double kLargest = 1e6;
+  const VectorXd deviation = system.sigma_factor.rowwise().norm();
+  const auto sound = [&](const MatrixXd& m) {
+    return m.size() == 0 || (m.allFinite() && (m.cwiseAbs().rowwise().maxCoeff().array() < kLargest * deviation.array()).all());
+  };
+  return sound(system.fixed) && sound(system.scatter) && sound(system.shape) && sound(system.kinks) && sound(system.signatures);
 }
 
 FormEvidence::FormEvidence(const FormSystem& system, const ScaleGrid& grid)

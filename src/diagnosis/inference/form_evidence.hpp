@@ -25,6 +25,11 @@ struct FormSystem {
   bool all_products = false;   ///< true: products of all pairs of signatures; false: of each with itself only
 };
 
+/// Whether 16 digits suffice: products of columns in deviations of their rows stay far below what swallows the unknowns'
+/// own variance of one. An extended model whose derivatives mean nothing fails it, and so do rows that are measured to a part
+/// in a million.
+[[nodiscard]] bool can_be_weighed(const FormSystem& system);
+
 /// Quadratic forms of the residual and the signatures under one covariance Sigma.
 struct Quadratic {
   double log_determinant = 0.0;   ///< of Sigma

@@ -87,6 +87,18 @@ void expect_dense(const Quadratic& q, const MatrixXd& sigma, const Problem& p, c
   }
 }
 
+TEST(FormEvidence, RowsThatAreTooExactForSixteenDigitsAreKnown) {
+  Problem p = random_problem(3, false);
+  EXPECT_TRUE(diagnosis::can_be_weighed(p.system));
+  p.system.sigma_factor *= 1e-4;
+  EXPECT_TRUE(diagnosis::can_be_weighed(p.system));
+  p.system.sigma_factor *= 1e-3;
+  EXPECT_FALSE(diagnosis::can_be_weighed(p.system));
+  p = random_problem(3, false);
+  p.system.scatter(0, 0) = std::nan("");
+  EXPECT_FALSE(diagnosis::can_be_weighed(p.system));
+}
+
 TEST(FormEvidence, EveryPointIsTheDenseCovariance) {
   const ScaleGrid grid = diagnosis::scale_grid();
   for (const bool correlated : {false, true}) {
