@@ -266,7 +266,7 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
       [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of so many matrices takes half the time
         Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
         for (const auto& [amount, matrix] : parts)
-          for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->col(j).head(j + 1);
+          for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->common().col(j).head(j + 1);
         total.triangularView<Eigen::StrictlyLower>() = total.transpose();
         return total;
       };
@@ -278,19 +278,23 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
 std::pair<Eigen::MatrixXd, Eigen::MatrixXd> FeatureMap::matrices(const Base& base, const std::vector<int>& columns) const {
   const Index n = std::ssize(columns), c = model_.common;
   TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));
-  const std::vector<int> own(columns.begin() + c, columns.end());
+  Eigen::MatrixXd motion;
   const auto assemble = [&](const Eigen::MatrixXd& common, const std::vector<Base::Part>& parts) {
     Eigen::MatrixXd total(n, n);
     total.topLeftCorner(c, c) = common;
-    if (own.empty()) return total;
+    if (n == c) return total;
     total.rightCols(n - c).setZero();
-    for (const auto& [amount, matrix] : parts)
-      for (std::size_t j = 0; j < own.size(); ++j) {
-        const Index column = c + static_cast<Index>(j);
-        total.col(column).head(c) += amount * matrix->col(own[j]).head(c);
-        for (std::size_t i = 0; i < own.size(); ++i)
-          total(c + static_cast<Index>(i), column) += amount * (*matrix)(own[i], own[j]);
+    Eigen::MatrixXd force;  // of all parts of few degrees of freedom together: they are projected once
+    for (const auto& [amount, matrix] : parts) {
+      if (!matrix->is_local()) {
+        matrix->add_own(amount, columns, total);
+        continue;
       }
+      if (motion.size() == 0) motion = matrix->basis().own(columns);
+      if (force.size() == 0) force = Eigen::MatrixXd::Zero(motion.rows(), motion.cols());
+      matrix->add_image(amount, motion, force);
+    }
+    if (force.size() > 0) total.rightCols(n - c) += parts.front().second->basis().projected(columns, force);
     total.bottomLeftCorner(n - c, c) = total.topRightCorner(c, n - c).transpose();
     return total;
   };
