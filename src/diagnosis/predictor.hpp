@@ -4,6 +4,8 @@
 #include <complex>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/feature_map.hpp"
@@ -40,6 +42,24 @@ struct StateStore {
   std::map<std::pair<std::vector<int>, Eigen::Index>, Changes> changes;              ///< by columns and size
   std::map<std::vector<int>, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> matrices;  ///< stiffness and mass by columns
   UndampedStore undamped;
+
+  /// Stiffness and mass in the columns behind the common ones (n × n_own): every magnitude of a candidate needs the same.
+  struct OwnColumns {
+    Eigen::MatrixXd stiffness, mass;
+  };
+  /// Those of a list of columns, computed once. Safe for several threads.
+  template <typename Compute>
+  const OwnColumns* own_columns(const std::vector<int>& columns, Compute compute) {
+    {
+      const std::scoped_lock lock(own_mutex);
+      if (const auto at = own.find(columns); at != own.end()) return &at->second;
+    }
+    OwnColumns here = compute();
+    const std::scoped_lock lock(own_mutex);
+    return &own.try_emplace(columns, std::move(here)).first->second;
+  }
+  std::mutex own_mutex;
+  std::map<std::vector<int>, OwnColumns> own;
 };
 
 /// Modal assurance criterion of each mode (n_channels × n_modes) with one measured shape; 0 where nothing moves.

@@ -54,7 +54,7 @@ MatrixXd ReducedBasis::motion(const std::vector<int>& columns, const MatrixXd& x
 
 MatrixXd ReducedBasis::projected(const std::vector<int>& columns, const MatrixXd& force) const {
   MatrixXd out(std::ssize(columns), force.cols());
-  out.topRows(common()) = linalg::product(common_rows, force);
+  for (Index k = 0; k < force.cols(); ++k) out.col(k).head(common()).noalias() = common_rows * force.col(k);  // few columns
   for (Index k = common(); k < std::ssize(columns); ++k)
     out.row(k) = vectors.col(columns[static_cast<std::size_t>(k)]).transpose() * force;
   return out;
@@ -143,7 +143,7 @@ double ReducedMatrix::entry(int row, int column) const {
   return a < b ? cross(a, b)(i, j) : cross(b, a)(j, i);
 }
 
-void ReducedMatrix::add_own(double amount, const std::vector<int>& columns, MatrixXd& total) const {
+void ReducedMatrix::add_own(double amount, const std::vector<int>& columns, Eigen::Ref<MatrixXd> total) const {
   const Index c = basis_->common(), n = std::ssize(columns);
   TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));
   if (n == c) return;
@@ -151,15 +151,15 @@ void ReducedMatrix::add_own(double amount, const std::vector<int>& columns, Matr
     MatrixXd here(std::ssize(dofs_), n - c);
     for (Index k = c; k < n; ++k) here.col(k - c) = at_dofs(columns[static_cast<std::size_t>(k)], 1);
     const MatrixXd image = amount * (compact_ * here);
-    total.rightCols(n - c).topRows(c).noalias() += common_at_dofs_ * image;
-    total.bottomRightCorner(n - c, n - c).noalias() += here.transpose() * image;
+    total.topRows(c).noalias() += common_at_dofs_ * image;
+    total.bottomRows(n - c).noalias() += here.transpose() * image;
     return;
   }
   for (Index k = c; k < n; ++k) {
     const int column = columns[static_cast<std::size_t>(k)], group = basis_->group_of[static_cast<std::size_t>(column)];
     const Index at = column - basis_->groups[static_cast<std::size_t>(group)].first;
-    total.col(k).head(c) += amount * own(group).col(at).head(c);
-    for (Index i = c; i < n; ++i) total(i, k) += amount * entry(columns[static_cast<std::size_t>(i)], column);
+    total.col(k - c).head(c) += amount * own(group).col(at).head(c);
+    for (Index i = c; i < n; ++i) total(i, k - c) += amount * entry(columns[static_cast<std::size_t>(i)], column);
   }
 }
 
@@ -167,7 +167,7 @@ MatrixXd ReducedMatrix::part(const std::vector<int>& columns) const {
   const Index c = basis_->common(), n = std::ssize(columns);
   MatrixXd total = MatrixXd::Zero(n, n);
   total.topLeftCorner(c, c) = common_;
-  add_own(1.0, columns, total);
+  add_own(1.0, columns, total.rightCols(n - c));
   total.bottomLeftCorner(n - c, c) = total.topRightCorner(c, n - c).transpose();
   return total;
 }

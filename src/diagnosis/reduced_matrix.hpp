@@ -48,8 +48,8 @@ class ReducedMatrix {
   [[nodiscard]] const Eigen::MatrixXd& common() const { return common_; }                     ///< (c × c)
   /// The part of some columns (n × n).
   [[nodiscard]] Eigen::MatrixXd part(const std::vector<int>& columns) const;
-  /// Adds `amount` times the part's columns behind the common ones to the last ones of `total` (n × n).
-  void add_own(double amount, const std::vector<int>& columns, Eigen::MatrixXd& total) const;
+  /// total += amount times the part's columns behind the common ones (n × n_own).
+  void add_own(double amount, const std::vector<int>& columns, Eigen::Ref<Eigen::MatrixXd> total) const;
   /// Whether S holds fewer degrees of freedom than there are common vectors. Then `add_image` costs less than reading a part.
   [[nodiscard]] bool is_local() const { return local_; }
   /// force += amount S motion, over all degrees of freedom (n × m).
