@@ -300,8 +300,9 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> FeatureMap::matrices(const Base& bas
   const Index n = std::ssize(columns), c = model_.common;
   TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));
   if (n == c) return {base.common_stiffness, base.common_mass};
-  const StateStore::OwnColumns* own = base.store->own_columns(
-      columns, [&] { return StateStore::OwnColumns{own_columns(base.stiffness_parts, columns), own_columns(base.mass_parts, columns)}; });
+  const StateStore::OwnColumns* own = base.store->own_columns(columns, [&] {
+    return StateStore::OwnColumns{own_columns(base.stiffness_parts, columns), own_columns(base.mass_parts, columns)};
+  });
   const auto assemble = [&](const Eigen::MatrixXd& common, const Eigen::MatrixXd& others) {
     Eigen::MatrixXd total(n, n);
     total.topLeftCorner(c, c) = common;

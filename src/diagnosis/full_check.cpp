@@ -148,8 +148,11 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
                              int modes) {
   const fe::ParametricSystem& system = *structure.system;
   Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
-                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets,
-                                  map.model().theta, fit.base.theta, {}};
+                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()),
+                                  places.sets,
+                                  map.model().theta,
+                                  fit.base.theta,
+                                  {}};
   full.scatter(map, fit.base.x);
   std::vector<int> columns(static_cast<std::size_t>(map.model().common));
   std::iota(columns.begin(), columns.end(), 0);

@@ -43,9 +43,8 @@ void Predictor::read_channels() {
   channel_delay_s_ = VectorXd::Zero(n);
   for (Index c = 0; c < n; ++c) channel_views_[static_cast<std::size_t>(c)] = {{4 * c, 1.0}};
   const auto view = [&](int channel) -> auto& { return channel_views_[static_cast<std::size_t>(channel)]; };
-  each_action("channel.swap", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-    view(c.channels[0]).swap(view(c.channels[1]));
-  });
+  each_action("channel.swap",
+              [&](const Candidate& c, const VectorXd&, const ActionSpec&) { view(c.channels[0]).swap(view(c.channels[1])); });
   each_action("channel.rotate", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     const int channel = c.channels[0];
     const double angle = c.value(action.number.at("angle"), a) * std::numbers::pi / 180.0;

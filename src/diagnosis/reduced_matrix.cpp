@@ -47,8 +47,7 @@ MatrixXd ReducedBasis::own(const std::vector<int>& columns) const {
 
 MatrixXd ReducedBasis::motion(const std::vector<int>& columns, const MatrixXd& x) const {
   MatrixXd out = linalg::product(vectors.leftCols(common()), x.topRows(common()));
-  for (Index k = common(); k < std::ssize(columns); ++k)
-    out += vectors.col(columns[static_cast<std::size_t>(k)]) * x.row(k);
+  for (Index k = common(); k < std::ssize(columns); ++k) out += vectors.col(columns[static_cast<std::size_t>(k)]) * x.row(k);
   return out;
 }
 
@@ -129,7 +128,8 @@ const MatrixXd& ReducedMatrix::cross(int low, int high) const {
   const std::scoped_lock lock(known_->mutex);
   const auto [at, is_new] = known_->cross.try_emplace({low, high});
   if (!is_new) return at->second;
-  const ReducedBasis::Group &a = basis_->groups[static_cast<std::size_t>(low)], &b = basis_->groups[static_cast<std::size_t>(high)];
+  const ReducedBasis::Group &a = basis_->groups[static_cast<std::size_t>(low)],
+                            &b = basis_->groups[static_cast<std::size_t>(high)];
   const MatrixXd image = compact_ * at_dofs(b.first, b.count);
   at->second = at_dofs(a.first, a.count).transpose() * image;
   return at->second;

@@ -75,8 +75,8 @@ class ReducedMatrix {
   [[nodiscard]] double entry(int row, int column) const;  ///< between two vectors behind the common ones
 
   std::shared_ptr<const ReducedBasis> basis_;
-  std::vector<int> dofs_;  ///< that S touches
-  Symmetric compact_;      ///< S over them
+  std::vector<int> dofs_;           ///< that S touches
+  Symmetric compact_;               ///< S over them
   Eigen::MatrixXd common_;          ///< (c × c)
   Eigen::MatrixXd common_at_dofs_;  ///< (c × n_dofs), where S is local
   bool local_ = false, for_all_ = false;

@@ -15,9 +15,9 @@ namespace twindeck::diagnosis {
 struct ReducedPlace {
   std::string id;
   Eigen::Vector3d x_m;
-  std::vector<int> columns;         ///< basis vectors for causes at this location, beside the common ones
-  ReducedMatrix stiffness, mass;    ///< (r × r), size 0 if the location has none
-  Eigen::MatrixXd directions;       ///< (r × k) unit forces
+  std::vector<int> columns;       ///< basis vectors for causes at this location, beside the common ones
+  ReducedMatrix stiffness, mass;  ///< (r × r), size 0 if the location has none
+  Eigen::MatrixXd directions;     ///< (r × k) unit forces
   std::map<std::string, double> attributes;
 };
 

@@ -493,8 +493,7 @@ StateModes solve_state(const StructureState& state, double highest_Hz, UndampedS
   }
   const UndampedModes& undamped = store.of(state.stiffness, state.mass);
   const ModalRoots roots(state, undamped);
-  if (neighbour != nullptr && roots.follow(*neighbour, modes)) return modes;
-  if (roots.solve(highest_Hz, modes)) return modes;
+  if ((neighbour != nullptr && roots.follow(*neighbour, modes)) || roots.solve(highest_Hz, modes)) return modes;
   return solve_by_state_space(state, highest_Hz, undamped);
 }
 

@@ -51,15 +51,16 @@ void apply(const Cause& cause, const Condition& condition, State& state) {
     const auto own = [&](const diagnosis::ReducedMatrix& full) { return full.part(state.columns); };
     if (action.kind == "scale.stiffness") state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
     if (action.kind == "scale.mass") state.mass += (value("factor") - 1.0) * own(place.mass);
-    if (action.kind == "mass.add") state.mass += value("mass") * MatrixXd(place.directions(state.columns, Eigen::all) * place.directions(state.columns, Eigen::all).transpose());
+    if (action.kind == "mass.add")
+      state.mass += value("mass") * MatrixXd(place.directions(state.columns, Eigen::all) *
+                                             place.directions(state.columns, Eigen::all).transpose());
     if (action.kind == "field.stiffness" && condition.temperature_C)
       state.stiffness += value("rate") * (*condition.temperature_C - value("reference")) * own(place.stiffness);
     if (action.kind == "step.stiffness" && condition.temperature_C && *condition.temperature_C < value("below"))
       state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
     if (action.kind == "element.spring" && cause.candidate->places.size() == 2) {
       const ReducedPlace& other = *cause.candidate->places[1];
-      const VectorXd b =
-          VectorXd((place.directions - other.directions) * (other.x_m - place.x_m).normalized())(state.columns);
+      const VectorXd b = VectorXd((place.directions - other.directions) * (other.x_m - place.x_m).normalized())(state.columns);
       state.stiffness += value("stiffness") * b * b.transpose();
     }
   }
