@@ -54,6 +54,21 @@ class DampedNormal {
   MatrixXd normal_;    ///< A'A + I where it is the smaller
 };
 
+/// Components that no bound holds against the descent.
+std::vector<int> free_components(const VectorXd& x, const VectorXd& gradient, const Box& box) {
+  const std::vector<bool> rests = held(x, gradient, box, 1e-9);
+  std::vector<int> free;
+  for (Index j = 0; j < x.size(); ++j)
+    if (!rests[static_cast<std::size_t>(j)]) free.push_back(static_cast<int>(j));
+  return free;
+}
+
+/// x less a step in its free components, inside the box.
+VectorXd moved(VectorXd x, const std::vector<int>& free, const VectorXd& step, const Box& box) {
+  x(free) -= step;
+  return x.cwiseMax(box.lower).cwiseMin(box.upper);
+}
+
 }  // namespace
 
 JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const MatrixXd& sigma_factor, const VectorXd& start,
@@ -74,10 +89,7 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
   for (; map.iterations < options.max_iterations; ++map.iterations) {
     const MatrixXd a = whitened(map.jacobian, map.scales, sigma_factor);
     const VectorXd gradient = map.x - a.transpose() * r;
-    const std::vector<bool> rests = held(map.x, gradient, box, 1e-9);
-    std::vector<int> free;
-    for (Index j = 0; j < map.x.size(); ++j)
-      if (!rests[static_cast<std::size_t>(j)]) free.push_back(static_cast<int>(j));
+    const std::vector<int> free = free_components(map.x, gradient, box);
     map.gradient = VectorXd(gradient(free)).norm();
     const MatrixXd reduced = a(Eigen::all, free);
     const DampedNormal normal(reduced);
@@ -89,10 +101,7 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
     }
     bool accepted = false;
     for (int attempt = 0; attempt < 12 && !accepted; ++attempt) {
-      const VectorXd step = normal.solve(damping, g_free);
-      VectorXd x = map.x;
-      for (std::size_t k = 0; k < free.size(); ++k) x[free[k]] -= step[static_cast<Index>(k)];
-      x = x.cwiseMax(box.lower).cwiseMin(box.upper);
+      const VectorXd x = moved(map.x, free, normal.solve(damping, g_free), box);
       VectorXd g;
       if (predict(x, g, nullptr, nullptr)) {
         const VectorXd next = residual_of(g);
