@@ -266,7 +266,7 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
       [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of so many matrices takes half the time
         Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
         for (const auto& [amount, matrix] : parts)
-          for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->col(j).head(j + 1);
+          for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->common().col(j).head(j + 1);
         total.triangularView<Eigen::StrictlyLower>() = total.transpose();
         return total;
       };
@@ -275,26 +275,42 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
   return base;
 }
 
+/// Columns behind the common ones of a sum of the reduced model's matrices (n × n_own).
+Eigen::MatrixXd own_columns(const std::vector<FeatureMap::Base::Part>& parts, const std::vector<int>& columns) {
+  const ReducedBasis& basis = parts.front().second->basis();
+  const Index n = std::ssize(columns), c = basis.common();
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n - c);
+  Eigen::MatrixXd motion, force;  // of all parts of few degrees of freedom together: they are projected once
+  for (const auto& [amount, matrix] : parts) {
+    if (!matrix->is_local()) {
+      matrix->add_own(amount, columns, total);
+      continue;
+    }
+    if (motion.size() == 0) {
+      motion = basis.own(columns);
+      force = Eigen::MatrixXd::Zero(motion.rows(), motion.cols());
+    }
+    matrix->add_image(amount, motion, force);
+  }
+  if (force.size() > 0) total += basis.projected(columns, force);
+  return total;
+}
+
 std::pair<Eigen::MatrixXd, Eigen::MatrixXd> FeatureMap::matrices(const Base& base, const std::vector<int>& columns) const {
   const Index n = std::ssize(columns), c = model_.common;
   TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));
-  const std::vector<int> own(columns.begin() + c, columns.end());
-  const auto assemble = [&](const Eigen::MatrixXd& common, const std::vector<Base::Part>& parts) {
+  if (n == c) return {base.common_stiffness, base.common_mass};
+  const StateStore::OwnColumns* own = base.store->own_columns(columns, [&] {
+    return StateStore::OwnColumns{own_columns(base.stiffness_parts, columns), own_columns(base.mass_parts, columns)};
+  });
+  const auto assemble = [&](const Eigen::MatrixXd& common, const Eigen::MatrixXd& others) {
     Eigen::MatrixXd total(n, n);
     total.topLeftCorner(c, c) = common;
-    if (own.empty()) return total;
-    total.rightCols(n - c).setZero();
-    for (const auto& [amount, matrix] : parts)
-      for (std::size_t j = 0; j < own.size(); ++j) {
-        const Index column = c + static_cast<Index>(j);
-        total.col(column).head(c) += amount * matrix->col(own[j]).head(c);
-        for (std::size_t i = 0; i < own.size(); ++i)
-          total(c + static_cast<Index>(i), column) += amount * (*matrix)(own[i], own[j]);
-      }
-    total.bottomLeftCorner(n - c, c) = total.topRightCorner(c, n - c).transpose();
+    total.rightCols(n - c) = others;
+    total.bottomLeftCorner(n - c, c) = others.topRows(c).transpose();
     return total;
   };
-  return {assemble(base.common_stiffness, base.stiffness_parts), assemble(base.common_mass, base.mass_parts)};
+  return {assemble(base.common_stiffness, own->stiffness), assemble(base.common_mass, own->mass)};
 }
 
 }  // namespace twindeck::diagnosis

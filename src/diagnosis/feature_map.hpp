@@ -79,7 +79,7 @@ class FeatureMap {
   /// its own base.
   struct Base {
     Eigen::VectorXd x, theta;
-    using Part = std::pair<double, const Eigen::MatrixXd*>;  ///< amount, matrix (r × r) of the reduced model
+    using Part = std::pair<double, const ReducedMatrix*>;  ///< amount, matrix (r × r) of the reduced model
     std::vector<Part> stiffness_parts, mass_parts;
     Eigen::MatrixXd common_stiffness, common_mass;  ///< over the common columns, which every state has
     std::shared_ptr<struct StateStore> store;

@@ -132,6 +132,10 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
   out.fixed.resize(std::ssize(rows), std::ssize(fixed) + fit.map.scales.cols() + rotations.cols());
   out.fixed << j(Eigen::all, fixed), kFreeScale * fit.map.scales, rotations(rows, Eigen::all);
   out.scatter = j(Eigen::all, scatter);
+  if (out.scatter.cols() > out.scatter.rows()) {  // a column a row has the same covariance
+    const linalg::ThinSvd svd = linalg::thin_svd(out.scatter);
+    out.scatter = svd.u * svd.values.asDiagonal();
+  }
   const MatrixXd own = form.frequency(rows, Eigen::all);
   const double share = many.cols() > 0 ? kManySmall : 0.0;
   out.frequency.resize(std::ssize(rows), own.cols() + many.cols());

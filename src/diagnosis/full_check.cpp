@@ -25,14 +25,19 @@ void add_outer(Symmetric& to, double amount, const VectorXd& u, const VectorXd& 
 void grow(MatrixXd& k) { k.conservativeResizeLike(MatrixXd::Zero(k.rows() + 1, k.cols() + 1)); }
 void grow(Symmetric& k) { k.conservativeResize(k.rows() + 1, k.cols() + 1); }
 
-void add_part(MatrixXd& to, double amount, const MatrixXd& part) {
-  to.topLeftCorner(part.rows(), part.cols()) += amount * part;
+void add_part(MatrixXd& to, double amount, const ReducedMatrix& part, const std::vector<int>& columns) {
+  to.topLeftCorner(std::ssize(columns), std::ssize(columns)) += amount * part.part(columns);
 }
 /// A place's entries are among the structure's: a hundred sums of whole sparse matrices would take seconds.
-void add_part(Symmetric& to, double amount, const Symmetric& part) {
+void add_part(Symmetric& to, double amount, const Symmetric& part, const std::vector<int>&) {
   for (int c = 0; c < part.outerSize(); ++c)
     for (Symmetric::InnerIterator e(part, c); e; ++e) to.coeffRef(e.row(), e.col()) += amount * e.value();
 }
+
+VectorXd unit_force(const ReducedPlace& place, Index d, const std::vector<int>& columns) {
+  return place.directions.col(d)(columns);
+}
+VectorXd unit_force(const Place& place, Index d, const std::vector<int>&) { return VectorXd(place.directions.col(d)); }
 
 /// Stiffness and mass, dense in the reduced basis or sparse in full coordinates.
 template <typename Matrix, typename OnePlace>
@@ -40,6 +45,7 @@ struct Assembly {
   Matrix stiffness, mass;
   const std::map<std::string, std::vector<OnePlace>>& sets;
   const VectorXd &reduced_at, &theta;  ///< values of the parameters at the places' matrices, and here
+  const std::vector<int> columns;      ///< of the reduced basis that are used
 
   [[nodiscard]] double ratio(const OnePlace& place) const { return parameter_ratio(place.attributes, reduced_at, theta); }
   [[nodiscard]] const OnePlace* find(const std::string& id) const {
@@ -50,11 +56,13 @@ struct Assembly {
   }
   [[nodiscard]] VectorXd direction(const OnePlace& place, Index d) const {
     VectorXd b = VectorXd::Zero(stiffness.rows());
-    b.head(place.directions.rows()) = MatrixXd(place.directions).col(d);
+    const VectorXd force = unit_force(place, d, columns);
+    b.head(force.size()) = force;
     return b;
   }
-  void add(Matrix& to, double amount, const Matrix& what) {
-    if (what.size() != 0 && amount != 0.0) add_part(to, amount, what);
+  template <typename Part>
+  void add(Matrix& to, double amount, const Part& what) {
+    if (what.size() != 0 && amount != 0.0) add_part(to, amount, what, columns);
   }
   void scatter(const FeatureMap& map, const VectorXd& x) {
     const auto place = [&](const char* set, int i) -> const OnePlace& { return sets.at(set)[static_cast<std::size_t>(i)]; };
@@ -140,25 +148,26 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
                              int modes) {
   const fe::ParametricSystem& system = *structure.system;
   Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
-                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()), places.sets,
-                                  map.model().theta, fit.base.theta};
+                                  Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()),
+                                  places.sets,
+                                  map.model().theta,
+                                  fit.base.theta,
+                                  {}};
   full.scatter(map, fit.base.x);
-  // What the map assembles holds parameters and element scatter already.
-  std::vector<int> all(static_cast<std::size_t>(map.model().size()));
-  std::iota(all.begin(), all.end(), 0);
-  const auto [stiffness, mass] = map.matrices(fit.base, all);
-  Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets, map.model().theta, fit.base.theta};
-  std::vector<int> columns;
-  for (int k = 0; k < map.model().common; ++k) columns.push_back(k);
-  for (const Cause& cause : fit.causes) {
+  std::vector<int> columns(static_cast<std::size_t>(map.model().common));
+  std::iota(columns.begin(), columns.end(), 0);
+  for (const Cause& cause : fit.causes)
     for (const ReducedPlace* place : cause.candidate->places)
       for (const int k : place->columns)
         if (std::find(columns.begin(), columns.end(), k) == columns.end()) columns.push_back(k);
+  // What the map assembles holds parameters and element scatter already.
+  const auto [stiffness, mass] = map.matrices(fit.base, columns);
+  Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets, map.model().theta, fit.base.theta, columns};
+  for (const Cause& cause : fit.causes) {
     full.apply(cause);
     reduced.apply(cause);
   }
-  for (Index k = map.model().size(); k < reduced.stiffness.rows(); ++k) columns.push_back(static_cast<int>(k));
-  const MatrixXd k = reduced.stiffness(columns, columns), m = reduced.mass(columns, columns);
+  const MatrixXd &k = reduced.stiffness, &m = reduced.mass;
   const VectorXd small = lowest_squares(k, m);
   const int count = std::min(modes, static_cast<int>(k.rows()));
   linalg::Cholesky factor;

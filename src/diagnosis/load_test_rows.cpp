@@ -75,8 +75,8 @@ MatrixXd Predictor::load_slopes(SolvedLoadTest& test) {
   }
   if (with_jacobian_) {  // without it the base's store is read by several threads, and `changes` may write to it
     const auto& change = changes(state);
-    for (std::size_t k = 0; k < change.position.size(); ++k)
-      if (change.stiffness[k].size() > 0) loads.col(change.position[k]) -= change.stiffness[k] * test.answer;
+    const MatrixXd held = times(state.columns, change.stiffness, test.answer);
+    for (std::size_t k = 0; k < change.position.size(); ++k) loads.col(change.position[k]) -= held.col(static_cast<Index>(k));
   }
   return loads;
 }
@@ -118,25 +118,25 @@ void Predictor::predict_static_row(const SolvedLoadTest& test, std::size_t r) {
   const auto at = static_cast<Index>(r);
   const double gain = channel_factor_[row.channel];
   const Index unknowns = test.slopes.cols();
-  RowVectorXd shown;  // d row / d q
+  const std::vector<int>& columns = test.state->columns;
+  RowVectorXd shown;  // d row / d q in the state's columns
   double value = 0.0;
   VectorXd direct = VectorXd::Zero(unknowns);  // beside what q does
   if (row.type == RowType::static_force) {
     const ForceGauge& gauge = tests.forces[static_cast<std::size_t>(row.channel)];
     const GroundState& here = test.ground[static_cast<std::size_t>(gauge.ground)];
-    shown = -here.factor * gauge.pull.transpose();
+    shown = -here.factor * gauge.pull(columns).transpose();
     value = force_of(tests, row.channel, test.load_case, test.ground, test.q);
     if (here.factor != 0.0) direct = value / here.factor * test.relative.row(gauge.ground).transpose();
   } else {
-    shown = row.type == RowType::static_displacement ? RowVectorXd(channel_rows_.row(row.channel))
-            : row.type == RowType::static_rotation   ? RowVectorXd(tests.rotation.row(row.channel))
-                                                     : RowVectorXd(tests.strain.row(row.channel));
-    value = shown.dot(test.q);
+    shown = row.type == RowType::static_displacement ? RowVectorXd(channel_rows(columns).row(row.channel))
+            : row.type == RowType::static_rotation   ? RowVectorXd(tests.rotation.row(row.channel)(columns))
+                                                     : RowVectorXd(tests.strain.row(row.channel)(columns));
+    value = shown.dot(test.answer.head(std::ssize(columns)));
   }
   out_.g[at] = gain * value;
   if (!with_jacobian_) return;
-  const std::vector<int>& columns = test.state->columns;
-  out_.jacobian.row(at) += gain * (shown(columns) * test.slopes.topRows(std::ssize(columns)) + direct.transpose());
+  out_.jacobian.row(at) += gain * (shown * test.slopes.topRows(std::ssize(columns)) + direct.transpose());
   for (Index j = 0; j < unknowns; ++j) {
     const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(j)];
     if (v.kind == Nuisance::Kind::gain && v.index == row.channel)

@@ -14,37 +14,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-ModeDerivative differentiate(const StructureState& state, const StateModes& modes, Index mode,
-                             const std::vector<MatrixXd>& stiffness, const std::vector<MatrixXd>& mass) {
+ModeDerivative differentiate(const StructureState& state, const StateModes& modes, Index mode, const MatrixXcd& force) {
   const Complex s = modes.s[mode];
   const VectorXcd phi = modes.shapes.col(mode);
-  const Index n = phi.size();
-  const auto changes = static_cast<Index>(stiffness.size());
-  MatrixXcd force = MatrixXcd::Zero(n + 1, changes);
-  const VectorXd re = phi.real(), im = phi.imag();
-  const bool real = !state.damped();
-  for (Index j = 0; j < changes; ++j) {
-    const MatrixXd& dk = stiffness[static_cast<std::size_t>(j)];
-    const MatrixXd& dm = mass[static_cast<std::size_t>(j)];
-    if (dk.size() > 0) {
-      force.col(j).head(n).real() -= dk * re;
-      if (!real) force.col(j).head(n).imag() -= dk * im;
-    }
-    if (dm.size() > 0) {
-      VectorXcd v(n);
-      v.real() = dm * re;
-      v.imag() = real ? VectorXd::Zero(n) : VectorXd(dm * im);
-      force.col(j).head(n) -= (s * s) * v;
-    }
-  }
+  const Index n = phi.size(), changes = force.cols();
+  const VectorXd re = phi.real();
+  MatrixXcd right = MatrixXcd::Zero(n + 1, changes);
+  right.topRows(n) = force;
   MatrixXcd t;
   VectorXcd t_prime_phi;
   dynamic_matrices(state, s, phi, t, t_prime_phi);
   ModeDerivative out;
-  if (real) {  // everything is real in lambda = -s²: (K - lambda M) dphi - dlambda M phi = -(dK - lambda dM) phi
+  if (!state.damped()) {  // everything is real in lambda = -s²: (K - lambda M) dphi - dlambda M phi = -(dK - lambda dM) phi
     MatrixXd bordered(n + 1, n + 1);
     bordered << t.real(), -(state.mass * re), -(state.mass * re).transpose(), 0.0;
-    const MatrixXd solution = linalg::solve(std::move(bordered), MatrixXd(force.real()));
+    const MatrixXd solution = linalg::solve(std::move(bordered), MatrixXd(right.real()));
     out.shapes = solution.topRows(n).cast<Complex>();
     const double omega = s.imag();
     out.s.resize(changes);
@@ -56,7 +40,7 @@ ModeDerivative differentiate(const StructureState& state, const StateModes& mode
   bordered.topRightCorner(n, 1) = t_prime_phi;
   bordered.bottomLeftCorner(1, n) = t_prime_phi.transpose();
   bordered(n, n) = 0.0;
-  const MatrixXcd solution = linalg::solve(std::move(bordered), std::move(force));
+  const MatrixXcd solution = linalg::solve(std::move(bordered), std::move(right));
   out.shapes = solution.topRows(n);
   out.s = solution.row(n).transpose();
   return out;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "diagnosis/state_modes.hpp"
 
@@ -13,9 +12,8 @@ struct ModeDerivative {
   Eigen::VectorXcd s;       ///< (n_changes)
   Eigen::MatrixXcd shapes;  ///< (n × n_changes)
 };
-/// @param stiffness, mass  (n_changes) matrices (n × n), size 0 for no change
+/// @param force  -(dK_j + s² dM_j) phi (n × n_changes); of an undamped state the real part counts
 [[nodiscard]] ModeDerivative differentiate(const StructureState& state, const StateModes& modes, Eigen::Index mode,
-                                           const std::vector<Eigen::MatrixXd>& stiffness,
-                                           const std::vector<Eigen::MatrixXd>& mass);
+                                           const Eigen::MatrixXcd& force);
 
 }  // namespace twindeck::diagnosis

@@ -32,7 +32,7 @@ FormModes Predictor::form_modes() {
   }
   out.coordinates = MatrixXd::Zero(map_.model().size(), count);
   out.coordinates(first.columns, Eigen::all) = shapes.topRows(n);
-  out.modes.shapes = channel_factor_.asDiagonal() * channel_rows_(Eigen::all, first.columns) * shapes.topRows(n);
+  out.modes.shapes = channel_factor_.asDiagonal() * channel_rows(first.columns) * shapes.topRows(n);
   // Alike in the coordinates that every state has. Shapes are mass-normalised with everything that moves in them, so that an
   // oscillator's own mode, in which the structure hardly does, is like none of the structure's.
   const Index c = map_.model().common;

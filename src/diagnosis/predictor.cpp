@@ -38,13 +38,13 @@ double Predictor::structural_damping(const std::string& label) const {
 
 void Predictor::read_channels() {
   const auto n = static_cast<Index>(map_.features().channels.size());
-  channel_rows_.resize(n, map_.model().sensors.cols());
+  channel_views_.resize(static_cast<std::size_t>(n));
   channel_factor_ = VectorXd::Ones(n);
   channel_delay_s_ = VectorXd::Zero(n);
-  for (Index c = 0; c < n; ++c) channel_rows_.row(c) = map_.model().sensors.row(4 * c);
-  each_action("channel.swap", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-    channel_rows_.row(c.channels[0]).swap(channel_rows_.row(c.channels[1]));
-  });
+  for (Index c = 0; c < n; ++c) channel_views_[static_cast<std::size_t>(c)] = {{4 * c, 1.0}};
+  const auto view = [&](int channel) -> auto& { return channel_views_[static_cast<std::size_t>(channel)]; };
+  each_action("channel.swap",
+              [&](const Candidate& c, const VectorXd&, const ActionSpec&) { view(c.channels[0]).swap(view(c.channels[1])); });
   each_action("channel.rotate", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     const int channel = c.channels[0];
     const double angle = c.value(action.number.at("angle"), a) * std::numbers::pi / 180.0;
@@ -54,9 +54,8 @@ void Predictor::read_channels() {
     beside -= beside.dot(d) * d;
     if (beside.norm() < kNoDirection) return;
     beside.normalize();
-    Eigen::RowVectorXd other = Eigen::RowVectorXd::Zero(channel_rows_.cols());
-    for (int k = 0; k < 3; ++k) other += beside[k] * map_.model().sensors.row(4 * channel + 1 + k);
-    channel_rows_.row(channel) = std::cos(angle) * channel_rows_.row(channel) + std::sin(angle) * other;
+    for (auto& [row, weight] : view(channel)) weight *= std::cos(angle);
+    for (int k = 0; k < 3; ++k) view(channel).emplace_back(4 * channel + 1 + k, std::sin(angle) * beside[k]);
   });
   each_action("channel.gain", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     channel_factor_[c.channels[0]] *= c.value(action.number.at("factor"), a);
@@ -72,11 +71,20 @@ void Predictor::read_channels() {
   }
 }
 
+Eigen::MatrixXd Predictor::channel_rows(const std::vector<int>& columns) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(channel_views_), std::ssize(columns));
+  const Eigen::MatrixXd& sensors = map_.model().sensors;
+  for (Index c = 0; c < out.rows(); ++c)
+    for (const auto& [row, weight] : channel_views_[static_cast<std::size_t>(c)])
+      for (Index k = 0; k < out.cols(); ++k) out(c, k) += weight * sensors(row, columns[static_cast<std::size_t>(k)]);
+  return out;
+}
+
 const Eigen::MatrixXcd& Predictor::motion(const SolvedState& state) {
   const auto [at, is_new] = motion_.try_emplace(&state);
   if (!is_new) return at->second;
   const auto n = static_cast<Index>(state.columns.size());
-  const Eigen::MatrixXd rows = channel_factor_.asDiagonal() * channel_rows_(Eigen::all, state.columns);
+  const Eigen::MatrixXd rows = channel_factor_.asDiagonal() * channel_rows(state.columns);
   Eigen::MatrixXcd& h = at->second;
   h.resize(rows.rows(), state.modes.s.size());
   h.real() = rows * state.modes.shapes.topRows(n).real();
@@ -165,7 +173,7 @@ void Predictor::differentiate_shape(const MeasuredMode& measured, SolvedState& s
   const ModeDerivative& d = derivative(state, mode);
   const auto& position = changes(state).position;
   const auto n = static_cast<Index>(state.columns.size());
-  const Eigen::MatrixXd rows_here = channel_factor_.asDiagonal() * channel_rows_(Eigen::all, state.columns);
+  const Eigen::MatrixXd rows_here = channel_factor_.asDiagonal() * channel_rows(state.columns);
   for (const bool imaginary : {false, true}) {
     const auto& rows = imaginary ? measured.imag_rows : measured.real_rows;
     const auto& channels = imaginary ? measured.imag_channels : measured.real_channels;
@@ -342,7 +350,7 @@ void Predictor::predict_rms(std::size_t r, SolvedState& state, const std::vector
     if (!with_jacobian_) continue;
     const ModeDerivative& d = derivative(state, i);
     const auto& position_of = changes(state).position;
-    const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows_.row(row.channel)(state.columns);
+    const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows(state.columns).row(row.channel);
     const Eigen::RowVectorXcd dh = sensor.cast<Complex>() * d.shapes.topRows(sensor.size());
     for (std::size_t j = 0; j < position_of.size(); ++j) {
       const auto k = static_cast<Index>(j);
@@ -467,7 +475,7 @@ std::map<std::string, VectorXd> Predictor::node_motion() {
       for (Index m = 0; m < modes; ++m) {
         SolvedState& state = solved(map_.modes_[static_cast<std::size_t>(m)].condition);
         const VectorXcd phi = state.modes.shapes.col(prediction.paired[static_cast<std::size_t>(m)]);
-        values[m] = std::abs(sliced(VectorXd(node.directions.col(d)), state.columns, phi.size()).cast<Complex>().dot(phi));
+        values[m] = std::abs(sliced(node.directions.col(d), state.columns, phi.size()).cast<Complex>().dot(phi));
       }
       largest = largest.cwiseMax(values);
       motion[name] = values;

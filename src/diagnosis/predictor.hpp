@@ -4,6 +4,8 @@
 #include <complex>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/feature_map.hpp"
@@ -20,17 +22,44 @@ struct SolvedState {
   std::map<Eigen::Index, ModeDerivative> derivatives;
 };
 
+/// What an unknown does to a matrix of a state, per unit: dense in its coordinates, or `amount` times a projected one of few
+/// degrees of freedom.
+struct MatrixChange {
+  Eigen::MatrixXd dense;
+  double amount = 0.0;
+  const ReducedMatrix* local = nullptr;
+  [[nodiscard]] bool empty() const { return dense.size() == 0 && local == nullptr; }
+};
+
 /// States of one base by the causes that act in them and the circumstances that they depend on; changes of the nuisances by
 /// columns. Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
 struct StateStore {
   struct Changes {
     std::vector<int> position;  ///< among the nuisances
-    std::vector<Eigen::MatrixXd> stiffness, mass;
+    std::vector<MatrixChange> stiffness, mass;
   };
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> states;
   std::map<std::pair<std::vector<int>, Eigen::Index>, Changes> changes;              ///< by columns and size
   std::map<std::vector<int>, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> matrices;  ///< stiffness and mass by columns
   UndampedStore undamped;
+
+  /// Stiffness and mass in the columns behind the common ones (n × n_own): every magnitude of a candidate needs the same.
+  struct OwnColumns {
+    Eigen::MatrixXd stiffness, mass;
+  };
+  /// Those of a list of columns, computed once. Safe for several threads.
+  template <typename Compute>
+  const OwnColumns* own_columns(const std::vector<int>& columns, Compute compute) {
+    {
+      const std::scoped_lock lock(own_mutex);
+      if (const auto at = own.find(columns); at != own.end()) return &at->second;
+    }
+    OwnColumns here = compute();
+    const std::scoped_lock lock(own_mutex);
+    return &own.try_emplace(columns, std::move(here)).first->second;
+  }
+  std::mutex own_mutex;
+  std::map<std::vector<int>, OwnColumns> own;
 };
 
 /// Modal assurance criterion of each mode (n_channels × n_modes) with one measured shape; 0 where nothing moves.
@@ -48,6 +77,8 @@ class Predictor {
 
   // structure (structure_of_causes.cpp)
   void read_channels();
+  /// What the channels show, without their gains, of some of the reduced model's coordinates (n_channels × n_columns).
+  [[nodiscard]] Eigen::MatrixXd channel_rows(const std::vector<int>& columns) const;
   [[nodiscard]] bool acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   /// Relative change of a place's stiffness by an action on it, 0 for an action of another kind.
   [[nodiscard]] double stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
@@ -62,12 +93,16 @@ class Predictor {
   /// Values of a condition that its state depends on: the key of the state beside the causes.
   [[nodiscard]] std::vector<double> circumstances(const Condition& condition, const Acting& acting) const;
   [[nodiscard]] SolvedState& solved(int condition);
-  [[nodiscard]] static Eigen::MatrixXd sliced(const Eigen::MatrixXd& full, const std::vector<int>& columns, Eigen::Index size);
-  [[nodiscard]] static Eigen::VectorXd sliced(const Eigen::VectorXd& full, const std::vector<int>& columns, Eigen::Index size);
+  [[nodiscard]] static Eigen::MatrixXd sliced(const ReducedMatrix& full, const std::vector<int>& columns, Eigen::Index size);
+  [[nodiscard]] static Eigen::VectorXd sliced(const Eigen::Ref<const Eigen::VectorXd>& full, const std::vector<int>& columns,
+                                              Eigen::Index size);
   [[nodiscard]] const StateStore::Changes& changes(const SolvedState& state) const;
   /// Stiffness and mass without causes, in some of the reduced model's coordinates.
   [[nodiscard]] const std::pair<Eigen::MatrixXd, Eigen::MatrixXd>& matrices(const std::vector<int>& columns) const;
   [[nodiscard]] const ModeDerivative& derivative(SolvedState& solved, Eigen::Index mode);
+  /// Changes of a matrix times each column of x (size × n_columns): (size × n_columns n_changes), column by column of x.
+  [[nodiscard]] Eigen::MatrixXd times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes,
+                                      const Eigen::MatrixXd& x) const;
 
   // which mode is which (pairing.cpp)
   /// Model modes of what was measured in conditions that share a state: the one-to-one assignment at the least distance of
@@ -144,7 +179,8 @@ class Predictor {
   const std::vector<Cause>& causes_;
   bool with_jacobian_;
   mutable std::vector<int> columns_;  // of the state that is being built
-  Eigen::MatrixXd channel_rows_;      // (n_channels × r) as causes turn and exchange them
+  /// Rows of the sensors that a channel shows, as causes turn and exchange them, with their weights.
+  std::vector<std::vector<std::pair<Eigen::Index, double>>> channel_views_;
   Eigen::VectorXd channel_factor_, channel_delay_s_;
   std::map<const SolvedState*, Eigen::MatrixXcd> motion_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> own_;

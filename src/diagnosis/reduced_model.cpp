@@ -39,49 +39,8 @@ Symmetric symmetric_of(const fe::ParametricSystem& system, const fe::Term& term)
   return matrix;
 }
 
-/// V' S V, over the rows that S touches.
-/// @param rows_of_v  V' (r × n): what is read of a degree of freedom lies together
-MatrixXd project(const Symmetric& s, const MatrixXd& rows_of_v) {
-  std::vector<int> touched;
-  for (int c = 0; c < s.outerSize(); ++c)
-    if (Symmetric::InnerIterator(s, c)) touched.push_back(c);
-  MatrixXd rows(rows_of_v.rows(), std::ssize(touched)), sum = MatrixXd::Zero(rows_of_v.rows(), std::ssize(touched));
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    rows.col(static_cast<Index>(i)) = rows_of_v.col(touched[i]);
-    for (Symmetric::InnerIterator e(s, touched[i]); e; ++e)
-      sum.col(static_cast<Index>(i)) += e.value() * rows_of_v.col(e.row());
-  }
-  const MatrixXd right = sum.transpose();
-  // The result is symmetric: by a few panels, each down to the diagonal alone.
-  const Index n = rows.rows(), width = std::max<Index>(32, n / 8);
-  MatrixXd out(n, n);
-  for (Index first = 0; first < n; first += width) {
-    const Index columns = std::min(width, n - first), last = first + columns;
-    out.block(0, first, last, columns) = linalg::product(rows.topRows(last), right.middleCols(first, columns));
-    out.block(first, 0, columns, first) = out.block(0, first, first, columns).transpose();
-  }
-  return out;
-}
-
-/// V' S V where V has grown: what was there, and the further rows and columns.
-/// @param rows_of_v  V' (r × n), with the further vectors last
-MatrixXd grown(const MatrixXd& before, const Symmetric& s, const MatrixXd& rows_of_v) {
-  const Index r = rows_of_v.rows(), old = before.rows(), more = r - old;
-  std::vector<int> touched;
-  for (int c = 0; c < s.outerSize(); ++c)
-    if (Symmetric::InnerIterator(s, c)) touched.push_back(c);
-  MatrixXd rows(r, std::ssize(touched)), sum = MatrixXd::Zero(more, std::ssize(touched));
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    rows.col(static_cast<Index>(i)) = rows_of_v.col(touched[i]);
-    for (Symmetric::InnerIterator e(s, touched[i]); e; ++e)
-      sum.col(static_cast<Index>(i)) += e.value() * rows_of_v.col(e.row()).tail(more);
-  }
-  MatrixXd out(r, r);
-  out.topLeftCorner(old, old) = before;
-  out.rightCols(more) = linalg::product(rows, sum.transpose());
-  out.bottomLeftCorner(more, old) = out.topRightCorner(old, more).transpose();
-  return out;
-}
+/// Energy, of the largest of a block's, below which a direction of it is rounding: energies are squares.
+constexpr double kRounding = 1e-13;
 
 /// The common basis, orthonormal in K.
 class Basis {
@@ -133,10 +92,11 @@ class Basis {
       linalg::subtract_product(images_, part, block.loads);
     }
     if (block.vectors.cols() <= count) return block;
+    if (count < 1) return {block.vectors.leftCols(0), block.loads.leftCols(0)};
     const MatrixXd gram = linalg::product(block.vectors, block.loads, true);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (gram + gram.transpose()));
-    const Index kept = std::min<Index>(count, (eigen.eigenvalues().array() >= least).count());
-    const MatrixXd turn = eigen.eigenvectors().rightCols(kept).rowwise().reverse();
+    const linalg::LeadingEigenpairs leading = linalg::leading_eigenpairs(0.5 * (gram + gram.transpose()), count);
+    const Index kept = (leading.values.array() >= std::max(least, kRounding * leading.values[0])).count();
+    const MatrixXd turn = leading.vectors.leftCols(kept);
     return {linalg::product(block.vectors, turn), linalg::product(block.loads, turn)};
   }
   [[nodiscard]] const MatrixXd& vectors() const { return vectors_; }
@@ -175,6 +135,7 @@ MatrixXd own_vectors(const Basis& basis, const linalg::Cholesky& factor, const P
 }
 
 constexpr Eigen::Index kGathered = 960;  // columns of one eigenproblem: its time grows with their cube
+constexpr std::size_t kChunk = 64;       // changes whose columns are held before they are gathered
 
 Basis::Held side_by_side(std::span<const Basis::Held> blocks) {
   Index columns = 0, at = 0;
@@ -194,22 +155,24 @@ Basis::Held side_by_side(std::span<const Basis::Held> blocks) {
 /// @param scale  of each vector
 MatrixXd strongest_of(const Basis& basis, const linalg::Cholesky& factor, const std::vector<std::function<MatrixXd()>>& changes,
                       const Eigen::VectorXd& scale, const ReductionOptions& options) {
-  std::vector<Basis::Held> found(changes.size());
-  parallel_for(changes.size(), [&](std::size_t i) {
-    const MatrixXd load = changes[i]() * scale.asDiagonal();
-    found[i] = basis.strongest({factor.solve(load), load}, 6);
-  });
   // In parts, each cut down to the strongest so far: the eigenproblem has a bounded size however many places there are.
   const Index n = basis.vectors().rows();
   std::vector<Basis::Held> part = {{MatrixXd(n, 0), MatrixXd(n, 0)}};
   Index columns = 0;
-  for (Basis::Held& block : found) {
-    if (columns + block.vectors.cols() > kGathered) {
-      part = {basis.strongest(side_by_side(part), 2 * options.parameter_vectors)};
-      columns = part.front().vectors.cols();
+  for (std::size_t begin = 0; begin < changes.size(); begin += kChunk) {
+    std::vector<Basis::Held> found(std::min(kChunk, changes.size() - begin));
+    parallel_for(found.size(), [&](std::size_t i) {
+      const MatrixXd load = changes[begin + i]() * scale.asDiagonal();
+      found[i] = basis.strongest({factor.solve(load), load}, 6);
+    });
+    for (Basis::Held& block : found) {
+      if (columns + block.vectors.cols() > kGathered) {
+        part = {basis.strongest(side_by_side(part), 2 * options.parameter_vectors)};
+        columns = part.front().vectors.cols();
+      }
+      columns += block.vectors.cols();
+      part.push_back(std::move(block));
     }
-    columns += block.vectors.cols();
-    part.push_back(std::move(block));
   }
   Basis::Held all = side_by_side(part);
   return basis.strongest(std::move(all), options.parameter_vectors, options.least_correction).vectors;
@@ -269,24 +232,29 @@ MatrixXd answer_corrections(const Basis& basis, const linalg::Cholesky& factor, 
 struct ReducedModel::Kept {
   Symmetric stiffness;  ///< K where the basis was made, shifted where the structure is free
   linalg::Cholesky factor;
-  Eigen::MatrixXd vectors, low, answers;  ///< V (n × r); the modes and responses that own vectors are made of
+  std::shared_ptr<ReducedBasis> basis;
+  Eigen::MatrixXd low, answers;  ///< the modes and responses that own vectors are made of
   int vectors_per_place = 0;
   bool whole = false;  ///< V is the identity
 };
 
 namespace {
 
+/// Sets whose matrices are scattered, so that every state needs them in the coordinates of its causes.
+bool is_scattered(const std::string& set) { return set == "elements" || set == "nodes" || set == "stays"; }
+
 /// A place in the coordinates of a basis, but for its columns.
-ReducedPlace reduced(const Place& place, const MatrixXd& rows_of_v, const linalg::Cholesky& factor, double total_mass_kg) {
+ReducedPlace reduced(const Place& place, bool scattered, const std::shared_ptr<const ReducedBasis>& basis,
+                     const linalg::Cholesky& factor, double total_mass_kg) {
   ReducedPlace out{place.id, place.x_m, {}, {}, {}, {}, place.attributes};
   out.attributes.try_emplace("total_mass", total_mass_kg);
-  if (place.stiffness.size() > 0) out.stiffness = project(place.stiffness, rows_of_v);
-  if (place.mass.size() > 0) out.mass = project(place.mass, rows_of_v);
+  if (place.stiffness.size() > 0) out.stiffness = ReducedMatrix(place.stiffness, basis, scattered);
+  if (place.mass.size() > 0) out.mass = ReducedMatrix(place.mass, basis, scattered);
   if (place.directions.size() == 0) return out;
-  out.directions = rows_of_v * place.directions;
+  out.directions = basis->vectors.transpose() * place.directions;
   const MatrixXd b = MatrixXd(place.directions);
-  const MatrixXd flexibility = b.transpose() * factor.solve(b);
-  out.attributes["k_drive"] = static_cast<double>(b.cols()) / flexibility.trace();
+  const double flexibility = b.cwiseProduct(factor.solve(b)).sum();  // of all directions
+  out.attributes["k_drive"] = static_cast<double>(b.cols()) / flexibility;
   return out;
 }
 
@@ -341,11 +309,9 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   kept_->low = low;
   kept_->vectors_per_place = options.vectors_per_place;
   kept_->whole = whole;
-  MatrixXd& v = kept_->vectors;
   std::map<std::string, std::vector<std::vector<int>>> own;
   if (whole) {
-    v = MatrixXd::Identity(n, n);
-    common = static_cast<int>(n);
+    kept_->basis = std::make_shared<ReducedBasis>(MatrixXd::Identity(n, n));
   } else {
     basis.append(modes.shapes);
     basis.append(corrections(basis, factor, system, theta, modes.eigenvalue, low, places, options));
@@ -359,7 +325,6 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
       basis.append(answers);
       basis.append(answer_corrections(basis, factor, system, theta, answers, places, options));
     }
-    common = static_cast<int>(basis.vectors().cols());
     std::vector<const Place*> all;
     std::vector<int> count;
     for (const auto& [set, list] : places.sets)
@@ -372,24 +337,16 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
       }
     std::vector<MatrixXd> vectors(all.size());
     parallel_for(all.size(), [&](std::size_t i) { vectors[i] = own_vectors(basis, factor, *all[i], low, answers, count[i]); });
-    Index size = common;
-    for (const MatrixXd& block : vectors) size += block.cols();
-    v.resize(n, size);
-    v.leftCols(common) = basis.vectors();
-    Index next = common;
+    kept_->basis = std::make_shared<ReducedBasis>(basis.vectors());
+    const std::vector<std::vector<int>> columns = kept_->basis->append(vectors);
     std::size_t at = 0;
     for (const auto& [set, list] : places.sets)
-      for (std::size_t i = 0; i < list.size(); ++i, ++at) {
-        std::vector<int> columns(static_cast<std::size_t>(vectors[at].cols()));
-        std::iota(columns.begin(), columns.end(), static_cast<int>(next));
-        if (!columns.empty()) v.middleCols(next, vectors[at].cols()) = vectors[at];
-        next += vectors[at].cols();
-        own[set].push_back(columns);
-      }
+      for (std::size_t i = 0; i < list.size(); ++i) own[set].push_back(columns[at++]);
   }
+  common = static_cast<int>(kept_->basis->common());
+  const MatrixXd& v = kept_->basis->vectors;
 
   // 3. Everything in that basis, the largest first: whole groups take as long as hundreds of places.
-  const MatrixXd rows_of_v = v.transpose();
   struct Job {
     Index size;
     std::function<void()> run;
@@ -398,7 +355,9 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   const auto reduce_terms = [&](const std::vector<fe::Term>& terms, std::vector<Term>& out) {
     out.resize(terms.size());
     for (std::size_t t = 0; t < terms.size(); ++t)
-      jobs.push_back({n, [&, t] { out[t] = {terms[t].coefficient, project(symmetric_of(system, terms[t]), rows_of_v)}; }});
+      jobs.push_back({n, [&, t] {
+                        out[t] = {terms[t].coefficient, ReducedMatrix(symmetric_of(system, terms[t]), kept_->basis, true)};
+                      }});
   };
   reduce_terms(system.stiffness_terms, stiffness);
   reduce_terms(system.mass_terms, mass);
@@ -409,8 +368,8 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Place& place = list[i];
       const auto* columns = whole ? nullptr : &own.at(set)[i];
-      const auto reduce = [&, i, columns] {
-        reduced_set[i] = reduced(place, rows_of_v, factor, total_mass_kg);
+      const auto reduce = [&, i, columns, scattered = is_scattered(set)] {
+        reduced_set[i] = reduced(place, scattered, kept_->basis, factor, total_mass_kg);
         if (columns != nullptr) reduced_set[i].columns = *columns;
       };
       jobs.push_back({place.stiffness.nonZeros() + place.mass.nonZeros(), reduce});
@@ -427,44 +386,33 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
 void ReducedModel::extend(const Structure& structure, const Places& places, const std::string& set,
                           const std::vector<Place>& further) {
   TWINDECK_ASSERT(kept_ != nullptr && kept_.use_count() == 1 && !sets.contains(set));
-  const fe::ParametricSystem& system = *structure.system;
   const Index before = size();
 
   // 1. Vectors of the further places, beyond the common ones.
   std::vector<std::vector<int>> own(further.size());
   if (!kept_->whole) {
-    const Basis basis(kept_->stiffness, MatrixXd(kept_->vectors.leftCols(common)));
+    const Basis basis(kept_->stiffness, MatrixXd(kept_->basis->vectors.leftCols(common)));
     std::vector<MatrixXd> vectors(further.size());
     parallel_for(further.size(), [&](std::size_t i) {
       vectors[i] = own_vectors(basis, kept_->factor, further[i], kept_->low, kept_->answers, kept_->vectors_per_place);
     });
-    Index next = before;
-    for (std::size_t i = 0; i < further.size(); ++i)
-      for (Index c = 0; c < vectors[i].cols(); ++c) own[i].push_back(static_cast<int>(next++));
-    kept_->vectors.conservativeResize(Eigen::NoChange, next);
-    for (std::size_t i = 0; i < further.size(); ++i)
-      if (!own[i].empty()) kept_->vectors.middleCols(own[i].front(), vectors[i].cols()) = vectors[i];
+    own = kept_->basis->append(vectors);
   }
 
-  // 2. What there is already grows by the further rows and columns; then the further places themselves.
-  const MatrixXd& v = kept_->vectors;
-  const MatrixXd rows_of_v = v.transpose();
+  // 2. What there is already follows the basis; then the further places themselves.
+  const MatrixXd& v = kept_->basis->vectors;
   std::vector<std::function<void()>> jobs;
   if (v.cols() > before) {
-    const auto grow_terms = [&](std::vector<Term>& terms, const std::vector<fe::Term>& of) {
-      for (std::size_t t = 0; t < terms.size(); ++t)
-        jobs.emplace_back([&, t] { terms[t].matrix = grown(terms[t].matrix, symmetric_of(system, of[t]), rows_of_v); });
-    };
-    grow_terms(stiffness, system.stiffness_terms);
-    grow_terms(mass, system.mass_terms);
+    for (std::vector<Term>* terms : {&stiffness, &mass})
+      for (Term& term : *terms) jobs.emplace_back([&] { term.matrix.follow_basis(); });
     for (const auto& [name, list] : places.sets)
       for (std::size_t i = 0; i < list.size(); ++i)
         jobs.emplace_back([&, &place = list[i], &known = sets.at(name)[i]] {
-          if (known.stiffness.size() > 0) known.stiffness = grown(known.stiffness, place.stiffness, rows_of_v);
-          if (known.mass.size() > 0) known.mass = grown(known.mass, place.mass, rows_of_v);
+          known.stiffness.follow_basis();
+          known.mass.follow_basis();
           if (known.directions.size() > 0) {
             known.directions.conservativeResize(v.cols(), Eigen::NoChange);
-            known.directions.bottomRows(v.cols() - before) = rows_of_v.bottomRows(v.cols() - before) * place.directions;
+            known.directions.bottomRows(v.cols() - before) = v.rightCols(v.cols() - before).transpose() * place.directions;
           }
         });
   }
@@ -472,7 +420,7 @@ void ReducedModel::extend(const Structure& structure, const Places& places, cons
   reduced_set.resize(further.size());
   for (std::size_t i = 0; i < further.size(); ++i)
     jobs.emplace_back([&, i] {
-      reduced_set[i] = reduced(further[i], rows_of_v, kept_->factor, total_mass_kg);
+      reduced_set[i] = reduced(further[i], false, kept_->basis, kept_->factor, total_mass_kg);
       reduced_set[i].columns = own[i];
     });
   parallel_for(jobs.size(), [&](std::size_t i) { jobs[i](); });

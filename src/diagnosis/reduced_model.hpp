@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/reduced_matrix.hpp"
 #include "diagnosis/structure.hpp"
 
 namespace twindeck::diagnosis {
@@ -14,9 +15,9 @@ namespace twindeck::diagnosis {
 struct ReducedPlace {
   std::string id;
   Eigen::Vector3d x_m;
-  std::vector<int> columns;         ///< basis vectors for causes at this location, beside the common ones
-  Eigen::MatrixXd stiffness, mass;  ///< (r × r), size 0 if the location has none
-  Eigen::MatrixXd directions;       ///< (r × k) unit forces
+  std::vector<int> columns;       ///< basis vectors for causes at this location, beside the common ones
+  ReducedMatrix stiffness, mass;  ///< (r × r), size 0 if the location has none
+  Eigen::MatrixXd directions;     ///< (r × k) unit forces
   std::map<std::string, double> attributes;
 };
 
@@ -46,7 +47,7 @@ class ReducedModel {
  public:
   struct Term {
     fe::Coefficient coefficient;
-    Eigen::MatrixXd matrix;  ///< (r × r)
+    ReducedMatrix matrix;  ///< (r × r)
   };
 
   /// @throws InputError if K is singular beyond rigid-body motion

@@ -482,18 +482,18 @@ double StateModes::damping(Index i) const { return -s[i].real() / std::abs(s[i])
 
 StateModes solve_state(const StructureState& state, double highest_Hz, UndampedStore& store, const StateModes* neighbour) {
   const double highest = std::pow(2.0 * std::numbers::pi * highest_Hz, 2);
-  const UndampedModes& undamped = store.of(state.stiffness, state.mass);
   StateModes modes;
   if (!state.damped()) {
+    const UndampedModes& undamped = store.of(state.stiffness, state.mass, highest);
     const Index count = count_below(undamped, highest);
     modes.s.resize(count);
     for (Index i = 0; i < count; ++i) modes.s[i] = Complex(0.0, std::sqrt(undamped.eigenvalue(i)));
     modes.shapes = mass_normalised(undamped, count).cast<Complex>();
     return modes;
   }
+  const UndampedModes& undamped = store.of(state.stiffness, state.mass);
   const ModalRoots roots(state, undamped);
-  if (neighbour != nullptr && roots.follow(*neighbour, modes)) return modes;
-  if (roots.solve(highest_Hz, modes)) return modes;
+  if ((neighbour != nullptr && roots.follow(*neighbour, modes)) || roots.solve(highest_Hz, modes)) return modes;
   return solve_by_state_space(state, highest_Hz, undamped);
 }
 

@@ -58,7 +58,7 @@ void move_support(const ReducedPlace& support, double position, const std::vecto
   while (i + 2 < stations && position > number("x_" + std::to_string(i + 1))) ++i;
   const double from = number("x_" + std::to_string(i)), to = number("x_" + std::to_string(i + 1));
   const double t = std::clamp((position - from) / (to - from), 0.0, 1.0);
-  MatrixXd own = support.stiffness(columns, columns);
+  MatrixXd own = support.stiffness.part(columns);
   own.conservativeResizeLike(MatrixXd::Zero(n, n));
   state.stiffness -= own;
   for (Index d = 0; d < per_node; ++d) {
@@ -76,13 +76,13 @@ Predictor::Predictor(const FeatureMap& map, const FeatureMap::Base& base, const 
   read_channels();
 }
 
-MatrixXd Predictor::sliced(const MatrixXd& full, const std::vector<int>& columns, Index size) {
-  MatrixXd part = full(columns, columns);
+MatrixXd Predictor::sliced(const ReducedMatrix& full, const std::vector<int>& columns, Index size) {
+  MatrixXd part = full.part(columns);
   if (size > part.rows()) part.conservativeResizeLike(MatrixXd::Zero(size, size));
   return part;
 }
 
-VectorXd Predictor::sliced(const VectorXd& full, const std::vector<int>& columns, Index size) {
+VectorXd Predictor::sliced(const Eigen::Ref<const VectorXd>& full, const std::vector<int>& columns, Index size) {
   VectorXd part = full(columns);
   if (size > part.size()) part.conservativeResizeLike(VectorXd::Zero(size));
   return part;
@@ -179,7 +179,7 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
     move_support(place, value("position"), columns_, state);
   } else if (kind == "mass.add") {
     for (Index d = 0; d < place.directions.cols(); ++d) {
-      const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, n);
+      const VectorXd b = sliced(place.directions.col(d), columns_, n);
       state.mass += value("mass") * b * b.transpose();
     }
   } else if (kind == "mass.per_count") {
@@ -198,21 +198,22 @@ void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& actio
                              StructureState& state) const {
   const ReducedPlace& place = *candidate.places[0];
   const Index n = state.stiffness.rows();
-  const auto add = [&](const VectorXd& along) {
-    const VectorXd b = sliced(along, columns_, n);
-    state.stiffness += stiffness * b * b.transpose();
-  };
+  const auto add = [&](const VectorXd& b) { state.stiffness += stiffness * b * b.transpose(); };
+  const auto own = [&](const ReducedPlace& at, Index d) { return sliced(at.directions.col(d), columns_, n); };
   if (candidate.places.size() != 2) {
-    for (const Index d : directions_of(place, action)) add(place.directions.col(d));
+    for (const Index d : directions_of(place, action)) add(own(place, d));
     return;
   }
   const ReducedPlace& other = *candidate.places[1];
   const Eigen::Vector3d along = other.x_m - place.x_m;
   const Index shared = std::min(place.directions.cols(), other.directions.cols());
-  if (along.allFinite() && along.norm() > 0.0 && shared == 3)  // a tie pulls along its line
-    add((place.directions - other.directions) * along.normalized());
-  else
-    for (Index d = 0; d < shared; ++d) add(place.directions.col(d) - other.directions.col(d));
+  if (along.allFinite() && along.norm() > 0.0 && shared == 3) {  // a tie pulls along its line
+    VectorXd b = VectorXd::Zero(n);
+    for (Index d = 0; d < 3; ++d) b += along.normalized()[d] * (own(place, d) - own(other, d));
+    add(b);
+  } else {
+    for (Index d = 0; d < shared; ++d) add(own(place, d) - own(other, d));
+  }
 }
 
 void Predictor::apply_body(const ReducedPlace& place, bool string, double m, double omega, StructureState& state) const {
@@ -220,7 +221,7 @@ void Predictor::apply_body(const ReducedPlace& place, bool string, double m, dou
   for (Index d = 0; d < place.directions.cols(); ++d) {
     grow(state);
     const Index k = state.stiffness.rows() - 1;
-    const VectorXd b = sliced(VectorXd(place.directions.col(d)), columns_, k + 1);
+    const VectorXd b = sliced(place.directions.col(d), columns_, k + 1);
     if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
       state.mass += m / 3.0 * b * b.transpose();
       state.mass(k, k) += 0.5 * m;
@@ -368,14 +369,16 @@ const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
     const auto place = [&](const char* set) -> const ReducedPlace& {
       return model.sets.at(set)[static_cast<std::size_t>(v.index)];
     };
-    MatrixXd dk, dm;
-    const auto add = [&](MatrixXd& to, double a, const MatrixXd& from) {
-      if (to.size() == 0) to = MatrixXd::Zero(size, size);
-      const Index n = std::ssize(columns), c = model.common, own = n - c;  // the common columns come first
-      to.topLeftCorner(c, c) += a * from.topLeftCorner(c, c);
-      const std::vector<int> others(columns.begin() + c, columns.end());
-      to.block(c, 0, own, c) += a * from(others, Eigen::seqN(0, c));
-      to.topRows(n).middleCols(c, own) += a * from(columns, others);
+    MatrixChange dk, dm;
+    const auto add = [&](MatrixChange& to, double a, const ReducedMatrix& from) {
+      if (from.is_local() && to.empty()) {  // multiplied out where it is used: a thousand dense ones would fill the memory
+        to.amount = a;
+        to.local = &from;
+        return;
+      }
+      if (to.local != nullptr) to = {to.amount * sliced(*to.local, columns, size), 0.0, nullptr};
+      if (to.dense.size() == 0) to.dense = MatrixXd::Zero(size, size);
+      to.dense += a * sliced(from, columns, size);
     };
     if (v.kind == Nuisance::Kind::parameter) {
       for (const auto& term : model.stiffness)
@@ -404,8 +407,37 @@ const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
   const auto known = solved.derivatives.find(mode);
   if (known != solved.derivatives.end()) return known->second;
   const StateStore::Changes& change = changes(solved);
-  return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, change.stiffness, change.mass))
-      .first->second;
+  const Eigen::VectorXcd phi = solved.modes.shapes.col(mode);
+  const std::complex<double> square = solved.modes.s[mode] * solved.modes.s[mode];
+  MatrixXd parts(phi.size(), 2);  // real, imaginary
+  parts << phi.real(), phi.imag();
+  const MatrixXd stiffness = times(solved.columns, change.stiffness, parts), mass = times(solved.columns, change.mass, parts);
+  const auto changes = std::ssize(change.position);
+  Eigen::MatrixXcd force(phi.size(), changes);
+  force.real() = -stiffness.leftCols(changes);
+  force.imag() = -stiffness.rightCols(changes);
+  Eigen::MatrixXcd inertia(phi.size(), changes);
+  inertia.real() = mass.leftCols(changes);
+  inertia.imag() = mass.rightCols(changes);
+  force -= square * inertia;
+  return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, force)).first->second;
+}
+
+MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x) const {
+  const auto count = std::ssize(changes), n = std::ssize(columns);
+  MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols()), motion;
+  for (Index p = 0; p < x.cols(); ++p) {
+    if (x.col(p).isZero(0.0)) continue;
+    for (Index j = 0; j < count; ++j) {
+      const MatrixChange& change = changes[static_cast<std::size_t>(j)];
+      auto here = out.col(p * count + j);
+      if (change.dense.size() > 0) here = change.dense * x.col(p);
+      if (change.local == nullptr) continue;
+      if (motion.size() == 0) motion = change.local->basis().motion(columns, x.topRows(n));
+      change.local->add_product(change.amount, columns, motion.col(p), here.head(n));
+    }
+  }
+  return out;
 }
 
 }  // namespace twindeck::diagnosis

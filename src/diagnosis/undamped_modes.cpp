@@ -1,6 +1,7 @@
 #include "diagnosis/undamped_modes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -11,7 +12,7 @@ namespace twindeck::diagnosis {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-UndampedModes::UndampedModes(const MatrixXd& k, const MatrixXd& m) : stiffness(k), mass(m) {
+UndampedModes::UndampedModes(const MatrixXd& k, const MatrixXd& m, double up_to) : stiffness(k), mass(m), highest(up_to) {
   MatrixXd factor = linalg::cholesky_factor(k);
   if (factor.size() == 0) {  // free as a rigid body
     shift = 1e-7 * k.trace() / m.trace();
@@ -23,7 +24,8 @@ UndampedModes::UndampedModes(const MatrixXd& k, const MatrixXd& m) : stiffness(k
     return;
   }
   MatrixXd a = linalg::lower_solve(factor, linalg::lower_solve(factor, m).transpose());
-  linalg::LeadingEigenpairs all = linalg::leading_eigenpairs(std::move(a), k.rows());
+  linalg::LeadingEigenpairs all = std::isfinite(highest) ? linalg::eigenpairs_above(std::move(a), 1.0 / (highest + shift))
+                                                         : linalg::leading_eigenpairs(std::move(a), k.rows());
   mu = all.values.cwiseMax(0.0);
   shapes = linalg::lower_solve(factor, std::move(all.vectors), true);
 }
@@ -36,12 +38,12 @@ bool UndampedModes::belongs_to(const MatrixXd& k, const MatrixXd& m) const {
   return k.rows() == stiffness.rows() && k == stiffness && m == mass;
 }
 
-const UndampedModes& UndampedStore::of(const MatrixXd& stiffness, const MatrixXd& mass) {
+const UndampedModes& UndampedStore::of(const MatrixXd& stiffness, const MatrixXd& mass, double highest) {
   for (const UndampedStore* store : {shared_, static_cast<const UndampedStore*>(this)})
     if (store != nullptr)
       for (const auto& modes : store->known_)
-        if (modes->belongs_to(stiffness, mass)) return *modes;
-  known_.push_back(std::make_shared<const UndampedModes>(stiffness, mass));
+        if (modes->highest >= highest && modes->belongs_to(stiffness, mass)) return *modes;
+  known_.push_back(std::make_shared<const UndampedModes>(stiffness, mass, highest));
   return *known_.back();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -12,10 +13,11 @@ namespace twindeck::diagnosis {
 struct UndampedModes {
   Eigen::MatrixXd stiffness, mass;  ///< (n × n) what they belong to
   double shift = 0.0;               ///< psi' (K + shift M) psi = 1
-  Eigen::VectorXd mu;               ///< (n) descending
-  Eigen::MatrixXd shapes;           ///< (n × n)
+  double highest = 0.0;             ///< omega² up to which the modes were computed, infinite for all
+  Eigen::VectorXd mu;               ///< (n_modes) descending
+  Eigen::MatrixXd shapes;           ///< (n × n_modes)
 
-  UndampedModes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+  UndampedModes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double highest);
   [[nodiscard]] Eigen::Index size() const { return mu.size(); }
   /// omega² of mode i; infinite for motion without mass.
   [[nodiscard]] double eigenvalue(Eigen::Index i) const;
@@ -27,7 +29,9 @@ class UndampedStore {
  public:
   /// @param shared  looked into first, never changed; may be null
   explicit UndampedStore(const UndampedStore* shared = nullptr) : shared_(shared) {}
-  const UndampedModes& of(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+  /// @param highest  omega² below which all modes are wanted; by default every mode, as damped ones need
+  const UndampedModes& of(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
+                          double highest = std::numeric_limits<double>::infinity());
 
  private:
   const UndampedStore* shared_;

@@ -76,19 +76,22 @@ void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::R
   dgemm_("N", "N", &m, &n, &k, &minus_one, a.data(), &lda, b.data(), &ldb, &one, c.data(), &m);
 }
 
-LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
+namespace {
+
+/// Eigenpairs first … last in ascending order (from 1), or those of values from `least` to `most` where `last` is 0.
+LeadingEigenpairs some_eigenpairs(Eigen::MatrixXd symmetric, int first, int last, double least, double most) {
   use_one_thread();
-  const int size = as_int(symmetric.rows()), last = size, first = size - as_int(n) + 1;
-  TWINDECK_ASSERT(n >= 1 && n <= symmetric.rows() && symmetric.rows() == symmetric.cols());
+  const int size = as_int(symmetric.rows());
+  TWINDECK_ASSERT(symmetric.rows() == symmetric.cols());
   Eigen::VectorXd values(size);
-  Eigen::MatrixXd vectors(size, n);
+  Eigen::MatrixXd vectors(size, last > 0 ? last - first + 1 : size);
   Eigen::VectorXi support(2 * size);
-  const double unused = 0.0, tolerance = 0.0;
+  const double tolerance = 0.0;
   int found = 0, info = 0, work_size = -1, int_work_size = -1, int_work_best = 0;
   double work_best = 0.0;
   const auto solve = [&](double* work, int* int_work) {
-    dsyevr_("V", "I", "L", &size, symmetric.data(), &size, &unused, &unused, &first, &last, &tolerance, &found, values.data(),
-            vectors.data(), &size, support.data(), work, &work_size, int_work, &int_work_size, &info);
+    dsyevr_("V", last > 0 ? "I" : "V", "L", &size, symmetric.data(), &size, &least, &most, &first, &last, &tolerance, &found,
+            values.data(), vectors.data(), &size, support.data(), work, &work_size, int_work, &int_work_size, &info);
   };
   solve(&work_best, &int_work_best);
   work_size = static_cast<int>(work_best);
@@ -96,8 +99,23 @@ LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
   Eigen::VectorXd work(work_size);
   Eigen::VectorXi int_work(int_work_size);
   solve(work.data(), int_work.data());
-  TWINDECK_ASSERT(info == 0 && found == n);
-  return {values.head(n).reverse(), vectors.rowwise().reverse()};
+  TWINDECK_ASSERT(info == 0 && (last == 0 || found == last - first + 1));
+  return {values.head(found).reverse(), vectors.leftCols(found).rowwise().reverse()};
+}
+
+}  // namespace
+
+LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
+  TWINDECK_ASSERT(n >= 1 && n <= symmetric.rows());
+  const int size = as_int(symmetric.rows());
+  return some_eigenpairs(std::move(symmetric), size - as_int(n) + 1, size, 0.0, 0.0);
+}
+
+LeadingEigenpairs eigenpairs_above(Eigen::MatrixXd symmetric, double least) {
+  const Eigen::Index size = symmetric.rows();
+  const double most = 2.0 * symmetric.norm();  // no eigenvalue is larger than the norm
+  if (!(most > least)) return {Eigen::VectorXd(0), Eigen::MatrixXd(size, 0)};
+  return some_eigenpairs(std::move(symmetric), 0, 0, least, most);
 }
 
 ThinSvd thin_svd(Eigen::MatrixXd a) {

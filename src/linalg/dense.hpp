@@ -24,6 +24,9 @@ struct LeadingEigenpairs {
 /// Reference: LAPACK's DSYEVR (relatively robust representations).
 [[nodiscard]] LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Eigen::Index n);
 
+/// The eigenpairs whose value is above `least`; there may be none. @param symmetric (size × size), its lower triangle is read
+[[nodiscard]] LeadingEigenpairs eigenpairs_above(Eigen::MatrixXd symmetric, double least);
+
 /// Thin singular value decomposition A = U S Vᵀ.
 struct ThinSvd {
   Eigen::MatrixXd u;       ///< (rows × k), k the smaller dimension

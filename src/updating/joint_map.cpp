@@ -25,6 +25,50 @@ MatrixXd whitened(const MatrixXd& jacobian, const MatrixXd& scales, const Matrix
   return a;
 }
 
+/// (A'A + I)^-1 b, its diagonal raised by a part of itself: by the matrix inversion lemma where A (m × n) has fewer rows than
+/// columns, so that the time grows with n alone.
+class DampedNormal {
+ public:
+  explicit DampedNormal(const MatrixXd& a) : a_(a), diagonal_(a.colwise().squaredNorm().transpose().array() + 1.0) {
+    if (a.cols() <= a.rows()) {
+      normal_ = linalg::product(a, a, true);
+      normal_.diagonal().array() += 1.0;
+    }
+  }
+  [[nodiscard]] VectorXd solve(double damping, const VectorXd& b) const {
+    if (a_.cols() <= a_.rows()) {
+      MatrixXd damped = normal_;
+      damped.diagonal() *= 1.0 + damping;
+      return damped.llt().solve(b);
+    }
+    const VectorXd inverse = (damping * diagonal_.array() + 1.0).inverse();
+    const MatrixXd scaled = a_ * inverse.asDiagonal();
+    MatrixXd small = linalg::product(scaled, a_.transpose());
+    small.diagonal().array() += 1.0;
+    return inverse.cwiseProduct(b) - scaled.transpose() * small.llt().solve(scaled * b);
+  }
+
+ private:
+  const MatrixXd& a_;
+  VectorXd diagonal_;  ///< of A'A + I
+  MatrixXd normal_;    ///< A'A + I where it is the smaller
+};
+
+/// Components that no bound holds against the descent.
+std::vector<int> free_components(const VectorXd& x, const VectorXd& gradient, const Box& box) {
+  const std::vector<bool> rests = held(x, gradient, box, 1e-9);
+  std::vector<int> free;
+  for (Index j = 0; j < x.size(); ++j)
+    if (!rests[static_cast<std::size_t>(j)]) free.push_back(static_cast<int>(j));
+  return free;
+}
+
+/// x less a step in its free components, inside the box.
+VectorXd moved(VectorXd x, const std::vector<int>& free, const VectorXd& step, const Box& box) {
+  x(free) -= step;
+  return x.cwiseMax(box.lower).cwiseMin(box.upper);
+}
+
 }  // namespace
 
 JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const MatrixXd& sigma_factor, const VectorXd& start,
@@ -45,28 +89,19 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
   for (; map.iterations < options.max_iterations; ++map.iterations) {
     const MatrixXd a = whitened(map.jacobian, map.scales, sigma_factor);
     const VectorXd gradient = map.x - a.transpose() * r;
-    const std::vector<bool> rests = held(map.x, gradient, box, 1e-9);
-    std::vector<int> free;
-    for (Index j = 0; j < map.x.size(); ++j)
-      if (!rests[static_cast<std::size_t>(j)]) free.push_back(static_cast<int>(j));
+    const std::vector<int> free = free_components(map.x, gradient, box);
     map.gradient = VectorXd(gradient(free)).norm();
     const MatrixXd reduced = a(Eigen::all, free);
-    MatrixXd normal = linalg::product(reduced, reduced, true);
-    normal.diagonal().array() += 1.0;
+    const DampedNormal normal(reduced);
     const VectorXd g_free = gradient(free);
-    const VectorXd newton = normal.llt().solve(g_free);
+    const VectorXd newton = normal.solve(0.0, g_free);
     if (g_free.dot(newton) < options.tolerance) {
       map.status = {true, ""};
       return map;
     }
     bool accepted = false;
     for (int attempt = 0; attempt < 12 && !accepted; ++attempt) {
-      MatrixXd damped = normal;
-      damped.diagonal() *= 1.0 + damping;
-      const VectorXd step = damped.llt().solve(g_free);
-      VectorXd x = map.x;
-      for (std::size_t k = 0; k < free.size(); ++k) x[free[k]] -= step[static_cast<Index>(k)];
-      x = x.cwiseMax(box.lower).cwiseMin(box.upper);
+      const VectorXd x = moved(map.x, free, normal.solve(damping, g_free), box);
       VectorXd g;
       if (predict(x, g, nullptr, nullptr)) {
         const VectorXd next = residual_of(g);

@@ -48,18 +48,20 @@ void apply(const Cause& cause, const Condition& condition, State& state) {
     if (cause.candidate->places.empty()) continue;
     const ReducedPlace& place = *cause.candidate->places[0];
     const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
-    const auto own = [&](const MatrixXd& full) { return MatrixXd(full(state.columns, state.columns)); };
+    const auto own = [&](const diagnosis::ReducedMatrix& full) { return full.part(state.columns); };
     if (action.kind == "scale.stiffness") state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
     if (action.kind == "scale.mass") state.mass += (value("factor") - 1.0) * own(place.mass);
-    if (action.kind == "mass.add") state.mass += value("mass") * own(place.directions * place.directions.transpose());
+    if (action.kind == "mass.add")
+      state.mass += value("mass") * MatrixXd(place.directions(state.columns, Eigen::all) *
+                                             place.directions(state.columns, Eigen::all).transpose());
     if (action.kind == "field.stiffness" && condition.temperature_C)
       state.stiffness += value("rate") * (*condition.temperature_C - value("reference")) * own(place.stiffness);
     if (action.kind == "step.stiffness" && condition.temperature_C && *condition.temperature_C < value("below"))
       state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
     if (action.kind == "element.spring" && cause.candidate->places.size() == 2) {
       const ReducedPlace& other = *cause.candidate->places[1];
-      const VectorXd b = (place.directions - other.directions) * (other.x_m - place.x_m).normalized();
-      state.stiffness += value("stiffness") * own(b * b.transpose());
+      const VectorXd b = VectorXd((place.directions - other.directions) * (other.x_m - place.x_m).normalized())(state.columns);
+      state.stiffness += value("stiffness") * b * b.transpose();
     }
   }
 }
@@ -181,7 +183,7 @@ Campaign integrated_records(const Bench& bench, const Hidden& hidden) {
     State state{columns, stiffness, mass, MatrixXd(0, channels.cols()), {}};
     if (condition.people.value_or(0.0) > 0.0) {
       const ReducedPlace& deck = model.sets.at("global").front();
-      state.mass += *condition.people * kPersonMass / deck.attributes.at("deck_mass") * deck.mass(columns, columns);
+      state.mass += *condition.people * kPersonMass / deck.attributes.at("deck_mass") * deck.mass.part(columns);
     }
     for (const Cause& cause : hidden.causes) apply(cause, condition, state);
     if (condition.dampers_on.value_or(false))

@@ -69,6 +69,19 @@ TEST(Dense, ARealSystemToo) {
 }
 
 // Oracle: the companion matrix of a polynomial has its roots as eigenvalues.
+TEST(Dense, EigenpairsAboveAValueAreTheLeadingOnes) {
+  const MatrixXd half = numbers(20, 20);
+  const MatrixXd a = half + half.transpose();
+  const linalg::LeadingEigenpairs all = linalg::leading_eigenpairs(a, 20);
+  const linalg::LeadingEigenpairs some = linalg::eigenpairs_above(a, 0.5 * (all.values[4] + all.values[5]));
+  ASSERT_EQ(some.values.size(), 5);
+  EXPECT_LT((some.values - all.values.head(5)).norm(), 1e-12 * all.values[0]);
+  EXPECT_LT((a * some.vectors - some.vectors * some.values.asDiagonal()).norm(), 1e-11 * all.values[0]);
+  EXPECT_LT((some.vectors.transpose() * some.vectors - MatrixXd::Identity(5, 5)).norm(), 1e-11);
+  EXPECT_EQ(linalg::eigenpairs_above(a, 1.01 * all.values[0]).values.size(), 0);
+  EXPECT_EQ(linalg::eigenpairs_above(a, 100.0 * all.values[0]).values.size(), 0);
+}
+
 TEST(Dense, EigenvaluesOfACompanionMatrixAreTheRoots) {
   const std::vector<std::complex<double>> roots = {{-0.1, 2.0}, {-0.1, -2.0}, {-3.0, 0.0}, {0.4, 0.7}, {0.4, -0.7}};
   std::vector<std::complex<double>> polynomial = {1.0};  // highest power first
