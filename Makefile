@@ -34,7 +34,7 @@ include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: bench-places check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
-  smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package coverage mutants docs FORCE
+  smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants docs FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -217,6 +217,19 @@ package: build ## the Debian packages twindeck and twindeck-data, in build/packa
 	@cmake --build $(BUILD) -j $(JOBS) --target manuals
 	@cd $(BUILD) && cpack -B packages >package.log 2>&1 || { cat package.log; exit 1; }
 	@ls $(BUILD)/packages/*.deb
+
+bare-root: ## install the packages of build/packages into a bare Debian 12 and work there without the source tree: seconds, exit codes (root; needs debootstrap; BASE=folder)
+	@$(PRODUCT)workflows/python.sh tests/package/bare_root.py $(BUILD)/packages results/bare_root $(BASE)
+
+RELEASE := $(BUILD)/release
+VERSION = $(shell sed -n 's/^version: //p' CITATION.cff)
+release: ## the artefacts of a release in build/release, from what `make package` and `make all` made: packages, results of the study, SHA256SUMS
+	@for need in $(BUILD)/packages results/ponte_del_mare/report/report.html; do test -e $$need || { echo "release: $$need is not there: make package all" >&2; exit 2; }; done
+	@rm -rf $(RELEASE) && mkdir -p $(RELEASE) && cp $(BUILD)/packages/twindeck*_$(VERSION)_*.deb $(RELEASE)
+	@tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -C results -cf - ponte_del_mare $(notdir $(wildcard results/ponte_del_mare_virtual)) \
+	  | gzip -n >$(RELEASE)/twindeck-$(VERSION)-results.tar.gz
+	@git archive --format=tar --prefix=twindeck-$(VERSION)/ HEAD | gzip -n >$(RELEASE)/twindeck-$(VERSION).tar.gz
+	@cd $(RELEASE) && sha256sum *.deb *.tar.gz >SHA256SUMS && cat SHA256SUMS
 
 clean: ## remove the build and all results
 	@rm -rf $(BUILD) && find results -mindepth 1 -not -name README.md -delete

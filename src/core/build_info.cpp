@@ -66,7 +66,7 @@ int note_library(dl_phdr_info* info, std::size_t, void* target) {
 
 }  // namespace
 
-std::string version() { return "0.1.0"; }
+std::string version() { return TWINDECK_VERSION; }
 
 std::string source_commit() {
   const fs::path git = git_folder(fs::path(__FILE__).parent_path().parent_path().parent_path());

@@ -5,7 +5,7 @@
 
 namespace twindeck {
 
-/// "0.1.0".
+/// "1.0.0": the version that CITATION.cff states, from the build.
 [[nodiscard]] std::string version();
 
 /// Commit of the source tree that this program was built from (40 hexadecimal digits). "" if the tree is not a git checkout or
