@@ -61,7 +61,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
     const std::size_t distance = edit_distance(name, candidate);
     // Of the longer name, so that "Es" is near "E_s"; a single letter of the wrong case is near too.
     const std::size_t near = std::max(kSlipOfCase, kSlip * (std::max(name.size(), candidate.size()) / 3));
-    if (distance <= near && distance < smallest) {
+    const bool same_letters = std::ranges::equal(name, candidate, {}, lower, lower);
+    if ((distance <= near || same_letters) && distance < smallest) {
       smallest = distance;
       nearest = candidate;
     }

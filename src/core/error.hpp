@@ -44,7 +44,7 @@ struct Status {
   std::string message;
 };
 
-/// The known name nearest to `name` by edit distance. "" if the distance of each is over a third of its letters.
+/// The known name nearest to `name` by edit distance. "" if each is further than a third of its letters, case apart.
 [[nodiscard]] std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
 /// " (did you mean 'x'?)" or "", to be appended to a message about an unknown name.

@@ -1,9 +1,9 @@
 """make growth: processor seconds and peak memory as models and records grow, beside peers, with exponents fitted to them.
 
-    python3 tests/bench/growth.py BIN OUT [modes=SIZES] [records=SAMPLES] [channels=CHANNELS] [steps=RUNS]
+    python3 tests/bench/growth.py BIN OUT [modes=SIZES] [records=SAMPLES] [channels=CHANNELS[:SAMPLES]] [places=PLACES] [steps=RUNS]
 
-BIN: folder of the executables; OUT: where modes.csv, records.csv, exponents.csv and a figure of each go. What is not named runs with the sizes
-below. A run of the modes that would take more than LIMIT_S of processor time or LIMIT_GB is ended, and its row says so; larger sizes of that program are not
+BIN: folder of the executables; OUT: where modes.csv, records.csv, places.csv, exponents.csv and a figure of each go. Without names everything runs with the
+sizes below. A number of channels without samples has a million; places are those of `make bench-places`. A run of the modes that would take more than LIMIT_S of processor time or LIMIT_GB is ended, and its row says so; larger sizes of that program are not
 tried. Everything runs on one thread. Rows of earlier runs stay unless they are measured again. IDENTIFICATION=FILE in the environment measures another
 executable of step 3, for a comparison.
 """
@@ -21,7 +21,7 @@ import threading
 import table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SIZES = {"modes": "deck:3e4,1e5,3e5,1e6;building:3e4,1e5", "records": "1e5,1e6,1e7", "channels": "64,256", "steps": "200"}
+SIZES = {"modes": "deck:3e4,1e5,3e5,1e6;building:3e4,1e5", "records": "1e5,1e6,1e7", "channels": "64,256", "places": "100,200,400", "steps": "200"}
 LIMIT_S, LIMIT_GB = 1500, 12
 REFERENCES = 16  # channels that every channel is correlated with: of a record with more, the first sixteen
 TRUE_HZ = (0.72, 0.98, 1.05, 1.32, 1.68, 2.31, 2.36, 2.95, 3.40, 4.00, 4.70, 5.50, 6.40, 7.40)  # sysid_record.hpp
@@ -235,45 +235,57 @@ def fitted(points):
     return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / spread if spread else math.nan
 
 
-def series(file, group, size):
-    """{(group values): {"cpu_s": [(size, value)], "peak_MB": …}}"""
+def series(file, group, size, quantities):
+    """{(group values): {quantity: [(size, value)]}}"""
     found = {}
     if file.is_file():
         with open(file, newline="") as stream:
             for row in csv.DictReader(stream):
-                for quantity in ("cpu_s", "peak_MB"):
+                for quantity in quantities:
                     if row[quantity]:
                         found.setdefault(tuple(row[g] for g in group), {}).setdefault(quantity, []).append((float(row[size]), float(row[quantity])))
     return found
 
 
-def summarise(out):
-    """exponents.csv and one figure a table, from what modes.csv and records.csv hold now."""
+# Table, columns that tell rows of different lines apart, column of the size, quantities with their axes.
+COST = {"cpu_s": "processor time of one thread [s]", "peak_MB": "peak memory [MB]"}
+TABLES = [("modes", ("family", "program"), "degrees_of_freedom", COST), ("records", ("channels", "program"), "samples", COST),
+          ("places", (), "places", {"form_off_s": "processor time, exact model [s]", "form_on_s": "processor time, form error [s]"})]
+
+
+def draw(file, found, size, axes_of):
+    """One figure of a table; @return its rows of exponents: group, quantity, number of sizes, from, to, exponent"""
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
     lines = []
-    for name, group, size in (("modes", ("family", "program"), "degrees_of_freedom"), ("records", ("channels", "program"), "samples")):
-        found = series(out / f"{name}.csv", group, size)
-        figure, axes = pyplot.subplots(1, 2, figsize=(9, 4), layout="constrained")
+    figure, axes = pyplot.subplots(1, len(axes_of), figsize=(9, 4), layout="constrained")
+    for axis, (quantity, label) in zip(axes, axes_of.items()):
         for who, quantities in found.items():
-            for axis, quantity in zip(axes, ("cpu_s", "peak_MB")):
-                points = sorted(quantities.get(quantity, []))
-                exponent = fitted(points)
-                if not math.isnan(exponent):
-                    lines.append([name, *who, quantity, len(points), f"{points[0][0]:.3g}", f"{points[-1][0]:.3g}", f"{exponent:.2f}"])
-                axis.loglog([p[0] for p in points], [p[1] for p in points], marker="o",
-                            label=", ".join(who) + ("" if math.isnan(exponent) else f": exponent {exponent:.2f}"))
-        for axis, label in zip(axes, ("processor time of one thread [s]", "peak memory [MB]")):
-            axis.set_xlabel("degrees of freedom" if name == "modes" else "samples")
-            axis.set_ylabel(label)
-            axis.grid(True, which="major", alpha=0.4)
-            if axis.lines:
-                axis.legend(fontsize=7)
-        figure.savefig(out / f"{name}.png", dpi=150)
-        pyplot.close(figure)
+            points = sorted(quantities.get(quantity, []))
+            exponent = fitted(points)
+            known = not math.isnan(exponent)
+            if known:
+                lines.append([", ".join(who), quantity, len(points), f"{points[0][0]:.3g}", f"{points[-1][0]:.3g}", f"{exponent:.2f}"])
+            axis.loglog([p[0] for p in points], [p[1] for p in points], marker="o", label=", ".join(who) + (f": exponent {exponent:.2f}" if known else ""))
+        axis.set_xlabel(size.replace("_", " "))
+        axis.set_ylabel(label)
+        axis.grid(True, which="major", alpha=0.4)
+        if axis.lines:
+            axis.legend(fontsize=7)
+    figure.savefig(file, dpi=150)
+    pyplot.close(figure)
+    return lines
+
+
+def summarise(out):
+    """exponents.csv and one figure a table, from what the tables hold now."""
+    lines = []
+    for name, group, size, axes_of in TABLES:
+        if found := series(out / f"{name}.csv", group, size, axes_of):
+            lines += [[name, *line] for line in draw(out / f"{name}.png", found, size, axes_of)]
     with open(out / "exponents.csv", "w", newline="") as stream:
-        csv.writer(stream, lineterminator="\n").writerows([["table", "group", "program", "quantity", "sizes", "from", "to", "exponent"], *lines])
+        csv.writer(stream, lineterminator="\n").writerows([["table", "group", "quantity", "sizes", "from", "to", "exponent"], *lines])
     for line in lines:
         print("growth:", *line)
 
@@ -290,7 +302,9 @@ def main():
     if "records" in wanted:
         records(binaries, out, [(16, int(float(n))) for n in wanted["records"].split(",")])
     if "channels" in wanted:
-        records(binaries, out, [(int(c), 1_000_000) for c in wanted["channels"].split(",")])
+        records(binaries, out, [(int(c), int(float(n or 1e6))) for c, _, n in (part.partition(":") for part in wanted["channels"].split(","))])
+    if "places" in wanted:
+        subprocess.run([sys.executable, ROOT / "tests/bench/places.py", binaries, out, *wanted["places"].split(",")], env=table.ONE_THREAD, check=True)
     if "steps" in wanted:
         small_runs(binaries, out, int(wanted["steps"]))
     summarise(out)

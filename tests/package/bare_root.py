@@ -27,28 +27,31 @@ INSTALL = "DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-re
 
 
 class Root:
-    """A Debian below a folder. Every command that runs there is a row."""
+    """A Debian below a folder. What is done there is a row."""
 
     def __init__(self, folder):
         self.folder, self.rows = folder, []
 
-    def runs(self, what, command, user="0:0", where="/"):
-        """Runs a line of shell in the root; what it prints last stands in its row. @return its output"""
-        started = time.monotonic()
+    def enter(self, command, user, where):
+        """Runs lines of shell in the root."""
         environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": HOME if user == USER else "/root", "LC_ALL": "C.UTF-8"}
         environment |= {k: v for k, v in os.environ.items() if k.lower() in ("http_proxy", "https_proxy", "no_proxy")}
-        done = subprocess.run(["unshare", "-m", "-p", "-f", "sh", "-c", ENTER, self.folder, f"--userspec={user}", self.folder, "sh", "-e", "-c",
+        return subprocess.run(["unshare", "-m", "-p", "-f", "sh", "-c", ENTER, self.folder, f"--userspec={user}", self.folder, "sh", "-e", "-c",
                                f"cd {where}\n{command}"], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def runs(self, what, command, user="0:0", where="/"):
+        """Runs lines of shell as a row, with what they print last."""
+        started = time.monotonic()
+        done = self.enter(command, user, where)
         lines = (done.stdout if done.returncode == 0 else done.stderr or done.stdout).strip().splitlines()
         self.add(what, time.monotonic() - started, done.returncode, lines[-1] if lines else "")
-        return done.stdout
 
     def add(self, what, seconds, code, said):
         self.rows.append([what, f"{seconds:.1f}", code, said])
         print(f"bare-root: {what}: {seconds:.1f} s, exit code {code}" + (f": {said}" if code else ""), flush=True)
 
     def as_engineer(self, what, command, where=HOME):
-        return self.runs(what, command, USER, where)
+        self.runs(what, command, USER, where)
 
 
 def base(folder, given):
@@ -74,7 +77,7 @@ def install(root, packages):
 def own_study(root):
     root.as_engineer("twindeck --version", "twindeck --version")
     root.as_engineer("twindeck new my_bridge", "twindeck new my_bridge")
-    root.as_engineer("twindeck run my_bridge look", "twindeck run my_bridge look && ls results/my_bridge/figures/fig_05.pdf")
+    root.as_engineer("twindeck run my_bridge look", "twindeck run my_bridge look && ls results/my_bridge/look/fig_05.png")
     root.as_engineer("twindeck run my_bridge", "twindeck run my_bridge")
     root.as_engineer("the report is there", "stat -c '%s bytes' results/my_bridge/report/report.html")
     root.as_engineer("twindeck run again: nothing to do", "twindeck run my_bridge && twindeck why s9")
@@ -92,11 +95,8 @@ def tutorial(root, page):
         for path in (place, *place.rglob("*")):
             os.chown(path, *map(int, USER.split(":")))
         if language == "sh":
-            before = len(root.rows)
-            printed = root.as_engineer(content.strip().splitlines()[0], content, f"{HOME}/tutorial")
-            failed = failed or root.rows[before][2]
-            del root.rows[before:]
-            commands += len(content.strip().splitlines())
+            done = root.enter(content, USER, f"{HOME}/tutorial")
+            printed, failed, commands = done.stdout, failed or done.returncode, commands + len(content.strip().splitlines())
         elif language == "text":
             wrong += guide.differences(content, printed)
     root.add(f"{page}: {commands} commands", time.monotonic() - started, failed or int(bool(wrong)),

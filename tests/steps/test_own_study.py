@@ -96,6 +96,14 @@ class OwnStudy(unittest.TestCase):
         done = self.make("all", "STUDY=faulty")
         self.assertIn("data/faulty/model/masses.csv:2: node: node 500 is not in nodes.csv", done.stderr)
 
+    def test_without_records_step_3_says_what_to_do(self):
+        self.make("new", "STUDY=modes_alone")
+        shutil.rmtree(self.root / "data/modes_alone/campaign")
+        done = self.make("s3", "STUDY=modes_alone")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("data/modes_alone/campaign/campaign.toml: does not exist", done.stderr)
+        self.assertIn("takes s3_identification out of the steps in study.toml", done.stderr)
+
     def test_names_that_are_no_names_or_taken(self):
         for arguments, part in ((("new",), "is no name for a study"), (("new", "STUDY=My-Bridge"), "is no name"), (("new", "STUDY=mine"), "is there already")):
             done = self.make(*arguments)

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/error.hpp"
 #include "identification/stays.hpp"
 
 namespace twindeck::steps {
@@ -13,7 +14,14 @@ namespace {
 std::filesystem::path default_campaign(const StepContext& context) {
   const std::filesystem::path own = std::filesystem::path("data") / context.study.lexically_normal().filename() / "campaign";
   const bool is_there = !context.study.empty() && std::filesystem::exists(own / "campaign.toml");
-  return is_there ? own : context.results / "s0_campaign";
+  if (is_there) return own;
+  const std::filesystem::path simulated = context.results / "s0_campaign";
+  if (!context.study.empty() && !std::filesystem::exists(simulated)) {
+    throw InputError({own.string() + "/campaign.toml", 0, ""}, "does not exist, nor does " + simulated.string(),
+                     "put your records there (docs/my_records.md), or run s0_campaign; whoever has modes and no records takes "
+                     "s3_identification out of the steps in study.toml");
+  }
+  return simulated;
 }
 
 /// Registered are the lists and records, and nothing else that lies there.

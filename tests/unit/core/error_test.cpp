@@ -33,6 +33,9 @@ TEST(NearestName, PrefersTheNearer) {
   EXPECT_EQ(nearest_name("Z_m", std::vector<std::string>{"node", "x_m", "y_m", "z_m"}), "z_m");
   EXPECT_EQ(nearest_name("Y", std::vector<std::string>{"x", "y"}), "y");
   EXPECT_EQ(nearest_name("w", std::vector<std::string>{"x", "y"}), "");
+  // All letters of the other case, as solvers write names: a distance of five where a third of the letters is one.
+  EXPECT_EQ(nearest_name("steel", std::vector<std::string>{"STEEL", "CONCRETE"}), "STEEL");
+  EXPECT_EQ(nearest_name("steed", std::vector<std::string>{"STEEL", "CONCRETE"}), "");
 }
 
 // Oracle: TWINDECK_ASSERT is for our own mistakes, so it raises InternalError (exit code 3), never InputError.
