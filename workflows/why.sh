@@ -9,7 +9,7 @@ fi
 steps=$(sed -n '/^steps *=/,/\]/p' "workflows/$study/study.toml" | grep -o 's[0-9]_[a-z]*' || true)
 token=$(printf '%s\n' "$steps" | grep -E "^$step(_|\$)" || true)
 if [ -z "$token" ]; then
-  echo "why: study $study has no step '$step'; it has: $(echo $steps)" >&2
+  echo "why: study $study has no step '$step'; it has: $(printf '%s\n' "$steps" | tr '\n' ' ')" >&2
   exit 2
 fi
 reasons=$(make -f "$makefile" --no-print-directory -n --debug=b "$token" STUDY="$study" NO_BUILD=1 2>/dev/null |

@@ -49,11 +49,12 @@ run() { # LABEL COMMAND…
 if [ "$only" != thread ]; then
   build sanitize unit_tests executables fuzz_corpus test_broken_inputs
   bin=build-sanitize/bin
-  for test in $(sed 's/;/ /g' build-sanitize/unit_tests.txt); do run "$test" "$bin/$test" --gtest_brief=1; done
+  for test in $(tr ';' ' ' <build-sanitize/unit_tests.txt); do run "$test" "$bin/$test" --gtest_brief=1; done
   run "kept inputs of the fuzz targets" "$bin/fuzz_corpus" tests/fuzz/corpus
   run "broken inputs" "$bin/test_broken_inputs" --gtest_brief=1
   results=build-sanitize/smoke
   rm -rf "$results"
+  # shellcheck disable=SC2013  # names are words
   for step in $(sed -n '/^steps *=/,/\]/p' workflows/smoke/study.toml | grep -o 's[0-9]_[a-z]*'); do
     run "smoke study, $step" "$bin/$step" --study workflows/smoke --results "$results" --out "$results/$step" --threads 2 --quiet
   done
