@@ -10,11 +10,11 @@
 namespace twindeck {
 namespace {
 
-// Oracle: the version in CMakeLists.txt, which packaging reads.
-TEST(BuildInfo, VersionIsTheProjects) {
-  std::ifstream in(std::string(TWINDECK_SOURCE_DIR) + "/CMakeLists.txt");
+// Oracle: the version in CITATION.cff, the one place where it is written.
+TEST(BuildInfo, VersionIsTheCitations) {
+  std::ifstream in(std::string(TWINDECK_SOURCE_DIR) + "/CITATION.cff");
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  EXPECT_NE(text.find("project(twindeck VERSION " + version() + " "), std::string::npos);
+  EXPECT_NE(text.find("\nversion: " + version() + "\n"), std::string::npos);
 }
 
 // Oracle: a git object name has 40 hexadecimal digits; a tree without git has none.
