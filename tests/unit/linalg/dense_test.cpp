@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <vector>
 
 #include "linalg/unsymmetric_eigen.hpp"
@@ -37,6 +38,39 @@ TEST(Dense, ALowerFactorIsSolvedByItsLowerTriangleAlone) {
   EXPECT_EQ(linalg::lower_solve(lower, MatrixXd(40, 0)).cols(), 0);
   const MatrixXd upper = triangle.transpose();
   EXPECT_LT((linalg::lower_solve(lower, upper.lazyProduct(x), true) - x).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+// Oracle: the closed form of the chain, eigenvalues 2 - 2 cos(k pi / (n + 1)) with vectors sin(i k pi / (n + 1)).
+TEST(Dense, LeadingEigenpairsOfTheChain) {
+  const Eigen::Index n = 30, wanted = 4;
+  MatrixXd chain = MatrixXd::Zero(n, n);
+  chain.diagonal().setConstant(2.0);
+  chain.diagonal(-1).setConstant(-1.0);  // the lower triangle alone
+  const linalg::LeadingEigenpairs found = linalg::leading_eigenpairs(chain, wanted);
+  ASSERT_EQ(found.values.size(), wanted);
+  for (Eigen::Index j = 0; j < wanted; ++j) {
+    const double angle = static_cast<double>(n - j) * std::numbers::pi / static_cast<double>(n + 1);
+    EXPECT_NEAR(found.values[j], 2.0 - 2.0 * std::cos(angle), 1e-13);
+    const Eigen::VectorXd vector =
+        Eigen::VectorXd::LinSpaced(n, 1.0, static_cast<double>(n)).unaryExpr([&](double i) { return std::sin(i * angle); });
+    EXPECT_NEAR(std::abs(found.vectors.col(j).dot(vector.normalized())), 1.0, 1e-12);
+  }
+}
+
+// Oracle: matrices put together from reflections and singular values that are stated, wide and high.
+TEST(Dense, AThinSingularValueDecompositionIsThatOfItsParts) {
+  const auto reflection = [](const Eigen::VectorXd& v) -> MatrixXd {
+    return MatrixXd::Identity(v.size(), v.size()) - 2.0 / v.squaredNorm() * v * v.transpose();
+  };
+  const MatrixXd left = reflection(numbers(12, 1)), right = reflection(numbers(5, 1).array() + 2.0);
+  const Eigen::VectorXd stated = (Eigen::VectorXd(5) << 9.0, 4.0, 1.0, 0.5, 0.01).finished();
+  const MatrixXd high = left.leftCols(5) * stated.asDiagonal() * right.transpose();
+  for (const MatrixXd& a : {high, MatrixXd(high.transpose())}) {
+    const linalg::ThinSvd svd = linalg::thin_svd(a);
+    EXPECT_LT((svd.values - stated).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LT((svd.u * svd.values.asDiagonal() * svd.vt - a).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LT((svd.u.transpose() * svd.u - MatrixXd::Identity(5, 5)).cwiseAbs().maxCoeff(), 1e-13);
+  }
 }
 
 TEST(Dense, AFactorTimesItselfIsTheMatrixAndThereIsNoneOfAnIndefiniteOne) {

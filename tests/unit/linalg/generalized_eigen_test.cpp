@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/error.hpp"
 #include "linalg/inertia.hpp"
 
 namespace {
@@ -200,6 +201,22 @@ TEST(CountEigenvaluesBelow, CountsTheChain) {
     const double between = 0.5 * (chain_eigenvalue(j, n, 1.0, 1.0) + chain_eigenvalue(j + 1, n, 1.0, 1.0));
     EXPECT_EQ(count_eigenvalues_below(k, m, between), 2 * j);
   }
+}
+
+// Oracle: a diagonal pencil, whose eigenvalues are its quotients; without mass there are none.
+TEST(CountEigenvaluesBelow, RefusesAnEigenvalueItself) {
+  const SparseMatrix k = diagonal(Eigen::Vector3d(2.0, 8.0, 18.0)), m = diagonal(Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(count_eigenvalues_below(k, m, 3.9), 1);
+  EXPECT_EQ(count_eigenvalues_below(k, m, 4.1), 2);
+  EXPECT_THROW((void)count_eigenvalues_below(k, m, 4.0), twindeck::InputError);
+}
+
+TEST(LowestEigenpairs, SayWhereNothingCarriesMass) {
+  Cholesky factor;
+  const EigenPairs pairs = lowest_eigenpairs(chains(5, 1, 1.0), SparseMatrix(5, 5), 2, 0.0, factor);
+  EXPECT_FALSE(pairs.status.converged);
+  EXPECT_NE(pairs.status.message.find("carries mass"), std::string::npos) << pairs.status.message;
+  EXPECT_EQ(pairs.values.size(), 0);
 }
 
 }  // namespace

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <complex>
+#include <limits>
+#include <string>
+#include <vector>
+
 #include "core/error.hpp"
 
 namespace {
@@ -39,6 +44,28 @@ TEST(Mac, RefusesWhatCannotBeCompared) {
     FAIL() << "a zero shape was accepted";
   } catch (const twindeck::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("experimental shape 2"), std::string::npos) << error.what();
+  }
+}
+
+// Oracle: hand calculation over the channels that measured the mode: (1, 5, 1) without its middle is (1, 1), (1, 0, 0) is (1,
+// 0).
+TEST(MacWhereMeasured, LeavesOutTheChannelsThatDidNotMeasure) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Eigen::MatrixXcd n(3, 3), x(3, 2);
+  n << 1.0, 1.0, 0.0, 5.0, 0.0, 1.0, 1.0, 0.0, 0.0;
+  x << 2.0, 1.0, kNone, 1.0, 2.0, 0.0;
+  const Eigen::MatrixXd m = twindeck::modal::mac_where_measured(n, x);
+  EXPECT_DOUBLE_EQ(m(0, 0), 1.0);
+  EXPECT_DOUBLE_EQ(m(1, 0), 0.5);
+  EXPECT_DOUBLE_EQ(m(2, 0), 0.0);  // zero where it was measured
+  EXPECT_DOUBLE_EQ(m(0, 1), 36.0 / (27.0 * 2.0));
+  EXPECT_EQ(twindeck::modal::measured_rows(x.col(0)), (std::vector<Eigen::Index>{0, 2}));
+  x(0, 0) = x(2, 0) = std::complex<double>(0.0, kNone);
+  try {
+    (void)twindeck::modal::mac_where_measured(n, x);
+    FAIL() << "a mode without a channel was accepted";
+  } catch (const twindeck::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("experimental shape 1"), std::string::npos) << error.what();
   }
 }
 

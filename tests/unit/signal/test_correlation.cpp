@@ -46,6 +46,21 @@ TEST(Correlation, LeavingABlockOutLeavesItsPairsOut) {
   EXPECT_NEAR(lags[6](0, 0), sum / static_cast<double>(count), 1e-12);
 }
 
+TEST(Correlation, OfTwoRecordsTakesThePairsOfBoth) {
+  const Eigen::MatrixXd first = white(600, 2, 7), second = white(421, 2, 8);
+  BlockCorrelations both;
+  both.append(correlations(first, {0}, 12, 3));
+  both.append(correlations(second, {0}, 12, 2));
+  EXPECT_EQ(both.n_blocks(), 5);
+  const Eigen::Index k = 9;
+  double sum = 0.0;
+  for (const Eigen::MatrixXd* data : {&first, &second}) {
+    const Eigen::Index pairs = data->rows() - k;
+    sum += data->col(1).tail(pairs).dot(data->col(0).head(pairs));
+  }
+  EXPECT_NEAR(both.mean()[9](1, 0), sum / static_cast<double>(600 - k + 421 - k), 1e-12);
+}
+
 TEST(Correlation, OfAFirstOrderAutoregression) {
   const double a = 0.8;
   Eigen::MatrixXd data = white(400000, 1, 9);
