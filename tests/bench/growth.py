@@ -267,7 +267,7 @@ def draw(file, found, size, axes_of):
             known = not math.isnan(exponent)
             if known:
                 lines.append([", ".join(who), quantity, len(points), f"{points[0][0]:.3g}", f"{points[-1][0]:.3g}", f"{exponent:.2f}"])
-            axis.loglog([p[0] for p in points], [p[1] for p in points], marker="o", label=", ".join(who) + (f": exponent {exponent:.2f}" if known else ""))
+            axis.loglog([p[0] for p in points], [p[1] for p in points], marker="o", label=", ".join([*who, f"exponent {exponent:.2f}"] if known else who))
         axis.set_xlabel(size.replace("_", " "))
         axis.set_ylabel(label)
         axis.grid(True, which="major", alpha=0.4)
