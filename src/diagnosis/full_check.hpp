@@ -4,7 +4,7 @@
 #include <string>
 
 #include "diagnosis/inference.hpp"
-#include "diagnosis/structure.hpp"
+#include "diagnosis/reduction/structure.hpp"
 
 namespace twindeck::diagnosis {
 

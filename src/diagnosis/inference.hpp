@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/feature_map.hpp"
+#include "diagnosis/prediction/feature_map.hpp"
 #include "updating/joint_map.hpp"
 
 namespace twindeck::diagnosis {

@@ -8,8 +8,8 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-constexpr double kLeastEffect = 1e-9;    ///< [-] of an unknown on whitened rows: below it is rounding
-constexpr std::size_t kLongestMap = 40;  ///< locations: as many as a figure shows, the others score like chance
+constexpr double kLeastSignature = 1e-9;  ///< [-] of an unknown on whitened rows: below it is rounding
+constexpr std::size_t kLongestMap = 40;   ///< locations: as many as a figure shows, the others score like chance
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::vector<LocationScore> location_map(const Inference& inference, const Fit& f
     if (v.kind == Nuisance::Kind::mode_damping || v.kind == Nuisance::Kind::level) continue;
     const Eigen::VectorXd l =
         fit.total_factor.triangularView<Eigen::Lower>().solve(fit.map.jacobian.col(static_cast<Eigen::Index>(j)));
-    if (!(l.norm() > kLeastEffect)) continue;
+    if (!(l.norm() > kLeastSignature)) continue;
     const std::string location = v.kind == Nuisance::Kind::parameter ? "group:" + v.name : v.name.substr(0, v.name.find(' '));
     double& score = best[location];
     score = std::max(score, std::abs(l.dot(fit.whitened)) / l.norm());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/finer_places.hpp"
+#include "diagnosis/reduction/finer_places.hpp"
 
 /// Candidate locations round the leading ones: laid between those of the catalogue after something was detected and before it
 /// is named. Takes the structure, its places and its reduced model, which grow; gives entries that the search weighs like all

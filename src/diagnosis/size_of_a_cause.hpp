@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "diagnosis/candidate.hpp"
+#include "diagnosis/causes/candidate.hpp"
 #include "diagnosis/intervals.hpp"
 
 /// Sizes with which a cause that stands out is none.

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "diagnosis/same_modes.hpp"
+#include "diagnosis/features/same_modes.hpp"
 #include "identification/identification.hpp"
 
 namespace twindeck::blind {

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "diagnosis/features.hpp"
+#include "diagnosis/features/features.hpp"
 #include "io/toml_value.hpp"
 
 namespace twindeck::steps {

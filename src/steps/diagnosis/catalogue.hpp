@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "diagnosis/catalogue.hpp"
+#include "diagnosis/causes/catalogue.hpp"
 
 namespace twindeck::steps {
 

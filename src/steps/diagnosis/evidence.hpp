@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/features.hpp"
-#include "diagnosis/structure.hpp"
+#include "diagnosis/features/features.hpp"
+#include "diagnosis/reduction/structure.hpp"
 #include "steps/measured/measured_input.hpp"
 
 /// Evidence that is no row: what others publish about their own updating and validation. It goes into the account of what is

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/bar_stays.hpp"
+#include "diagnosis/causes/bar_stays.hpp"
 #include "diagnosis/diagnose.hpp"
 
 namespace twindeck::steps {

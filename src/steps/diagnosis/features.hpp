@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "diagnosis/features.hpp"
-#include "diagnosis/structure.hpp"
+#include "diagnosis/features/features.hpp"
+#include "diagnosis/reduction/structure.hpp"
 #include "steps/measured/measured_input.hpp"
 
 namespace twindeck::steps {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "diagnosis/load_test_vectors.hpp"
+#include "diagnosis/reduction/load_test_vectors.hpp"
 #include "model_io/load_cases.hpp"
 
 namespace twindeck::steps {

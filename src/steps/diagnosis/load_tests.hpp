@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "diagnosis/features.hpp"
-#include "diagnosis/structure.hpp"
+#include "diagnosis/features/features.hpp"
+#include "diagnosis/reduction/structure.hpp"
 #include "steps/diagnosis/model.hpp"
 
 /// What s9_diagnosis takes of load tests.
@@ -16,8 +16,8 @@ struct LoadTestFiles {
 
 /// The load cases that rows were measured under and the gauges of the channels, over the structure's free dofs; nothing where
 /// no row is of a load test.
-/// @throws InputError  naming the line: see diagnosis/load_test_vectors.hpp and model_io/load_cases.hpp; a row whose channel
-/// shows nothing
+/// @throws InputError  naming the line: see diagnosis/reduction/load_test_vectors.hpp and model_io/load_cases.hpp; a row whose
+/// channel shows nothing
 ///         of the model's motion
 [[nodiscard]] diagnosis::LoadTests load_tests_in_use(const DiagnosedModel& model, const diagnosis::Structure& structure,
                                                      const diagnosis::Places& places, const diagnosis::FeatureSet& features,

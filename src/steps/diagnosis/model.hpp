@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/features.hpp"
-#include "diagnosis/structure.hpp"
+#include "diagnosis/features/features.hpp"
+#include "diagnosis/reduction/structure.hpp"
 #include "steps/measured/measured_input.hpp"
 #include "steps/shared/model_source.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/structure.hpp"
+#include "diagnosis/reduction/structure.hpp"
 #include "steps/measured/measured_input.hpp"
 
 /// Locations of the diagnosis ("node:725", "support:pier_W", "group:E_s") in the words of somebody who stands before the

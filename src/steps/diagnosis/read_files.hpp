@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "diagnosis/catalogue.hpp"
-#include "diagnosis/features.hpp"
-#include "diagnosis/structure.hpp"
+#include "diagnosis/causes/catalogue.hpp"
+#include "diagnosis/features/features.hpp"
+#include "diagnosis/reduction/structure.hpp"
 #include "steps/diagnosis/config.hpp"
 #include "steps/diagnosis/evidence.hpp"
 #include "steps/measured/measured_input.hpp"

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "diagnosis/feature_map.hpp"
-#include "diagnosis/same_modes.hpp"
+#include "diagnosis/features/same_modes.hpp"
+#include "diagnosis/prediction/feature_map.hpp"
 
 namespace twindeck::steps {
 

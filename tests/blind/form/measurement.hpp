@@ -1,7 +1,7 @@
 #pragma once
 
 #include "blind/form/hidden.hpp"
-#include "diagnosis/features.hpp"
+#include "diagnosis/features/features.hpp"
 
 /// What a test measures on a truth: frequencies and shapes of the lowest modes that the channels see, in every condition.
 namespace twindeck::blind::form {

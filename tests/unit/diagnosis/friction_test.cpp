@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "chain.hpp"
-#include "diagnosis/state_modes.hpp"
+#include "diagnosis/reduction/state_modes.hpp"
 
 namespace twindeck::tests {
 namespace {

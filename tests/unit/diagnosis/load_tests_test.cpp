@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
-#include "diagnosis/load_test_vectors.hpp"
+#include "diagnosis/reduction/load_test_vectors.hpp"
 #include "steps/diagnosis/model.hpp"
 
 namespace twindeck::tests {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "chain.hpp"
-#include "diagnosis/predictor.hpp"
+#include "diagnosis/prediction/predictor.hpp"
 
 namespace twindeck::tests {
 namespace {

@@ -1,5 +1,5 @@
 // V' S V computed part by part. Oracle: the dense product of the whole.
-#include "diagnosis/reduced_matrix.hpp"
+#include "diagnosis/reduction/reduced_matrix.hpp"
 
 #include <gtest/gtest.h>
 

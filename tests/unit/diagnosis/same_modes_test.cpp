@@ -1,5 +1,5 @@
 // Modes of several conditions under one name. Oracle: modes of one structure, renumbered and shifted by hand.
-#include "diagnosis/same_modes.hpp"
+#include "diagnosis/features/same_modes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,377 @@
+#include "diagnosis/causes/candidate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "core/error.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+
+/// A condition's value of a key as a number, if it is known.
+std::optional<double> number_of(const Condition& condition, const std::string& key) {
+  if (key == "amplitude_m") return condition.amplitude_m;
+  if (key == "temperature_C") return condition.temperature_C;
+  if (key == "wind_m_s") return condition.wind_m_s;
+  if (key == "direction_deg") return condition.direction_deg;
+  if (key == "people") return condition.people;
+  if (key == "dampers" && condition.dampers_on) return *condition.dampers_on ? 1.0 : 0.0;
+  return std::nullopt;
+}
+
+/// Why these data can't see a family; empty if they can.
+std::string unmet(const Needs& needs, const FeatureSet& features) {
+  std::set<int> used;
+  std::set<std::string> types;
+  for (const Row& row : features.rows) {
+    used.insert(row.condition);
+    types.insert(name_of(row.type));
+  }
+  for (const auto& [key, wanted] : needs.conditions) {
+    bool met = false;
+    for (const int c : used) {
+      const auto value = number_of(features.conditions[static_cast<std::size_t>(c)], key);
+      if (!value) continue;
+      met = met || wanted == "known" || (wanted == "on" && *value != 0.0) || (wanted == "off" && *value == 0.0) ||
+            (wanted == "above_zero" && *value > 0.0);
+    }
+    if (!met) return fmt::format("no condition with {} = {}", key, wanted);
+  }
+  for (const auto& [key, count] : needs.distinct) {
+    std::set<double> values;
+    for (const int c : used)
+      if (const auto value = number_of(features.conditions[static_cast<std::size_t>(c)], key)) values.insert(*value);
+    if (static_cast<int>(values.size()) < count)
+      return fmt::format("needs {} different values of {}, the rows have {}", count, key, values.size());
+  }
+  if (!needs.rows.empty() &&
+      std::none_of(needs.rows.begin(), needs.rows.end(), [&](const auto& t) { return types.contains(t); }))
+    return fmt::format("no row of type {}", fmt::join(needs.rows, " or "));
+  return "";
+}
+
+bool resolvable(const Candidate& candidate);
+
+/// Range that a stay's first frequency can have. Where it was measured: three deviations about it. Otherwise wide about what
+/// the modelled pull gives. Nothing for a stay of which neither is known.
+std::map<std::string, double> own_frequency(const Candidate& candidate, const FeatureSet& features) {
+  double weights = 0.0, mean = 0.0;
+  for (const Row& row : features.rows) {
+    if (row.type != RowType::stay_frequency || "stay:" + row.stay != candidate.location || !(row.std > 0.0)) continue;
+    const double number = std::max(1.0, std::atof(row.mode.c_str()));  // the n-th is n times the first
+    const double weight = std::pow(row.value / row.std, 2);
+    weights += weight;
+    mean += weight * std::log(row.value / number);
+  }
+  if (weights > 0.0) {
+    const double f = std::exp(mean / weights), spread = std::max(3.0 / std::sqrt(weights), 0.02);
+    return {{"f_own", f}, {"f_own_low", f * std::exp(-spread)}, {"f_own_high", f * std::exp(spread)}};
+  }
+  const auto modelled = candidate.places[0]->attributes.find("f_cable");
+  if (modelled == candidate.places[0]->attributes.end()) return {};
+  return {{"f_own", modelled->second}, {"f_own_low", 0.6 * modelled->second}, {"f_own_high", 1.6 * modelled->second}};
+}
+
+/// Whether load tests are there, and a support of this name holds vertically.
+bool can_settle(const ReducedModel& model, const std::string& support) {
+  const auto& grounds = model.load_tests.grounds;
+  return std::any_of(grounds.begin(), grounds.end(),
+                     [&](const Ground& ground) { return ground.support == support && ground.settle.squaredNorm() > 0.0; });
+}
+
+/// Locations of a set before bounds and priors.
+std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model, const FeatureSet& features) {
+  std::vector<Candidate> found;
+  const auto add = [&](const std::string& location) -> Candidate& {
+    found.emplace_back();
+    found.back().hypothesis = &h;
+    found.back().location = location;
+    return found.back();
+  };
+  std::set<int> measured;
+  std::vector<std::string> modes;
+  for (const Row& row : features.rows) {
+    if (row.channel >= 0) measured.insert(row.channel);
+    if (row.type == RowType::frequency && std::find(modes.begin(), modes.end(), row.mode) == modes.end())
+      modes.push_back(row.mode);
+  }
+  if (h.set == "channels") {
+    for (const int c : measured) add("channel:" + features.channels[static_cast<std::size_t>(c)]).channels = {c};
+  } else if (h.set == "pairs(channels)") {
+    for (const int c : measured)
+      for (const int d : measured) {
+        if (d <= c) continue;
+        const auto& a = features.direction[static_cast<std::size_t>(c)];
+        const auto& b = features.direction[static_cast<std::size_t>(d)];
+        const bool known = a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0;
+        if (h.filter == "same_direction" && known && std::abs(a.dot(b)) < 0.7) continue;
+        add("channels:" + features.channels[static_cast<std::size_t>(c)] + "," + features.channels[static_cast<std::size_t>(d)])
+            .channels = {c, d};
+      }
+  } else if (h.set == "modes") {
+    for (const std::string& mode : modes) add("mode:" + mode).mode = mode;
+  } else if (h.set == "pairs(nodes)") {
+    const auto at = model.sets.find("nodes");
+    if (at == model.sets.end()) return found;
+    const auto& nodes = at->second;
+    // Each node with its nearest few that are not its neighbours by name would be a choice of structure; without one, each with
+    // every other up to twelve nodes, else with its six nearest.
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      std::vector<std::pair<double, std::size_t>> others;
+      for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+        const double distance = (nodes[i].x_m - nodes[j].x_m).norm();
+        others.emplace_back(std::isfinite(distance) ? distance : static_cast<double>(j - i), j);
+      }
+      std::sort(others.begin(), others.end());
+      for (std::size_t k = 0; k < others.size() && (nodes.size() <= 9 || k < 4); ++k) {
+        const ReducedPlace& other = nodes[others[k].second];
+        add("nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5)).places = {&nodes[i], &other};
+      }
+    }
+  } else if (h.set == "damper_moves") {
+    const auto alternatives = model.sets.find(h.set);
+    if (alternatives == model.sets.end()) return found;
+    for (const ReducedPlace& moved : alternatives->second) {
+      Candidate& candidate = add(moved.id);  // the dampers in the order of the moved forces, then where they go
+      std::string names = moved.id.substr(8, moved.id.find('@') - 8) + ",";
+      for (std::size_t comma = names.find(','); comma != std::string::npos; names.erase(0, comma + 1), comma = names.find(','))
+        candidate.places.push_back(model.place("dampers", "damper:" + names.substr(0, comma)));
+      candidate.places.push_back(&moved);
+      if (std::find(candidate.places.begin(), candidate.places.end(), nullptr) != candidate.places.end()) found.pop_back();
+    }
+  } else if (h.set == "damper_types") {
+    const auto types = model.sets.find(h.set);
+    if (types == model.sets.end()) return found;
+    for (const ReducedPlace& type : types->second) {
+      Candidate& all = add(type.id);
+      for (const ReducedPlace& damper : model.sets.at("dampers"))
+        if (damper.attributes.contains("type") && damper.attributes.at("type") == type.attributes.at("type"))
+          all.places.push_back(&damper);
+    }
+  } else if (const auto at = model.sets.find(h.set); at != model.sets.end()) {
+    for (const ReducedPlace& place : at->second) add(place.id).places = {&place};
+  }
+  if (h.set == "stays")
+    for (Candidate& candidate : found) candidate.own = own_frequency(candidate, features);
+  // A factor needs something to scale.
+  const auto nothing_there = [&](const Candidate& candidate) {
+    for (const ActionSpec& action : h.actions) {
+      if (candidate.places.empty()) continue;
+      if (action.kind.ends_with(".stiffness") && candidate.places[0]->stiffness.size() == 0) return true;
+      if (action.kind == "support.settle" && !can_settle(model, candidate.location)) return true;
+      if (action.kind == "scale.mass" && candidate.places[0]->mass.size() == 0) return true;
+    }
+    return false;
+  };
+  std::erase_if(found, nothing_there);
+  std::erase_if(found, [](const Candidate& candidate) { return !resolvable(candidate); });
+  return found;
+}
+
+/// A number of the place; nothing where it has none of this name.
+std::optional<double> attribute_if(const Candidate& candidate, const Expression& e) {
+  const std::vector<std::string>& known = place_numbers();
+  if (const auto at = candidate.own.find(e.name); at != candidate.own.end()) return at->second;
+  for (const ReducedPlace* place : candidate.places) {
+    const auto at = place->attributes.find(e.name);
+    if (at != place->attributes.end()) return at->second;
+  }
+  if (is_place_number(e.name)) return std::nullopt;
+  throw InputError({candidate.hypothesis->file, e.line, candidate.hypothesis->id},
+                   fmt::format("'{}' is no number known at {}", e.name, candidate.location),
+                   fmt::format("use a number, or one of {}", fmt::join(known, ", ")));
+}
+
+double attribute(const Candidate& candidate, const Expression& e) { return attribute_if(candidate, e).value_or(0.0); }
+
+/// Whether every bound that refers to the place finds its number there (a stay without pull has no frequency).
+bool resolvable(const Candidate& candidate) {
+  const auto there = [&](const Expression& e) {
+    return e.name.empty() || e.name == "f_measured" || attribute_if(candidate, e).has_value();
+  };
+  return std::all_of(candidate.hypothesis->unknowns.begin(), candidate.hypothesis->unknowns.end(), [&](const UnknownSpec& u) {
+    return there(u.low) && there(u.high) && std::all_of(u.start.begin(), u.start.end(), there);
+  });
+}
+
+/// A factor between two states of a structure: parts are replaced, cut or propped, so that bounds of a model's uncertainty say
+/// nothing of it.
+constexpr double kLeastChange = 0.05, kMostChange = 20.0;
+constexpr double kChangeStarts[] = {0.08, 0.2, 0.45, 0.75, 1.35, 2.2, 5.0, 12.0};
+
+/// Whether a cause is a part that is there, or as strong, in one state of the structure and not in another.
+bool is_a_part(const Hypothesis& h) {
+  return !h.measurement && std::all_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) {
+    static const std::set<std::string> kinds = {"scale", "element", "damper", "stay", "support"};
+    return action.kind == "mass.add" || kinds.contains(action.kind.substr(0, action.kind.find('.')));
+  });
+}
+
+/// States in which a hypothesis is asked alone; "" for all together.
+std::vector<std::string> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
+  if (states.size() < 2 || !is_a_part(h)) return {""};
+  std::vector<std::string> out(states.begin() + 1, states.end());
+  // What a later state has more of, the first may have lost: a factor says both, what is added needs to be asked twice.
+  const bool adds = std::all_of(h.actions.begin(), h.actions.end(),
+                                [](const ActionSpec& a) { return a.kind == "mass.add" || a.kind.starts_with("element."); });
+  if (adds) out.push_back(states.front());
+  return out;
+}
+
+/// Modes of the condition that has most of them: where something may resonate.
+struct MeasuredModes {
+  int condition = -1;
+  std::vector<std::pair<std::string, double>> modes;  ///< label, frequency [Hz]
+};
+
+MeasuredModes measured_modes(const FeatureSet& features) {
+  MeasuredModes measured;
+  for (std::size_t c = 0; c < features.conditions.size(); ++c) {
+    MeasuredModes here{static_cast<int>(c), {}};
+    for (const Row& row : features.rows)
+      if (row.condition == here.condition && row.type == RowType::frequency) here.modes.emplace_back(row.mode, row.value);
+    if (here.modes.size() > measured.modes.size()) measured = here;
+  }
+  return measured;
+}
+
+void bound(Candidate& candidate, const MeasuredModes& measured) {
+  const Hypothesis& h = *candidate.hypothesis;
+  const auto k = static_cast<Index>(h.unknowns.size());
+  candidate.low.resize(k);
+  candidate.high.resize(k);
+  struct Start {
+    double value;
+    Tuning tuning;
+  };
+  std::vector<std::vector<Start>> start;
+  for (Index i = 0; i < k; ++i) {
+    const UnknownSpec& u = h.unknowns[static_cast<std::size_t>(i)];
+    const auto resolve = [&](const Expression& e) { return e.name.empty() ? e.factor : e.factor * attribute(candidate, e); };
+    double low = resolve(u.low), high = resolve(u.high);
+    const bool change = !candidate.state.empty() && u.name == "factor";
+    if (change) {
+      const auto of_material = [&](const char* name, double otherwise) {
+        const auto found = candidate.places.empty() ? std::map<std::string, double>::const_iterator{}
+                                                    : candidate.places[0]->attributes.find(name);
+        return candidate.places.empty() || found == candidate.places[0]->attributes.end() ? otherwise : found->second;
+      };
+      low = of_material("least_change", std::min(low, kLeastChange));
+      high = of_material("most_change", std::max(high, kMostChange));
+    }
+    if (!(low < high) || (u.log && !(low > 0.0))) {
+      throw InputError({h.file, u.low.line, h.id + "." + u.name},
+                       fmt::format("bounds {} and {} at {}, expected low < high{}", low, high, candidate.location,
+                                   u.log ? ", both above 0" : ""),
+                       "mend low and high in the catalogue");
+    }
+    candidate.log.push_back(u.log);
+    candidate.low[i] = u.log ? std::log(low) : low;
+    candidate.high[i] = u.log ? std::log(high) : high;
+    std::vector<Start> tried, values;
+    for (const Expression& e : u.start) {
+      if (e.name == "f_measured") {
+        candidate.tuned = static_cast<int>(i);
+        for (const auto& [label, f] : measured.modes) tried.push_back({e.factor * f, {label, measured.condition, e.factor}});
+      } else {
+        tried.push_back({resolve(e), {}});
+      }
+    }
+    if (change)
+      for (const double start_at : kChangeStarts) tried.push_back({start_at, {}});
+    for (Start s : tried) {
+      if (!(s.value > low && s.value < high)) continue;
+      if (u.log) s.value = std::log(s.value);
+      values.push_back(s);
+    }
+    if (values.empty()) values = {{0.5 * (candidate.low[i] + candidate.high[i]), {}}};
+    start.push_back(values);
+  }
+  candidate.starts = {Eigen::VectorXd(k)};
+  candidate.tuning = {Tuning{}};
+  for (Index i = 0; i < k; ++i) {
+    std::vector<Eigen::VectorXd> grown;
+    std::vector<Tuning> tuning;
+    for (std::size_t n = 0; n < candidate.starts.size(); ++n)
+      for (const Start& s : start[static_cast<std::size_t>(i)]) {
+        grown.push_back(candidate.starts[n]);
+        grown.back()[i] = s.value;
+        tuning.push_back(s.tuning.mode.empty() ? candidate.tuning[n] : s.tuning);
+      }
+    candidate.starts = grown;
+    candidate.tuning = tuning;
+  }
+}
+
+}  // namespace
+
+double Candidate::physical(const Eigen::VectorXd& a, Index i) const {
+  return log[static_cast<std::size_t>(i)] ? std::exp(a[i]) : a[i];
+}
+
+double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
+  if (e.name.empty()) return e.factor;
+  if (e.name.front() == '$') {
+    for (std::size_t i = 0; i < hypothesis->unknowns.size(); ++i)
+      if (hypothesis->unknowns[i].name == e.name.substr(1)) return e.factor * physical(a, static_cast<Index>(i));
+    throw InputError({hypothesis->file, e.line, hypothesis->id}, "names no unknown: " + e.name,
+                     "declare it as a [[parameter]]");
+  }
+  return e.factor * attribute(*this, e);
+}
+
+Candidate elsewhere(const Candidate& like, const std::string& location, std::vector<const ReducedPlace*> places,
+                    const FeatureSet& features) {
+  Candidate out;
+  out.hypothesis = like.hypothesis;
+  out.location = location;
+  out.places = std::move(places);
+  out.state = like.state;
+  out.log_prior = like.log_prior;
+  out.refines = like.refines != nullptr ? like.refines : &like;
+  bound(out, measured_modes(features));
+  return out;
+}
+
+Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model, const FeatureSet& features) {
+  Instantiated out;
+  double weights = 0.0;
+  const std::vector<std::string> states = states_of(features);
+  const MeasuredModes measured = measured_modes(features);
+  std::vector<std::vector<Candidate>> families;
+  for (const Hypothesis& h : catalogue) {
+    families.emplace_back();
+    if (const std::string reason = unmet(h.needs, features); !reason.empty()) {
+      out.invisible.push_back({h.id, reason});
+      continue;
+    }
+    for (const std::string& state : states_asked(h, states)) {
+      for (Candidate& candidate : locations(h, model, features)) {
+        candidate.state = state;
+        families.back().push_back(std::move(candidate));
+      }
+    }
+    if (families.back().empty()) {
+      out.invisible.push_back({h.id, fmt::format("this model and these rows have no {} for it", h.set)});
+      continue;
+    }
+    weights += h.prior_weight;
+  }
+  for (std::vector<Candidate>& family : families) {
+    for (Candidate& candidate : family) {
+      candidate.log_prior = std::log(candidate.hypothesis->prior_weight / weights / static_cast<double>(family.size()));
+      bound(candidate, measured);
+      out.candidates.push_back(std::make_unique<Candidate>(std::move(candidate)));
+    }
+  }
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/causes/catalogue.hpp"
+#include "diagnosis/features/features.hpp"
+#include "diagnosis/reduction/reduced_model.hpp"
+
+namespace twindeck::diagnosis {
+
+/// A start that is tuned to a measured mode: `factor` times its frequency, wherever the model has that mode at the time.
+struct Tuning {
+  std::string mode;  ///< label, "" for a start that is not tuned
+  int condition = -1;
+  double factor = 1.0;
+};
+
+/// A hypothesis at a location: an entry of the catalogue for this model and these data.
+struct Candidate {
+  const Hypothesis* hypothesis = nullptr;
+  std::string location;                     ///< "stay:NE5", "channels:a,b", "global"
+  std::vector<const ReducedPlace*> places;  ///< one, or two for a pair of nodes; empty for channels and modes
+  std::vector<int> channels;                ///< one, or two for a pair
+  std::string mode;                         ///< label of a measured mode
+  std::string state;                        ///< of the structure in which it acts alone, "" where it acts in all
+  Eigen::VectorXd low, high;                ///< (k) bounds of the unknowns, in ln where they are logarithmic
+  std::vector<bool> log;
+  std::vector<Eigen::VectorXd> starts;  ///< magnitudes that the screen tries, in the same coordinates
+  std::map<std::string, double> own;    ///< numbers that the rows say of the place: f_own, f_own_low, f_own_high of a stay
+  int tuned = -1;                       ///< unknown that is a frequency tuned to measured modes, -1 for none
+  std::vector<Tuning> tuning;           ///< (n_starts) where there is one
+  double log_prior = 0.0;               ///< ln (weight of the family / sum of weights / number of locations)
+  /// Entry of the catalogue whose prior this one shares, for one that was laid between the locations; null for all others.
+  const Candidate* refines = nullptr;
+
+  [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
+  /// The same, told apart by the state that it acts in.
+  [[nodiscard]] std::string key() const { return state.empty() ? id() : id() + " in " + state; }
+  [[nodiscard]] bool acts_in(const Condition& condition) const { return state.empty() || state == condition.state; }
+  /// Unknown `i` in its own unit at coordinates `a`.
+  [[nodiscard]] double physical(const Eigen::VectorXd& a, Eigen::Index i) const;
+  /// Value of an expression at coordinates `a`.
+  [[nodiscard]] double value(const Expression& expression, const Eigen::VectorXd& a) const;
+};
+
+/// A candidate with magnitudes.
+struct Cause {
+  const Candidate* candidate = nullptr;
+  Eigen::VectorXd a;  ///< (k) coordinates of the unknowns
+};
+
+/// What a family lacks to be seen at all: empty if nothing.
+struct Invisible {
+  std::string hypothesis, reason;
+};
+
+struct Instantiated {
+  std::vector<std::unique_ptr<Candidate>> candidates;
+  std::vector<Invisible> invisible;
+};
+
+/// Every hypothesis at every location of its set. Where the rows come from several states of the structure, the question is
+/// what changed: a part that is other than modelled is so in one state alone, with factors from 0.05 to 20; what is measured
+/// wrongly is so in all. Families whose needs the data don't meet, or whose set is empty here, go to `invisible` with the
+/// reason.
+/// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
+[[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
+                                       const FeatureSet& features);
+
+/// The same cause somewhere else: `like` with the bounds and starts that its family has at other places of the model.
+/// @param places  of the kind that the family acts on
+[[nodiscard]] Candidate elsewhere(const Candidate& like, const std::string& location, std::vector<const ReducedPlace*> places,
+                                  const FeatureSet& features);
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,316 @@
+#include "diagnosis/prediction/feature_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "diagnosis/prediction/predictor.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+constexpr double kFree = std::numeric_limits<double>::infinity();
+/// Prior deviations beyond which no element scatter and no gain goes: a gain 140 of them off is a reversed sensor and must stay
+/// a misfit, or the fit hides it.
+constexpr double kWorst = 6.0;
+
+/// Of the largest value of a type in a condition, alike wherever a channel is read under the same load. Models after fitting
+/// are 0.4 to 1.8 % off in frequency, that is up to some 3 % in flexibility.
+constexpr double kStaticForm = 0.03;
+
+constexpr double kCloseModes = 0.06;  ///< [-] relative gap of frequencies from which shapes are taken as known each for itself
+/// [rad] angle by which errors turn two shapes into each other, times the relative gap of their frequencies: errors of a mode's
+/// part of stiffness and mass of 1.5 %.
+constexpr double kTurnTimesGap = 0.015;
+/// [rad] however close two modes are. From 45 degrees on each shape is more like the other mode's and has its name; of angles
+/// that are alike probable up to there the standard deviation is pi / (4 sqrt 3).
+constexpr double kLargestTurn = 0.25 * std::numbers::pi * std::numbers::inv_sqrt3;
+
+}  // namespace
+
+FeatureMap::FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter)
+    : model_(model), features_(features), states_(states_of(features)), damping_by_dampers_(scatter.damping_by_dampers) {
+  collect_modes();
+  transform(scatter);
+  list_nuisances(scatter);
+}
+
+void FeatureMap::collect_modes() {
+  std::map<std::pair<int, std::string>, std::size_t> at;
+  for (std::size_t r = 0; r < features_.rows.size(); ++r) {
+    const Row& row = features_.rows[r];
+    const bool modal = row.type == RowType::frequency || row.type == RowType::damping || row.type == RowType::shape ||
+                       row.type == RowType::shape_imag;
+    if (!modal) continue;
+    const auto [where, is_new] = at.try_emplace({row.condition, row.mode}, modes_.size());
+    if (is_new) {
+      modes_.emplace_back();
+      modes_.back().label = row.mode;
+      modes_.back().condition = row.condition;
+    }
+    MeasuredMode& mode = modes_[where->second];
+    const auto position = static_cast<int>(r);
+    if (row.type == RowType::frequency) {
+      mode.frequency = position;
+      mode.frequency_Hz = row.value;
+      highest_Hz_ = std::max(highest_Hz_, 1.6 * row.value);
+    } else if (row.type == RowType::damping) {
+      mode.damping = position;
+    } else if (row.type == RowType::shape) {
+      mode.real_rows.push_back(position);
+      mode.real_channels.push_back(row.channel);
+    } else {
+      mode.imag_rows.push_back(position);
+      mode.imag_channels.push_back(row.channel);
+    }
+  }
+  // A model that is several times too stiff has fewer modes below that than were measured: then as many of its own as were.
+  std::map<int, Index> measured;
+  Index most = 0;
+  for (const MeasuredMode& mode : modes_) most = std::max(most, ++measured[mode.condition]);
+  most = std::min(most, model_.frequency_Hz.size());
+  if (highest_Hz_ > 0.0 && most > 0 && model_.frequency_Hz[most - 1] > highest_Hz_)
+    highest_Hz_ = 1.01 * model_.frequency_Hz[most - 1];
+  if (highest_Hz_ == 0.0) highest_Hz_ = 1.01 * model_.frequency_Hz[std::min<Index>(9, model_.frequency_Hz.size() - 1)];
+  for (const MeasuredMode& mode : modes_)
+    if (!mode.real_rows.empty()) n_scales_ += mode.imag_rows.empty() ? 1 : 2;
+}
+
+void FeatureMap::transform(const ScatterOptions& scatter) {
+  const auto n = static_cast<Index>(features_.rows.size());
+  values_.resize(n);
+  Eigen::VectorXd slope = Eigen::VectorXd::Ones(n);  // d transformed / d value
+  for (Index r = 0; r < n; ++r) {
+    const Row& row = features_.rows[static_cast<std::size_t>(r)];
+    values_[r] = is_logarithmic(row.type) ? std::log(row.value) : row.value;
+    if (is_logarithmic(row.type)) slope[r] = 1.0 / row.value;
+  }
+  if (features_.covariance.size() > 0) {
+    covariance_ = slope.asDiagonal() * features_.covariance * slope.asDiagonal();
+  } else {
+    covariance_ = Eigen::MatrixXd::Zero(n, n);
+    for (Index r = 0; r < n; ++r) covariance_(r, r) = std::pow(features_.rows[static_cast<std::size_t>(r)].std * slope[r], 2);
+  }
+  covariance_ *= scatter.noise * scatter.noise;
+  for (Index r = 0; r < n; ++r) {  // floors: identification is never better than this
+    const RowType type = features_.rows[static_cast<std::size_t>(r)].type;
+    double floor = 0.0;
+    if (type == RowType::frequency) floor = scatter.frequency_floor;
+    if (type == RowType::damping) floor = scatter.damping_floor;
+    covariance_(r, r) = std::max(covariance_(r, r), floor * floor);
+    if (type == RowType::rms) covariance_(r, r) += scatter.load_model * scatter.load_model;
+  }
+  for (const MeasuredMode& a : modes_)
+    for (const MeasuredMode& b : modes_)
+      if (a.frequency >= 0 && b.frequency >= 0 && a.label == b.label && same_state(a.condition, b.condition))
+        covariance_(a.frequency, b.frequency) += scatter.model_form * scatter.model_form;
+  add_static_form();
+  for (const MeasuredMode& mode : modes_) {
+    double largest = 0.0;
+    for (const int r : mode.real_rows) largest = std::max(largest, std::abs(values_[r]));
+    const double floor = std::pow(scatter.shape_floor * largest, 2);
+    for (const auto* rows : {&mode.real_rows, &mode.imag_rows})
+      for (const int r : *rows) covariance_(r, r) = std::max(covariance_(r, r), floor);
+  }
+  // Close modes: small changes turn their shapes into each other, so that only their plane is known well.
+  for (const MeasuredMode& a : modes_) {
+    for (const MeasuredMode& b : modes_) {
+      if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz) || a.real_rows.size() != b.real_rows.size())
+        continue;
+      const double gap = b.frequency_Hz / a.frequency_Hz - 1.0;
+      if (gap > kCloseModes || a.real_rows.empty()) continue;
+      Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
+      double norm_a = 0.0, norm_b = 0.0;
+      for (const int r : a.real_rows) norm_a += values_[r] * values_[r];
+      for (const int r : b.real_rows) norm_b += values_[r] * values_[r];
+      const double ratio = std::sqrt(norm_a / norm_b);
+      for (std::size_t k = 0; k < a.real_rows.size(); ++k) {
+        u[a.real_rows[k]] = values_[b.real_rows[k]] * ratio;
+        u[b.real_rows[k]] = -values_[a.real_rows[k]] / ratio;
+      }
+      covariance_ += std::pow(std::min(kTurnTimesGap / gap, kLargestTurn), 2) * u * u.transpose();
+    }
+  }
+}
+
+void FeatureMap::add_static_form() {
+  std::map<std::pair<int, RowType>, double> largest;
+  for (const Row& row : features_.rows)
+    if (is_static(row.type)) {
+      double& value = largest[{row.condition, row.type}];
+      value = std::max(value, std::abs(row.value));
+    }
+  for (std::size_t a = 0; a < features_.rows.size(); ++a) {
+    const Row& one = features_.rows[a];
+    if (!is_static(one.type)) continue;
+    for (std::size_t b = 0; b < features_.rows.size(); ++b) {
+      const Row& other = features_.rows[b];
+      const auto load_of_row = [&](const Row& row) {
+        return features_.conditions[static_cast<std::size_t>(row.condition)].load;
+      };
+      if (one.type != other.type || one.channel != other.channel || load_of_row(one) != load_of_row(other)) continue;
+      covariance_(static_cast<Index>(a), static_cast<Index>(b)) +=
+          kStaticForm * kStaticForm * largest.at({one.condition, one.type}) * largest.at({other.condition, other.type});
+    }
+  }
+}
+
+void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
+  const auto add = [&](Nuisance::Kind kind, int index, const std::string& name, double mean, double deviation,
+                       double lower = -kWorst, double upper = kWorst) {
+    nuisances_.push_back({kind, index, name, mean, deviation, lower, upper});
+  };
+  for (std::size_t p = 0; p < model_.parameters.size(); ++p) {
+    const fe::Parameter& parameter = model_.parameters[p];
+    const double deviation = 0.25 * (parameter.upper - parameter.lower), mean = model_.theta[static_cast<Index>(p)];
+    if (!(deviation > 0.0)) continue;
+    add(Nuisance::Kind::parameter, static_cast<int>(p), parameter.name, mean, deviation, (parameter.lower - mean) / deviation,
+        (parameter.upper - mean) / deviation);
+  }
+  const auto each = [&](const std::string& set, auto use) {
+    const auto found = model_.sets.find(set);
+    if (found == model_.sets.end()) return;
+    for (std::size_t i = 0; i < found->second.size(); ++i) use(static_cast<int>(i), found->second[i]);
+  };
+  each("elements", [&](int i, const ReducedPlace& p) {
+    add(Nuisance::Kind::element_stiffness, i, p.id + " stiffness", 0.0, scatter.fine * scatter.element_stiffness);
+    add(Nuisance::Kind::element_mass, i, p.id + " mass", 0.0, scatter.fine * scatter.element_mass);
+  });
+  each("nodes", [&](int i, const ReducedPlace& p) {
+    if (p.mass.size() > 0) add(Nuisance::Kind::node_mass, i, p.id + " mass", 0.0, scatter.fine * scatter.node_mass);
+  });
+  std::map<std::string, bool> stay_rows;
+  for (const Row& row : features_.rows)
+    if (row.type == RowType::stay_frequency) stay_rows[row.stay] = true;
+  each("stays", [&](int i, const ReducedPlace& p) {
+    add(Nuisance::Kind::stay, i, p.id + " stiffness", 0.0, scatter.fine * scatter.stay_stiffness);
+    if (stay_rows.contains(p.id.substr(5))) add(Nuisance::Kind::stay_pull, i, p.id + " pull", 0.0, scatter.stay_pull);
+  });
+  std::map<int, bool> channels;
+  std::map<int, bool> levels;
+  for (const Row& row : features_.rows) {
+    if (row.channel >= 0 && row.type != RowType::psd_floor) channels[row.channel] = true;
+    if (row.type == RowType::rms || row.type == RowType::psd_floor)
+      levels[2 * row.condition + (row.type == RowType::psd_floor ? 1 : 0)] = true;
+    const std::string own = damping_name(row.mode, row.condition);
+    if (row.type == RowType::damping && std::find(damping_modes_.begin(), damping_modes_.end(), own) == damping_modes_.end())
+      damping_modes_.push_back(own);
+  }
+  for (const auto& [channel, used] : channels)
+    add(Nuisance::Kind::gain, channel, "channel:" + features_.channels[static_cast<std::size_t>(channel)] + " gain", 0.0,
+        scatter.fine * scatter.gain);
+  // Structural damping is not computed by any model: ln zeta about 0.5 %, a factor e wide.
+  for (std::size_t i = 0; i < damping_modes_.size(); ++i)
+    add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5),
+        1.0, -kFree, kFree);
+  for (const auto& [level, used] : levels) {
+    const Condition& condition = features_.conditions[static_cast<std::size_t>(level / 2)];
+    add(Nuisance::Kind::level, level, condition.name + (level % 2 ? " noise level" : " load level"), 0.0, 10.0, -kFree, kFree);
+  }
+}
+
+bool FeatureMap::same_state(int a, int b) const {
+  return features_.conditions[static_cast<std::size_t>(a)].state == features_.conditions[static_cast<std::size_t>(b)].state;
+}
+
+std::string FeatureMap::damping_name(const std::string& label, int condition) const {
+  const Condition& c = features_.conditions[static_cast<std::size_t>(condition)];
+  std::string name = label;
+  if (c.state != states_.front()) name += " of state " + c.state;
+  if (damping_by_dampers_ && c.dampers_on.value_or(false)) name += " with dampers";
+  return name;
+}
+
+void FeatureMap::set_values(const Eigen::VectorXd& values) {
+  TWINDECK_ASSERT(values.size() == values_.size());
+  values_ = values;
+  for (std::size_t r = 0; r < features_.rows.size(); ++r) {
+    Row& row = features_.rows[r];
+    const double value = is_logarithmic(row.type) ? std::exp(values[static_cast<Index>(r)]) : values[static_cast<Index>(r)];
+    if (is_logarithmic(row.type)) row.std *= value / row.value;  // deviations are relative there
+    row.value = value;
+  }
+  for (MeasuredMode& mode : modes_)
+    if (mode.frequency >= 0) mode.frequency_Hz = std::exp(values_[mode.frequency]);
+}
+
+FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
+  Base base;
+  base.x = x;
+  base.theta = model_.theta;
+  base.store = std::make_shared<StateStore>();
+  for (std::size_t j = 0; j < nuisances_.size(); ++j) {
+    const Nuisance& v = nuisances_[j];
+    if (v.kind == Nuisance::Kind::parameter) base.theta[v.index] = v.mean + v.deviation * x[static_cast<Index>(j)];
+  }
+  for (const auto& term : model_.stiffness) base.stiffness_parts.emplace_back(term.coefficient.value(base.theta), &term.matrix);
+  for (const auto& term : model_.mass) base.mass_parts.emplace_back(term.coefficient.value(base.theta), &term.matrix);
+  for (std::size_t j = 0; j < nuisances_.size(); ++j) {
+    const Nuisance& v = nuisances_[j];
+    const double amount = v.deviation * x[static_cast<Index>(j)];
+    if (amount == 0.0) continue;
+    const auto place = [&](const char* set) -> const ReducedPlace& {
+      return model_.sets.at(set)[static_cast<std::size_t>(v.index)];
+    };
+    if (v.kind == Nuisance::Kind::element_stiffness) base.stiffness_parts.emplace_back(amount, &place("elements").stiffness);
+    if (v.kind == Nuisance::Kind::element_mass) base.mass_parts.emplace_back(amount, &place("elements").mass);
+    if (v.kind == Nuisance::Kind::node_mass) base.mass_parts.emplace_back(amount, &place("nodes").mass);
+    if (v.kind == Nuisance::Kind::stay) base.stiffness_parts.emplace_back(amount, &place("stays").stiffness);
+  }
+  const Index c = model_.common;
+  const auto sum =
+      [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of so many matrices takes half the time
+        Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
+        for (const auto& [amount, matrix] : parts)
+          for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->common().col(j).head(j + 1);
+        total.triangularView<Eigen::StrictlyLower>() = total.transpose();
+        return total;
+      };
+  base.common_stiffness = sum(base.stiffness_parts);
+  base.common_mass = sum(base.mass_parts);
+  return base;
+}
+
+/// Columns behind the common ones of a sum of the reduced model's matrices (n × n_own).
+Eigen::MatrixXd own_columns(const std::vector<FeatureMap::Base::Part>& parts, const std::vector<int>& columns) {
+  const ReducedBasis& basis = parts.front().second->basis();
+  const Index n = std::ssize(columns), c = basis.common();
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n - c);
+  Eigen::MatrixXd motion, force;  // of all parts of few degrees of freedom together: they are projected once
+  for (const auto& [amount, matrix] : parts) {
+    if (!matrix->is_local()) {
+      matrix->add_own(amount, columns, total);
+      continue;
+    }
+    if (motion.size() == 0) {
+      motion = basis.own(columns);
+      force = Eigen::MatrixXd::Zero(motion.rows(), motion.cols());
+    }
+    matrix->add_image(amount, motion, force);
+  }
+  if (force.size() > 0) total += basis.projected(columns, force);
+  return total;
+}
+
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> FeatureMap::matrices(const Base& base, const std::vector<int>& columns) const {
+  const Index n = std::ssize(columns), c = model_.common;
+  TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));
+  if (n == c) return {base.common_stiffness, base.common_mass};
+  const StateStore::OwnColumns* own = base.store->own_columns(columns, [&] {
+    return StateStore::OwnColumns{own_columns(base.stiffness_parts, columns), own_columns(base.mass_parts, columns)};
+  });
+  const auto assemble = [&](const Eigen::MatrixXd& common, const Eigen::MatrixXd& others) {
+    Eigen::MatrixXd total(n, n);
+    total.topLeftCorner(c, c) = common;
+    total.rightCols(n - c) = others;
+    total.bottomLeftCorner(n - c, c) = others.topRows(c).transpose();
+    return total;
+  };
+  return {assemble(base.common_stiffness, own->stiffness), assemble(base.common_mass, own->mass)};
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "diagnosis/prediction/predictor.hpp"
+#include "linalg/dense.hpp"
+#include "matching/assignment.hpp"
+
+/// Which mode of the model is which measured one.
+namespace twindeck::diagnosis {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is
+/// rounding (1e-12 of a girder's vertical motion in its axial modes), which may look like any shape.
+constexpr double kAtRest = 1e-6;
+constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distance of frequencies weighs
+
+/// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may
+/// have changed so much that frequencies double, where shapes tell more.
+constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
+
+}  // namespace
+
+VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
+  VectorXd mac(shapes.cols());
+  if (shapes.cols() == 0) return mac;
+  const double norm = measured.squaredNorm();
+  const double least = kAtRest * kAtRest * shapes.colwise().squaredNorm().maxCoeff();
+  for (Index j = 0; j < mac.size(); ++j) {
+    const double own = shapes.col(j).squaredNorm(), norms = norm * own;
+    mac[j] = norms > 0.0 && own > least ? std::norm(shapes.col(j).dot(measured)) / norms : 0.0;
+  }
+  return mac;
+}
+
+const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
+  const auto has_shape = [](const MeasuredMode& m) { return m.real_rows.size() >= 2; };
+  const MeasuredMode* shaped = &measured;
+  if (!has_shape(measured))
+    for (const MeasuredMode& other : map_.modes_)
+      if (other.label == measured.label && map_.same_state(other.condition, measured.condition) && has_shape(other)) {
+        shaped = &other;
+        break;
+      }
+  each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+    // The shape under this label belongs to the next mode of the list, and the next one's to it. Not the next in frequency:
+    // close modes change places there from one data set to another.
+    std::vector<const MeasuredMode*> same;
+    for (const MeasuredMode& other : map_.modes_)
+      if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
+    for (std::size_t k = 0; k + 1 < same.size(); ++k) {
+      if (same[k]->label != c.mode) continue;
+      if (shaped == same[k])
+        shaped = same[k + 1];
+      else if (shaped == same[k + 1])
+        shaped = same[k];
+      break;
+    }
+  });
+  return *shaped;
+}
+
+VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedState& state) {
+  VectorXcd y(static_cast<Index>(shaped.real_rows.size()));
+  for (std::size_t k = 0; k < shaped.real_rows.size(); ++k) {
+    Complex value = map_.values_[shaped.real_rows[k]];
+    for (std::size_t q = 0; q < shaped.imag_rows.size(); ++q)
+      if (shaped.imag_channels[q] == shaped.real_channels[k]) value += Complex(0.0, map_.values_[shaped.imag_rows[q]]);
+    y[static_cast<Index>(k)] = value;
+  }
+  const MatrixXcd moved = motion(state)(shaped.real_channels, Eigen::all);
+  VectorXd unlike = 1.0 - likeness(moved, y).array();
+  const VectorXd own =
+      moved.colwise().squaredNorm();  // a shape was measured, so it was none of those at rest, however near in frequency
+  for (Index j = 0; j < own.size(); ++j)
+    if (own[j] <= kAtRest * kAtRest * own.maxCoeff()) unlike[j] = kNever;
+  return unlike;
+}
+
+VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
+  // Modes of the model as it stands move in the common coordinates alone.
+  const Index common = map_.model().common;
+  const VectorXd reference = map_.model().mode_coordinates.col(position).head(common);
+  const VectorXd mass_reference = matrices(state.columns).second.leftCols(common) * reference;
+  const double norm = reference.dot(mass_reference.head(common));
+  const MatrixXd re = state.modes.shapes.real(), im = state.modes.shapes.imag();
+  const Index rows = mass_reference.size();
+  const VectorXd along =
+      (re.topRows(rows).transpose() * mass_reference).cwiseAbs2() + (im.topRows(rows).transpose() * mass_reference).cwiseAbs2();
+  const VectorXd own = re.cwiseProduct(linalg::product(state.state.mass, re)).colwise().sum() +
+                       im.cwiseProduct(linalg::product(state.state.mass, im)).colwise().sum();
+  return 1.0 - along.cwiseQuotient(norm * own).cwiseMin(1.0).array();
+}
+
+void Predictor::pair(const std::vector<int>& conditions) {
+  SolvedState& state = solved(conditions.front());
+  const Index n = state.modes.s.size();
+  if (n == 0) return;
+  // Where the structure is the same, what is measured under one name is one mode: no cause may say that it is this one on a
+  // quiet day and its neighbour at a large amplitude.
+  std::vector<std::string> labels;
+  std::map<std::string, VectorXd> cost, by_shape;
+  std::vector<std::size_t> here;
+  for (std::size_t m = 0; m < map_.modes_.size(); ++m) {
+    const MeasuredMode& measured = map_.modes_[m];
+    if (std::find(conditions.begin(), conditions.end(), measured.condition) == conditions.end()) continue;
+    here.push_back(m);
+    VectorXd& sum = cost.try_emplace(measured.label, VectorXd::Zero(n)).first->second;
+    if (std::find(labels.begin(), labels.end(), measured.label) == labels.end()) labels.push_back(measured.label);
+    const bool first = map_.features().conditions[static_cast<std::size_t>(measured.condition)].state == map_.states_.front();
+    const double width = first ? kFrequencyWidth : kChangedWidth;
+    if (measured.frequency >= 0)
+      for (Index j = 0; j < n; ++j) {
+        const double f = state.modes.frequency_Hz(j);
+        if (!(f > 0.0)) continue;
+        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
+        sum[j] += std::min(distance, 4.0) + 0.05 * distance;
+      }
+    // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
+    if (measured.damping >= 0 && state.state.damped()) {
+      const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
+      for (Index j = 0; j < n; ++j) {
+        const double total = std::max(own + 100.0 * state.modes.damping(j), 1e-3 * own);
+        sum[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), 3.0);
+      }
+    }
+    // Shapes are known from this condition, or from another in which the label was measured with one.
+    const MeasuredMode& shaped = shaped_like(measured);
+    // Names of modes that are bound to the model's are those of the first state.
+    const auto bound = first ? map_.bound_modes_.find(measured.label) : map_.bound_modes_.end();
+    if (shaped.real_rows.size() >= 2) {
+      sum += (measured.real_rows.size() >= 2 ? 3.0 : 2.0) * unlike_measured(shaped, state);
+    } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
+      // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
+      VectorXd& unlike = by_shape[measured.label];
+      if (unlike.size() == 0) unlike = unlike_bound(bound->second, state);
+      sum += 6.0 * unlike;
+    }
+  }
+  Eigen::MatrixXd gain(static_cast<Index>(labels.size()), n);
+  for (std::size_t i = 0; i < labels.size(); ++i) gain.row(static_cast<Index>(i)) = -cost.at(labels[i]);
+  const std::vector<int> chosen = matching::best_assignment(gain);
+  for (const std::size_t m : here) {
+    const auto at = std::find(labels.begin(), labels.end(), map_.modes_[m].label) - labels.begin();
+    out_.paired[m] = chosen[static_cast<std::size_t>(at)];
+  }
+}
+
+}  // namespace twindeck::diagnosis

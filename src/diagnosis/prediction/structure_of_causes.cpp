@@ -1,0 +1,443 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+#include "core/error.hpp"
+#include "diagnosis/prediction/predictor.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+constexpr double kPersonMass = 75.0;  ///< [kg] the base model's crowd
+constexpr double kUnknown = -1e300;   ///< in the key of a state: a circumstance that the condition does not tell
+
+/// Value of the condition's key that an action refers to, NaN where it is not known.
+double variable(const ActionSpec& action, const Condition& condition) {
+  const auto named = action.text.find("variable");
+  const std::string key = named == action.text.end() ? "temperature_C" : named->second;
+  const auto value = [&](const std::optional<double>& v) { return v.value_or(std::numeric_limits<double>::quiet_NaN()); };
+  if (key == "amplitude_m") return value(condition.amplitude_m);
+  if (key == "wind_m_s") return value(condition.wind_m_s);
+  if (key == "people") return value(condition.people);
+  return value(condition.temperature_C);
+}
+
+/// Adds an own degree of freedom to a state.
+void grow(StructureState& state) {
+  const Index n = state.stiffness.rows() + 1;
+  state.stiffness.conservativeResizeLike(MatrixXd::Zero(n, n));
+  state.mass.conservativeResizeLike(MatrixXd::Zero(n, n));
+  for (Attachment& a : state.attachments) a.direction.conservativeResizeLike(VectorXd::Zero(n));
+  if (state.amplitude_row.size() > 0) state.amplitude_row.conservativeResizeLike(Eigen::RowVectorXd::Zero(n));
+}
+
+/// Directions of a place that an action goes by: the vertical one where it says so and the place can move so, else all.
+std::vector<Index> directions_of(const ReducedPlace& place, const ActionSpec& action) {
+  const auto named = action.text.find("direction");
+  const bool vertical = named != action.text.end() && named->second == "vertical";
+  if (vertical && place.directions.cols() == 3 && place.directions.col(2).squaredNorm() > 0.0) return {2};
+  std::vector<Index> all(static_cast<std::size_t>(place.directions.cols()));
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
+/// Takes a support away and puts it up again at a position on its line, between nodes by interpolation.
+void move_support(const ReducedPlace& support, double position, const std::vector<int>& columns, StructureState& state) {
+  const auto number = [&](const std::string& name) { return support.attributes.at(name); };
+  const auto stations = static_cast<Index>(number("stations"));
+  const Index per_node = support.directions.cols() / stations, n = state.stiffness.rows();
+  Index i = 0;
+  while (i + 2 < stations && position > number("x_" + std::to_string(i + 1))) ++i;
+  const double from = number("x_" + std::to_string(i)), to = number("x_" + std::to_string(i + 1));
+  const double t = std::clamp((position - from) / (to - from), 0.0, 1.0);
+  MatrixXd own = support.stiffness.part(columns);
+  own.conservativeResizeLike(MatrixXd::Zero(n, n));
+  state.stiffness -= own;
+  for (Index d = 0; d < per_node; ++d) {
+    VectorXd b =
+        ((1.0 - t) * support.directions.col(i * per_node + d) + t * support.directions.col((i + 1) * per_node + d))(columns);
+    b.conservativeResizeLike(VectorXd::Zero(n));
+    state.stiffness += number("k_" + std::to_string(d)) * b * b.transpose();
+  }
+}
+
+}  // namespace
+
+Predictor::Predictor(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes, bool with_jacobian)
+    : map_(map), base_(base), causes_(causes), with_jacobian_(with_jacobian), undamped_(&base.store->undamped) {
+  read_channels();
+}
+
+MatrixXd Predictor::sliced(const ReducedMatrix& full, const std::vector<int>& columns, Index size) {
+  MatrixXd part = full.part(columns);
+  if (size > part.rows()) part.conservativeResizeLike(MatrixXd::Zero(size, size));
+  return part;
+}
+
+VectorXd Predictor::sliced(const Eigen::Ref<const VectorXd>& full, const std::vector<int>& columns, Index size) {
+  VectorXd part = full(columns);
+  if (size > part.size()) part.conservativeResizeLike(VectorXd::Zero(size));
+  return part;
+}
+
+bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const {
+  if (!cause.candidate->acts_in(condition)) return false;
+  const std::string& kind = action.kind;
+  if (kind.starts_with("damper."))
+    return condition.dampers_on.value_or(cause.candidate->places[0]->attributes.at("always_on") != 0.0);
+  const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
+  if (kind == "field.stiffness" || kind == "soften.stiffness") return std::isfinite(variable(action, condition));
+  if (kind == "step.stiffness") return variable(action, condition) < value("below");
+  if (kind == "slip.stiffness") return variable(action, condition) > value("above");
+  if (kind == "mass.per_count") return condition.people.value_or(0.0) > 0.0;
+  return kind.starts_with("scale.") || kind == "mass.add" || kind == "support.move" || kind.starts_with("element.");
+}
+
+void Predictor::apply_dampers(const Condition& condition, StructureState& state) const {
+  const auto dampers = map_.model().sets.find("dampers");
+  if (dampers == map_.model().sets.end()) return;
+  const Index n = state.stiffness.rows();
+  for (const ReducedPlace& damper : dampers->second) {
+    const auto number = [&](const char* name) {
+      const auto at = damper.attributes.find(name);
+      return at == damper.attributes.end() ? 0.0 : at->second;
+    };
+    if (!condition.dampers_on.value_or(number("always_on") != 0.0)) continue;
+    double c = number("damping"), k = number("stiffness"), threshold = number("friction");
+    VectorXd direction = damper.directions.col(0);
+    bool series = number("series") != 0.0, absent = false, sliding = threshold > 0.0;
+    for (const Cause& cause : causes_) {
+      if (!cause.candidate->acts_in(condition)) continue;
+      const auto& places = cause.candidate->places;
+      const auto here = std::find(places.begin(), places.end(), &damper);
+      if (here == places.end()) continue;
+      for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
+        const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
+        if (action.kind == "damper.absent") absent = true;
+        if (action.kind == "damper.move") direction = places.back()->directions.col(here - places.begin());
+        if (action.kind == "damper.damping") c *= value("factor");
+        if (action.kind == "damper.series") {
+          k = value("stiffness");
+          series = true;
+        }
+        if (action.kind == "damper.friction") {
+          k = value("stiffness");
+          threshold = value("threshold");
+          sliding = true;
+        }
+      }
+    }
+    if (absent) continue;
+    const VectorXd b = sliced(direction, columns_, n);
+    if (sliding) {
+      state.attachments.push_back({Attachment::Kind::jenkins, b, k, c, threshold});
+    } else if (series && k > 0.0) {
+      state.attachments.push_back({Attachment::Kind::maxwell, b, k, c, 0.0});
+    } else {
+      if (k > 0.0) state.stiffness += k * b * b.transpose();
+      state.attachments.push_back({Attachment::Kind::dashpot, b, 0.0, c, 0.0});
+    }
+  }
+}
+
+double Predictor::stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const {
+  const Candidate& candidate = *cause.candidate;
+  const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
+  const std::string& kind = action.kind;
+  if (kind == "scale.stiffness")
+    return (value("factor") - 1.0) * parameter_ratio(candidate.places[0]->attributes, map_.model().theta, base_.theta);
+  const double v = variable(action, condition);
+  if (kind == "field.stiffness") return std::isfinite(v) ? value("rate") * (v - value("reference")) : 0.0;
+  // The hyperbola of soils (Hardin and Drnevich, J. Soil Mech. Found. Div. ASCE 98 SM7, 1972).
+  if (kind == "soften.stiffness") return std::isfinite(v) ? -(v / (v + value("half"))) : 0.0;
+  if (kind == "step.stiffness") return v < value("below") ? value("factor") - 1.0 : 0.0;
+  if (kind == "slip.stiffness") return v > value("above") ? value("factor") - 1.0 : 0.0;
+  return 0.0;
+}
+
+void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const {
+  const Candidate& candidate = *cause.candidate;
+  if (candidate.places.empty()) return;
+  const ReducedPlace& place = *candidate.places[0];
+  const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
+  const Index n = state.stiffness.rows();
+  const std::string& kind = action.kind;
+  if (const double change = stiffness_change(cause, action, condition); change != 0.0) {
+    state.stiffness += change * sliced(place.stiffness, columns_, n);
+  } else if (kind == "scale.mass") {
+    state.mass += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) *
+                  sliced(place.mass, columns_, n);
+  } else if (kind == "support.move") {
+    move_support(place, value("position"), columns_, state);
+  } else if (kind == "mass.add") {
+    for (Index d = 0; d < place.directions.cols(); ++d) {
+      const VectorXd b = sliced(place.directions.col(d), columns_, n);
+      state.mass += value("mass") * b * b.transpose();
+    }
+  } else if (kind == "mass.per_count") {
+    const auto deck = place.attributes.find("deck_mass") != place.attributes.end() ? place.attributes.at("deck_mass")
+                                                                                   : place.attributes.at("total_mass");
+    const double people = condition.people.value_or(0.0);
+    if (people > 0.0) state.mass += people * (value("mass") - value("assumed")) / deck * sliced(place.mass, columns_, n);
+  } else if (kind == "element.spring") {
+    apply_spring(candidate, action, value("stiffness"), state);
+  } else if (kind == "element.oscillator" || kind == "element.string") {
+    apply_body(place, kind == "element.string", value("mass"), 2.0 * std::numbers::pi * value("frequency"), state);
+  }
+}
+
+void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& action, double stiffness,
+                             StructureState& state) const {
+  const ReducedPlace& place = *candidate.places[0];
+  const Index n = state.stiffness.rows();
+  const auto add = [&](const VectorXd& b) { state.stiffness += stiffness * b * b.transpose(); };
+  const auto own = [&](const ReducedPlace& at, Index d) { return sliced(at.directions.col(d), columns_, n); };
+  if (candidate.places.size() != 2) {
+    for (const Index d : directions_of(place, action)) add(own(place, d));
+    return;
+  }
+  const ReducedPlace& other = *candidate.places[1];
+  const Eigen::Vector3d along = other.x_m - place.x_m;
+  const Index shared = std::min(place.directions.cols(), other.directions.cols());
+  if (along.allFinite() && along.norm() > 0.0 && shared == 3) {  // a tie pulls along its line
+    VectorXd b = VectorXd::Zero(n);
+    for (Index d = 0; d < 3; ++d) b += along.normalized()[d] * (own(place, d) - own(other, d));
+    add(b);
+  } else {
+    for (Index d = 0; d < shared; ++d) add(own(place, d) - own(other, d));
+  }
+}
+
+void Predictor::apply_body(const ReducedPlace& place, bool string, double m, double omega, StructureState& state) const {
+  // An attached body moves in every direction that the node has; a cable in the two across its chord.
+  for (Index d = 0; d < place.directions.cols(); ++d) {
+    grow(state);
+    const Index k = state.stiffness.rows() - 1;
+    const VectorXd b = sliced(place.directions.col(d), columns_, k + 1);
+    if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
+      state.mass += m / 3.0 * b * b.transpose();
+      state.mass(k, k) += 0.5 * m;
+      state.mass.col(k) += m / std::numbers::pi * b;
+      state.mass.row(k) += m / std::numbers::pi * b.transpose();
+      state.stiffness(k, k) += 0.5 * m * omega * omega;
+    } else {
+      VectorXd relative = -b;
+      relative[k] = 1.0;
+      state.mass(k, k) += m;
+      state.stiffness += m * omega * omega * relative * relative.transpose();
+    }
+  }
+}
+
+StructureState Predictor::build_state(const Condition& condition) const {
+  StructureState state;
+  const auto n = static_cast<Index>(columns_.size());
+  std::tie(state.stiffness, state.mass) = matrices(columns_);
+  const double people = condition.people.value_or(0.0);
+  if (const auto global = map_.model().sets.find("global"); people > 0.0 && global != map_.model().sets.end()) {
+    const ReducedPlace& deck = global->second.front();
+    const auto mass = deck.attributes.contains("deck_mass") ? deck.attributes.at("deck_mass") : map_.model().total_mass_kg;
+    state.mass += people * kPersonMass / mass * sliced(deck.mass, columns_, n);
+  }
+  if (condition.amplitude_m && !condition.amplitude_channel.empty()) {
+    const auto& channels = map_.features().channels;
+    const auto at = std::find(channels.begin(), channels.end(), condition.amplitude_channel);
+    if (at != channels.end()) {
+      state.amplitude_row =
+          sliced(VectorXd(map_.model().sensors.row(4 * (at - channels.begin())).transpose()), columns_, n).transpose();
+      state.amplitude_m = *condition.amplitude_m;
+    }
+  }
+  apply_dampers(condition, state);
+  for (const Cause& cause : causes_) {
+    if (!cause.candidate->acts_in(condition)) continue;
+    for (const ActionSpec& action : cause.candidate->hypothesis->actions) apply(cause, action, condition, state);
+  }
+  return state;
+}
+
+/// What acts in a condition: conditions and causes that agree in it share one solution.
+struct Predictor::Acting {
+  std::vector<double> causes, before_last;  ///< the causes that act here, by entry and magnitudes; without the last of them
+  bool follows = false;                     ///< the last one leaves dampers alone and adds no motion of its own
+  std::vector<int> columns;                 ///< of the reduced model that the state needs
+  bool temperature = false, amplitude = false, wind = false;  ///< on which the state depends
+};
+
+Predictor::Acting Predictor::acting_in(const Condition& condition) const {
+  Acting out;
+  for (int k = 0; k < map_.model().common; ++k) out.columns.push_back(k);
+  for (const Cause& cause : causes_) {
+    bool any = false, alone = false;
+    for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
+      if (!acts(cause, action, condition)) continue;
+      any = true;
+      const bool field = action.kind == "field.stiffness" || action.kind == "soften.stiffness";
+      const auto named = action.text.find("variable");
+      const std::string key = named == action.text.end() ? "temperature_C" : named->second;
+      out.temperature = out.temperature || (field && key == "temperature_C");
+      out.amplitude = out.amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
+      out.wind = out.wind || (field && key == "wind_m_s");
+      alone =
+          alone || action.kind.starts_with("damper.") || action.kind == "element.oscillator" || action.kind == "element.string";
+    }
+    if (!any) continue;
+    out.before_last = out.causes;
+    out.follows = !alone;
+    // The catalogue entry itself and its magnitudes name the cause.
+    out.causes.push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(cause.candidate)));
+    for (Index i = 0; i < cause.a.size(); ++i) out.causes.push_back(cause.a[i]);
+    for (const ReducedPlace* place : cause.candidate->places)
+      for (const int k : place->columns)
+        if (std::find(out.columns.begin(), out.columns.end(), k) == out.columns.end()) out.columns.push_back(k);
+  }
+  const auto dampers = map_.model().sets.find("dampers");
+  if (dampers != map_.model().sets.end() && condition.dampers_on.value_or(false))
+    for (const ReducedPlace& damper : dampers->second) out.amplitude = out.amplitude || damper.attributes.contains("friction");
+  return out;
+}
+
+std::vector<double> Predictor::circumstances(const Condition& condition, const Acting& acting) const {
+  std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : kUnknown,
+                             condition.people.value_or(0.0)};
+  key.push_back(acting.temperature ? condition.temperature_C.value_or(kUnknown) : 0.0);
+  key.push_back(acting.amplitude ? condition.amplitude_m.value_or(kUnknown) : 0.0);
+  const auto& channels = map_.features().channels;
+  const auto channel = std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin();
+  key.push_back(acting.amplitude ? static_cast<double>(channel) : 0.0);
+  key.push_back(acting.wind ? condition.wind_m_s.value_or(kUnknown) : 0.0);
+  return key;
+}
+
+SolvedState& Predictor::solved(int c) {
+  if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
+  const Acting acting = acting_in(condition);
+  const std::vector<double> key = circumstances(condition, acting);
+  auto& states = base_.store->states;
+  const auto known = states.find({acting.causes, key});
+  std::shared_ptr<SolvedState> entry = known == states.end() ? nullptr : known->second;
+  if (const auto mine = own_.find({acting.causes, key}); !entry && mine != own_.end()) entry = mine->second;
+  if (!entry) {
+    entry = std::make_shared<SolvedState>();
+    columns_ = entry->columns = acting.columns;
+    entry->state = build_state(condition);
+    // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
+    const bool kept = acting.causes.empty() || with_jacobian_ || base_.keeps;
+    // Damped modes follow from those without the last cause.
+    const auto neighbour = acting.follows ? states.find({acting.before_last, key}) : states.end();
+    StateModes from;
+    if (neighbour != states.end() && entry->state.damped()) {
+      const SolvedState& near = *neighbour->second;
+      const auto shared = static_cast<Index>(near.columns.size()), own = near.modes.shapes.rows() - shared;
+      from.s = near.modes.s;
+      from.shapes = Eigen::MatrixXcd::Zero(entry->state.stiffness.rows(), near.modes.s.size());
+      from.shapes.topRows(shared) = near.modes.shapes.topRows(shared);
+      from.shapes.bottomRows(own) = near.modes.shapes.bottomRows(own);
+    }
+    entry->modes = solve_state(entry->state, map_.highest_Hz_, kept ? base_.store->undamped : undamped_,
+                               from.s.size() > 0 ? &from : nullptr);
+    (kept ? states : own_)[{acting.causes, key}] = entry;
+  }
+  of_condition_[c] = entry.get();
+  return *entry;
+}
+
+const std::pair<MatrixXd, MatrixXd>& Predictor::matrices(const std::vector<int>& columns) const {
+  auto& known = base_.keeps ? base_.store->matrices : matrices_;
+  const auto at = known.find(columns);
+  return at != known.end() ? at->second : known.emplace(columns, map_.matrices(base_, columns)).first->second;
+}
+
+const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
+  const std::vector<int>& columns = state.columns;
+  const Index size = state.state.stiffness.rows();
+  const auto [at, is_new] = base_.store->changes.try_emplace({columns, size});
+  StateStore::Changes& out = at->second;
+  if (!is_new) return out;
+  const ReducedModel& model = map_.model();
+  for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
+    const Nuisance& v = map_.nuisances()[j];
+    const auto place = [&](const char* set) -> const ReducedPlace& {
+      return model.sets.at(set)[static_cast<std::size_t>(v.index)];
+    };
+    MatrixChange dk, dm;
+    const auto add = [&](MatrixChange& to, double a, const ReducedMatrix& from) {
+      if (from.is_local() && to.empty()) {  // multiplied out where it is used: a thousand dense ones would fill the memory
+        to.amount = a;
+        to.local = &from;
+        return;
+      }
+      if (to.local != nullptr) to = {to.amount * sliced(*to.local, columns, size), 0.0, nullptr};
+      if (to.dense.size() == 0) to.dense = MatrixXd::Zero(size, size);
+      to.dense += a * sliced(from, columns, size);
+    };
+    if (v.kind == Nuisance::Kind::parameter) {
+      for (const auto& term : model.stiffness)
+        if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dk, v.deviation * a, term.matrix);
+      for (const auto& term : model.mass)
+        if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dm, v.deviation * a, term.matrix);
+    } else if (v.kind == Nuisance::Kind::element_stiffness) {
+      add(dk, v.deviation, place("elements").stiffness);
+    } else if (v.kind == Nuisance::Kind::element_mass) {
+      add(dm, v.deviation, place("elements").mass);
+    } else if (v.kind == Nuisance::Kind::node_mass) {
+      add(dm, v.deviation, place("nodes").mass);
+    } else if (v.kind == Nuisance::Kind::stay) {
+      add(dk, v.deviation, place("stays").stiffness);
+    } else {
+      continue;
+    }
+    out.position.push_back(static_cast<int>(j));
+    out.stiffness.push_back(std::move(dk));
+    out.mass.push_back(std::move(dm));
+  }
+  return out;
+}
+
+const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
+  const auto known = solved.derivatives.find(mode);
+  if (known != solved.derivatives.end()) return known->second;
+  const StateStore::Changes& change = changes(solved);
+  const Eigen::VectorXcd phi = solved.modes.shapes.col(mode);
+  const std::complex<double> square = solved.modes.s[mode] * solved.modes.s[mode];
+  MatrixXd parts(phi.size(), 2);  // real, imaginary
+  parts << phi.real(), phi.imag();
+  const MatrixXd stiffness = times(solved.columns, change.stiffness, parts), mass = times(solved.columns, change.mass, parts);
+  const auto changes = std::ssize(change.position);
+  Eigen::MatrixXcd force(phi.size(), changes);
+  force.real() = -stiffness.leftCols(changes);
+  force.imag() = -stiffness.rightCols(changes);
+  Eigen::MatrixXcd inertia(phi.size(), changes);
+  inertia.real() = mass.leftCols(changes);
+  inertia.imag() = mass.rightCols(changes);
+  force -= square * inertia;
+  return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, force)).first->second;
+}
+
+MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x) const {
+  const auto count = std::ssize(changes), n = std::ssize(columns);
+  MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols()), motion;
+  for (Index p = 0; p < x.cols(); ++p) {
+    if (x.col(p).isZero(0.0)) continue;
+    for (Index j = 0; j < count; ++j) {
+      const MatrixChange& change = changes[static_cast<std::size_t>(j)];
+      auto here = out.col(p * count + j);
+      if (change.dense.size() > 0) here = change.dense * x.col(p);
+      if (change.local == nullptr) continue;
+      if (motion.size() == 0) motion = change.local->basis().motion(columns, x.topRows(n));
+      change.local->add_product(change.amount, columns, motion.col(p), here.head(n));
+    }
+  }
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

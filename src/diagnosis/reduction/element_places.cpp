@@ -1,0 +1,420 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "core/error.hpp"
+#include "diagnosis/reduction/place_parts.hpp"
+#include "fe/assembly_elements.hpp"
+#include "fe/mixed_sides.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+
+fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const std::vector<std::uint8_t>& straight_sides) {
+  const fe::Element& element = model.elements[e];
+  switch (element.type) {
+    case fe::ElementType::beam:
+      return {fe::six_per_node(element),
+              fe::beam_stiffness(fe::beam_geometry(model, element), fe::beam_properties(model, element))};
+    case fe::ElementType::shell: {
+      if (fe::is_triangle(element))
+        return {fe::six_per_node(element),
+                fe::shell_membrane_of(model, element, straight_sides[e]) + fe::shell_bending_of(model, element)};
+      const auto geometry = fe::shell_geometry(model, element);
+      const auto properties = fe::shell_properties(model, element);
+      const auto rule = model.formulation.drilling == fe::Formulation::Drilling::penalty ? fe::DrillingRule::penalty
+                                                                                         : fe::DrillingRule::diagonal;
+      Eigen::MatrixXd k = fe::shell_membrane_stiffness(geometry, properties, rule, model.formulation.drilling_factor);
+      k += fe::shell_bending_stiffness(geometry, properties);
+      return {fe::six_per_node(element), k};
+    }
+    case fe::ElementType::solid:
+      return {fe::three_per_node(element), fe::solid_stiffness_of(model, element)};
+    default:
+      return {fe::three_per_node(element),
+              fe::bar_stiffness(fe::end_nodes(model, element), fe::material_of(model, element).youngs_modulus_Pa,
+                                fe::section_of(model, element).area_m2)};
+  }
+}
+
+const std::string& support_name(const fe::Spring& spring) { return spring.group.empty() ? spring.name : spring.group; }
+
+/// Two symmetric matrices that differ by a factor alone, or are both not there.
+bool alike(const Symmetric& a, const Symmetric& b) {
+  if (a.size() == 0 || b.size() == 0) return a.nonZeros() == 0 && b.nonZeros() == 0;
+  constexpr double kSame = 1e-9;
+  return std::abs(a.cwiseProduct(b).sum()) > (1.0 - kSame) * a.norm() * b.norm();
+}
+
+}  // namespace
+
+struct ElementPlaces::Sum {
+  Eigen::Index size = 0;
+  std::vector<Eigen::Triplet<double>> entries;
+  void add(const fe::ElementMatrix& part, double factor = 1.0) {
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      for (std::size_t j = 0; j < part.dofs.size(); ++j) {
+        const double value = part.matrix(static_cast<Index>(i), static_cast<Index>(j));
+        if (value != 0.0) entries.emplace_back(part.dofs[i], part.dofs[j], factor * value);
+      }
+  }
+};
+
+Symmetric ElementPlaces::free(const Sum& sum) const {
+  Eigen::SparseMatrix<double> full(sum.size, sum.size);
+  full.setFromTriplets(sum.entries.begin(), sum.entries.end());
+  const Eigen::SparseMatrix<double> right = full * expansion_;
+  Symmetric reduced = expansion_.transpose() * right;
+  reduced.prune(0.0);
+  return reduced;
+}
+
+ElementPlaces::ElementPlaces(const Structure& structure)
+    : structure_(structure),
+      model_(*structure.model),
+      straight_sides_(fe::sides_beside_four_nodes(model_)),
+      expansion_(structure.system->expansion) {
+  for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const fe::Element& element = model_.elements[e];
+    if (element.type == fe::ElementType::stay) continue;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int node : element.nodes) middle += model_.nodes[static_cast<std::size_t>(node)].x_m;
+    candidates_.push_back(static_cast<int>(e));
+    centroids_.push_back(middle / static_cast<double>(element.nodes.size()));
+  }
+  std::set<int> reached;
+  for (const fe::Element& element : model_.elements) reached.insert(element.nodes.begin(), element.nodes.end());
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = expansion_;
+  for (const int node : reached) {
+    bool moves = false;
+    for (int d = 0; d < 3; ++d) moves = moves || rows.row(6 * node + d).nonZeros() > 0;
+    if (moves) nodes_.push_back(node);
+  }
+}
+
+std::vector<Eigen::Vector3d> ElementPlaces::node_positions() const {
+  std::vector<Eigen::Vector3d> positions;
+  for (const int node : nodes_) positions.push_back(model_.nodes[static_cast<std::size_t>(node)].x_m);
+  return positions;
+}
+
+std::vector<int> ElementPlaces::measured_nodes() const {
+  const std::set<std::string> names(structure_.sensor_nodes.begin(), structure_.sensor_nodes.end());
+  std::vector<int> measured;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (names.contains(std::to_string(model_.nodes[static_cast<std::size_t>(nodes_[i])].id)))
+      measured.push_back(static_cast<int>(i));
+  return measured;
+}
+
+void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points) const {
+  if (points.empty())
+    for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
+  std::vector<Sum> stiffness(centres.size()), mass(centres.size());
+  std::vector<std::vector<int>> members(centres.size());
+  for (auto* sums : {&stiffness, &mass})
+    for (Sum& sum : *sums) sum.size = expansion_.rows();
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    // With a zone an element, an element is its own zone even where two have one middle.
+    const std::size_t zone =
+        centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
+    const fe::Element& element = model_.elements[static_cast<std::size_t>(candidates_[i])];
+    members[zone].push_back(candidates_[i]);
+    stiffness[zone].add(element_stiffness(model_, static_cast<std::size_t>(candidates_[i]), straight_sides_));
+    mass[zone].add(fe::element_mass(model_, element));
+  }
+  for (std::size_t z = 0; z < centres.size(); ++z) {
+    const fe::Element& centre = model_.elements[static_cast<std::size_t>(candidates_[static_cast<std::size_t>(centres[z])])];
+    places.sets["elements"].push_back(
+        {"element:" + std::to_string(centre.id), points[z], free(stiffness[z]), free(mass[z]), {}, {}, members[z]});
+  }
+}
+
+double ElementPlaces::pull_of(std::size_t e) const {
+  return structure_.state != nullptr && structure_.state->stay_pull_N.size() > 0
+             ? structure_.state->stay_pull_N[static_cast<Index>(e)]
+             : model_.elements[e].pull_N;
+}
+
+fe::ElementMatrix ElementPlaces::stay_stiffness(std::size_t e, double pull) const {
+  const fe::Element& element = model_.elements[e];
+  const auto ends = fe::end_nodes(model_, element);
+  const double area = fe::section_of(model_, element).area_m2;
+  double modulus = fe::material_of(model_, element).youngs_modulus_Pa;
+  if (pull > 0.0) {
+    const double weight = fe::material_of(model_, element).density_kg_m3 * model_.gravity_m_s2;
+    const Eigen::Vector3d chord = ends[1] - ends[0];
+    modulus = fe::Dischinger{weight, chord.head<2>().norm(), pull / area}.modulus(modulus);
+  }
+  return {fe::three_per_node(element), fe::bar_stiffness(ends, modulus, area)};
+}
+
+void ElementPlaces::add_stays(Places& places) const {
+  for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const fe::Element& element = model_.elements[e];
+    if (element.type != fe::ElementType::stay) continue;
+    const auto ends = fe::end_nodes(model_, element);
+    const double length = (ends[1] - ends[0]).norm();
+    const double area = fe::section_of(model_, element).area_m2;
+    const double density = fe::material_of(model_, element).density_kg_m3;
+    const double pull = pull_of(e);
+    Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
+    stiffness.add(stay_stiffness(e, pull));
+    mass.add(fe::element_mass(model_, element));
+    Place place{"stay:" + (element.name.empty() ? std::to_string(element.id) : element.name),
+                0.5 * (ends[0] + ends[1]),
+                free(stiffness),
+                free(mass),
+                {},
+                {},
+                {static_cast<int>(e)}};
+    // A cable's own mode shakes its anchorages across the chord: directions are the two transverse ones of the lower end.
+    const int low = ends[0].z() <= ends[1].z() ? element.nodes[0] : element.nodes[1];
+    const Eigen::Vector3d along = (ends[1] - ends[0]).normalized();
+    const Eigen::Vector3d side =
+        along.cross(std::abs(along.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX()).normalized();
+    const Eigen::Vector3d up = side.cross(along);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int d = 0; d < 3; ++d) {
+      entries.emplace_back(6 * low + d, 0, up[d]);
+      entries.emplace_back(6 * low + d, 1, side[d]);
+    }
+    Eigen::SparseMatrix<double> directions(expansion_.rows(), 2);
+    directions.setFromTriplets(entries.begin(), entries.end());
+    place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);
+    place.attributes["cable_mass"] = density * area * length;
+    place.attributes["length"] = length;
+    place.attributes["pull"] = pull;
+    if (pull > 0.0) place.attributes["f_cable"] = std::sqrt(pull / (density * area)) / (2.0 * length);
+    places.sets["stays"].push_back(std::move(place));
+  }
+}
+
+void ElementPlaces::add_springs(Places& places) const {
+  std::vector<std::string> order;
+  // A spring may have the name of a support that is fixed in other directions: what is rigid there says nothing of the spring.
+  std::set<std::string> of_springs;
+  for (const fe::Spring& spring : model_.springs)
+    if (spring.damping == 0.0 && spring.friction_N == 0.0 && !stands_for_rigid(spring)) of_springs.insert(support_name(spring));
+  const auto place_name = [&](const fe::Spring& spring) {
+    const std::string name = support_name(spring);
+    return stands_for_rigid(spring) && of_springs.contains(name) ? name + " fixed" : name;
+  };
+  std::map<std::string, std::array<Sum, 2>> grounded;  // translations, rotations
+  std::map<std::string, Eigen::Vector3d> where;
+  std::set<std::string> rigid;
+  std::vector<std::string> types;
+  for (const fe::Spring& spring : model_.springs) {
+    const bool damper = spring.damping > 0.0 || spring.friction_N > 0.0;
+    const Eigen::Vector3d x = model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
+    if (damper) {
+      fe::Spring unit = spring;
+      unit.stiffness = 1.0;
+      const fe::ElementMatrix k = fe::spring_stiffness(unit);
+      std::vector<Eigen::Triplet<double>> entries;
+      const double sign = 1.0;
+      // k = b b': b is its column of the largest diagonal entry over the root of that entry.
+      Index largest = 0;
+      k.matrix.diagonal().maxCoeff(&largest);
+      for (std::size_t i = 0; i < k.dofs.size(); ++i)
+        entries.emplace_back(k.dofs[i], 0,
+                             sign * k.matrix(static_cast<Index>(i), largest) / std::sqrt(k.matrix(largest, largest)));
+      Eigen::SparseMatrix<double> direction(expansion_.rows(), 1);
+      direction.setFromTriplets(entries.begin(), entries.end());
+      Place place{"damper:" + spring.name, x, {}, {}, Eigen::SparseMatrix<double>(expansion_.transpose() * direction), {}, {}};
+      place.attributes["damping"] = spring.damping;
+      place.attributes["stiffness"] = spring.stiffness;
+      place.attributes["series"] = spring.series ? 1.0 : 0.0;
+      place.attributes["always_on"] = spring.active ? 1.0 : 0.0;
+      if (spring.friction_N > 0.0) place.attributes["friction"] = spring.friction_N;
+      if (!spring.group.empty()) {  // dampers of one make are wrong in the same way
+        const auto at = std::find(types.begin(), types.end(), spring.group);
+        place.attributes["type"] = static_cast<double>(at - types.begin());
+        if (at == types.end()) types.push_back(spring.group);
+      }
+      places.sets["dampers"].push_back(std::move(place));
+      continue;
+    }
+    if (!fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
+    const std::string name = place_name(spring);
+    if (stands_for_rigid(spring)) rigid.insert(name);
+    if (!grounded.contains(name)) {
+      order.push_back(name);
+      grounded[name][0].size = grounded[name][1].size = expansion_.rows();
+      where[name] = x;
+    }
+    grounded.at(name)[spring.rotation ? 1 : 0].add(fe::spring_stiffness(spring));
+  }
+  for (std::size_t type = 0; type < types.size(); ++type) {  // "dampers:C1,C2": all of a make together
+    Place all{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
+    double members = 0.0;
+    for (const Place& damper : places.sets["dampers"]) {
+      const auto at = damper.attributes.find("type");
+      if (at == damper.attributes.end() || at->second != static_cast<double>(type)) continue;
+      all.id += (members > 0.0 ? "," : "") + damper.id.substr(damper.id.find(':') + 1);
+      all.x_m += damper.x_m;
+      members += 1.0;
+    }
+    if (members < 2.0) continue;
+    all.x_m /= members;
+    all.attributes["type"] = static_cast<double>(type);
+    places.sets["damper_types"].push_back(std::move(all));
+  }
+  for (const std::string& name : order) {
+    for (const bool rotation : {false, true}) {
+      const Sum& sum = grounded.at(name)[rotation ? 1 : 0];
+      if (sum.entries.empty()) continue;
+      Place place{"support:" + name, where.at(name), free(sum), {}, {}, {}, {}};
+      // A spring that stands for a rigid support must fall by orders before anything moves; a bearing may err both ways.
+      const bool stiff = rigid.contains(name);
+      place.attributes["f_low"] = stiff ? 1e-6 : 0.02;
+      place.attributes["f_soft"] = stiff ? 2e-5 : 0.25;
+      place.attributes["f_stiff"] = stiff ? 5e-4 : 4.0;
+      place.attributes["f_high"] = stiff ? 1e-2 : 30.0;
+      places.sets[rotation ? "foundations" : "supports"].push_back(std::move(place));
+    }
+  }
+}
+
+void ElementPlaces::add_moves(const std::vector<DamperMove>& moves, Places& places) const {
+  std::vector<Eigen::Vector3d> nodes;
+  for (const fe::Node& node : model_.nodes) nodes.push_back(node.x_m);
+  for (const DamperMove& move : moves) {
+    Place place{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t i = 0; i < move.dampers.size(); ++i) {
+      const auto spring = std::find_if(model_.springs.begin(), model_.springs.end(),
+                                       [&](const fe::Spring& s) { return s.name == move.dampers[i]; });
+      TWINDECK_ASSERT(spring != model_.springs.end() && can_be_moved(*spring));
+      const int node = nearest(nodes, move.x_m[i]);
+      for (int d = 0; d < 3; ++d)
+        if (spring->direction[d] != 0.0) entries.emplace_back(6 * node + d, static_cast<int>(i), spring->direction[d]);
+      place.id += (i > 0 ? "," : "") + move.dampers[i];
+      place.x_m += nodes[static_cast<std::size_t>(node)] / static_cast<double>(move.dampers.size());
+      place.attributes["node_" + std::to_string(i)] = node;
+    }
+    place.id += "@" + move.name;
+    Eigen::SparseMatrix<double> directions(expansion_.rows(), static_cast<Index>(move.dampers.size()));
+    directions.setFromTriplets(entries.begin(), entries.end());
+    place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);
+    places.sets["damper_moves"].push_back(std::move(place));
+  }
+}
+
+void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) const {
+  for (const int c : chosen) {
+    const int node = nodes_[static_cast<std::size_t>(c)];
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int d = 0; d < 3; ++d) entries.emplace_back(6 * node + d, d, 1.0);
+    Eigen::SparseMatrix<double> directions(expansion_.rows(), 3);
+    directions.setFromTriplets(entries.begin(), entries.end());
+    const fe::Node& at = model_.nodes[static_cast<std::size_t>(node)];
+    places.sets["nodes"].push_back({"node:" + std::to_string(at.id),
+                                    at.x_m,
+                                    {},
+                                    {},
+                                    Eigen::SparseMatrix<double>(expansion_.transpose() * directions),
+                                    {},
+                                    {}});
+  }
+}
+
+void ElementPlaces::add_groups(Places& places) const {
+  struct Group {
+    Sum stiffness, mass;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+    std::vector<int> elements;
+  };
+  std::vector<std::string> order;
+  std::map<std::string, Group> groups;
+  const auto group_of = [&](const std::string& name) -> Group& {
+    const auto [at, is_new] = groups.try_emplace(name);
+    if (is_new) {
+      order.push_back(name);
+      at->second.stiffness.size = at->second.mass.size = expansion_.rows();
+    }
+    return at->second;
+  };
+  for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const fe::Element& element = model_.elements[e];
+    if (element.group.empty()) continue;
+    Group& group = group_of(element.group);
+    group.stiffness.add(element.type == fe::ElementType::stay ? stay_stiffness(e, pull_of(e))
+                                                              : element_stiffness(model_, e, straight_sides_));
+    group.mass.add(fe::element_mass(model_, element));
+    group.elements.push_back(static_cast<int>(e));
+    for (const int node : element.nodes) group.sum += model_.nodes[static_cast<std::size_t>(node)].x_m;
+    group.count += static_cast<int>(element.nodes.size());
+  }
+  for (const fe::Spring& spring : model_.springs) {
+    if (spring.node2 < 0 || spring.group.empty() || !fe::carries_stiffness(spring)) continue;
+    Group& group = group_of(spring.group);
+    group.stiffness.add(fe::spring_stiffness(spring));
+    group.sum += model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
+    ++group.count;
+  }
+  std::vector<Place>& set = places.sets["groups"];
+  const std::vector<Place> of_parameters = set;
+  for (const std::string& name : order) {
+    const Group& group = groups.at(name);
+    Place place{"group:" + name, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
+    if (!group.mass.entries.empty()) place.mass = free(group.mass);
+    const bool known = std::any_of(of_parameters.begin(), of_parameters.end(), [&](const Place& other) {
+      return other.id == place.id || (other.stiffness.nonZeros() > 0 && alike(other.stiffness, place.stiffness));
+    });
+    if (!known && place.stiffness.nonZeros() > 0) set.push_back(std::move(place));
+  }
+}
+
+Place ElementPlaces::part(const std::vector<int>& elements) const {
+  Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const int e : elements) {
+    const auto position = static_cast<std::size_t>(e);
+    const fe::Element& element = model_.elements[position];
+    stiffness.add(element.type == fe::ElementType::stay ? stay_stiffness(position, pull_of(position))
+                                                        : element_stiffness(model_, position, straight_sides_));
+    mass.add(fe::element_mass(model_, element));
+    for (const int node : element.nodes) {
+      sum += model_.nodes[static_cast<std::size_t>(node)].x_m;
+      count += 1.0;
+    }
+  }
+  return {"", sum / count, free(stiffness), free(mass), {}, {}, elements};
+}
+
+bool ElementPlaces::stands_for_rigid(const fe::Spring& spring) const {
+  const auto& rigid = structure_.rigid_supports;
+  return spring.name.find(kRigidSpring) != std::string::npos &&
+         std::find(rigid.begin(), rigid.end(), support_name(spring)) != rigid.end();
+}
+
+void ElementPlaces::fill_global(Place& global) const {
+  Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
+  const bool shells = std::any_of(model_.elements.begin(), model_.elements.end(),
+                                  [](const fe::Element& e) { return e.type == fe::ElementType::shell; });
+  double deck = 0.0;
+  for (const int e : candidates_) {
+    const fe::Element& element = model_.elements[static_cast<std::size_t>(e)];
+    stiffness.add(element_stiffness(model_, static_cast<std::size_t>(e), straight_sides_));
+    if (shells && element.type != fe::ElementType::shell) continue;
+    const fe::ElementMatrix m = fe::element_mass(model_, element);
+    mass.add(m);
+    const int per_node = static_cast<int>(m.dofs.size() / element.nodes.size());
+    for (std::size_t i = 0; i < m.dofs.size(); i += static_cast<std::size_t>(per_node))
+      for (std::size_t j = 0; j < m.dofs.size(); j += static_cast<std::size_t>(per_node))
+        deck += m.matrix(static_cast<Index>(i), static_cast<Index>(j));
+  }
+  global.stiffness = free(stiffness);
+  global.mass = free(mass);
+  if (deck > 0.0) global.attributes["deck_mass"] = deck;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/reduction/structure.hpp"
+#include "fe/assembly_elements.hpp"
+
+/// Private to src/diagnosis: the places of a finite element model.
+namespace twindeck::diagnosis {
+
+class ElementPlaces {
+ public:
+  explicit ElementPlaces(const Structure& structure);
+
+  /// Middle of each element that is no stay, in the order of `candidates`.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& centroids() const { return centroids_; }
+  [[nodiscard]] std::vector<Eigen::Vector3d> node_positions() const;  ///< of nodes that an element reaches and that can move
+  [[nodiscard]] std::vector<int> measured_nodes() const;              ///< positions in `node_positions`
+
+  /// Set elements. @param points  what elements are near to; the middles of `centres` where empty
+  void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
+  void add_stays(Places& places) const;    ///< set stays
+  void add_springs(Places& places) const;  ///< sets supports, foundations, dampers, damper_types
+  /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as.
+  void add_groups(Places& places) const;
+  /// Set support_moves: where a support on a line of beams may stand instead.
+  void add_support_moves(Places& places) const;
+  /// Dampers at other nodes: their unit forces there, and the nodes as attributes node_0 …
+  void add_moves(const std::vector<DamperMove>& moves, Places& places) const;
+  void add_nodes(const std::vector<int>& chosen, Places& places) const;  ///< set nodes
+  /// Some elements as a place, with its middle; the id is left empty.
+  [[nodiscard]] Place part(const std::vector<int>& elements) const;
+  void fill_global(Place& global) const;  ///< stiffness of all but stays; mass of the deck (shells, else all elements)
+
+ private:
+  struct Sum;  // element matrices being added up over full dofs
+  [[nodiscard]] Symmetric free(const Sum& sum) const;
+  [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
+  [[nodiscard]] double pull_of(std::size_t element) const;
+  [[nodiscard]] bool stands_for_rigid(const fe::Spring& spring) const;
+
+  const Structure& structure_;
+  const fe::Model& model_;
+  std::vector<std::uint8_t> straight_sides_;  ///< of triangles, by element (fe/mixed_sides.hpp)
+  Eigen::SparseMatrix<double> expansion_;
+  std::vector<int> candidates_;  ///< elements that are no stays
+  std::vector<Eigen::Vector3d> centroids_;
+  std::vector<int> nodes_;
+};
+
+}  // namespace twindeck::diagnosis

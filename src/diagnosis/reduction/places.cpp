@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/error.hpp"
+#include "diagnosis/reduction/place_parts.hpp"
+#include "diagnosis/reduction/structure.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+const Eigen::Vector3d kNowhere = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+
+/// Symmetric matrix of dK/dtheta · scale (or of M) on both triangles.
+Symmetric of_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const Eigen::VectorXd& theta,
+                   int parameter, double scale) {
+  Triplets entries;
+  const int* outer = system.pattern.outerIndexPtr();
+  const int* inner = system.pattern.innerIndexPtr();
+  for (const fe::Term& term : terms) {
+    const double a = scale * term.coefficient.derivative(theta, parameter);
+    if (a == 0.0) continue;
+    int column = 0;
+    for (std::size_t i = 0; i < term.position.size(); ++i) {
+      const int position = term.position[i];
+      if (position < outer[column]) column = 0;
+      while (position >= outer[column + 1]) ++column;
+      const int row = inner[position];
+      entries.emplace_back(row, column, a * term.value[i]);
+      if (row != column) entries.emplace_back(column, row, a * term.value[i]);
+    }
+  }
+  Symmetric matrix;
+  if (entries.empty()) return matrix;
+  matrix.resize(system.size(), system.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Picks `count` of the points so that they lie far from each other, the given ones first (farthest-point selection).
+std::vector<int> spread(const std::vector<Eigen::Vector3d>& points, std::vector<int> chosen, int count) {
+  const auto n = static_cast<int>(points.size());
+  if (n <= count) {
+    std::vector<int> all(points.size());
+    for (int i = 0; i < n; ++i) all[static_cast<std::size_t>(i)] = i;
+    return all;
+  }
+  if (chosen.empty()) chosen.push_back(0);
+  std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
+  std::size_t done = 0;
+  while (static_cast<int>(chosen.size()) < count || done < chosen.size()) {
+    for (; done < chosen.size(); ++done)
+      for (std::size_t i = 0; i < points.size(); ++i)
+        distance[i] = std::min(distance[i], (points[i] - points[static_cast<std::size_t>(chosen[done])]).norm());
+    if (static_cast<int>(chosen.size()) >= count) break;
+    const auto far = std::max_element(distance.begin(), distance.end());
+    if (!(*far > 0.0)) break;
+    chosen.push_back(static_cast<int>(far - distance.begin()));
+  }
+  return chosen;
+}
+
+std::vector<Place> group_places(const Structure& structure) {
+  std::vector<Place> places;
+  const fe::ParametricSystem& system = *structure.system;
+  for (std::size_t p = 0; p < system.parameters.size(); ++p) {
+    const double value = structure.theta[static_cast<Index>(p)];
+    Place place{"group:" + system.parameters[p].name, kNowhere, {}, {}, {}, {}, {}};
+    const double scale = value != 0.0 ? value : 1.0;  // a correction term that starts at zero is counted in its own unit
+    const fe::Parameter& parameter = system.parameters[p];
+    if (value != 0.0) place.attributes["parameter"] = static_cast<double>(p);  // the matrices are those at its value here
+    // A material's modulus or density may be uncertain within its bounds, but it does not change from one state to another.
+    const bool of_material = parameter.target == fe::Target::youngs_modulus || parameter.target == fe::Target::density;
+    if (of_material && parameter.lower > 0.0 && parameter.upper > parameter.lower) {
+      place.attributes["least_change"] = parameter.lower / parameter.upper;
+      place.attributes["most_change"] = parameter.upper / parameter.lower;
+    }
+    place.stiffness = of_terms(system, system.stiffness_terms, structure.theta, static_cast<int>(p), scale);
+    place.mass = of_terms(system, system.mass_terms, structure.theta, static_cast<int>(p), scale);
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
+/// Nodes of a matrix model with the directions that they have; translations and rotations alike where they have no others.
+std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& options) {
+  const fe::ParametricSystem& system = *structure.system;
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<int>> rows;
+  std::map<std::string, Eigen::Vector3d> where;
+  for (std::size_t i = 0; i < system.dofs.size(); ++i) {
+    const fe::DofLabel& dof = system.dofs[i];
+    if (!rows.contains(dof.node)) names.push_back(dof.node);
+    where[dof.node] = dof.x_m;
+    if (dof.direction < 3)
+      rows[dof.node].push_back(static_cast<int>(i));
+    else
+      rows[dof.node];
+  }
+  std::vector<std::string> chosen;
+  const std::set<std::string> measured(structure.sensor_nodes.begin(), structure.sensor_nodes.end());
+  for (const std::string& name : names)
+    if (static_cast<int>(names.size()) <= options.max_nodes || measured.contains(name)) chosen.push_back(name);
+  const Eigen::VectorXd diagonal = system.mass(structure.theta).diagonal();
+  std::vector<Place> places;
+  for (const std::string& name : chosen) {
+    const auto& dofs = rows.at(name);
+    if (dofs.empty()) continue;
+    Place place{"node:" + name, where.at(name), {}, {}, {}, {}, {}};
+    Triplets entries;
+    for (std::size_t k = 0; k < dofs.size(); ++k) entries.emplace_back(dofs[k], static_cast<int>(k), 1.0);
+    place.directions.resize(system.size(), static_cast<Index>(dofs.size()));
+    place.directions.setFromTriplets(entries.begin(), entries.end());
+    Triplets masses;  // what sits on the node, for its scatter
+    for (const int dof : dofs)
+      if (diagonal[dof] > 0.0) masses.emplace_back(dof, dof, diagonal[dof]);
+    place.mass.resize(system.size(), system.size());
+    place.mass.setFromTriplets(masses.begin(), masses.end());
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
+/// For each wanted position that of the nearest point.
+std::vector<int> nearest_of(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& wanted) {
+  std::vector<int> found;
+  for (const Eigen::Vector3d& x : wanted) found.push_back(nearest(points, x));
+  return found;
+}
+
+}  // namespace
+
+int nearest(const std::vector<Eigen::Vector3d>& centres, const Eigen::Vector3d& x) {
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const double distance = (centres[i] - x).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      best = static_cast<int>(i);
+    }
+  }
+  return best;
+}
+
+Places find_places(const Structure& structure, const PlaceOptions& options) {
+  Places places;
+  places.sets["groups"] = group_places(structure);
+  Place global{"global", kNowhere, {}, {}, {}, {}, {}};
+  const Eigen::VectorXd& theta = structure.theta;
+  const Eigen::VectorXd diagonal = structure.system->mass(theta).diagonal();
+  std::array<double, 6> by_direction{};
+  for (std::size_t i = 0; i < structure.system->dofs.size(); ++i)
+    by_direction[static_cast<std::size_t>(structure.system->dofs[i].direction)] += diagonal[static_cast<Index>(i)];
+  places.total_mass_kg = *std::max_element(by_direction.begin(), by_direction.begin() + 3);
+  if (structure.model == nullptr) {
+    places.sets["nodes"] = matrix_nodes(structure, options);
+    global.stiffness = Symmetric(structure.system->stiffness(theta).selfadjointView<Eigen::Lower>());
+    global.mass = Symmetric(structure.system->mass(theta).selfadjointView<Eigen::Lower>());
+  } else {
+    ElementPlaces elements(structure);
+    if (options.zone_centres.empty())
+      elements.add_zones(spread(elements.centroids(), {}, options.max_zones), places);
+    else
+      elements.add_zones(nearest_of(elements.centroids(), options.zone_centres), places, options.zone_centres);
+    elements.add_stays(places);
+    elements.add_springs(places);
+    elements.add_groups(places);
+    elements.add_support_moves(places);
+    elements.add_moves(options.moves, places);
+    elements.add_nodes(options.node_positions.empty()
+                           ? spread(elements.node_positions(), elements.measured_nodes(), options.max_nodes)
+                           : nearest_of(elements.node_positions(), options.node_positions),
+                       places);
+    elements.fill_global(global);
+    Place stays{"global", kNowhere, {}, {}, {}, {}, {}};
+    for (const Place& stay : places.sets["stays"]) {
+      if (stays.stiffness.size() == 0)
+        stays.stiffness = stay.stiffness;
+      else
+        stays.stiffness += stay.stiffness;
+    }
+    if (stays.stiffness.size() > 0) places.sets["all_stays"] = {std::move(stays)};
+  }
+  if (places.total_mass_kg > 0.0) global.attributes["total_mass"] = places.total_mass_kg;
+  places.sets["global"] = {std::move(global)};
+  return places;
+}
+
+}  // namespace twindeck::diagnosis

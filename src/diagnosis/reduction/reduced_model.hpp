@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/reduction/reduced_matrix.hpp"
+#include "diagnosis/reduction/structure.hpp"
+
+namespace twindeck::diagnosis {
+
+/// A candidate location in reduced coordinates (r = number of basis vectors).
+struct ReducedPlace {
+  std::string id;
+  Eigen::Vector3d x_m;
+  std::vector<int> columns;       ///< basis vectors for causes at this location, beside the common ones
+  ReducedMatrix stiffness, mass;  ///< (r × r), size 0 if the location has none
+  Eigen::MatrixXd directions;     ///< (r × k) unit forces
+  std::map<std::string, double> attributes;
+};
+
+/// What of a place's matrices there is at other values of the parameters: 1 but for a group that a parameter scales, which is
+/// `value` / `reduced_at` of what it was where the basis was made.
+[[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
+                                     const Eigen::VectorXd& value);
+
+struct ReductionOptions {
+  int modes = 30;                 ///< of the unchanged structure
+  int parameter_vectors = 10;     ///< corrections for changed parameters and element scatter: the strongest directions of all
+  double least_correction = 0.0;  ///< part of any mode's omega² below which a correction is left out
+  double element_change = 0.0;    ///< relative change of a group of elements by element scatter; 0: no corrections
+  int corrected_modes = 8;        ///< lowest modes whose static response to a change at a place is kept …
+  int vectors_per_place = 3;      ///< … in its strongest directions
+  int vectors_per_move = 8;       ///< the same for a support that may stand elsewhere on its line
+  int full_below = 60;            ///< a structure with no more dofs is not reduced
+};
+
+/// The structure projected once to a small basis, so that thousands of changed structures can be solved:
+///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by
+///   place].
+/// A change at a location uses the common vectors and those of the location: K^-1 (dK Phi) for a factor, K^-1 b for a force
+/// direction b (statically exact; Craig and Bampton 1968, MacNeal 1971). With load tests V also holds K^-1 f of each load, and
+/// its first-order change by parameters, element scatter and causes. V is orthonormal in K up to a common factor.
+class ReducedModel {
+ public:
+  struct Term {
+    fe::Coefficient coefficient;
+    ReducedMatrix matrix;  ///< (r × r)
+  };
+
+  /// @throws InputError if K is singular beyond rigid-body motion
+  ReducedModel(const Structure& structure, const Places& places, const ReductionOptions& options);
+
+  std::vector<fe::Parameter> parameters;
+  Eigen::VectorXd theta;  ///< (n_parameters) where the basis was made
+  std::vector<Term> stiffness, mass;
+  std::map<std::string, std::vector<ReducedPlace>> sets;
+  Eigen::MatrixXd sensors;  ///< (4 n_channels × r), see SensorValues
+  int common = 0;           ///< basis vectors that every solve uses: 0 … common-1
+  double total_mass_kg = 0.0;
+  Eigen::VectorXd frequency_Hz;      ///< of the computed modes of the unchanged full model
+  Eigen::MatrixXd mode_coordinates;  ///< (r × n_modes) the same modes in the basis
+  LoadTests load_tests;              ///< in the basis, which answers their loads exactly at `theta`
+
+  /// Takes in further places as a set of their own, with their static responses as further basis vectors. Coordinates that were
+  /// there before keep their numbers and meaning, so that predictions without the further places stay the same.
+  /// @param structure, places  those that the model was made of
+  /// @param set                a name that `sets` does not have
+  void extend(const Structure& structure, const Places& places, const std::string& set, const std::vector<Place>& further);
+
+  [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
+  /// The location called `id` in any set; null if there is none.
+  [[nodiscard]] const ReducedPlace* place(const std::string& set, const std::string& id) const;
+
+ private:
+  struct Kept;                  ///< what `extend` needs: the basis in full coordinates, the factor of K
+  std::shared_ptr<Kept> kept_;  ///< a model that has copies cannot be extended
+};
+
+}  // namespace twindeck::diagnosis
