@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 std::string message_of(const Diagnosis& out, const Ruling& ruling, const FormReport& form, const FormSearch& search) {
   if (out.verdict == Verdict::named || out.verdict == Verdict::ambiguous) return out.effects.front().sentence;
-  const std::string scales = fmt::format("form error about {:.1f} % in frequency and {:.1f} % in shape",
+  const std::string scales = fmt::format("the model's form is off by about {:.1f} % in frequency and {:.1f} % in shape",
                                          100.0 * form.frequency.level, 100.0 * form.shape.level);
   if (out.verdict == Verdict::none)
     return fmt::format("nothing found: {} ({}); causes smaller than that which act in every condition cannot be seen",

@@ -8,7 +8,7 @@ from ..study import Study
 from .style import ACCENT, PALE, WARN, plt
 
 NAME = "diagnosis"
-CAPTION = ("Left: measured rows against the best admissible model, in standard deviations, before and after the extension; open "
+CAPTION = ("Left: measured rows against the model fitted within its bounds, in standard deviations, before and after the extension; open "
            "marks were held out. Right: where a change would explain most (score in standard deviations; not a verdict).")
 NEEDS = ("s9_diagnosis",)
 MOST = 14

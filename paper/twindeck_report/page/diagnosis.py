@@ -7,10 +7,10 @@ from .numbers import physical, span
 from .places import places
 
 VERDICTS = {
-    "none": ("good", "Nothing is missing", "The best admissible model explains the measurement: updating is enough."),
-    "named": ("good", "One cause explains it", "What the best admissible model leaves unexplained is explained by what is named here."),
+    "none": ("good", "Nothing is missing", "The model fitted within its bounds explains the measurement: updating is enough."),
+    "named": ("good", "One cause explains it", "What the model fitted within its bounds leaves unexplained is explained by what is named here."),
     "ambiguous": ("warn", "Several causes explain it equally well", "The rows that were measured cannot tell the members of a cluster apart."),
-    "unknown": ("bad", "Something is missing that no entry of the catalogue explains",
+    "unknown": ("bad", "The model lacks something that no cause of the catalogue explains",
                 "What is named below helps, but the residual test still rejects the extended model: do not take it for the cause."),
 }
 
@@ -41,7 +41,7 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
 
 
 def _parameters(told: dict) -> list:
-    """The extended model's parameters in their own units, as the best admissible model has them and with the causes in it."""
+    """The extended model's parameters in their own units, as the model fitted within its bounds has them and with the causes in it."""
     return [{"name": p["name"], "before": span(p["before"], p["unit"]), "after": span(p["after"], p["unit"])} for p in told.get("model_parameters", [])]
 
 

@@ -50,7 +50,7 @@ Ruling rule(const Weighed& w, const RuleOptions& options) {
     } else if (out.against_both < -options.set_within) {
       out.reason = "something else changed explains more than the best cause";
     } else if (leaves_too_much_over(w, ahead_of_something_else, options)) {
-      out.reason = "the best cause leaves too much of the change over";
+      out.reason = "the nearest cause leaves too much of the change unexplained";
     } else {
       out.something_else_in_set =
           !w.in_all_conditions && w.something_else > w.none && ahead_of_something_else < options.else_within;

@@ -142,11 +142,12 @@ std::string block_words(const Block& block, const Inference& inference, const Di
     const auto r = static_cast<Index>(block.rows.front());
     const double transformed = result.before.all.g[r],
                  computed = is_logarithmic(row.type) ? std::exp(transformed) : transformed;
-    text = fmt::format("{} is measured as {} {}, the model fitted within its bounds has {} {}: {:.1f} standard deviations",
+    text = fmt::format("{} is measured as {} {}, the model fitted within its bounds has {} {}: {:.1f} standard deviations off",
                        block.words, number_in_words(row.value, kMeasuredDigits), unit_of(row.type),
                        number_in_words(computed, kMeasuredDigits), unit_of(row.type), std::abs(before[r]));
   }
-  if (!result.effects.empty()) text += fmt::format("; with what is named below, {:.1f}", std::sqrt(mean_square(block, after)));
+  if (!result.effects.empty())
+    text += fmt::format("; with the causes below in the model {:.1f}", std::sqrt(mean_square(block, after)));
   return text;
 }
 
@@ -167,7 +168,7 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
   if (result.verdict == diagnosis::Verdict::none && beyond == 0)
     return fmt::format("Nothing beyond what {} allows. The largest deviation: {}.",
                        result.form ? "the error of the model's form" : "chance", most);
-  return fmt::format("{}. Of {} measured values {} lie further off than the {:.1f} standard deviations that chance allows.",
+  return fmt::format("{}. Of {} measured values, {} are further off than chance allows ({:.1f} standard deviations).",
                      capitalised(most), number_in_words(static_cast<double>(judged), kCountDigits), beyond, limit);
 }
 
@@ -198,7 +199,7 @@ std::string with_intervals(const Effect& effect) {
   const std::string within =
       effect.within_m > 0.0 ? fmt::format(" The place is known to {} m.", number_in_words(effect.within_m)) : "";
   return ended(effect.sentence + in_state) + within +
-         (words.empty() ? "" : fmt::format(" With 90 %: {}.", fmt::join(words, "; ")));
+         (words.empty() ? "" : fmt::format(" 90 % intervals: {}.", fmt::join(words, "; ")));
 }
 
 std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
@@ -211,15 +212,18 @@ std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.verdict == diagnosis::Verdict::none)
     return "No cause is needed: the model with its parameters inside their bounds explains the measurement.";
   if (result.effects.empty()) return ended(capitalised(result.message));
-  std::string text = (result.verdict == diagnosis::Verdict::unknown ? "Not known. What comes nearest: " : "") +
-                     with_intervals(result.effects.front());
-  if (result.effects.size() == 1) return text;
-  std::vector<std::string> others;
-  for (std::size_t i = 1; i < result.effects.size(); ++i)
-    others.push_back(result.verdict == diagnosis::Verdict::unknown ? ids.in_text(result.effects[i].cause.candidate->id())
-                                                                   : with_intervals(result.effects[i]));
-  return result.verdict == diagnosis::Verdict::unknown ? fmt::format("{} Beside it: {}.", text, fmt::join(others, "; "))
-                                                       : fmt::format("{} Besides: {}", text, fmt::join(others, " "));
+  if (result.verdict == diagnosis::Verdict::unknown) {
+    const std::string nearest = "Not known. What comes nearest: " + with_intervals(result.effects.front());
+    std::vector<std::string> others;
+    for (std::size_t i = 1; i < result.effects.size(); ++i)
+      others.push_back(ids.in_text(result.effects[i].cause.candidate->id()));
+    return others.empty() ? nearest : fmt::format("{} Beside it: {}.", nearest, fmt::join(others, "; "));
+  }
+  if (result.effects.size() == 1) return with_intervals(result.effects.front());
+  std::vector<std::string> causes;
+  for (std::size_t i = 0; i < result.effects.size(); ++i)
+    causes.push_back(fmt::format("Cause {}: {}", i + 1, with_intervals(result.effects[i])));
+  return fmt::format("{}", fmt::join(causes, " "));
 }
 
 std::string probability_words(double p) {
@@ -228,7 +232,7 @@ std::string probability_words(double p) {
 }
 
 std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
-  if (effect.rivals.empty()) return "No rival among the causes of the catalogue is near.";
+  if (effect.rivals.empty()) return "No other cause of the catalogue comes near.";
   std::vector<std::string> named;
   for (std::size_t i = 0; i < std::min(effect.rivals.size(), kRivals); ++i) {
     const diagnosis::Rival& rival = effect.rivals[i];
@@ -247,15 +251,13 @@ std::string how_sure_of_each(const Diagnosis& result, const IdsInWords& ids) {
   std::vector<std::string> probabilities, rivals;
   for (std::size_t i = 0; i < result.effects.size(); ++i) {
     const Effect& effect = result.effects[i];
-    probabilities.push_back(probability_words(effect.probability));
+    probabilities.push_back(fmt::format("cause {}, {}", i + 1, probability_words(effect.probability)));
     if (!effect.rivals.empty()) rivals.push_back(fmt::format("Of cause {}: {}", i + 1, rivals_words(effect, ids)));
   }
   return fmt::format(
-      "Weighed against all other causes of the catalogue and against none, the causes have the probabilities {}, in this "
-      "order. "
-      "{}",
+      "Compared with all other causes of the catalogue and with no cause, the probabilities are: {}. {}",
       fmt::join(probabilities, "; "),
-      rivals.empty() ? "No rival among the causes of the catalogue is near." : fmt::format("{}", fmt::join(rivals, " ")));
+      rivals.empty() ? "No other cause of the catalogue comes near." : fmt::format("{}", fmt::join(rivals, " ")));
 }
 
 std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
@@ -264,7 +266,10 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
         "No cause of the catalogue explains enough to be named. The best one has log odds of {:.1f} against no cause, and a "
         "name needs {:.1f}.",
         result.log_odds, result.threshold);
-  if (result.effects.empty()) return "No cause of the catalogue is likely enough to be named.";
+  if (result.effects.empty())
+    return fmt::format(
+        "No cause of the catalogue explains enough to be named. The nearest has log odds of {:.1f} against no cause.",
+        result.log_odds);
   std::string text;
   if (result.verdict == diagnosis::Verdict::unknown)
     text = fmt::format("Not sure: {}. ",
@@ -274,7 +279,7 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
                            : result.message);
   const Effect& first = result.effects.front();
   if (result.verdict != diagnosis::Verdict::unknown && result.effects.size() > 1) return how_sure_of_each(result, ids);
-  text += fmt::format("Weighed against all other causes of the catalogue and against none, the {}cause has probability {}. ",
+  text += fmt::format("Compared with all other causes of the catalogue and with no cause, the {}cause has probability {}. ",
                       result.effects.size() > 1 ? "first " : "", probability_words(first.probability));
   if (result.verdict == diagnosis::Verdict::unknown && first.rivals.empty())
     return text + "It is not the whole of what is wrong.";
@@ -282,23 +287,23 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
 }
 
 std::string how_much_better_it_is(const Diagnosis& result) {
-  if (result.effects.empty()) return "Nothing was put into the model, so that there is no gain to measure.";
+  if (result.effects.empty()) return "The model was not changed, so there is no gain to measure.";
   const diagnosis::Gain gain = told_gain(result);
   if (gain.rows == 0) return "No gain shown: no measured value was held out from the fit.";
   const std::string numbers = fmt::format(
-      "on {} values that no fit has seen the misfit goes from {:.2f} to {:.2f} standard deviations, {:.0f} % less (90 % "
-      "interval {:.0f} to "
-      "{:.0f} %)",
-      gain.rows, gain.before, gain.after, gain.reduction_pct, gain.low_pct, gain.high_pct);
+      "on {} values, predicted without being fitted, the misfit goes from {:.2f} to {:.2f} standard deviations, {:.0f} % less "
+      "(90 % "
+      "interval {:.0f} to {:.0f} %)",
+      number_in_words(gain.rows, kCountDigits), gain.before, gain.after, gain.reduction_pct, gain.low_pct, gain.high_pct);
   if (shows_gain(gain)) return capitalised(numbers) + ".";
   return fmt::format("No gain shown: {}.", numbers);
 }
 
 std::string left_over_words(const Diagnosis& result, const PlaceWords& places) {
   return fmt::format(
-      "What is left sits about {}: more points of the shapes there, and a second condition (amplitude, temperature), would "
-      "show "
-      "what it depends on.",
+      "What is left unexplained is largest about {}. Measure the shapes at more points there, and test in a second condition "
+      "(amplitude, temperature): "
+      "that shows what it depends on.",
       places.at(result.localisation.front().location).words);
 }
 

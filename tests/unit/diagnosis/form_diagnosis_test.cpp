@@ -96,7 +96,7 @@ TEST(DiagnoseWithForm, SaysNoneOfDataOfTheModelItself) {
     EXPECT_EQ(result.verdict, diagnosis::Verdict::none) << i << ": " << result.message;
     ASSERT_TRUE(result.form);
     EXPECT_LT(result.form->frequency.level, 0.01) << i;  // the model is exact but for scatter
-    EXPECT_NE(result.message.find("form error about"), std::string::npos);
+    EXPECT_NE(result.message.find("form is off by about"), std::string::npos);
   }
 }
 

@@ -51,7 +51,7 @@ TEST(Sentences, ASoftSpringIsToldWithItsPlaceSizeProbabilityAndGain) {
   ASSERT_EQ(result.verdict, diagnosis::Verdict::named);
   const auto& effect = result.effects.front();
   EXPECT_TRUE(spoken.sentences.why.starts_with("The group g5 has 0.")) << spoken.sentences.why;
-  EXPECT_NE(spoken.sentences.why.find("With 90 %: factor " + steps::number_in_words(effect.parameters[0].low) + " to " +
+  EXPECT_NE(spoken.sentences.why.find("90 % intervals: factor " + steps::number_in_words(effect.parameters[0].low) + " to " +
                                       steps::number_in_words(effect.parameters[0].high)),
             std::string::npos)
       << spoken.sentences.why;
