@@ -113,7 +113,8 @@ class RealStudies(unittest.TestCase):
         pairs = self.table("weimar_frame/s9_diagnosis/pairs.csv")
         self.assertEqual(len(pairs), 10)
         for pair in pairs:
-            self.assertGreater(float(pair["mac_after"]), 0.85, pair)  # mode 7 mixes with 8: 0.90; the fit does not bend to shapes beyond the form error
+            mixed = pair["mode"] in ("7", "8")  # sway in x and y together, which a bracing in y alone does not explain
+            self.assertGreater(float(pair["mac_after"]), 0.8 if mixed else 0.9, pair)
             self.assertGreater(float(pair["mac_after"]), float(pair["mac_before"]), pair)
         self.assertGreater(told["gain"]["interval_pct"][0], 20.0)
         full = told["full_model"]["largest_deviation_pct"]
