@@ -91,6 +91,19 @@ std::vector<const Scored*> cluster_of(const std::vector<Scored>& ranking, double
 
 }  // namespace
 
+std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& fit) {
+  std::vector<std::string> names;
+  const auto& nuisances = map.nuisances();
+  for (std::size_t j = 0; j < nuisances.size(); ++j) {
+    const Nuisance& v = nuisances[j];
+    const double range = v.upper - v.lower;
+    if (v.kind != Nuisance::Kind::parameter || !std::isfinite(range)) continue;
+    const double u = fit.map.x[static_cast<Index>(j)];
+    if (u < v.lower + kNearBound * range || u > v.upper - kNearBound * range) names.push_back(v.name);
+  }
+  return names;
+}
+
 std::string sentence_of(const Effect& effect) {
   std::string text = effect.cause.candidate->hypothesis->sentence;
   const auto replace = [&](const std::string& key, const std::string& value) {
@@ -306,19 +319,6 @@ void describe_effects(const Inference& inference, const Fit& fit, std::vector<Ef
   }
 }
 
-std::vector<std::string> parameters_on_bounds(const Inference& inference, const Fit& fit) {
-  std::vector<std::string> names;
-  const auto& nuisances = inference.map().nuisances();
-  for (std::size_t j = 0; j < nuisances.size(); ++j) {
-    const Nuisance& v = nuisances[j];
-    const double range = v.upper - v.lower;
-    if (v.kind != Nuisance::Kind::parameter || !std::isfinite(range)) continue;
-    const double u = fit.map.x[static_cast<Index>(j)];
-    if (u < v.lower + kNearBound * range || u > v.upper - kNearBound * range) names.push_back(v.name);
-  }
-  return names;
-}
-
 Verdict verdict_of(const Diagnosis& out, bool residual_rejects, const DiagnoseOptions& options) {
   // Held-out rows speak against a cause where they lose by more than chance, and by as many nats as a name must win.
   const double loss = 0.5 * out.gain.rows * (out.gain.after * out.gain.after - out.gain.before * out.gain.before);
@@ -379,7 +379,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
   if (out.after_extension) out.localisation = location_map(inference, out.after, steps.ranking());
   out.residual = residual_test(inference, out.after);
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
-  out.on_bounds = parameters_on_bounds(inference, out.before);
+  out.on_bounds = parameters_on_bounds(inference.map(), out.before);
   const bool rejects = out.residual.rejects(options.residual_alpha);
   out.verdict = verdict_of(out, rejects, options);
   out.message = message_for(out, rejects, options);

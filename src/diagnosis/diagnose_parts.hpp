@@ -14,6 +14,9 @@ namespace twindeck::diagnosis {
 [[nodiscard]] std::vector<Rival> rivals_of(const std::vector<const Scored*>& members, const std::vector<double>& probability,
                                            double misfit);
 
+/// Parameters of the model that a fit puts on one of their bounds, by name.
+[[nodiscard]] std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& fit);
+
 /// The hypothesis' sentence with its numbers.
 [[nodiscard]] std::string sentence_of(const Effect& effect);
 

@@ -45,17 +45,6 @@ void add_warnings(FormReport& form) {
         "the form error of shapes ends at the end of its grid (10 %): the model is further off than any that was tried");
 }
 
-std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& fit) {
-  std::vector<std::string> out;
-  for (std::size_t j = 0; j < map.nuisances().size(); ++j) {
-    const Nuisance& v = map.nuisances()[j];
-    const double range = v.upper - v.lower, u = fit.map.x[static_cast<Index>(j)];
-    if (v.kind != Nuisance::Kind::parameter || !std::isfinite(range)) continue;
-    if (u < v.lower + 0.02 * range || u > v.upper - 0.02 * range) out.push_back(v.name);
-  }
-  return out;
-}
-
 /// A fit that starts at x, or else at the model's own values: with other causes the model may not show the measured modes at x.
 Fit fit_from(const Inference& inference, const std::vector<Cause>& causes, const VectorXd& x) {
   Fit fit = inference.fit(causes, x);

@@ -38,17 +38,17 @@ struct Ruling {
 struct RuleOptions {
   double in_some = 3.0, in_all = 32.0;
   double set_within = 3.0;  ///< of the leader: not told apart from it
-  /// Something else is a member of the set unless the leader is so far ahead of it. Of 34 trials with an axial force or a hold
-  /// against turning 12 were answered, 11 of them with less than 18; of 231 right answers 17 have less than 25.
+  /// Something else is a member of the set unless the leader is so far ahead of it. Of 29 trials with an axial force or a hold
+  /// against turning 13 were answered, 11 of them with less than 18; of 231 right answers 17 have less than 25.
   double else_within = 25.0;
   double most_leftover = 0.4;  ///< of the leader's effect: four times what is expected to be left over beside it
   /// Between states this far ahead of something else, the leftover does not count. The effect is one on frequencies, and a mass
-  /// or a moved support may show in shapes. Of ten right leaders with a larger leftover nine have 38 and more, of 13 wrong ones
-  /// none.
+  /// or a moved support may show in shapes. Of eleven right leaders with a larger leftover ten have 38 and more, of 13 causes
+  /// that the catalogue lacks none.
   double leftover_counts_within = 35.0;
   double most_misfit = 2.0;  ///< chi²/dof that may be left; between states the error of the effect too
-  /// What is tuned adds a mode and has a size beside its frequency: it fits what the others cannot. Two of nine right ones and
-  /// four of five false ones that act in all conditions have less than 50 nats; coupled oscillators leave 1.6 as misfit, one
+  /// What is tuned adds a mode and has a size beside its frequency: it fits what the others cannot. One of nine right ones and
+  /// three of four false ones that act in all conditions have less than 50 nats; coupled oscillators leave 1.6 as misfit, one
   /// leaves 1.4.
   double in_all_tuned = 45.0, most_misfit_tuned = 1.5;
 };
