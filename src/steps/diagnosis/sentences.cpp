@@ -168,8 +168,9 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
   if (result.verdict == diagnosis::Verdict::none && beyond == 0)
     return fmt::format("Nothing beyond what {} allows. The largest deviation: {}.",
                        result.form ? "the error of the model's form" : "chance", most);
-  return fmt::format("{}. Of {} measured values, {} are further off than chance allows ({:.1f} standard deviations).",
-                     capitalised(most), number_in_words(static_cast<double>(judged), kCountDigits), beyond, limit);
+  return fmt::format("{}. Of {} measured values, {} {} further off than chance allows ({:.1f} standard deviations).",
+                     capitalised(most), number_in_words(static_cast<double>(judged), kCountDigits), beyond,
+                     beyond == 1 ? "is" : "are", limit);
 }
 
 /// "factor 0.55 to 0.68", "Fc at least 181 N": what is not in the sentence already.
