@@ -243,7 +243,7 @@ def series(file, group, size, quantities):
             for row in csv.DictReader(stream):
                 for quantity in quantities:
                     if row[quantity]:
-                        found.setdefault(tuple(row[g] for g in group), {}).setdefault(quantity, []).append((float(row[size]), float(row[quantity])))
+                        found.setdefault(tuple(f"{row[g]} channels" if g == "channels" else row[g] for g in group), {}).setdefault(quantity, []).append((float(row[size]), float(row[quantity])))
     return found
 
 
