@@ -218,8 +218,8 @@ package: build ## the Debian packages twindeck and twindeck-data, in build/packa
 	@cd $(BUILD) && cpack -B packages >package.log 2>&1 || { cat package.log; exit 1; }
 	@ls $(BUILD)/packages/*.deb
 
-bare-root: ## install the packages of build/packages into a bare Debian 12 and work there without the source tree: seconds, exit codes (root; needs debootstrap; BASE=folder)
-	@$(PRODUCT)workflows/python.sh tests/package/bare_root.py $(BUILD)/packages results/bare_root $(BASE)
+bare-root: ## install the packages of build/packages into a bare Debian 12 and work there without the source tree, or FROM=clone: seconds, exit codes (root; needs debootstrap; BASE=folder)
+	@$(PRODUCT)workflows/python.sh $(if $(filter clone,$(FROM)),tests/package/bare_clone.py,tests/package/bare_root.py $(BUILD)/packages) results/bare_root $(BASE)
 
 RELEASE := $(BUILD)/release
 VERSION = $(shell sed -n 's/^version: //p' CITATION.cff)

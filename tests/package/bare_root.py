@@ -69,6 +69,11 @@ def install(root, packages):
         shutil.copy(file, root.folder / "packages")
     root.runs("apt-get update", "apt-get update -qq")
     root.runs("apt-get install ./twindeck.deb", f"{INSTALL} /packages/twindeck_*.deb >/install.log\ngrep -c '^Setting up' /install.log")
+    make_home(root)
+
+
+def make_home(root):
+    """Of the ordinary user."""
     home = root.folder / HOME[1:]
     home.mkdir(parents=True)
     os.chown(home, *map(int, USER.split(":")))
@@ -103,10 +108,22 @@ def tutorial(root, page):
              "; ".join(wrong)[:300] if wrong else "prints what the page says")
 
 
-def main():
-    packages, out, given = sorted(pathlib.Path(sys.argv[1]).glob("*.deb")), pathlib.Path(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else ""
+def needs_root(given):
     if os.geteuid() != 0 or not shutil.which("unshare") or not (given or shutil.which("debootstrap")):
         raise SystemExit("bare-root: needs root and debootstrap: apt-get install --no-install-recommends debootstrap")
+
+
+def written(root, file):
+    """Writes the rows. @return 1 if a step failed"""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with open(file, "w", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows([["step", "seconds", "exit_code", "said"], *root.rows])
+    return int(any(row[2] for row in root.rows))
+
+
+def main():
+    packages, out, given = sorted(pathlib.Path(sys.argv[1]).glob("*.deb")), pathlib.Path(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else ""
+    needs_root(given)
     if not packages:
         raise SystemExit(f"bare-root: no packages in {sys.argv[1]}: make package")
     holder = pathlib.Path(tempfile.mkdtemp(prefix="twindeck_bare_"))
@@ -124,10 +141,7 @@ def main():
         root.runs("apt-get remove twindeck", "apt-get remove -y -qq twindeck >/dev/null && ! ls /usr/bin/twindeck /usr/share/twindeck/Makefile 2>/dev/null")
     finally:
         shutil.rmtree(holder)
-    out.mkdir(parents=True, exist_ok=True)
-    with open(out / "steps.csv", "w", newline="") as stream:
-        csv.writer(stream, lineterminator="\n").writerows([["step", "seconds", "exit_code", "said"], *root.rows])
-    return int(any(row[2] for row in root.rows))
+    return written(root, out / "steps.csv")
 
 
 if __name__ == "__main__":
