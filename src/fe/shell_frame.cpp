@@ -9,11 +9,6 @@
 
 namespace twindeck::fe {
 
-double shell_area(const ShellGeometry& geometry) {
-  const auto& x = geometry.node_m;
-  return 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
-}
-
 namespace shell {
 
 namespace {

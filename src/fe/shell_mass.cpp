@@ -4,6 +4,11 @@
 
 namespace twindeck::fe {
 
+double shell_area(const ShellGeometry& geometry) {
+  const auto& x = geometry.node_m;
+  return 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
+}
+
 /// Translations are interpolated from the nodes themselves (no rigid arms), so that the mass of a warped element stays where
 /// its nodes are. Drilling rotations carry no mass.
 Matrix24 shell_mass(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area) {

@@ -108,7 +108,7 @@ TEST_F(CsvTest, EmptyAndAbsentFallBack) {
 
 // Oracle: a number that is not finite in our own output is our own mistake.
 TEST_F(CsvTest, WriterRefusesOurMistakes) {
-  EXPECT_THROW(Cell(std::numeric_limits<double>::quiet_NaN()), InternalError);
+  EXPECT_THROW(Cell{std::numeric_limits<double>::quiet_NaN()}, InternalError);
   CsvWriter writer({"a", "b"});
   EXPECT_THROW(writer.row({1}), InternalError);
 }

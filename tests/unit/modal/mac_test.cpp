@@ -36,7 +36,7 @@ TEST(Mac, TakesComplexShapesAsTheyAre) {
 // Oracle: the contract of the header. Rows and columns are numerical by experimental; sizes and zero columns are refused.
 TEST(Mac, RefusesWhatCannotBeCompared) {
   EXPECT_EQ(mac(Eigen::MatrixXd::Random(5, 3), Eigen::MatrixXd::Random(5, 2)).rows(), 3);
-  EXPECT_THROW(mac(Eigen::MatrixXd::Random(5, 3), Eigen::MatrixXd::Random(4, 2)), twindeck::InputError);
+  EXPECT_THROW(static_cast<void>(mac(Eigen::MatrixXd::Random(5, 3), Eigen::MatrixXd::Random(4, 2))), twindeck::InputError);
   Eigen::MatrixXd zero = Eigen::MatrixXd::Random(5, 2);
   zero.col(1).setZero();
   try {
