@@ -202,12 +202,13 @@ class ForwardSteps {
       return false;
     }
     if (!search() || !lower_the_base(step == 0)) return false;
+    if (step > 0 && !set_faint_tuned_aside()) return false;
     Fit extended = weigh(last);
     const bool found = tempered(ranking_.front(), ratio_) > out_.threshold;
     if (!found && step > 0 && !first_look_.change.empty()) {
       // That nothing more is there is said only after every entry was computed anew.
       ranking_ = inference_.search(current_, options_.search);
-      if (!widen()) return false;
+      if (!widen() || !set_faint_tuned_aside()) return false;
       extended = weigh(last);
     }
     if (step == 0) {
@@ -228,6 +229,16 @@ class ForwardSteps {
     if (ranking_.empty()) return false;
     ratio_ = birge(ranking_.front(), inference_.dof());
     return true;
+  }
+
+  /// Further causes that are tuned to a mode and too faint for that do not lead; they stay rivals. @return whether another
+  /// leads
+  bool set_faint_tuned_aside() {
+    const auto leads = [&](const Scored& scored) {
+      return scored.candidate->tuned < 0 || tempered(scored, ratio_) >= options_.further_tuned;
+    };
+    std::stable_partition(ranking_.begin(), ranking_.end(), leads);
+    return leads(ranking_.front()) && widen();
   }
 
   bool search() {
@@ -338,12 +349,16 @@ std::string message_for(const Diagnosis& out, bool residual_rejects, const Diagn
   std::string message = residual_rejects ? "something is missing that no entry of the catalogue explains"
                                          : "the best cause fits but does not predict the held-out rows";
   if (!out.effects.empty()) message += "; it acts like " + out.effects.front().cluster.front();
-  if (residual_rejects && out.residual.block_p_value < options.residual_alpha)
+  if (residual_rejects && out.residual.block_p_value < options.residual_level(out))
     message += fmt::format("; not explained: {} ({} rows)", out.residual.blocks.front().name, out.residual.blocks.front().rows);
   return message;
 }
 
 }  // namespace
+
+double DiagnoseOptions::residual_level(const Diagnosis& result) const {
+  return result.effects.empty() ? residual_alpha : residual_alpha_named;
+}
 
 double tempered_log_odds(const Scored& best, int dof) { return tempered(best, birge(best, dof)); }
 
@@ -380,7 +395,7 @@ Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, s
   out.residual = residual_test(inference, out.after);
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
   out.on_bounds = parameters_on_bounds(inference.map(), out.before);
-  const bool rejects = out.residual.rejects(options.residual_alpha);
+  const bool rejects = out.residual.rejects(options.residual_level(out));
   out.verdict = verdict_of(out, rejects, options);
   out.message = message_for(out, rejects, options);
   return out;

@@ -143,6 +143,25 @@ int print_coverage(const twindeck::blind::Bench& bench, int campaigns, const std
   return 0;
 }
 
+/// How many families could be named at best, of single causes that were found: what the answers' own probabilities expect, and
+/// the rate where no other family has the signature of the hidden one.
+void print_what_limits_families(const std::vector<Score>& scores) {
+  double expected = 0.0;
+  int alone = 0, named = 0;
+  for (const Score& s : scores) {
+    if (s.kind != "effect" || !s.detected) continue;
+    expected += s.family_probability;
+    alone += !s.said_by_others;
+    named += !s.said_by_others && s.family_named;
+  }
+  const auto [low, high] = twindeck::blind::exact_interval(named, alone);
+  fmt::print(
+      "  of these the answers' own probabilities expect {:.1f} families named; where no other family has the signature {} of "
+      "{} = {:.1f} % "
+      "[{:.1f}, {:.1f}]\n",
+      expected, named, alone, alone ? 100.0 * named / alone : 0.0, 100.0 * low, 100.0 * high);
+}
+
 /// What `count` trials hide: kinds, families, sizes.
 int dry_run(const twindeck::blind::Bench& bench, const std::vector<std::string>& catalogue, int count, std::uint64_t first) {
   std::vector<twindeck::blind::Sealed> seals(static_cast<std::size_t>(count));
@@ -219,6 +238,7 @@ int main(int argc, char** argv) {
   const auto judge = scores.size() < 400 ? twindeck::blind::Judge::own_rates : twindeck::blind::Judge::targets;
   fmt::print("\nscore, exact 95 % intervals\n");
   bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores, judge) && shared_out;
+  print_what_limits_families(scores);
   double sizes = 0.0, squares = 0.0, seconds = 0.0, slowest = 0.0;
   int sets = 0, limits = 0;
   std::vector<double> ratios, with_truth;

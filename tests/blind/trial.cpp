@@ -233,6 +233,7 @@ Hidden hide(const Bench& bench, std::uint64_t seed, Stream& random, const HideOp
     const bool shown = draw_effect(shared, family, target, random, twin, a, sigma) && sigma >= 0.8 * least;
     // A family that these data hardly show is hidden all the same: what is said of it then is of interest too.
     if (!shown && !(kind == 'e' && options.least_sigma <= 3.0 && sigma > 0.0)) continue;
+    if (kind == 'e') hidden.seal.said_by_others = said_by_others(shared, *twin.diagnosing, a);
     if (kind == 'o' && said_by_others(shared, *twin.diagnosing, a)) continue;
     if (!truth.empty() && truth[0].candidate->hypothesis == twin.truth->hypothesis) continue;
     truth.push_back({twin.truth, a});
@@ -394,11 +395,31 @@ void explain_case(const Bench& bench, std::uint64_t seed) {
   on_inference(bench, hidden, [&](auto& inference) { explain(inference, hidden.seal, 14); });
 }
 
+namespace {
+
+/// Sum of the probabilities of a family's entries; the odds are those of the first search, nothing missing has odds 1.
+double family_probability(const std::vector<diagnosis::Scored>& ranking, const std::string& family) {
+  double top = 0.0;
+  for (const auto& scored : ranking)
+    if (scored.weighed()) top = std::max(top, scored.log_odds);
+  double of_family = 0.0, all = std::exp(-top);
+  for (const auto& scored : ranking) {
+    if (!scored.weighed()) continue;
+    const double odds = std::exp(scored.log_odds - top);
+    all += odds;
+    if (family_of(scored.candidate->id()) == family) of_family += odds;
+  }
+  return of_family / all;
+}
+
+}  // namespace
+
 Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double seconds) {
   Score score;
   score.kind = seal.kind;
   score.family = seal.families.empty() ? "" : seal.families[0];
   score.sigma = seal.sigma;
+  score.said_by_others = seal.said_by_others;
   score.seal = seal.text();
   score.seconds = seconds;
   score.verdict = name_of(result.verdict);
@@ -414,12 +435,14 @@ Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double se
   for (const auto& effect : result.effects) {
     score.found += (score.found.empty() ? "" : " + ") + effect.cluster.front();
     for (std::size_t m = 1; m < effect.cluster.size() && m < 5; ++m) score.found += " or " + effect.cluster[m];
+    score.found += fmt::format(" [{:.1f}]", effect.log_odds);
     for (std::size_t i = 0; i < named.size(); ++i)
       named[i] = named[i] || effect.cause.candidate->hypothesis->id == seal.families[i];
   }
   score.both = std::all_of(named.begin(), named.end(), [](bool n) { return n; });
   if (!result.effects.empty() && !seal.families.empty()) {
     const auto& first = result.effects.front();
+    score.family_probability = family_probability(result.ranking, family_of(first.cluster.front()));
     const std::string truth = seal.families[0] + "@" + seal.locations[0];
     score.family_named = family_of(first.cluster.front()) == seal.families[0] || (seal.kind == "two" && named[0]);
     score.exact = first.cause.candidate->id() == truth;

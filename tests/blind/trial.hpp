@@ -37,7 +37,8 @@ struct Sealed {
   std::vector<std::string> families, locations;
   std::vector<std::vector<double>> magnitudes;
   std::uint64_t seed = 0;
-  double sigma = 0.0;  ///< norm of the (first) effect's whitened signature: how visible it is
+  double sigma = 0.0;           ///< norm of the (first) effect's whitened signature: how visible it is
+  bool said_by_others = false;  ///< of one cause: another family has the same signature, and data can't tell which
   [[nodiscard]] std::string text() const;
 };
 
@@ -102,7 +103,9 @@ struct Score {
   int set_size = 0;
   double log_odds = 0.0, chi_squared_ratio = 0.0, p_value = 1.0, block_p_value = 1.0, held_out_ratio = 1.0,
          magnitude_error = 0.0;
-  double ratio_with_truth = 1.0;  ///< held-out RMS over that without a cause, for who knows the truth and fits its size
+  double ratio_with_truth = 1.0;    ///< held-out RMS over that without a cause, for who knows the truth and fits its size
+  bool said_by_others = false;      ///< as in the seal
+  double family_probability = 0.0;  ///< that the answer itself gives to the first cause's family
   std::string verdict, found, seal;
 };
 

@@ -20,7 +20,10 @@ io::FieldTable DiagnosisConfig::fields() {
              "rows kept from the fit: \"condition\", \"condition/mode\", \"condition/mode/type\" or "
              "\"condition/every_second\", \"none\"; empty: marks, else the rule")
       .number("alpha", alpha, "", {1e-6, 0.5}, "false alarms that the threshold allows")
-      .number("residual_alpha", residual_alpha, "", {1e-9, 0.5}, "level at which the residual test says that something is left")
+      .number("residual_alpha", residual_alpha, "", {1e-9, 0.5},
+              "level at which the residual test says that something is left, where nothing is named")
+      .number("residual_alpha_named", residual_alpha_named, "", {1e-9, 0.5},
+              "the same with the named causes in the model; a smaller p makes the name unknown (form off only)")
       .number("either_within", either_within, "", io::positive(), "nats within which two causes are not told apart")
       .number("least_log_odds", least_log_odds, "", io::non_negative(), "log odds below which nothing is named")
       .integer("nulls", nulls, {0, 100000}, "null data sets run for the threshold where none is cached; 0: the analytic tail")

@@ -19,7 +19,7 @@ struct DiagnosisConfig {
   bool names_alike = false;           ///< one name for a mode in all conditions, by likeness of shape
   double highest_Hz = 0.0;            ///< modes above it are left out; 0: none
   std::vector<std::string> hold_out;  ///< "condition", "condition/mode": in place of marks and rule
-  double alpha = 0.01, residual_alpha = 0.001, either_within = 3.0, least_log_odds = 3.0;
+  double alpha = 0.01, residual_alpha = 0.001, residual_alpha_named = 0.01, either_within = 3.0, least_log_odds = 3.0;
   diagnosis::SearchOptions search;
   long most_refined = search.most_refined;
   long nulls = 0, most_causes = 4, modes = 24, zones = 24, nodes = 24;

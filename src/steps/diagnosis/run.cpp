@@ -46,6 +46,7 @@ diagnosis::DiagnoseOptions options_of(const DiagnosisConfig& config, const Thres
   options.least_log_odds = config.least_log_odds;
   options.either_within = config.either_within;
   options.residual_alpha = config.residual_alpha;
+  options.residual_alpha_named = config.residual_alpha_named;
   options.search = config.search;
   options.search.most_refined = static_cast<int>(config.most_refined);
   options.most_causes = static_cast<int>(config.most_causes);
@@ -128,7 +129,8 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
       corrections};
   std::vector<Finding> account = inputs.account;
   for (Finding& finding : account) finding.text = ids.in_text(finding.text);
-  write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
+  write_diagnosis(result, account, told, check, options.residual_level(result), seconds, threshold.from,
+                  context.out / "diagnosis.json");
   write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
   for (const Finding& finding : account) context.say(finding.text);
   say_modes_explained(result, context);
