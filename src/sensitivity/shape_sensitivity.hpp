@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
@@ -35,6 +36,9 @@ class ShapeSensitivity {
 
  private:
   void find_further_modes(const linalg::SparseMatrix& shifted_stiffness);
+  /// @return y, the preconditioner times the residual, and A y
+  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> precondition(const Eigen::MatrixXd& residual,
+                                                                         const Eigen::VectorXd& eigenvalue) const;
   [[nodiscard]] Eigen::MatrixXd solve_outside_modes(Eigen::MatrixXd residual) const;
 
   const fe::ParametricSystem& system_;

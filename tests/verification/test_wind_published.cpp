@@ -211,18 +211,23 @@ TEST(WindPublished, SimplySupportedThinPlate) {
   EXPECT_NEAR(found.frequency_Hz / 0.3801, 1.0, 0.005);
 }
 
-// Cantilever modes of bending and of torsion, coupled by the offset of mass from the elastic axis.
-TEST(WindPublished, GolandWingWithExactTheodorsen) {
-  const double span = 6.096, b2 = 2 * 0.9144, EI = 9.773e6, GJ = 9.876e5, mass = 35.717, I_ea = 8.642, rho = 1.225;
+constexpr double kGolandSpan = 6.096;
+constexpr std::array<double, 8> kGolandRoots = {1.875104068711961,  4.694091132974175,  7.854757438237613, 10.995540734875467,
+                                                14.137168391046471, 17.278759532088237, 20.42035225104125, 23.561944901806445};
+
+/// Shape of a cantilever in bending, in the exponential form of cosh - cos - s (sinh - sin): no cancellation at the higher
+/// roots.
+double goland_bending(std::size_t i, double x) {
+  const double b = kGolandRoots[i], s = (std::cosh(b) + std::cos(b)) / (std::sinh(b) + std::sin(b)), t = b * x / kGolandSpan;
+  return 0.5 * ((1 - s) * std::exp(t) + (1 + s) * std::exp(-t)) - std::cos(t) + s * std::sin(t);
+}
+
+double goland_torsion(std::size_t i, double x) { return std::sin((static_cast<double>(i) + 0.5) * pi * x / kGolandSpan); }
+
+/// The wing by Ritz's method on eight shapes each of bending and torsion.
+aero::AeroelasticSystem goland_wing() {
+  const double span = kGolandSpan, b2 = 2 * 0.9144, EI = 9.773e6, GJ = 9.876e5, mass = 35.717, I_ea = 8.642, rho = 1.225;
   const double elastic_axis = 0.33 * b2, mass_axis = 0.43 * b2;
-  const std::array<double, 8> root = {1.875104068711961,  4.694091132974175,  7.854757438237613, 10.995540734875467,
-                                      14.137168391046471, 17.278759532088237, 20.42035225104125, 23.561944901806445};
-  const auto bending = [&](std::size_t i, double x) {
-    // exp form of cosh - cos - s (sinh - sin): no cancellation at the higher roots
-    const double b = root[i], s = (std::cosh(b) + std::cos(b)) / (std::sinh(b) + std::sin(b)), t = b * x / span;
-    return 0.5 * ((1 - s) * std::exp(t) + (1 + s) * std::exp(-t)) - std::cos(t) + s * std::sin(t);
-  };
-  const auto torsion = [&](std::size_t i, double x) { return std::sin((static_cast<double>(i) + 0.5) * pi * x / span); };
   const int n = 8, points = 400;
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2 * n, 2 * n), K = M, shape_z(points, 2 * n), shape_a(points, 2 * n);
   const double dx = span / points;
@@ -232,16 +237,16 @@ TEST(WindPublished, GolandWingWithExactTheodorsen) {
     const double x = (k + 0.5) * dx;
     for (int i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      shape_z(k, i) = bending(at, x);
+      shape_z(k, i) = goland_bending(at, x);
       shape_a(k, i) = 0;
       shape_z(k, n + i) = 0;
-      shape_a(k, n + i) = torsion(at, x);
+      shape_a(k, n + i) = goland_torsion(at, x);
     }
   }
   M += dx * (mass * shape_z.transpose() * shape_z + I_ea * shape_a.transpose() * shape_a +
              S * (shape_z.transpose() * shape_a + shape_a.transpose() * shape_z));
   for (int i = 0; i < n; ++i) {
-    const double b = root[static_cast<std::size_t>(i)];
+    const double b = kGolandRoots[static_cast<std::size_t>(i)];
     K(i, i) = EI * std::pow(b / span, 4) * span;  // integral of the squared shape is the span
     K(n + i, n + i) = GJ * std::pow((i + 0.5) * pi / span, 2) * span / 2;
   }
@@ -261,9 +266,14 @@ TEST(WindPublished, GolandWingWithExactTheodorsen) {
     for (int j = 0; j < 2 * n; ++j) columns.push_back({0.0, z(k, j) - (0.5 * b2 - elastic_axis) * a(k, j), a(k, j)});
     motions.push_back(motion(columns));
   }
-  const aero::AeroelasticSystem system(s, {{"wing", b2, aero::Polar::linear({}), std::make_shared<aero::FlatPlate>()}}, strips,
-                                       motions, wind, aero::everywhere(aero::published_yaw_rule("A")));
-  const auto starts = aero::still_air_modes(s);
+  return aero::AeroelasticSystem(s, {{"wing", b2, aero::Polar::linear({}), std::make_shared<aero::FlatPlate>()}}, strips,
+                                 motions, wind, aero::everywhere(aero::published_yaw_rule("A")));
+}
+
+// Cantilever modes of bending and of torsion, coupled by the offset of mass from the elastic axis.
+TEST(WindPublished, GolandWingWithExactTheodorsen) {
+  const aero::AeroelasticSystem system = goland_wing();
+  const auto starts = aero::still_air_modes(system.structure());
   std::vector<aero::Branch> branches;
   for (int mode = 1; mode <= 2; ++mode)
     branches.push_back(aero::follow_mode(system, starts[static_cast<std::size_t>(mode - 1)], mode, speeds(10, 150, 5)));
