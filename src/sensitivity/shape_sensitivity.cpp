@@ -183,9 +183,4 @@ std::vector<MatrixXd> ShapeSensitivity::derivatives() const {
   return all;
 }
 
-MatrixXd shape_derivative(const fe::ParametricSystem& system, const VectorXd& theta, const dynamics::EigenModes& modes,
-                          int parameter) {
-  return ShapeSensitivity(system, theta, modes).derivative(parameter);
-}
-
 }  // namespace twindeck::sensitivity

@@ -52,10 +52,4 @@ class ShapeSensitivity {
   Eigen::VectorXd further_value_;                // diagonal of G' A G
 };
 
-/// ShapeSensitivity's derivative for one parameter (Nelson 1976).
-/// @param parameter  position in system.parameters
-/// @return (n × n_modes) per unit of parameter
-[[nodiscard]] Eigen::MatrixXd shape_derivative(const fe::ParametricSystem& system, const Eigen::VectorXd& theta,
-                                               const dynamics::EigenModes& modes, int parameter);
-
 }  // namespace twindeck::sensitivity

@@ -70,7 +70,7 @@ TEST(WindPublished, IabseFlatPlate) {
   // The benchmark's own numbers come out when the apparent moment of inertia is left out, as its flat plate does.
   const auto system = iabse_flat_plate(false);
   const auto branches = follow_all(system, speeds(1, 80, 1));
-  const double found = aero::lowest_critical_point(system, branches).value().speed_m_s;
+  const double found = lowest_critical_point(system, branches).value().speed_m_s;
   report("IABSE flat plate, as the benchmark [m/s]", found, 77.45);
   EXPECT_NEAR(found / 77.45, 1.0, 0.001);
   // In-wind modes, printed to four digits. Torsion 0.2 % and 0.0015. Heave is damped up to 55 %, where forces of harmonic
@@ -105,7 +105,7 @@ TEST(WindPublished, StorebaeltSectionWith18Derivatives) {
   const auto system = section_model(structure({0.052, 0.1, 0.278}, 0.003), 31, 1.22, derivatives,
                                     {{1 / std::sqrt(m), 0, 0}, {0, 1 / std::sqrt(m), 0}, {0, 0, 1 / std::sqrt(J)}});
   const auto branches = follow_all(system, speeds(1, 76, 1));
-  const double found = aero::lowest_critical_point(system, branches).value().speed_m_s;
+  const double found = lowest_critical_point(system, branches).value().speed_m_s;
   report("Storebaelt section, flutter [m/s]", found, 72.3);
   EXPECT_NEAR(found / 72.3, 1.0, 0.005);
   // Torsion in wind; the source fits curves through the derivatives, we join them by lines: 1 % and 0.002.
@@ -164,7 +164,7 @@ TEST(WindPublished, IabseFullBridgeWithTwelveModes) {
                                        {{"deck", 31, aero::Polar::linear({}), iabse_bridge_derivatives()}}, strips, motions,
                                        wind, aero::everywhere(aero::published_yaw_rule("A")));
   const auto branches = follow_all(system, speeds(1, 72, 1));
-  const double found = aero::lowest_critical_point(system, branches).value().speed_m_s;
+  const double found = lowest_critical_point(system, branches).value().speed_m_s;
   report("IABSE full bridge, flutter [m/s]", found, 69.8);
   EXPECT_NEAR(found / 69.8, 1.0, 0.005);
   const std::array<std::array<double, 3>, 5> published = {
@@ -204,7 +204,7 @@ TEST(WindPublished, SimplySupportedThinPlate) {
   std::vector<aero::Branch> branches;
   for (int mode = 1; mode <= 3; ++mode)
     branches.push_back(aero::follow_mode(system, starts[static_cast<std::size_t>(mode - 1)], mode, speeds(5, 145, 5)));
-  const auto found = aero::lowest_critical_point(system, branches).value();
+  const auto found = lowest_critical_point(system, branches).value();
   report("Simply supported thin plate, flutter [m/s]", found.speed_m_s, 139.9);
   report("Simply supported thin plate, flutter [Hz]", found.frequency_Hz, 0.3801);
   EXPECT_NEAR(found.speed_m_s / 139.9, 1.0, 0.005);
@@ -277,7 +277,7 @@ TEST(WindPublished, GolandWingWithExactTheodorsen) {
   std::vector<aero::Branch> branches;
   for (int mode = 1; mode <= 2; ++mode)
     branches.push_back(aero::follow_mode(system, starts[static_cast<std::size_t>(mode - 1)], mode, speeds(10, 150, 5)));
-  const auto found = aero::lowest_critical_point(system, branches).value();
+  const auto found = lowest_critical_point(system, branches).value();
   report("Goland wing, flutter [m/s]", found.speed_m_s, 136.983977);
   report("Goland wing, flutter [rad/s]", 2 * pi * found.frequency_Hz, 70.033013);
   EXPECT_NEAR(found.speed_m_s / 136.983977, 1.0, 5e-4);
