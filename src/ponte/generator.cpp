@@ -9,6 +9,7 @@
 #include "ponte/bridge_definition.hpp"
 #include "ponte/dampers.hpp"
 #include "ponte/deck.hpp"
+#include "ponte/deck_axis.hpp"
 #include "ponte/definition_file.hpp"
 #include "ponte/ends.hpp"
 #include "ponte/mast.hpp"
