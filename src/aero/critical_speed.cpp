@@ -62,15 +62,6 @@ std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, con
   return std::nullopt;
 }
 
-std::optional<CriticalPoint> lowest_critical_point(const AeroelasticSystem& system, const std::vector<Branch>& branches) {
-  std::optional<CriticalPoint> lowest;
-  for (const Branch& branch : branches) {
-    const std::optional<CriticalPoint> found = critical_point(system, branch);
-    if (found && (!lowest || found->speed_m_s < lowest->speed_m_s)) lowest = found;
-  }
-  return lowest;
-}
-
 GallopingCharacter galloping_character(const AeroelasticSystem& system, const ComplexMode& motion, double speed_m_s) {
   const std::vector<double> square = vertical_square(system, motion);
   std::map<std::string, std::pair<double, double>> by_deck;  // sum of z² L, sum of z² L theta²

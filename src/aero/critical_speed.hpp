@@ -17,9 +17,6 @@ struct CriticalPoint {
 };
 /// First sign change along a branch, refined until the bracket is below 1e-10 of the speed. Empty if damping stays positive.
 [[nodiscard]] std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, const Branch& branch);
-/// The lowest critical point of the branches.
-[[nodiscard]] std::optional<CriticalPoint> lowest_critical_point(const AeroelasticSystem& system,
-                                                                 const std::vector<Branch>& branches);
 
 /// Data that explain a critical speed (by yaw rule): location of the vertical motion of the mode, growth of its lift damping.
 struct GallopingCharacter {

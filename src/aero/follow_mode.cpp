@@ -80,13 +80,12 @@ std::optional<ComplexMode> advance(const AeroelasticSystem& system, const Comple
   return half ? advance(system, *half, middle, speed, halvings - 1) : std::nullopt;
 }
 
-Eigen::MatrixXd state_matrix(const ReducedStructure& s, const AeroelasticSystem::Block& air) {
+Eigen::MatrixXd state_matrix(const ReducedStructure& s) {
   const Eigen::Index m = s.size(), n = static_cast<Eigen::Index>(s.maxwell.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * m + n, 2 * m + n);
   a.block(0, m, m, m).setIdentity();
-  a.block(m, 0, m, m) = air.stiffness;
   a.block(m, 0, m, m).diagonal() -= s.omega_rad_s.cwiseAbs2();
-  a.block(m, m, m, m) = air.damping - s.damping();
+  a.block(m, m, m, m) -= s.damping();
   // State of a Maxwell unit: the elongation e of its dashpot, c ė = k (d·q - e).
   for (Eigen::Index j = 0; j < n; ++j) {
     const MaxwellUnit& unit = s.maxwell[static_cast<std::size_t>(j)];
@@ -106,8 +105,7 @@ double ComplexMode::damping_ratio() const { return -lambda.real() / std::abs(lam
 
 std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure) {
   const Eigen::Index m = structure.size();
-  const AeroelasticSystem::Block none{Eigen::MatrixXd::Zero(m, m), Eigen::MatrixXd::Zero(m, m)};
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(structure, none));
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(structure));
   std::vector<ComplexMode> modes;
   for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
     const Complex lambda = solver.eigenvalues()(i);
@@ -117,12 +115,6 @@ std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure) {
   std::sort(modes.begin(), modes.end(),
             [](const ComplexMode& a, const ComplexMode& b) { return std::abs(a.lambda) < std::abs(b.lambda); });
   return modes;
-}
-
-Eigen::VectorXcd state_space_eigenvalues(const AeroelasticSystem& system, double speed_m_s, double omega_rad_s) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(
-      state_matrix(system.structure(), system.self_excited(speed_m_s, omega_rad_s)), false);
-  return solver.eigenvalues();
 }
 
 std::optional<ComplexMode> mode_at(const AeroelasticSystem& system, const ComplexMode& from, double from_speed_m_s,

@@ -21,9 +21,6 @@ struct ComplexMode {
 /// Oscillating modes without wind, by |λ|, from the full state-space matrix (dashpots and Maxwell units included).
 [[nodiscard]] std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure);
 
-/// All eigenvalues of the state-space matrix with self-excited forces frozen at one frequency. @return (2m + n_maxwell)
-[[nodiscard]] Eigen::VectorXcd state_space_eigenvalues(const AeroelasticSystem& system, double speed_m_s, double omega_rad_s);
-
 /// One mode, tracked over the wind speed.
 struct Branch {
   int mode = 0;  ///< position among still_air_modes, from 1

@@ -17,10 +17,6 @@ StripBlock self_excited(const SectionAero& section, const Strip& strip, const Ya
   return {w * d.damping.cwiseProduct(scale), w * w * d.stiffness.cwiseProduct(scale)};
 }
 
-NodeBlock to_global(const StripBlock& block, const Kinematics& r) {
-  return {r.transpose() * block.damping * r, r.transpose() * block.stiffness * r};
-}
-
 Eigen::Vector3d static_force(const SectionAero& section, const Strip& strip, const YawRule& rule, double density_kg_m3,
                              double speed_m_s, Equations equations) {
   const StaticCoefficients c = section.polar.at(strip.alpha_rad);

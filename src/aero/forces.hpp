@@ -23,13 +23,6 @@ struct StripBlock {
 [[nodiscard]] StripBlock self_excited(const SectionAero& section, const Strip& strip, const YawRule& rule, double density_kg_m3,
                                       double speed_m_s, double omega_rad_s);
 
-/// The same at the node in global axes (x y z rx ry rz): what the paper's pair of Matrix27 elements holds, with F = damping u̇ +
-/// stiffness u as forces on the structure (move to the left side with a minus sign).
-struct NodeBlock {
-  Eigen::Matrix<double, 6, 6> damping, stiffness;
-};
-[[nodiscard]] NodeBlock to_global(const StripBlock& block, const Kinematics& kinematics);
-
 /// Whether to use the paper's equations as printed where the print cannot be right.
 enum class Equations { consistent, as_printed };
 

@@ -4,18 +4,19 @@
 
 namespace twindeck {
 
-/// Pseudo-random number as a pure function of (seed, stream, index). There is no state. Results do not depend on the order of
-/// the calls or on the number of threads, and are the same on every machine.
-///
-/// Each argument is mixed in with the finaliser of SplitMix64. Reference: Steele, Lea and Flood (2014), OOPSLA, 453-472.
+/// A step and the finaliser of SplitMix64: neighbouring arguments give unrelated bits.
+/// Reference: Steele, Lea and Flood (2014), OOPSLA, 453-472.
+[[nodiscard]] inline std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+/// Pseudo-random number as a pure function of (seed, stream, index), each mixed in. There is no state. Results do not depend on
+/// the order of the calls or on the number of threads, and are the same on every machine.
 /// @return  uniform in [0, 1[ with 53 bits
 [[nodiscard]] inline double uniform_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
-  const auto mixed = [](std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15ULL;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    return x ^ (x >> 31);
-  };
   return static_cast<double>(mixed(mixed(mixed(seed) ^ stream) ^ index) >> 11) * 0x1.0p-53;
 }
 

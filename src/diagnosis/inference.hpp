@@ -46,6 +46,9 @@ struct Scored {
   [[nodiscard]] bool weighed() const { return !(log_odds <= -kNotFitted); }
 };
 
+/// Descending log odds; equal ones keep their order.
+void sort_by_odds(std::vector<Scored>& entries);
+
 struct SearchOptions {
   int short_list = 6;
   int longest_list = 16;
@@ -128,7 +131,15 @@ class Inference {
                               std::vector<std::pair<double, std::size_t>>* by_start,
                               std::vector<Eigen::VectorXd>* record) const;
   [[nodiscard]] std::vector<Promise> promising(const Fit& base, const SearchOptions& options, const ScreenTable* known) const;
+  /// Every promising candidate that has a signature, the most promising first.
+  [[nodiscard]] std::vector<Scored> screened(const Fit& base, const SearchOptions& options, const ScreenTable* known,
+                                             ScreenTable* record) const;
   void probe(const Fit& base, std::vector<Scored>& found, const SearchOptions& options) const;
+  void refine_all(const Fit& base, const std::vector<Scored*>& these) const;
+  /// Refits the leading entries until one leads that was refitted.
+  void refine_leading(const Fit& base, std::vector<Scored>& found, const SearchOptions& options) const;
+  /// The entry at the best of its magnitudes, each fitted together with x.
+  void refine_other_starts(const Fit& base, Scored& leading) const;
   void fit_linearised(const Fit& base, Scored& scored) const;
   /// Joint fit of x and the magnitudes from `start` (empty: the prior's mean), and the evidence there.
   void refine(const Fit& base, Scored& scored, const Eigen::VectorXd& start, int iterations = 0) const;

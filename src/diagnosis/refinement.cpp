@@ -53,10 +53,6 @@ SearchOptions beside_a_leader(SearchOptions options) {
   return options;
 }
 
-void sort_by_odds(std::vector<Scored>& ranking) {
-  std::stable_sort(ranking.begin(), ranking.end(), [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; });
-}
-
 /// Unknown of an oscillator that is its frequency, -1 for any other cause.
 Index oscillator_frequency(const Candidate& candidate) {
   const Hypothesis& h = *candidate.hypothesis;

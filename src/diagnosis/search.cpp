@@ -13,6 +13,65 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Log odds above which a leading entry is worth a joint fit [nats].
+constexpr double kLeastLeading = -2.0;
+
+/// What a screen promises: half its likelihood ratio and the prior.
+double promise_of(const Scored& scored) { return 0.5 * scored.screen + scored.candidate->log_prior; }
+
+/// The entries that are fitted on the linearised base: the most promising, those near the best, and the best of each family
+/// that screens well. What is tuned is probed instead. All others stand as not weighed.
+std::vector<Scored*> short_list(std::vector<Scored>& found, const SearchOptions& options) {
+  std::set<std::string> families;
+  int fitted = 0;
+  std::vector<Scored*> list;
+  for (Scored& scored : found) {
+    scored.log_odds = -kNotFitted;
+    if (scored.candidate->tuned >= 0) continue;
+    const bool new_family = !families.contains(scored.candidate->hypothesis->id);
+    const bool near = promise_of(scored) > promise_of(found.front()) - std::max(12.0, 0.3 * promise_of(found.front()));
+    if (fitted < options.short_list || (near && fitted < options.longest_list) ||
+        (new_family && scored.screen > options.family_screen)) {
+      list.push_back(&scored);
+      ++fitted;
+      families.insert(scored.candidate->hypothesis->id);
+    }
+  }
+  return list;
+}
+
+/// A refitted entry stands above its neighbours that were weighed on the linearised base alone: the nearest of its family are
+/// refitted too, so that the place is chosen among equals. So is all that a damper which leads can have wrong, which shows
+/// alike.
+std::vector<Scored*> siblings_of_leader(std::vector<Scored>& found, const SearchOptions& options) {
+  const Scored& first = found.front();
+  const double near = first.log_odds - std::max(options.refine_within, 0.3 * first.log_odds);
+  const auto lead = std::find_if(found.begin(), found.end(), [&](const Scored& s) {
+    const Hypothesis& h = *s.candidate->hypothesis;
+    return s.stage == 3 && h.set.starts_with("damper") && (&s == &first || h.prior_weight > 1.0);
+  });
+  int deepened = 0;
+  std::vector<Scored*> siblings;
+  for (Scored& scored : found) {
+    if (lead != found.end() && scored.stage < 3 && scored.candidate->location == lead->candidate->location) {
+      siblings.push_back(&scored);
+    } else if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
+               scored.candidate->hypothesis == first.candidate->hypothesis) {
+      siblings.push_back(&scored);
+      ++deepened;
+    }
+  }
+  return siblings;
+}
+
+}  // namespace
+
+void sort_by_odds(std::vector<Scored>& found) {
+  std::stable_sort(found.begin(), found.end(), [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; });
+}
+
 std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& candidate) const {
   std::vector<VectorXd> starts = candidate.starts;
   if (candidate.tuned < 0 || !base.all.valid) return starts;
@@ -202,8 +261,8 @@ void Inference::probe(const Fit& base, std::vector<Scored>& found, const SearchO
     if (a.scored.log_odds > found[a.at].log_odds) found[a.at] = a.scored;
 }
 
-std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options, const ScreenTable* known,
-                                      ScreenTable* record) const {
+std::vector<Scored> Inference::screened(const Fit& base, const SearchOptions& options, const ScreenTable* known,
+                                        ScreenTable* record) const {
   // Candidates are held against the base one by one: the number of threads changes nothing.
   const ScreenTable* table = known != nullptr ? known : table_;
   const std::vector<Promise> chosen = promising(base, options, table);
@@ -217,88 +276,61 @@ std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& opti
   std::vector<Scored> found;
   for (Scored& scored : all)
     if (scored.signature.size() > 0) found.push_back(std::move(scored));
-  const auto promise = [](const Scored& s) { return 0.5 * s.screen + s.candidate->log_prior; };
-  std::stable_sort(found.begin(), found.end(), [&](const Scored& a, const Scored& b) { return promise(a) > promise(b); });
-  std::set<std::string> families;
-  int fitted = 0;
-  std::vector<Scored*> list;
-  for (Scored& scored : found) {
-    scored.log_odds = -1e300;
-    if (scored.candidate->tuned >= 0) continue;
-    const bool new_family = !families.contains(scored.candidate->hypothesis->id);
-    const bool near = promise(scored) > promise(found.front()) - std::max(12.0, 0.3 * promise(found.front()));
-    if (fitted < options.short_list || (near && fitted < options.longest_list) ||
-        (new_family && scored.screen > options.family_screen)) {
-      list.push_back(&scored);
-      ++fitted;
-      families.insert(scored.candidate->hypothesis->id);
+  std::stable_sort(found.begin(), found.end(), [&](const Scored& a, const Scored& b) { return promise_of(a) > promise_of(b); });
+  return found;
+}
+
+void Inference::refine_all(const Fit& base, const std::vector<Scored*>& these) const {
+  parallel_for(these.size(), [&](std::size_t i) {
+    if (these[i]->stage == 1) fit_linearised(base, *these[i]);
+    refine(base, *these[i], these[i]->x.size() > 0 ? Eigen::VectorXd(these[i]->x) : base.map.x);
+  });
+}
+
+void Inference::refine_leading(const Fit& base, std::vector<Scored>& found, const SearchOptions& options) const {
+  for (int round = 0; round < options.most_rounds && (round == 0 || found.front().stage == 2); ++round) {
+    const double best = found.front().log_odds;
+    std::vector<Scored*> leading;
+    for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
+      Scored& scored = found[static_cast<std::size_t>(i)];
+      if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best)) leading.push_back(&scored);
+    }
+    refine_all(base, leading);
+    sort_by_odds(found);
+    if (round == 0 && found.front().log_odds < best - options.refine_within) {  // others had looked not worth a probe beside it
+      probe(base, found, options);
+      sort_by_odds(found);
     }
   }
+}
+
+void Inference::refine_other_starts(const Fit& base, Scored& leading) const {
+  std::vector<Scored> otherwise(leading.other_starts.size(), leading);
+  std::vector<Scored*> these;
+  for (std::size_t i = 0; i < otherwise.size(); ++i) {
+    otherwise[i].a = leading.other_starts[i];
+    these.push_back(&otherwise[i]);
+  }
+  refine_all(base, these);
+  for (const Scored& other : otherwise)
+    if (other.log_odds > leading.log_odds) leading = other;
+}
+
+std::vector<Scored> Inference::search(const Fit& base, const SearchOptions& options, const ScreenTable* known,
+                                      ScreenTable* record) const {
+  std::vector<Scored> found = screened(base, options, known, record);
+  const std::vector<Scored*> list = short_list(found, options);
   parallel_for(list.size(), [&](std::size_t i) { fit_linearised(base, *list[i]); });
   probe(base, found, options);
-  const auto by_odds = [](const Scored& a, const Scored& b) { return a.log_odds > b.log_odds; };
-  std::stable_sort(found.begin(), found.end(), by_odds);
-  if (!found.empty() && found.front().log_odds > -2.0) {
-    const auto refine_all = [&](const std::vector<Scored*>& these) {
-      parallel_for(these.size(), [&](std::size_t i) {
-        if (these[i]->stage == 1) fit_linearised(base, *these[i]);
-        refine(base, *these[i], these[i]->x.size() > 0 ? Eigen::VectorXd(these[i]->x) : base.map.x);
-      });
-    };
-    // Odds on the linearised base are a promise: who leads must have been refitted, or the next one does.
-    for (int round = 0; round < options.most_rounds && (round == 0 || found.front().stage == 2); ++round) {
-      const double best = found.front().log_odds;
-      std::vector<Scored*> leading;
-      for (int i = 0; i < options.most_refined && i < static_cast<int>(found.size()); ++i) {
-        Scored& scored = found[static_cast<std::size_t>(i)];
-        if (scored.stage == 2 && scored.log_odds > best - std::max(options.refine_within, 0.1 * best))
-          leading.push_back(&scored);
-      }
-      refine_all(leading);
-      std::stable_sort(found.begin(), found.end(), by_odds);
-      if (round == 0 &&
-          found.front().log_odds < best - options.refine_within) {  // others had looked not worth a probe beside it
-        probe(base, found, options);
-        std::stable_sort(found.begin(), found.end(), by_odds);
-      }
-    }
-    // A refitted entry stands above its neighbours that were weighed on the linearised base alone: the nearest of its family
-    // are refitted too, so that the place is chosen among equals.
-    int deepened = 0;
-    const Scored& first = found.front();
-    const double near = first.log_odds - std::max(options.refine_within, 0.3 * first.log_odds);
-    std::vector<Scored*> siblings;
-    const auto rivals_at_a_damper = [&](const Scored& other) {  // what a damper can have wrong shows alike
-      const auto lead = std::find_if(found.begin(), found.end(), [&](const Scored& s) {
-        const Hypothesis& h = *s.candidate->hypothesis;
-        return s.stage == 3 && h.set.starts_with("damper") && (&s == &first || h.prior_weight > 1.0);
-      });
-      return lead != found.end() && other.stage < 3 && other.candidate->location == lead->candidate->location;
-    };
-    for (Scored& scored : found)
-      if (rivals_at_a_damper(scored)) {
-        siblings.push_back(&scored);
-      } else if (deepened < options.deepened && scored.stage == 2 && scored.log_odds > near &&
-                 scored.candidate->hypothesis == first.candidate->hypothesis) {
-        siblings.push_back(&scored);
-        ++deepened;
-      }
-    refine_all(siblings);
-    std::stable_sort(found.begin(), found.end(), by_odds);
-    // Who leads is fitted from its other magnitudes too: a damper that friction holds in one fit may slide in a better one.
-    Scored& leading = found.front();
-    if (leading.stage == 3 && leading.candidate->tuned < 0) {
-      std::vector<Scored> otherwise(leading.other_starts.size(), leading);
-      std::vector<Scored*> these;
-      for (std::size_t i = 0; i < otherwise.size(); ++i) {
-        otherwise[i].a = leading.other_starts[i];
-        these.push_back(&otherwise[i]);
-      }
-      refine_all(these);
-      for (const Scored& other : otherwise)
-        if (other.log_odds > leading.log_odds) leading = other;
-    }
-  }
+  sort_by_odds(found);
+  if (found.empty() || !(found.front().log_odds > kLeastLeading)) return found;
+  // Odds on the linearised base are a promise: who leads must have been refitted, or the next one does.
+  refine_leading(base, found, options);
+  refine_all(base, siblings_of_leader(found, options));
+  sort_by_odds(found);
+  // Who leads is fitted from its other magnitudes too: a damper that friction holds in one fit may slide in a better one.
+  Scored& leading = found.front();
+  if (leading.stage == 3 && leading.candidate->tuned < 0) refine_other_starts(base, leading);
   return found;
 }
 

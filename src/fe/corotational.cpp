@@ -166,53 +166,57 @@ Eigen::Matrix3d spin_to_vector(const Eigen::Vector3d& theta) {
   return Eigen::Matrix3d::Identity() - 0.5 * s + eta * s * s;
 }
 
-Response respond(const Element& element, const Motion& motion, bool with_tangent) {
-  const std::size_t p = element.start_m.size();
-  const auto n = static_cast<Eigen::Index>(6 * p);
-  std::vector<Eigen::Vector3d> now = element.start_m;
-  for (std::size_t a = 0; a < p; ++a) now[a] += motion.displacement_m[a];
-  const Motion still{std::vector<Eigen::Vector3d>(p, Eigen::Vector3d::Zero()),
-                     std::vector<Eigen::Matrix3d>(p, Eigen::Matrix3d::Identity())};
-  const FrameState frame = frame_at(element, now, motion);
-  const Eigen::Matrix3d first = frame_at(element, element.start_m, still).axes;
-  Response response;
-  response.rotation = frame.axes * first.transpose();
+namespace {
+
+struct Means {
+  Eigen::Vector3d start_m, displacement_m;
+};
+
+/// Deformation in the turned frame, with differences of displacements rather than of positions: those carry the digits.
+/// @return H Rᵀ (6p × 6p), block by block
+Eigen::MatrixXd deform(const Element& element, const Motion& motion, const Means& means, Response& response) {
+  const auto n = static_cast<Eigen::Index>(6 * element.start_m.size());
   const Eigen::Matrix3d& r = response.rotation;
   const Eigen::Matrix3d turned_back = r.transpose() - Eigen::Matrix3d::Identity();
-
-  // Deformation, with differences of displacements rather than of positions: those carry the digits.
-  const Eigen::Vector3d mean_start = mean_of(element.start_m), mean_u = mean_of(motion.displacement_m);
+  const bool solid = element.frame == Frame::box || element.frame == Frame::corner;  // whose nodes have no rotations
   response.deformation.resize(n);
-  Eigen::MatrixXd h = Eigen::MatrixXd::Identity(n, n);  // H Rᵀ, block by block
-  for (std::size_t a = 0; a < p; ++a) {
+  Eigen::MatrixXd h = Eigen::MatrixXd::Identity(n, n);
+  for (std::size_t a = 0; a < element.start_m.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
-    const bool solid = element.frame == Frame::box || element.frame == Frame::corner;  // whose nodes have no rotations
     const Eigen::Vector3d theta =
         solid ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : rotation_vector(r.transpose() * motion.rotation[a]);
     response.deformation.segment<3>(at) =
-        r.transpose() * (motion.displacement_m[a] - mean_u) + turned_back * (element.start_m[a] - mean_start);
+        r.transpose() * (motion.displacement_m[a] - means.displacement_m) + turned_back * (element.start_m[a] - means.start_m);
     response.deformation.segment<3>(at + 3) = theta;
     h.block<3, 3>(at, at) = r.transpose();
     h.block<3, 3>(at + 3, at + 3) = spin_to_vector(theta) * r.transpose();
   }
-  const Eigen::VectorXd force = h.transpose() * (element.stiffness * response.deformation);
+  return h;
+}
 
-  // G and S in global axes; the projector takes out the rigid turn (the stiffness itself takes out translations).
-  Spin g(3, n);
-  for (Eigen::Index block = 0; block < n; block += 3)
+/// G: spin of the frame in global axes.
+Spin turned_spin(const FrameState& frame) {
+  Spin g(3, frame.spin.cols());
+  for (Eigen::Index block = 0; block < g.cols(); block += 3)
     g.middleCols<3>(block) = frame.axes * frame.spin.middleCols<3>(block) * frame.axes.transpose();
-  Eigen::MatrixXd s(n, 3);
-  const Eigen::Vector3d centre = mean_start + mean_u;
-  for (std::size_t a = 0; a < p; ++a) {
+  return g;
+}
+
+/// S (6p × 3): displacements and spins of the points in a rigid turn about `centre`, in global axes.
+Eigen::MatrixXd levers(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& centre) {
+  Eigen::MatrixXd s(6 * std::ssize(points), 3);
+  for (std::size_t a = 0; a < points.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
-    s.block<3, 3>(at, 0) = -cross_matrix(now[a] - centre);
+    s.block<3, 3>(at, 0) = -cross_matrix(points[a] - centre);
     s.block<3, 3>(at + 3, 0).setIdentity();
   }
-  const Eigen::Vector3d unbalanced = s.transpose() * force;
-  response.force = force - g.transpose() * unbalanced;
+  return s;
+}
 
-  if (!with_tangent) return response;
-
+/// The symmetric part of the tangent: material stiffness and what the turning frame does to the force.
+Eigen::MatrixXd tangent(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& h, const Eigen::MatrixXd& s, const Spin& g,
+                        const Eigen::VectorXd& force) {
+  const Eigen::Index n = force.size();
   const Eigen::MatrixXd hp = h - (h * s) * g;
   Spin fn = Spin::Zero(3, n);
   Eigen::MatrixXd fnm(n, 3);
@@ -222,10 +226,34 @@ Response respond(const Element& element, const Motion& motion, bool with_tangent
     fn.middleCols<3>(at) = cross_matrix(force.segment<3>(at));
   }
   const Eigen::MatrixXd turned = fnm - g.transpose() * (s.transpose() * fnm);  // Pᵀ F_nm
-  response.tangent.noalias() = hp.transpose() * (element.stiffness * hp);
-  response.tangent.noalias() -= turned * g;
-  response.tangent.noalias() += g.transpose() * fn;
-  response.tangent = (0.5 * (response.tangent + response.tangent.transpose())).eval();
+  Eigen::MatrixXd sum;
+  sum.noalias() = hp.transpose() * (stiffness * hp);
+  sum.noalias() -= turned * g;
+  sum.noalias() += g.transpose() * fn;
+  return 0.5 * (sum + sum.transpose());
+}
+
+}  // namespace
+
+Response respond(const Element& element, const Motion& motion, bool with_tangent) {
+  const std::size_t p = element.start_m.size();
+  std::vector<Eigen::Vector3d> now = element.start_m;
+  for (std::size_t a = 0; a < p; ++a) now[a] += motion.displacement_m[a];
+  const Motion still{std::vector<Eigen::Vector3d>(p, Eigen::Vector3d::Zero()),
+                     std::vector<Eigen::Matrix3d>(p, Eigen::Matrix3d::Identity())};
+  const FrameState frame = frame_at(element, now, motion);
+  Response response;
+  response.rotation = frame.axes * frame_at(element, element.start_m, still).axes.transpose();
+  const Means means{mean_of(element.start_m), mean_of(motion.displacement_m)};
+  const Eigen::MatrixXd h = deform(element, motion, means, response);
+  const Eigen::VectorXd force = h.transpose() * (element.stiffness * response.deformation);
+
+  // The projector I - G' S' takes out the rigid turn (the stiffness itself takes out translations).
+  const Spin g = turned_spin(frame);
+  const Eigen::MatrixXd s = levers(now, means.start_m + means.displacement_m);
+  const Eigen::Vector3d unbalanced = s.transpose() * force;
+  response.force = force - g.transpose() * unbalanced;
+  if (with_tangent) response.tangent = tangent(element.stiffness, h, s, g, force);
   return response;
 }
 

@@ -62,11 +62,6 @@ Matrix18 mass_of(const TrianglePlane& plane, const Eigen::Matrix3d& products, do
 
 }  // namespace
 
-double triangle_area(const TriangleGeometry& geometry) {
-  const auto& x = geometry.node_m;
-  return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-}
-
 Matrix18 triangle_membrane_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties) {
   const TrianglePlane plane = plane_of(geometry);
   const double scale = properties.youngs_modulus_Pa * properties.thickness_m;

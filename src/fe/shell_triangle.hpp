@@ -18,7 +18,7 @@ struct TriangleGeometry {
 /// Membrane part, linear in E t. The drilling stiffness is the element's own: the DrillingRule of the four-node shell and its
 /// factor have no part in it. A rigid turn in the plane stores no energy, and a constant strain turns all corners alike. With
 /// `straight_sides` set the triangle passes the patch test beside four-node shells of either rule.
-/// @throws InputError (all functions here but triangle_area) for a triangle without area
+/// @throws InputError (all functions here) for a triangle without area
 [[nodiscard]] Matrix18 triangle_membrane_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties);
 /// Bending part, linear in E t³ · bending_inertia_ratio; rx = dw/dy, ry = -dw/dx at the corners.
 [[nodiscard]] Matrix18 triangle_bending_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties);
@@ -27,6 +27,5 @@ struct TriangleGeometry {
 [[nodiscard]] Matrix18 triangle_mass(const TriangleGeometry& geometry, double mass_per_area, double rotary_per_area);
 /// Row sums of the same on the diagonal of each corner: a third of the element's at each.
 [[nodiscard]] Matrix18 triangle_mass_lumped(const TriangleGeometry& geometry, double mass_per_area, double rotary_per_area);
-[[nodiscard]] double triangle_area(const TriangleGeometry& geometry);
 
 }  // namespace twindeck::fe

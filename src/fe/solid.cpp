@@ -177,14 +177,4 @@ MatrixSolid solid_mass_lumped(const SolidGeometry& geometry, double density_kg_m
   return consistent.rowwise().sum().asDiagonal();
 }
 
-SolidState solid_centre_state(const SolidGeometry& geometry, const SolidProperties& properties,
-                              const Eigen::Matrix<double, 24, 1>& u) {
-  require_sound(geometry);
-  // The internal strains vanish at the centre, where ξ = η = ζ = 0.
-  SolidState state;
-  state.strain = strain_at(trilinear_at(geometry, Eigen::Vector3d::Zero())) * u;
-  state.stress_Pa = properties.youngs_modulus_Pa * elasticity(properties.poisson_ratio) * state.strain;
-  return state;
-}
-
 }  // namespace twindeck::fe

@@ -43,11 +43,4 @@ struct SolidShape {
 /// Row sums of the consistent mass on the diagonal, ρ ∫ N_i dV at node i: positive for every admissible shape.
 [[nodiscard]] MatrixSolid solid_mass_lumped(const SolidGeometry& geometry, double density_kg_m3);
 
-/// Strain (xx, yy, zz, xy, yz, zx; engineering shears) and stress [Pa] at the centre from nodal displacements (24).
-struct SolidState {
-  Eigen::Matrix<double, 6, 1> strain, stress_Pa;
-};
-[[nodiscard]] SolidState solid_centre_state(const SolidGeometry& geometry, const SolidProperties& properties,
-                                            const Eigen::Matrix<double, 24, 1>& u);
-
 }  // namespace twindeck::fe

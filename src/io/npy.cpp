@@ -198,13 +198,9 @@ Eigen::MatrixXd read_npy(const fs::path& file) {
   return array;
 }
 
-namespace {
-
-/// @tparam T  double or float @param type  its NPY name
-template <typename T>
-void write_array(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file, const char* type) {
+void write_npy_single(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) {
   std::string header =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", type, array.rows(), array.cols());
+      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", array.rows(), array.cols());
   // Magic, version, two bytes of length: the data begin at a multiple of 64.
   header.append(63 - (10 + header.size()) % 64, ' ');
   header.push_back('\n');
@@ -213,19 +209,9 @@ void write_array(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path&
   content.push_back(static_cast<char>(header.size() % 256));
   content.push_back(static_cast<char>(header.size() / 256));
   content += header;
-  const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = array.cast<T>();
-  content.append(reinterpret_cast<const char*>(rows.data()), static_cast<std::size_t>(rows.size()) * sizeof(T));
+  const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = array.cast<float>();
+  content.append(reinterpret_cast<const char*>(rows.data()), static_cast<std::size_t>(rows.size()) * sizeof(float));
   write_file_atomically(file, content);
-}
-
-}  // namespace
-
-void write_npy(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) {
-  write_array<double>(array, file, "<f8");
-}
-
-void write_npy_single(const Eigen::Ref<const Eigen::MatrixXd>& array, const fs::path& file) {
-  write_array<float>(array, file, "<f4");
 }
 
 }  // namespace twindeck::io

@@ -22,9 +22,8 @@ std::pair<Eigen::Index, Eigen::Index> visit_npy(const std::filesystem::path& fil
 /// Reference: NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays".
 [[nodiscard]] Eigen::MatrixXd read_npy(const std::filesystem::path& file);
 
-/// Writes a float64 array in C order, NPY version 1.
-void write_npy(const Eigen::Ref<const Eigen::MatrixXd>& array, const std::filesystem::path& file);
-/// The same in single precision: half the size, for records, whose converters have fewer digits than that.
+/// Writes an array in C order and single precision, NPY version 1: half the size, for records, whose converters have fewer
+/// digits than that.
 void write_npy_single(const Eigen::Ref<const Eigen::MatrixXd>& array, const std::filesystem::path& file);
 
 }  // namespace twindeck::io

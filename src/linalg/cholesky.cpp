@@ -1,13 +1,15 @@
 #include "linalg/cholesky.hpp"
 
-#include <cholmod.h>
 #include <fmt/format.h>
 
+#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "linalg/one_thread.hpp"
@@ -19,23 +21,6 @@ namespace {
 /// A pivot that is this small against the diagonal entry it started from is what rounding leaves of zero: a free structure or a
 /// mechanism can pass CHOLMOD's test for a positive pivot by luck. A beam of 1000 elements still has 1e-10.
 constexpr double kSingularPivot = 1e-13;
-
-cholmod_sparse view(const SparseMatrix& lower) {
-  cholmod_sparse a{};
-  a.nrow = static_cast<std::size_t>(lower.rows());
-  a.ncol = static_cast<std::size_t>(lower.cols());
-  a.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  a.p = const_cast<int*>(lower.outerIndexPtr());
-  a.i = const_cast<int*>(lower.innerIndexPtr());
-  a.x = const_cast<double*>(lower.valuePtr());
-  a.stype = -1;  // lower triangle
-  a.itype = CHOLMOD_INT;
-  a.xtype = CHOLMOD_REAL;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = 1;
-  a.packed = 1;
-  return a;
-}
 
 /// Squares of the factor's diagonal, in the order of elimination.
 std::vector<double> pivots(const cholmod_factor& factor) {
@@ -59,42 +44,37 @@ std::vector<double> pivots(const cholmod_factor& factor) {
 
 }  // namespace
 
-/// Pattern of a lower triangle.
-struct Pattern {
-  std::vector<int> outer, inner;
+/// CHOLMOD's settings and workspace.
+struct CholmodSession {
+  cholmod_common common{};
 
-  explicit Pattern(const SparseMatrix& a)
-      : outer(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1),
-        inner(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros()) {}
-  bool is_of(const SparseMatrix& a) const {
-    return outer.size() == static_cast<std::size_t>(a.outerSize() + 1) &&
-           inner.size() == static_cast<std::size_t>(a.nonZeros()) &&
-           std::equal(outer.begin(), outer.end(), a.outerIndexPtr()) &&
-           std::equal(inner.begin(), inner.end(), a.innerIndexPtr());
+  CholmodSession() {
+    cholmod_start(&common);
+    common.print = 0;
   }
+  ~CholmodSession() { cholmod_finish(&common); }
+  CholmodSession(const CholmodSession&) = delete;
+  CholmodSession& operator=(const CholmodSession&) = delete;
 };
 
 /// A symbolic factorisation with the pattern that it is of.
-struct Symbolic {
-  Pattern pattern;
-  cholmod_common common{};
+struct Symbolic : CholmodSession {
+  std::vector<int> outer, inner;
   cholmod_factor* factor = nullptr;
 
-  explicit Symbolic(const SparseMatrix& lower) : pattern(lower) {
-    cholmod_start(&common);
-    common.print = 0;
-    common.supernodal = CHOLMOD_AUTO;
+  explicit Symbolic(const SparseMatrix& lower)
+      : outer(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.outerSize() + 1),
+        inner(lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros()) {
     const SerialScope serial;
-    cholmod_sparse a = view(lower);
+    cholmod_sparse a = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
     factor = cholmod_analyze(&a, &common);
     TWINDECK_ASSERT(factor != nullptr);
   }
-  ~Symbolic() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
+  ~Symbolic() { cholmod_free_factor(&factor, &common); }
+  bool is_of(const SparseMatrix& a) const {
+    return std::ranges::equal(outer, std::span(a.outerIndexPtr(), static_cast<std::size_t>(a.outerSize()) + 1)) &&
+           std::ranges::equal(inner, std::span(a.innerIndexPtr(), static_cast<std::size_t>(a.nonZeros())));
   }
-  Symbolic(const Symbolic&) = delete;
-  Symbolic& operator=(const Symbolic&) = delete;
 };
 
 namespace {
@@ -106,7 +86,7 @@ std::shared_ptr<const Symbolic> symbolic_of(const SparseMatrix& lower) {
   static std::mutex mutex;
   static std::deque<std::shared_ptr<const Symbolic>> known;  // newest first
   const std::lock_guard lock(mutex);
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one->pattern.is_of(lower); });
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one->is_of(lower); });
   if (found != known.end()) return *found;
   known.push_front(std::make_shared<const Symbolic>(lower));
   if (known.size() > kept) known.pop_back();
@@ -114,70 +94,44 @@ std::shared_ptr<const Symbolic> symbolic_of(const SparseMatrix& lower) {
 }
 
 /// What cholmod_solve2 works in. A thread keeps its own, so that several can solve with one factor at a time.
-struct SolveWorkspace {
-  cholmod_common common{};
+struct SolveWorkspace : CholmodSession {
   cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;
 
-  SolveWorkspace() {
-    cholmod_start(&common);
-    common.print = 0;
-  }
   ~SolveWorkspace() {
-    cholmod_free_dense(&solution, &common);
-    cholmod_free_dense(&y, &common);
-    cholmod_free_dense(&e, &common);
-    cholmod_finish(&common);
+    for (cholmod_dense** one : {&solution, &y, &e}) cholmod_free_dense(one, &common);
   }
-  SolveWorkspace(const SolveWorkspace&) = delete;
-  SolveWorkspace& operator=(const SolveWorkspace&) = delete;
 };
 
 }  // namespace
 
-struct Cholesky::Impl {
-  cholmod_common common{};
+struct Cholesky::Impl : CholmodSession {
   cholmod_factor* factor = nullptr;
   std::shared_ptr<const Symbolic> symbolic;  // what `factor` started from, so that a changed pattern is noticed
   Eigen::Index failed = -1;
 
-  Impl() {
-    cholmod_start(&common);
-    common.print = 0;
-    common.final_ll = 1;  // LL': an indefinite matrix breaks down instead of giving negative pivots
-    common.supernodal = CHOLMOD_AUTO;
-  }
-  ~Impl() {
+  Impl() { common.final_ll = 1; }  // LL': an indefinite matrix breaks down instead of giving negative pivots
+  ~Impl() { cholmod_free_factor(&factor, &common); }
+
+  void start_from(std::shared_ptr<const Symbolic> pattern) {
     cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
+    symbolic = std::move(pattern);
+    factor = cholmod_copy_factor(symbolic->factor, &common);
+    TWINDECK_ASSERT(factor != nullptr);
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-
-  bool same_pattern(const SparseMatrix& a) const { return symbolic && symbolic->pattern.is_of(a); }
-
   Eigen::Index row_of(std::size_t column) const { return static_cast<const int*>(factor->Perm)[column]; }
 };
 
 Cholesky::Cholesky() : impl_(std::make_unique<Impl>()) {}
 Cholesky::~Cholesky() = default;
 Cholesky::Cholesky(Cholesky&&) noexcept = default;
-Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
-
-void Cholesky::analyze(const SparseMatrix& lower) {
-  TWINDECK_ASSERT(lower.rows() == lower.cols() && lower.isCompressed());
-  use_one_thread();
-  cholmod_free_factor(&impl_->factor, &impl_->common);
-  impl_->symbolic = symbolic_of(lower);
-  impl_->factor = cholmod_copy_factor(impl_->symbolic->factor, &impl_->common);
-  TWINDECK_ASSERT(impl_->factor != nullptr);
-}
 
 Status Cholesky::factorize(const SparseMatrix& lower) {
-  if (!impl_->same_pattern(lower)) analyze(lower);
+  TWINDECK_ASSERT(lower.rows() == lower.cols() && lower.isCompressed());
   use_one_thread();
-  cholmod_sparse a = view(lower);
+  if (!impl_->symbolic || !impl_->symbolic->is_of(lower)) impl_->start_from(symbolic_of(lower));
   impl_->failed = -1;
   const SerialScope serial;
+  cholmod_sparse a = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
   cholmod_factorize(&a, impl_->factor, &impl_->common);
   const cholmod_factor& factor = *impl_->factor;
   if (impl_->common.status == CHOLMOD_NOT_POSDEF) {
@@ -205,14 +159,7 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) cons
   TWINDECK_ASSERT(impl_->factor != nullptr && impl_->failed < 0);
   TWINDECK_ASSERT(static_cast<std::size_t>(b.rows()) == impl_->factor->n);
   if (b.cols() == 0) return Eigen::MatrixXd(b.rows(), 0);
-  cholmod_dense right{};
-  right.nrow = static_cast<std::size_t>(b.rows());
-  right.ncol = static_cast<std::size_t>(b.cols());
-  right.d = static_cast<std::size_t>(b.outerStride());
-  right.nzmax = right.d * right.ncol;
-  right.x = const_cast<double*>(b.data());
-  right.xtype = CHOLMOD_REAL;
-  right.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense right = Eigen::viewAsCholmod(b.const_cast_derived());
   thread_local SolveWorkspace work;
   const SerialScope serial;
   const int solved =

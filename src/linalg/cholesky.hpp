@@ -16,11 +16,8 @@ class Cholesky {
   Cholesky();
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;
-  Cholesky& operator=(Cholesky&&) noexcept;
 
-  /// Fill-reducing ordering and symbolic factorisation. @param lower  lower triangle (n × n), only its pattern is used
-  void analyze(const SparseMatrix& lower);
-  /// Numeric factorisation; calls `analyze` first if needed. If the matrix is not positive definite, the status says so and
+  /// @param lower  lower triangle (n × n). If the matrix is not positive definite, the status says so and
   /// `failed_column()` gives the row of the matrix at which the factorisation failed (the location of a mechanism).
   Status factorize(const SparseMatrix& lower);
   [[nodiscard]] Eigen::Index failed_column() const;

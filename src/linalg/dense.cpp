@@ -36,6 +36,17 @@ namespace {
 int as_int(Index n) { return static_cast<int>(n); }
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+/// c = factor a b + before c, or with aᵀ if `transposed`.
+void add_product(double factor, const Eigen::Ref<const Eigen::MatrixXd>& a, bool transposed,
+                 const Eigen::Ref<const Eigen::MatrixXd>& b, double before, Eigen::MatrixXd& c) {
+  use_one_thread();
+  const int m = as_int(c.rows()), n = as_int(c.cols()), k = as_int(b.rows());
+  TWINDECK_ASSERT((transposed ? a.cols() : a.rows()) == m && (transposed ? a.rows() : a.cols()) == k && b.cols() == n);
+  if (m == 0 || n == 0 || k == 0) return;
+  const int lda = as_int(a.outerStride()), ldb = as_int(b.outerStride());
+  dgemm_(transposed ? "T" : "N", "N", &m, &n, &k, &factor, a.data(), &lda, b.data(), &ldb, &before, c.data(), &m);
+}
+
 /// A⁻¹ B by LAPACK's GESV of the matrices' kind of number; not finite where A is singular.
 template <typename Matrix, typename Gesv>
 Matrix solved_by(Gesv gesv, Matrix a, Matrix b) {
@@ -50,34 +61,6 @@ Matrix solved_by(Gesv gesv, Matrix a, Matrix b) {
   return b;
 }
 
-}  // namespace
-
-Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
-                        bool transposed) {
-  use_one_thread();
-  const int m = as_int(transposed ? a.cols() : a.rows()), n = as_int(b.cols()), k = as_int(b.rows());
-  TWINDECK_ASSERT((transposed ? a.rows() : a.cols()) == b.rows());
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, n);
-  if (m == 0 || n == 0 || k == 0) return c;
-  const int lda = as_int(a.outerStride()), ldb = as_int(b.outerStride());
-  const double one = 1.0, zero = 0.0;
-  dgemm_(transposed ? "T" : "N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &m);
-  return c;
-}
-
-void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
-                      Eigen::MatrixXd& c) {
-  use_one_thread();
-  const int m = as_int(a.rows()), n = as_int(b.cols()), k = as_int(b.rows());
-  TWINDECK_ASSERT(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols());
-  if (m == 0 || n == 0 || k == 0) return;
-  const int lda = as_int(a.outerStride()), ldb = as_int(b.outerStride());
-  const double minus_one = -1.0, one = 1.0;
-  dgemm_("N", "N", &m, &n, &k, &minus_one, a.data(), &lda, b.data(), &ldb, &one, c.data(), &m);
-}
-
-namespace {
-
 /// Eigenpairs first … last in ascending order (from 1), or those of values from `least` to `most` where `last` is 0.
 LeadingEigenpairs some_eigenpairs(Eigen::MatrixXd symmetric, int first, int last, double least, double most) {
   use_one_thread();
@@ -87,23 +70,35 @@ LeadingEigenpairs some_eigenpairs(Eigen::MatrixXd symmetric, int first, int last
   Eigen::MatrixXd vectors(size, last > 0 ? last - first + 1 : size);
   Eigen::VectorXi support(2 * size);
   const double tolerance = 0.0;
-  int found = 0, info = 0, work_size = -1, int_work_size = -1, int_work_best = 0;
-  double work_best = 0.0;
-  const auto solve = [&](double* work, int* int_work) {
+  Eigen::VectorXd work(1);
+  Eigen::VectorXi int_work(1);
+  int found = 0, info = 0, room = -1, int_room = -1;
+  for (const bool ask : {true, false}) {
     dsyevr_("V", last > 0 ? "I" : "V", "L", &size, symmetric.data(), &size, &least, &most, &first, &last, &tolerance, &found,
-            values.data(), vectors.data(), &size, support.data(), work, &work_size, int_work, &int_work_size, &info);
-  };
-  solve(&work_best, &int_work_best);
-  work_size = static_cast<int>(work_best);
-  int_work_size = int_work_best;
-  Eigen::VectorXd work(work_size);
-  Eigen::VectorXi int_work(int_work_size);
-  solve(work.data(), int_work.data());
+            values.data(), vectors.data(), &size, support.data(), work.data(), &room, int_work.data(), &int_room, &info);
+    if (!ask) break;
+    room = static_cast<int>(work[0]);
+    int_room = int_work[0];
+    work.resize(room);
+    int_work.resize(int_room);
+  }
   TWINDECK_ASSERT(info == 0 && (last == 0 || found == last - first + 1));
   return {values.head(found).reverse(), vectors.leftCols(found).rowwise().reverse()};
 }
 
 }  // namespace
+
+Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                        bool transposed) {
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(transposed ? a.cols() : a.rows(), b.cols());
+  add_product(1.0, a, transposed, b, 0.0, c);
+  return c;
+}
+
+void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                      Eigen::MatrixXd& c) {
+  add_product(-1.0, a, false, b, 1.0, c);
+}
 
 LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
   TWINDECK_ASSERT(n >= 1 && n <= symmetric.rows());
@@ -124,14 +119,15 @@ ThinSvd thin_svd(Eigen::MatrixXd a) {
   TWINDECK_ASSERT(k >= 1);
   ThinSvd svd{Eigen::MatrixXd(m, k), Eigen::VectorXd(k), Eigen::MatrixXd(k, n)};
   Eigen::VectorXi int_work(8 * k);
-  int work_size = -1, info = 0;
-  double work_best = 0.0;
-  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, &work_best, &work_size,
-          int_work.data(), &info);
-  work_size = static_cast<int>(work_best);
-  Eigen::VectorXd work(work_size);
-  dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, work.data(), &work_size,
-          int_work.data(), &info);
+  Eigen::VectorXd work(1);
+  int info = 0, room = -1;
+  for (const bool ask : {true, false}) {
+    dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, work.data(), &room,
+            int_work.data(), &info);
+    if (!ask) break;
+    room = static_cast<int>(work[0]);
+    work.resize(room);
+  }
   TWINDECK_ASSERT(info == 0);
   return svd;
 }
@@ -160,23 +156,37 @@ Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b) { return solved_b
 
 Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b) { return solved_by(dgesv_, std::move(a), std::move(b)); }
 
-Eigen::VectorXcd eigenvalues(Eigen::MatrixXd a) {
+UnsymmetricEigen unsymmetric_eigen(Eigen::MatrixXd a, bool with_vectors) {
   use_one_thread();
   TWINDECK_ASSERT(a.rows() == a.cols());
-  const int n = as_int(a.rows()), one = 1;
-  Eigen::VectorXcd values = Eigen::VectorXcd::Constant(n, {kNaN, kNaN});
-  if (n == 0 || !a.allFinite()) return values;
+  const int n = static_cast<int>(a.rows()), n_vectors = with_vectors ? n : 0;
+  UnsymmetricEigen out{Eigen::VectorXcd::Constant(n, {kNaN, kNaN}),
+                       Eigen::MatrixXcd::Constant(n_vectors, n_vectors, {kNaN, kNaN})};
+  if (n == 0 || !a.allFinite()) return out;
   Eigen::VectorXd re(n), im(n), work(1);
+  Eigen::MatrixXd packed(n, n_vectors);  // of a conjugate pair: real parts, then imaginary ones of the first
   double none = 0.0;
+  const int one = 1;
   int info = 0, room = -1;
-  dgeev_("N", "N", &n, a.data(), &n, re.data(), im.data(), &none, &one, &none, &one, work.data(), &room, &info);
-  room = static_cast<int>(work[0]);
-  work.resize(room);
-  dgeev_("N", "N", &n, a.data(), &n, re.data(), im.data(), &none, &one, &none, &one, work.data(), &room, &info);
-  if (info != 0) return values;
-  values.real() = re;
-  values.imag() = im;
-  return values;
+  for (const bool ask : {true, false}) {
+    dgeev_("N", with_vectors ? "V" : "N", &n, a.data(), &n, re.data(), im.data(), &none, &one, packed.data(), &n, work.data(),
+           &room, &info);
+    if (!ask) break;
+    room = static_cast<int>(work[0]);
+    work.resize(room);
+  }
+  if (info != 0) return out;
+  out.values.real() = re;
+  out.values.imag() = im;
+  for (Index j = 0; j < n_vectors; ++j) {
+    out.vectors.col(j).real() = packed.col(j);
+    out.vectors.col(j).imag().setZero();
+    if (im[j] == 0.0 || j + 1 == n) continue;
+    out.vectors.col(j).imag() = packed.col(j + 1);
+    out.vectors.col(j + 1) = out.vectors.col(j).conjugate();
+    ++j;
+  }
+  return out;
 }
 
 }  // namespace twindeck::linalg

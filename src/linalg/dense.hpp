@@ -51,8 +51,13 @@ struct ThinSvd {
 /// The same for real matrices.
 [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b);
 
-/// Eigenvalues of a real unsymmetric matrix (size), in no particular order; not finite if they do not converge.
-/// Reference: LAPACK's DGEEV (multishift QR).
-[[nodiscard]] Eigen::VectorXcd eigenvalues(Eigen::MatrixXd a);
+/// Eigenvalues and right eigenvectors of a real unsymmetric matrix, in no particular order; not finite if they do not converge.
+struct UnsymmetricEigen {
+  Eigen::VectorXcd values;   ///< (n)
+  Eigen::MatrixXcd vectors;  ///< (n × n), columns of unit norm; empty where they were not asked for
+};
+
+/// Reference: LAPACK's DGEEV (multishift QR), several times as fast as Eigen's for some hundred rows.
+[[nodiscard]] UnsymmetricEigen unsymmetric_eigen(Eigen::MatrixXd a, bool with_vectors = true);
 
 }  // namespace twindeck::linalg

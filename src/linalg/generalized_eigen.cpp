@@ -5,10 +5,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "core/random.hpp"
 #include "linalg/block_lanczos.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
@@ -26,46 +26,30 @@ using Eigen::VectorXd;
 /// 127 solves for 91 at 29,000 degrees of freedom).
 constexpr int kBlock = 4;
 
-/// Numbers in [-1, 1[ from a fixed sequence (splitmix64), the same on every machine; another sequence for each `draw`.
+/// Numbers in [-1, 1[ from a fixed sequence, the same on every machine; another sequence for each `draw`.
 MatrixXd fixed_block(Index rows, Index columns, int draw) {
+  constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15ULL;  // of SplitMix64
+  const std::uint64_t state = 20130917 + static_cast<std::uint64_t>(draw) * 0x632be59bd9b4e019ULL;
   MatrixXd block(rows, columns);
-  std::uint64_t state = 20130917 + static_cast<std::uint64_t>(draw) * 0x632be59bd9b4e019ULL;
-  for (Index j = 0; j < columns; ++j) {
-    for (Index i = 0; i < rows; ++i) {
-      std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-      z ^= z >> 31;
-      block(i, j) = static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
-    }
-  }
+  for (Index k = 0; k < block.size(); ++k)
+    block.data()[k] = static_cast<double>(mixed(state + static_cast<std::uint64_t>(k) * kStep) >> 11) * 0x1.0p-52 - 1.0;
   return block;
 }
 
-/// Pairs of the operator, 1/(lambda - sigma) descending, not yet purified.
-struct Candidates {
-  MatrixXd vectors;
-  int converged = 0;
-  int operations = 0;
-};
-
-/// Exact condensation to the few dofs with mass: G = E' A^-1 E = C C', then C' M C z = mu z, x = A^-1 E M C z.
-Candidates condensed(const SymmetricProduct& mass, const std::vector<Index>& dofs, int n_pairs, const Cholesky& factor) {
+/// Pairs of the operator, not yet purified, by exact condensation to the few dofs with mass: G = E' A^-1 E = C C', then C' M C
+/// z = mu z, x = A^-1 E M C z.
+BlockLanczosResult condensed(const SymmetricProduct& mass, const std::vector<Index>& dofs, int n_pairs,
+                             const Cholesky& factor) {
   const auto m = static_cast<Index>(dofs.size());
   MatrixXd unit = MatrixXd::Zero(mass.size(), m);
   for (Index j = 0; j < m; ++j) unit(dofs[static_cast<std::size_t>(j)], j) = 1.0;
-  const MatrixXd mass_unit = mass.times(unit);
-  const MatrixXd flexibility = factor.solve(unit);
-  MatrixXd small_mass(m, m), small_flexibility(m, m);
-  for (Index i = 0; i < m; ++i) {
-    small_mass.row(i) = mass_unit.row(dofs[static_cast<std::size_t>(i)]);
-    small_flexibility.row(i) = flexibility.row(dofs[static_cast<std::size_t>(i)]);
-  }
+  const MatrixXd flexibility = factor.solve(unit), small_mass = mass.times(unit)(dofs, Eigen::all);
+  MatrixXd small_flexibility = flexibility(dofs, Eigen::all);
   small_flexibility = 0.5 * (small_flexibility + small_flexibility.transpose()).eval();
   const MatrixXd c = small_flexibility.llt().matrixL();
   const MatrixXd projected = c.transpose() * small_mass * c;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(0.5 * (projected + projected.transpose()));
-  Candidates out;
+  BlockLanczosResult out;
   const double floor = 1e-13 * eig.eigenvalues().maxCoeff();
   while (out.converged < std::min<Index>(n_pairs, m) && eig.eigenvalues()[m - 1 - out.converged] > floor) ++out.converged;
   out.vectors = flexibility * (small_mass * (c * eig.eigenvectors().rightCols(out.converged).rowwise().reverse()));
@@ -73,17 +57,16 @@ Candidates condensed(const SymmetricProduct& mass, const std::vector<Index>& dof
   return out;
 }
 
-Candidates by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor) {
-  SelfAdjointOperator op;
-  op.size = mass.size();
-  op.times_mass = [&](const MatrixXd& x) { return mass.times(x); };
-  op.from_mass = [&](const MatrixXd& y) { return factor.solve(y); };
+BlockLanczosResult by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor) {
+  const SelfAdjointOperator op{mass.size(), [&](const MatrixXd& x) { return mass.times(x); },
+                               [&](const MatrixXd& y) { return factor.solve(y); }};
   // One application puts the block into the range of the operator, away from the null space of M.
   const auto start_block = [&](int draw) { return op.from_mass(mass.times(fixed_block(op.size, kBlock, draw))); };
   BlockLanczosOptions options;
   options.n_pairs = n_pairs;
-  const BlockLanczosResult found = block_lanczos(op, start_block, options);
-  return {found.vectors, found.converged, found.operations + kBlock};
+  BlockLanczosResult found = block_lanczos(op, start_block, options);
+  found.operations += kBlock;
+  return found;
 }
 
 }  // namespace
@@ -92,7 +75,6 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
                              Cholesky& factor) {
   TWINDECK_ASSERT(n_pairs > 0 && stiffness.rows() == mass.rows());
   EigenPairs out;
-  out.values.resize(0);
   out.vectors.resize(stiffness.rows(), 0);
   SparseMatrix shifted;
   if (shift != 0.0) {
@@ -104,13 +86,17 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
   if (!out.status.converged) return out;
 
   const SymmetricProduct mass_matrix(mass);
-  const std::vector<Index> massive = mass_matrix.rows_in_use();
+  const VectorXd own_mass = mass.diagonal();
+  std::vector<Index> massive;
+  for (Index i = 0; i < own_mass.size(); ++i)
+    if (own_mass[i] != 0.0) massive.push_back(i);
   if (massive.empty()) {
     out.status = {false, "no degree of freedom carries mass, so that there are no modes"};
     return out;
   }
   const bool few = static_cast<Index>(massive.size()) <= std::max<Index>(60, 3 * n_pairs);
-  const Candidates found = few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor);
+  const BlockLanczosResult found =
+      few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor);
 
   // Purification, then Rayleigh and Ritz on the purified block y = A^-1 M x: y'Ay = y'Mx and y'My give lambda - sigma.
   const MatrixXd mass_x = mass_matrix.times(found.vectors);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
+#include "core/error.hpp"
 #include "linalg/types.hpp"
 
 namespace twindeck::linalg {
@@ -12,12 +12,16 @@ namespace twindeck::linalg {
 class SymmetricProduct {
  public:
   /// @param lower  lower triangle (n × n)
-  explicit SymmetricProduct(const SparseMatrix& lower);
+  explicit SymmetricProduct(const SparseMatrix& lower) : lower_(lower) {
+    TWINDECK_ASSERT(lower.rows() == lower.cols());
+    lower_.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+  }
   /// A X.  @param x (n × m) @return (n × m)
-  [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
+  [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
+    TWINDECK_ASSERT(x.rows() == size());
+    return lower_.selfadjointView<Eigen::Lower>() * x;
+  }
   [[nodiscard]] Eigen::Index size() const { return lower_.rows(); }
-  /// Rows with a nonzero entry.
-  [[nodiscard]] std::vector<Eigen::Index> rows_in_use() const;
 
  private:
   SparseMatrix lower_;

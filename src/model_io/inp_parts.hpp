@@ -79,10 +79,9 @@ struct InpParts {
     const InpCard* card;
     long line;
   };
-  std::vector<Origin> constraint_origin;   ///< of the model's constraints
-  std::vector<const InpCard*> boundaries;  ///< *BOUNDARY cards that hold in the step whose modes are asked for
-  long last_element_id = 0;                ///< the largest so far, for elements that come out of one with more nodes
-  std::vector<std::string> notes;          ///< what was read over, for people
+  std::vector<Origin> constraint_origin;  ///< of the model's constraints
+  long last_element_id = 0;               ///< the largest so far, for elements that come out of one with more nodes
+  std::vector<std::string> notes;         ///< what was read over, for people
 
   /// Position of a node. @throws InputError if no *NODE defines it
   [[nodiscard]] int node(const InpCard& card, long line, long id) const;

@@ -60,41 +60,6 @@ bool is_matrix_model(const std::filesystem::path& folder) {
   return find(io::read_toml(file), "matrices") != nullptr;
 }
 
-std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const char* name :
-       {"model.toml", "nodes.csv", "elements.csv", "materials.csv", "sections.csv", "supports.csv", "springs.csv", "links.csv",
-        "constraints.csv", "masses.csv", "points.csv", "loads.csv", "dofs.csv"}) {
-    if (std::filesystem::exists(folder / name)) files.push_back(folder / name);
-  }
-  if (!is_matrix_model(folder)) {
-    const std::size_t named = files.size();
-    if (std::filesystem::is_directory(folder / "matrices"))
-      for (const auto& entry : std::filesystem::directory_iterator(folder / "matrices"))
-        if (entry.path().extension() == ".mtx") files.push_back(entry.path());
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(named), files.end());  // directories come in any order
-    return files;
-  }
-  // The matrices have the names that model.toml gives them.
-  const auto add = [&](const io::TomlValue::Table& table, const char* key) {
-    const io::TomlValue* entry = find(table, key);
-    if (const auto* name = entry == nullptr ? nullptr : entry->as<std::string>()) files.push_back(folder / *name);
-  };
-  const io::TomlValue::Table root = io::read_toml(folder / "model.toml");
-  if (const auto* matrices = find(root, "matrices")->as<io::TomlValue::Table>()) {
-    add(*matrices, "K");
-    add(*matrices, "M");
-  }
-  const io::TomlValue* parameters = find(root, "parameter");
-  if (const auto* list = parameters == nullptr ? nullptr : parameters->as<io::TomlValue::Array>()) {
-    for (const io::TomlValue& parameter : *list) {
-      if (const auto* table = parameter.as<io::TomlValue::Table>()) add(*table, "matrix");
-    }
-  }
-  std::erase_if(files, [](const auto& file) { return !std::filesystem::exists(file); });
-  return files;
-}
-
 long line_of(const std::filesystem::path& file, const std::string& text) {
   std::ifstream stream(file);
   std::string line;

@@ -232,30 +232,6 @@ void read_site_pulls(DefinitionFile& file, BridgeDefinition& out) {
   }
 }
 
-void read_prototype_pulls(DefinitionFile& file, const std::string& variant, BridgeDefinition& out) {
-  for (std::size_t i = 0; i < file.size("variant_pulls"); ++i) {
-    const std::string path = "variant_pulls." + std::to_string(i);
-    if (file.text(path + ".variant") != variant) {
-      file.mark_known(path);
-      continue;
-    }
-    for (const DeckDefinition& deck : out.decks) {
-      const std::string key = path + "." + deck.name;
-      const std::vector<double> pulls = file.numbers(key, "N", kPull);
-      if (pulls.size() != static_cast<std::size_t>(deck.stay.count)) {
-        file.fail(key + ".0",
-                  fmt::format("starts a list of {} pulls, expected {} (stays a side)", pulls.size(), deck.stay.count),
-                  "give one pull a stay, from mid-length outwards");
-      }
-      for (std::size_t stay = 0; stay < pulls.size(); ++stay) {
-        out.prototype_pull_N[deck.stay.prefix_north + std::to_string(stay + 1)] = pulls[stay];
-        out.prototype_pull_N[deck.stay.prefix_south + std::to_string(stay + 1)] = pulls[stay];
-      }
-    }
-    out.prototype_pull_N["BN"] = out.prototype_pull_N["BS"] = file.number(path + ".ground", "N", kPull);
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> stay_names(const BridgeDefinition& definition) {
@@ -278,7 +254,7 @@ void offer_optional_keys(DefinitionFile& file) {
   }
 }
 
-BridgeDefinition read_definition(DefinitionFile file, const std::string& variant) {
+BridgeDefinition read_definition(DefinitionFile file) {
   offer_optional_keys(file);
   BridgeDefinition out;
   out.source = file.name();
@@ -317,7 +293,6 @@ BridgeDefinition read_definition(DefinitionFile file, const std::string& variant
   out.ridge = file.number("prestress.ridge", "", {0.0, 1e3});
   out.site_weight = file.number("prestress.site_weight", "", {0.0, 1e3});
   read_site_pulls(file, out);
-  read_prototype_pulls(file, variant, out);
   for (std::size_t i = 0; i < file.size("damper"); ++i) {
     out.dampers.push_back(read_damper(file, "damper." + std::to_string(i), out.decks));
   }

@@ -114,8 +114,7 @@ struct BridgeDefinition {
   std::optional<EndDefinition> ends;  ///< without: the decks' bearings stand on the ground
   int aerodynamic_nodes = 0;          ///< a deck
   double minimum_pull_N, ridge, site_weight;
-  std::map<std::string, double> site_pull_N;       ///< by stay, mirror images included
-  std::map<std::string, double> prototype_pull_N;  ///< by stay; empty if the variant has none
+  std::map<std::string, double> site_pull_N;  ///< by stay, mirror images included
   std::vector<DamperDefinition> dampers;
   std::vector<DeckPoint> monitoring_points;
   std::vector<ParameterDefinition> parameters;
@@ -125,9 +124,8 @@ class DefinitionFile;
 /// Gives the keys that a file may leave out their values: `bottom_chord_spacing` and `slab_height` of each deck, both 0 m.
 void offer_optional_keys(DefinitionFile& file);
 /// Reads the definition as it stands after the overrides applied to `file`.
-/// @param variant  whose prototype pulls are taken; "" for none
 /// @throws InputError naming file, line and key for a missing or unknown key, a value out of range, an unknown name
-[[nodiscard]] BridgeDefinition read_definition(DefinitionFile file, const std::string& variant);
+[[nodiscard]] BridgeDefinition read_definition(DefinitionFile file);
 
 /// Names of all stays: NE1 ... , SE1 ..., NW..., SW..., BN, BS.
 [[nodiscard]] std::vector<std::string> stay_names(const BridgeDefinition& definition);

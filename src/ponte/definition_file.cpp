@@ -243,14 +243,6 @@ long DefinitionFile::line_of(const std::string& path) const {
   return found == values_.end() ? 0 : found->second.line;
 }
 
-void DefinitionFile::mark_known(const std::string& table) {
-  for (auto& [path, value] : values_) {
-    if (path == table || below(path, table)) {
-      value.known = true;
-    }
-  }
-}
-
 void DefinitionFile::refuse_unknown() const {
   std::set<std::string> known;
   for (const auto& [path, value] : values_) {

@@ -52,8 +52,6 @@ class DefinitionFile {
   /// A number for a key that the file leaves out; one that is there stays.
   void offer_number(const std::string& path, double value);
   [[nodiscard]] long line_of(const std::string& path) const;
-  /// Marks a whole table as known.
-  void mark_known(const std::string& table);
   /// @throws InputError for the first value that nobody asked for, naming the nearest known path
   void refuse_unknown() const;
 

@@ -9,6 +9,7 @@
 #include "ponte/bridge_definition.hpp"
 #include "ponte/dampers.hpp"
 #include "ponte/deck.hpp"
+#include "ponte/deck_axis.hpp"
 #include "ponte/definition_file.hpp"
 #include "ponte/ends.hpp"
 #include "ponte/mast.hpp"
@@ -245,7 +246,7 @@ fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& 
   DefinitionFile file = open(bridge_toml);
   apply_mesh(file, mesh);
   apply_variant(file, variant);
-  return build(read_definition(std::move(file), variant), variant);
+  return build(read_definition(std::move(file)), variant);
 }
 
 fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes,
@@ -259,7 +260,7 @@ fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const 
     file.apply(entry("change", position(file, "change", names, change)) + ".set");
     title += " + " + change;
   }
-  return build(read_definition(std::move(file), "preliminary"), title);
+  return build(read_definition(std::move(file)), title);
 }
 
 fe::Model generate_with_values(const std::filesystem::path& bridge_toml, const std::string& variant, const std::string& mesh,
@@ -268,7 +269,7 @@ fe::Model generate_with_values(const std::filesystem::path& bridge_toml, const s
   for (const auto& [path, value] : values) file.set_number(resolved(file, path), value);
   apply_mesh(file, mesh);
   apply_variant(file, variant);
-  return build(read_definition(std::move(file), variant), variant);
+  return build(read_definition(std::move(file)), variant);
 }
 
 void write_values(const std::filesystem::path& bridge_toml, const Values& values,
@@ -289,28 +290,6 @@ void write_values(const std::filesystem::path& bridge_toml, const Values& values
   std::ofstream out(bridge_toml);
   for (const std::string& line : lines) out << line << '\n';
   if (!out) throw InputError({bridge_toml.string(), 0, ""}, "cannot be written", "check its permissions");
-}
-
-fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant) {
-  DefinitionFile file = open(bridge_toml);
-  apply_variant(file, variant);
-  const BridgeDefinition definition = read_definition(std::move(file), variant);
-  if (definition.prototype_pull_N.empty()) {
-    throw InputError({definition.source, 0, "variant_pulls"}, "has no pulls for the variant '" + variant + "'",
-                     "add a [[variant_pulls]] table for it");
-  }
-  fe::Model model = build(definition, variant + " (prototype's formulation)");
-  model.prestress.rule = fe::PullRule::given;
-  model.formulation.shear_flexible = false;
-  model.formulation.beam_rotary_inertia = false;
-  model.formulation.shell_rotary_inertia = false;
-  model.formulation.drilling = fe::Formulation::Drilling::diagonal;
-  for (fe::Element& element : model.elements) {
-    if (element.type == fe::ElementType::stay) {
-      element.pull_N = definition.prototype_pull_N.at(element.name);
-    }
-  }
-  return model;
 }
 
 }  // namespace twindeck::ponte

@@ -42,7 +42,5 @@ void write_values(const std::filesystem::path& bridge_toml, const Values& values
 /// The part of the bridge that a group of elements or springs belongs to: decks, mast, stays, end_blocks, piers, ramps,
 /// bearings.
 [[nodiscard]] std::string part_of(const std::string& group);
-/// For the verification against the prototype alone: Euler beams, listed pulls, its drilling and mass rules.
-[[nodiscard]] fe::Model generate_compatible(const std::filesystem::path& bridge_toml, const std::string& variant);
 
 }  // namespace twindeck::ponte

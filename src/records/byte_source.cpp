@@ -78,7 +78,6 @@ ByteSource::ByteSource(const fs::path& file, std::uint64_t offset, std::uint64_t
 
 ByteSource::~ByteSource() = default;
 ByteSource::ByteSource(ByteSource&&) noexcept = default;
-ByteSource& ByteSource::operator=(ByteSource&&) noexcept = default;
 
 void ByteSource::read(char* to, std::size_t n, const std::string& what) {
   std::size_t done = 0;

@@ -15,7 +15,6 @@ class ByteSource {
   ByteSource(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t length, bool compressed);
   ~ByteSource();
   ByteSource(ByteSource&&) noexcept;
-  ByteSource& operator=(ByteSource&&) noexcept;
 
   /// @param what  is being read, for the message @throws InputError  "breaks off in <what>", or for compressed data that are
   /// damaged

@@ -69,7 +69,7 @@ struct Series {
   int function = 0, data_type = 0, abscissa = 17;
   Index values = 0;
   bool even = true, binary = false, swapped = false;
-  double start = 0.0, step = 0.0;
+  double step = 0.0;
   std::size_t bytes = 0;
   ChannelInfo channel;
   [[nodiscard]] bool is_complex() const { return data_type == 5 || data_type == 6; }
@@ -116,19 +116,16 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   constexpr long most_types = 99;  // sound files have 2 to 6
   series.data_type = static_cast<int>(integer_or(field(form, 0, 10), count_in(numbers[0], most_types).value_or(0)));
   const auto values = count_in(numbers[1], in.size());  // a value takes one byte at least
-  if (!values || *values == 0) {
+  if (!values || *values == 0)
     in.fail(
         fmt::format("states {:.6g} values, expected a whole number from 1 to what {} bytes can hold", numbers[1], in.size()),
         "write the set again");
-  }
   series.values = *values;
   series.even = numbers[2] != 0.0;
-  series.start = numbers[3];
   series.step = numbers[4];
-  if (series.data_type != 2 && series.data_type != 4 && !series.is_complex()) {
+  if (series.data_type != 2 && series.data_type != 4 && !series.is_complex())
     in.fail(fmt::format("has data of type {}, expected 2, 4 (real), 5 or 6 (complex)", series.data_type),
             "write the set again");
-  }
   const std::string axis = need_inside(in, what);
   series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
   const std::string ordinate = need_inside(in, what);
@@ -185,9 +182,8 @@ std::vector<double> series_numbers(UniversalLines& in, const std::string& line) 
       values.push_back(std::numeric_limits<double>::quiet_NaN());
       continue;
     }
-    if (cell.find_first_not_of("0123456789+-.eEdD") != std::string_view::npos) {
+    if (cell.find_first_not_of("0123456789+-.eEdD") != std::string_view::npos)
       in.fail(fmt::format("holds '{}', expected numbers", cell.substr(0, 40)), "write the set again");
-    }
     const std::vector<double> numbers = numbers_in(std::string(cell));
     values.insert(values.end(), numbers.begin(), numbers.end());
   }
@@ -218,9 +214,8 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
   // An uneven abscissa is single in set 58, whatever the ordinate is.
   const std::size_t abscissa = series.even ? 0 : 4, ordinate = size * (series.is_complex() ? 2 : 1);
   const std::size_t sample = abscissa + ordinate, expected = sample * static_cast<std::size_t>(series.values);
-  if (series.bytes != 0 && series.bytes != expected) {
+  if (series.bytes != 0 && series.bytes != expected)
     info.notes.push_back(fmt::format("{} says {} bytes, {} values take {}", what, series.bytes, series.values, expected));
-  }
   // A newline too many before the data: then the set's end stands one byte later than it should.
   const auto ends_at = [&](std::size_t offset) {
     const std::string tail = in.peek(offset, 9);
@@ -248,9 +243,7 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
       parts.add(binary_value(at + abscissa, series.is_double(), series.swapped));
     }
     done += complete;
-    if (complete < n)
-      in.fail(fmt::format("breaks off in {} after {} of {} values", what, done, series.values),
-              "the file was cut off; copy it again");
+    if (complete < n) in.fail(fmt::format("breaks off in {} after {} of {} values", what, done, series.values), kCopyAgain);
   }
 }
 
@@ -260,18 +253,16 @@ void read_series(UniversalLines& in, const std::string& set_line, const Visitor&
   series.channel.position = std::ssize(info.channels) + others + 1;
   Parts parts(visit, series.is_time() ? static_cast<Index>(info.channels.size()) : -1);
   double step = series.step;
-  if (series.binary) {
+  if (series.binary)
     read_binary_values(in, series, what, parts, step, info);
-  } else {
+  else
     read_text_values(in, series, what, parts, step);
-  }
   parts.flush();
   if (!series.even && step > 0.0) series.channel.rate_Hz = 1.0 / step;
-  if (series.is_time()) {
+  if (series.is_time())
     info.channels.push_back(series.channel);
-  } else {
+  else
     ++others;
-  }
   expect_end(in, info, series.binary ? "58b" : "58");
 }
 
@@ -291,7 +282,7 @@ void read_nodes(UniversalLines& in, bool double_precision, UniversalData& data) 
     if (coordinates.size() < 3) in.fail("holds fewer than three coordinates", "write set 2411 again");
     data.nodes[label] = Eigen::Vector3d(coordinates[0], coordinates[1], coordinates[2]);
   }
-  in.fail("breaks off in " + what, "the file was cut off; copy it again");
+  in.fail("breaks off in " + what, kCopyAgain);
 }
 
 void read_lines(UniversalLines& in, UniversalData& data) {
@@ -305,10 +296,7 @@ void read_lines(UniversalLines& in, UniversalData& data) {
   };
   long seen = 0;
   for (std::string line; in.next(line);) {
-    if (is_delimiter(line)) {
-      finish();
-      return;
-    }
+    if (is_delimiter(line)) return finish();
     for (const double number : numbers_in(line)) {
       if (seen++ >= count && count > 0) break;
       if (number == 0.0) {
@@ -318,40 +306,21 @@ void read_lines(UniversalLines& in, UniversalData& data) {
       }
     }
   }
-  in.fail("breaks off in set 82", "the file was cut off; copy it again");
+  in.fail("breaks off in set 82", kCopyAgain);
 }
 
-void read_result(UniversalLines& in, UniversalData& data) {
-  const std::string what = "set 55";
-  NodalResult result;
-  for (int i = 0; i < 5; ++i) {
-    const std::string line = need_inside(in, what);
-    if (i == 0) result.title = field(line, 0, 80);
-  }
-  const auto type = numbers_in(need_inside(in, what));
-  if (type.size() < 6) in.fail("holds fewer than six codes of the result's type", "write set 55 again");
-  constexpr long most_codes = 100000;  // values a node, integers and reals of a result; a sound file has some ten
-  result.analysis = static_cast<int>(count_in(type[1], most_codes).value_or(0));
-  result.complex = type[4] == 5.0 || type[4] == 6.0;
-  const auto per_node = static_cast<Index>(count_in(type[5], most_codes).value_or(0));
-  if (per_node == 0) in.fail(fmt::format("states {:.6g} values a node", type[5]), "write set 55 again");
-  const auto integers = numbers_in(need_inside(in, what));
-  // Two numbers tell how many integers and reals follow; lines of eight and six.
-  const auto stated = [&](std::size_t k) { return integers.size() > k ? count_in(integers[k], most_codes).value_or(0) : 0; };
-  const auto n_integers = static_cast<std::size_t>(stated(0)), n_reals = static_cast<std::size_t>(stated(1));
-  std::vector<double> all = integers;
-  while (all.size() < 2 + n_integers) {
-    const auto more = numbers_in(need_inside(in, what));
+/// Appends the numbers of further lines of set 55 until there are `wanted`, or a line has none.
+void read_numbers(UniversalLines& in, std::size_t wanted, std::vector<double>& numbers) {
+  while (numbers.size() < wanted) {
+    const auto more = numbers_in(need_inside(in, "set 55"));
     if (more.empty()) break;
-    all.insert(all.end(), more.begin(), more.end());
+    numbers.insert(numbers.end(), more.begin(), more.end());
   }
-  std::vector<double> reals;
-  while (reals.size() < n_reals) {
-    const auto more = numbers_in(need_inside(in, what));
-    if (more.empty()) break;
-    reals.insert(reals.end(), more.begin(), more.end());
-  }
-  if (all.size() > 3) result.mode = static_cast<int>(count_in(all[3], most_codes).value_or(0));
+}
+
+/// What set 55 says of its mode: the number, and frequency and damping of a real one or the eigenvalue of a complex one.
+void take_mode(const std::vector<double>& integers, const std::vector<double>& reals, long most_codes, NodalResult& result) {
+  if (integers.size() > 3) result.mode = static_cast<int>(count_in(integers[3], most_codes).value_or(0));
   if (result.analysis == 3 && reals.size() >= 2) {
     result.eigenvalue = {reals[0], reals[1]};
     result.frequency_Hz = std::abs(result.eigenvalue) / (2.0 * std::numbers::pi);
@@ -360,6 +329,49 @@ void read_result(UniversalLines& in, UniversalData& data) {
     result.frequency_Hz = reals[0];
     if (reals.size() >= 3) result.damping_ratio = reals[2];
   }
+}
+
+/// The lines of set 55 before its nodes. @return values a node
+Index read_result_header(UniversalLines& in, NodalResult& result) {
+  result.title = field(need_inside(in, "set 55"), 0, 80);
+  for (int i = 1; i < 5; ++i) need_inside(in, "set 55");
+  const auto type = numbers_in(need_inside(in, "set 55"));
+  if (type.size() < 6) in.fail("holds fewer than six codes of the result's type", "write set 55 again");
+  constexpr long most_codes = 100000;  // values a node, integers and reals of a result; a sound file has some ten
+  result.analysis = static_cast<int>(count_in(type[1], most_codes).value_or(0));
+  result.complex = type[4] == 5.0 || type[4] == 6.0;
+  const auto per_node = static_cast<Index>(count_in(type[5], most_codes).value_or(0));
+  if (per_node == 0) in.fail(fmt::format("states {:.6g} values a node", type[5]), "write set 55 again");
+  // Two numbers tell how many integers and reals follow; lines of eight and six.
+  std::vector<double> integers = numbers_in(need_inside(in, "set 55")), reals;
+  const auto stated = [&](std::size_t k) {
+    return static_cast<std::size_t>(integers.size() > k ? count_in(integers[k], most_codes).value_or(0) : 0);
+  };
+  const std::size_t n_integers = stated(0), n_reals = stated(1);
+  read_numbers(in, 2 + n_integers, integers);
+  read_numbers(in, n_reals, reals);
+  take_mode(integers, reals, most_codes, result);
+  return per_node;
+}
+
+/// The values that follow the line of a node.
+Eigen::VectorXcd read_node_values(UniversalLines& in, long node, Index per_node, bool complex) {
+  const auto wanted = static_cast<std::size_t>(per_node * (complex ? 2 : 1));
+  std::vector<double> values;
+  read_numbers(in, wanted, values);
+  if (values.size() < wanted)
+    in.fail(fmt::format("has {} values at node {}, expected {}", values.size(), node, wanted), "write set 55 again");
+  Eigen::VectorXcd vector(per_node);
+  for (Index k = 0; k < per_node; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    vector[k] = complex ? std::complex<double>(values[2 * at], values[2 * at + 1]) : std::complex<double>(values[at]);
+  }
+  return vector;
+}
+
+void read_result(UniversalLines& in, UniversalData& data) {
+  NodalResult result;
+  const Index per_node = read_result_header(in, result);
   for (std::string line; in.next(line);) {
     if (is_delimiter(line)) {
       data.results.push_back(std::move(result));
@@ -367,23 +379,9 @@ void read_result(UniversalLines& in, UniversalData& data) {
     }
     if (is_blank(line)) continue;
     const long node = integer_or(field(line, 0, 10), 0);
-    std::vector<double> values;
-    const auto wanted = static_cast<std::size_t>(per_node * (result.complex ? 2 : 1));
-    while (values.size() < wanted) {
-      const auto more = numbers_in(need_inside(in, what));
-      if (more.empty()) break;
-      values.insert(values.end(), more.begin(), more.end());
-    }
-    if (values.size() < wanted)
-      in.fail(fmt::format("has {} values at node {}, expected {}", values.size(), node, wanted), "write set 55 again");
-    Eigen::VectorXcd vector(per_node);
-    for (Index k = 0; k < per_node; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      vector[k] = result.complex ? std::complex<double>(values[2 * at], values[2 * at + 1]) : std::complex<double>(values[at]);
-    }
-    result.values[node] = vector;
+    result.values[node] = read_node_values(in, node, per_node, result.complex);
   }
-  in.fail("breaks off in set 55", "the file was cut off; copy it again");
+  in.fail("breaks off in set 55", kCopyAgain);
 }
 
 void read_units(UniversalLines& in, UniversalData& data) {
@@ -447,10 +445,9 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
     }
     if (!is_delimiter(line)) {
       // Some writers let one -1 end a set and begin the next. Anything else would be skipped with the set that it begins.
-      if (!begins_known_set(line)) {
+      if (!begins_known_set(line))
         in.fail(fmt::format("holds '{}' between two sets, expected -1", field(line, 0, 40)),
                 "remove the line, or write the file again");
-      }
       info.notes.push_back(fmt::format("line {}: set {} begins without -1 of its own", in.number(), set_number(line)));
       read_set(in, line, visit, info, data, other_series);
       continue;

@@ -7,7 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/orthonormal_block.hpp"
+#include "linalg/krylov_basis.hpp"
 #include "sensitivity/eigen_sensitivity.hpp"
 #include "sensitivity/modal_forces.hpp"
 
@@ -62,38 +62,25 @@ class AdjointSpace {
     const MatrixXd mass_statics = mass_.times(out.statics);
     const VectorXd size = out.statics.cwiseProduct(mass_statics).colwise().sum().cwiseAbs().cwiseSqrt();
 
-    MatrixXd v(channels.rows(), 8 * channels.cols()), mass_v(v.rows(), v.cols()), h(0, 0);
-    MatrixXd w = from_mass(mass_statics), mass_w = mass_.times(w);
-    linalg::OrthonormalBlock next = linalg::orthonormalise(w, mass_w, linalg::mass_norm(w, mass_w));
+    linalg::KrylovBasis basis(channels.rows(), 8 * channels.cols());
+    MatrixXd w = from_mass(mass_statics), h(0, 0);
+    linalg::OrthonormalBlock next = linalg::orthonormalise(w, mass_.times(w), MatrixXd::Zero(1, w.cols()));
     const MatrixXd start = next.r;
-    Index known = 0, before = 0;  // columns in use; the first of the block before the last
+    Index before = 0;  // first column of the block before the last
     for (int block = 0; block < kMostBlocks && next.q.cols() > 0; ++block) {
-      const Index columns = next.q.cols(), last = known;
-      if (known + columns > v.cols()) {
-        v.conservativeResize(Eigen::NoChange, 2 * v.cols());
-        mass_v.conservativeResize(Eigen::NoChange, v.cols());
-      }
-      v.middleCols(known, columns) = next.q, mass_v.middleCols(known, columns) = next.mass_q;
-      known += columns;
+      const Index columns = next.q.cols(), last = basis.size;
+      basis.append(next);
       w = from_mass(next.mass_q);
-      // Beyond the last two blocks there is nothing but rounding in common, which one pass over all takes away.
-      MatrixXd common = MatrixXd::Zero(known, columns);
-      for (const Index first : {before, Index{0}}) {
-        const MatrixXd part = product(mass_v.middleCols(first, known - first), w, true);
-        subtract_product(v.middleCols(first, known - first), part, w);
-        common.bottomRows(known - first) += part;
-      }
+      const MatrixXd common = basis.remove_from(w, before);
       before = last;
-      h.conservativeResize(known, known);
+      h.conservativeResize(basis.size, basis.size);
       h.rightCols(columns) = common;
       h.bottomRows(columns) = common.transpose();
-      mass_w = mass_.times(w);
-      const double scale = std::hypot(std::sqrt(common.colwise().squaredNorm().maxCoeff()), linalg::mass_norm(w, mass_w));
-      next = linalg::orthonormalise(std::move(w), std::move(mass_w), scale);
+      MatrixXd mass_w = mass_.times(w);
+      next = linalg::orthonormalise(std::move(w), std::move(mass_w), common);
       if (solve_small(h, start, next.r, size, out.z)) break;
     }
-    v.conservativeResize(Eigen::NoChange, known);
-    out.basis = std::move(v);
+    out.basis = basis.v.leftCols(basis.size);
     return out;
   }
 

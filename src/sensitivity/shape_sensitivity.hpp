@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
@@ -35,6 +36,9 @@ class ShapeSensitivity {
 
  private:
   void find_further_modes(const linalg::SparseMatrix& shifted_stiffness);
+  /// @return y, the preconditioner times the residual, and A y
+  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> precondition(const Eigen::MatrixXd& residual,
+                                                                         const Eigen::VectorXd& eigenvalue) const;
   [[nodiscard]] Eigen::MatrixXd solve_outside_modes(Eigen::MatrixXd residual) const;
 
   const fe::ParametricSystem& system_;
@@ -47,11 +51,5 @@ class ShapeSensitivity {
   Eigen::MatrixXd further_, stiffness_further_;  // G and A G (n × g), G' M G = I, G' M Phi = 0
   Eigen::VectorXd further_value_;                // diagonal of G' A G
 };
-
-/// ShapeSensitivity's derivative for one parameter (Nelson 1976).
-/// @param parameter  position in system.parameters
-/// @return (n × n_modes) per unit of parameter
-[[nodiscard]] Eigen::MatrixXd shape_derivative(const fe::ParametricSystem& system, const Eigen::VectorXd& theta,
-                                               const dynamics::EigenModes& modes, int parameter);
 
 }  // namespace twindeck::sensitivity

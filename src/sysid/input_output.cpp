@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/statistics.hpp"
@@ -83,38 +83,63 @@ Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<in
   return x;
 }
 
+/// @throws InputError  if the record is too short for the block rows, or these too few for the orders
+void check_size(const Sizes& size, Index samples, int maximum_order) {
+  const Index columns = samples - 2 * size.block_rows + 1, rows = 2 * size.all() * size.block_rows;
+  if (columns < 2 * rows) {
+    throw InputError({"", 0, "block_rows"},
+                     fmt::format("is {}, but a record of {} samples with {} inputs and {} outputs carries at most {}",
+                                 size.block_rows, samples, size.inputs, size.outputs, samples / (4 * size.all() + 2)),
+                     "ask for fewer block rows, or give a longer record");
+  }
+  if (maximum_order > (size.block_rows - 1) * size.outputs) {
+    throw InputError({"", 0, "maximum_order"},
+                     fmt::format("is {}, but {} block rows of {} outputs carry at most {}", maximum_order, size.block_rows,
+                                 size.outputs, (size.block_rows - 1) * size.outputs),
+                     "raise block_rows or lower maximum_order");
+  }
+}
+
+/// Gram matrices of the data in consecutive blocks of columns; their sum is that of the record.
+std::vector<Eigen::MatrixXd> grams_of_blocks(const Eigen::MatrixXd& data, const Sizes& size, int n_blocks) {
+  const Index columns = data.rows() - 2 * size.block_rows + 1;
+  std::vector<Index> everything(static_cast<std::size_t>(size.all()));
+  std::iota(everything.begin(), everything.end(), Index{0});
+  std::vector<Eigen::MatrixXd> grams;
+  for (int b = 0; b < n_blocks; ++b) {
+    const Index begin = columns * b / n_blocks, end = columns * (b + 1) / n_blocks;
+    grams.push_back(hankel_gram(data.middleRows(begin, end - begin + 2 * size.block_rows - 1), everything, size.block_rows));
+  }
+  return grams;
+}
+
+/// Deviations of a mode by the jackknife. @param x  (2 + 2 outputs × blocks) replicates, each without one block
+ModeDeviation deviation_of(const Eigen::MatrixXd& x, Index outputs) {
+  const auto n_blocks = static_cast<double>(x.cols());
+  ModeDeviation deviation;
+  const double factor = std::sqrt((n_blocks - 1.0) / n_blocks);
+  deviation.factor = (x.colwise() - x.rowwise().mean()) * factor;
+  const Eigen::VectorXd sigma = deviation.factor.rowwise().norm();
+  deviation.frequency_Hz = sigma[0];
+  deviation.damping_ratio = sigma[1];
+  deviation.shape_real = sigma.segment(2, outputs);
+  deviation.shape_imag = sigma.tail(outputs);
+  return deviation;
+}
+
 }  // namespace
 
 Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double rate_Hz,
                                      const IdentifyOptions& options, int n_blocks) {
   TWINDECK_ASSERT(inputs.rows() == outputs.rows() && inputs.cols() > 0 && outputs.cols() > 0 && n_blocks >= 2);
   const Sizes size{inputs.cols(), outputs.cols(), options.block_rows};
-  const Index columns = inputs.rows() - 2 * size.block_rows + 1, rows = 2 * size.all() * size.block_rows;
-  if (columns < 2 * rows) {
-    throw InputError(
-        {"", 0, "block_rows"},
-        fmt::format("is {}, but a record of {} samples with {} inputs and {} outputs carries at most {}", size.block_rows,
-                    inputs.rows(), size.inputs, size.outputs, inputs.rows() / (4 * size.all() + 2)),
-        "ask for fewer block rows, or give a longer record");
-  }
   const std::vector<int> orders = options.orders();
-  if (orders.back() > (size.block_rows - 1) * size.outputs) {
-    throw InputError({"", 0, "maximum_order"},
-                     fmt::format("is {}, but {} block rows of {} outputs carry at most {}", orders.back(), size.block_rows,
-                                 size.outputs, (size.block_rows - 1) * size.outputs),
-                     "raise block_rows or lower maximum_order");
-  }
+  check_size(size, inputs.rows(), orders.back());
   Eigen::MatrixXd data(inputs.rows(), size.all());
   data << inputs, outputs;
-  std::vector<Index> everything;
-  for (Index c = 0; c < size.all(); ++c) everything.push_back(c);
-  std::vector<Eigen::MatrixXd> grams;
-  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(rows, rows);
-  for (int b = 0; b < n_blocks; ++b) {
-    const Index begin = columns * b / n_blocks, end = columns * (b + 1) / n_blocks;
-    grams.push_back(hankel_gram(data.middleRows(begin, end - begin + 2 * size.block_rows - 1), everything, size.block_rows));
-    total += grams.back();
-  }
+  const std::vector<Eigen::MatrixXd> grams = grams_of_blocks(data, size, n_blocks);
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(grams[0].rows(), grams[0].cols());
+  for (const Eigen::MatrixXd& gram : grams) total += gram;
 
   Identification result;
   const auto poles = poles_of_orders(observability_of(total, size, orders.back()), orders, rate_Hz);
@@ -133,17 +158,7 @@ Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen:
       replicates[m].col(b) = replicate(members, orders, found);
     }
   }
-  for (const Eigen::MatrixXd& x : replicates) {
-    ModeDeviation deviation;
-    const double factor = std::sqrt(static_cast<double>(n_blocks - 1) / static_cast<double>(n_blocks));
-    deviation.factor = (x.colwise() - x.rowwise().mean()) * factor;
-    const Eigen::VectorXd sigma = deviation.factor.rowwise().norm();
-    deviation.frequency_Hz = sigma[0];
-    deviation.damping_ratio = sigma[1];
-    deviation.shape_real = sigma.segment(2, size.outputs);
-    deviation.shape_imag = sigma.tail(size.outputs);
-    result.deviations.push_back(std::move(deviation));
-  }
+  for (const Eigen::MatrixXd& x : replicates) result.deviations.push_back(deviation_of(x, size.outputs));
   drop_undetermined(result, options, static_cast<double>(inputs.rows()) / rate_Hz);
   return result;
 }

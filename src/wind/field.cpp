@@ -72,11 +72,6 @@ Eigen::VectorXcd drift(const FieldDefinition& field, double f_Hz) {
   return phase;
 }
 
-Eigen::MatrixXcd cross_spectrum(const FieldDefinition& field, double f_Hz) {
-  const Eigen::VectorXcd point = spectra(field, f_Hz).cwiseSqrt().cwiseProduct(drift(field, f_Hz));
-  return point.asDiagonal() * coherence(field, f_Hz) * point.conjugate().asDiagonal();
-}
-
 Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz) {
   constexpr double least = 1e-13;  // of a pivot; rounding of the sums is of the order 1e-15
   const Eigen::MatrixXd gamma = coherence(field, f_Hz);
@@ -94,11 +89,6 @@ Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz) {
                    fmt::format("has a coherence that is not positive definite at {} Hz (found at point {} of {})", f_Hz, j + 1,
                                gamma.rows()),
                    "take away points that coincide, or give neighbouring points more alike mean speeds");
-}
-
-Eigen::MatrixXcd spectral_factor(const FieldDefinition& field, double f_Hz) {
-  const Eigen::VectorXcd point = spectra(field, f_Hz).cwiseSqrt().cwiseProduct(drift(field, f_Hz));
-  return point.asDiagonal() * coherence_factor(field, f_Hz);
 }
 
 }  // namespace twindeck::wind

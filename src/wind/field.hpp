@@ -39,8 +39,6 @@ void check(const FieldDefinition& field);
 [[nodiscard]] Eigen::MatrixXd coherence(const FieldDefinition& field, double f_Hz);
 /// Phase factor of each point, exp(-2 pi i f x_j / V); ones if the field is not frozen. @return (n)
 [[nodiscard]] Eigen::VectorXcd drift(const FieldDefinition& field, double f_Hz);
-/// S(f) of Eq. (13), Hermitian. @return [(m/s)²/Hz] (n × n)
-[[nodiscard]] Eigen::MatrixXcd cross_spectrum(const FieldDefinition& field, double f_Hz);
 
 /// Cholesky factor of the coherence, gamma = L L'. The drift is a separate phase of each point, so H of Eq. (14) is
 /// diag(sqrt(S_j) drift_j) L with a real L.
@@ -48,7 +46,5 @@ void check(const FieldDefinition& field);
 /// @throws InputError  with the point and the frequency at which the coherence is not positive definite (two points that
 ///                     coincide, or speeds that differ too much for the mean of two to give a coherence)
 [[nodiscard]] Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz);
-/// H(f) of Eq. (14), H H* = S. @return (n × n)
-[[nodiscard]] Eigen::MatrixXcd spectral_factor(const FieldDefinition& field, double f_Hz);
 
 }  // namespace twindeck::wind

@@ -75,19 +75,6 @@ Simulator::Bracket Simulator::bracket(double f_Hz) const {
   return {lower, std::clamp(std::log(f_Hz / low) / std::log(high / low), 0.0, 1.0)};
 }
 
-Eigen::RowVectorXd Simulator::interpolated_row(double f_Hz, Index j) const {
-  const Bracket at = bracket(f_Hz);
-  const auto a = static_cast<std::size_t>(at.lower);
-  return ((1.0 - at.share) * factor_[a].row(j) + at.share * factor_[a + 1].row(j)).normalized();
-}
-
-MatrixXd Simulator::amplitude_factor(Index l) const {
-  const double f = df_ * static_cast<double>(l);
-  MatrixXd factor(field_.size(), field_.size());
-  for (Index j = 0; j < factor.rows(); ++j) factor.row(j) = interpolated_row(f, j);
-  return spectra(field_, f).cwiseSqrt().asDiagonal() * factor;
-}
-
 void Simulator::waves(std::uint64_t seed, Index m, Index first, double* real, double* imaginary) const {
   const auto stream = static_cast<std::uint64_t>(field_.component) << 32 | static_cast<std::uint64_t>(m);
   random_waves(seed, stream, first, options_.amplitudes == Amplitudes::gaussian, real, imaginary);

@@ -48,8 +48,6 @@ class Simulator {
   [[nodiscard]] double spacing_Hz() const { return df_; }
   /// Number of waves l = 1 … n_waves a point.
   [[nodiscard]] Eigen::Index n_waves() const { return n_waves_; }
-  /// |H_jm(f_l)| as used in a sample (interpolated between anchors). @param l  from 1 @return (n × n) lower triangular
-  [[nodiscard]] Eigen::MatrixXd amplitude_factor(Eigen::Index l) const;
 
  private:
   struct Bracket {
@@ -57,8 +55,6 @@ class Simulator {
     double share;        ///< of the anchor above it, in [0, 1]
   };
   [[nodiscard]] Bracket bracket(double f_Hz) const;
-  /// Row j of L: interpolated between the two anchors around f and scaled to length one.
-  [[nodiscard]] Eigen::RowVectorXd interpolated_row(double f_Hz, Eigen::Index j) const;
   /// Waves [real, imaginary] of stream m, l = first, first + 1, … first + kLanes - 1.
   void waves(std::uint64_t seed, Eigen::Index m, Eigen::Index first, double* real, double* imaginary) const;
   void put_waves(std::uint64_t seed, Eigen::MatrixXd& velocity) const;

@@ -13,6 +13,7 @@
 #include "bench/sysid_record.hpp"
 #include "io/npy.hpp"
 #include "linalg/one_thread.hpp"
+#include "npy_double.hpp"
 #include "signal/condition.hpp"
 #include "sysid/identify.hpp"
 #include "sysid/ssi_cov.hpp"

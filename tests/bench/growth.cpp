@@ -25,6 +25,7 @@
 #include "linalg/cholesky.hpp"
 #include "linalg/generalized_eigen.hpp"
 #include "linalg/one_thread.hpp"
+#include "npy_double.hpp"
 
 namespace {
 

@@ -84,28 +84,21 @@ int matrices(const std::string& folder) {
   return 0;
 }
 
-int bridge(const std::string& file) {
-  fe::ParametricSystem system;
-  fe::Model model;
-  std::printf("generate_s %.6f\n", seconds([&] { model = ponte::generate(file, "preliminary"); }));
-  std::printf("assemble_s %.6f\n", seconds([&] {
-                const fe::Structure structure(model);
-                system = structure.system(structure.prestress(fe::initial_parameters(structure.model())));
-              }));
-  std::printf("degrees_of_freedom %ld\n", static_cast<long>(system.size()));
-  const Eigen::VectorXd theta = system.initial();
-  dynamics::ModalSolver solver(system);
-  dynamics::EigenModes modes = solver.solve(theta, kModes);
-  if (!modes.status.converged) return 1;
-
-  // A change of 1 % in every parameter, and back.
+/// A solve after a change of 1 % in every parameter, and back. @return whether they converged
+bool print_solves(dynamics::ModalSolver& solver, const Eigen::VectorXd& theta, dynamics::EigenModes& modes) {
+  modes = solver.solve(theta, kModes);
+  if (!modes.status.converged) return false;
   Eigen::VectorXd changed = theta;
   for (Eigen::Index p = 0; p < changed.size(); ++p) changed[p] *= p % 2 == 0 ? 1.01 : 0.99;
   dynamics::EigenModes again;
   std::printf("resolve_from_parameters_s %.6f\n", seconds([&] { again = solver.solve(changed, kModes); }));
-  if (!again.status.converged) return 1;
+  if (!again.status.converged) return false;
   std::printf("resolve_again_s %.6f\n", seconds([&] { modes = solver.solve(theta, kModes); }));
+  return true;
+}
 
+void print_frequency_jacobian(const fe::ParametricSystem& system, dynamics::ModalSolver& solver, const Eigen::VectorXd& theta,
+                              const dynamics::EigenModes& modes) {
   Eigen::MatrixXd exact, differences(kModes, theta.size());
   std::printf("jacobian_s %.6f\n", seconds([&] { exact = sensitivity::frequency_jacobian(system, theta, modes); }));
   std::printf("jacobian_by_differences_s %.6f\n", seconds([&] {
@@ -118,7 +111,11 @@ int bridge(const std::string& file) {
               }));
   std::printf("jacobian_deviation %.3e\n", ((exact - differences) * theta.asDiagonal()).cwiseAbs().maxCoeff());
   std::printf("parameters %ld\n", static_cast<long>(theta.size()));
-  // Sixteen measured directions, spread over the degrees of freedom.
+}
+
+/// Derivatives at sixteen measured directions, spread over the degrees of freedom.
+void print_channel_jacobian(const fe::ParametricSystem& system, const Eigen::VectorXd& theta,
+                            const dynamics::EigenModes& modes) {
   constexpr Eigen::Index n_channels = 16;
   Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(system.size(), n_channels);
   for (Eigen::Index c = 0; c < n_channels; ++c) channels((2 * c + 1) * system.size() / (2 * n_channels), c) = 1.0;
@@ -134,6 +131,9 @@ int bridge(const std::string& file) {
       apart = std::max(apart, (found.col(i) - expected.col(i)).norm() / std::max(1e-300, expected.col(i).norm()));
   }
   std::printf("channel_jacobian_deviation %.3e\n", apart);
+}
+
+void print_shape_jacobian(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, const dynamics::EigenModes& modes) {
   const auto shape_jacobian = [&] {
     const auto all = sensitivity::ShapeSensitivity(system, theta, modes).derivatives();
     if (std::ssize(all) != theta.size()) std::printf("shape_jacobian_is_missing 1\n");
@@ -144,6 +144,24 @@ int bridge(const std::string& file) {
   shape_jacobian();
   std::printf("shape_jacobian_two_threads_s %.6f\n",
               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+int bridge(const std::string& file) {
+  fe::ParametricSystem system;
+  fe::Model model;
+  std::printf("generate_s %.6f\n", seconds([&] { model = ponte::generate(file, "preliminary"); }));
+  std::printf("assemble_s %.6f\n", seconds([&] {
+                const fe::Structure structure(model);
+                system = structure.system(structure.prestress(fe::initial_parameters(structure.model())));
+              }));
+  std::printf("degrees_of_freedom %ld\n", static_cast<long>(system.size()));
+  const Eigen::VectorXd theta = system.initial();
+  dynamics::ModalSolver solver(system);
+  dynamics::EigenModes modes;
+  if (!print_solves(solver, theta, modes)) return 1;
+  print_frequency_jacobian(system, solver, theta, modes);
+  print_channel_jacobian(system, theta, modes);
+  print_shape_jacobian(system, theta, modes);
   return 0;
 }
 

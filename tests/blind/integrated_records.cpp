@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "blind/records.hpp"
 #include "core/random.hpp"
@@ -149,6 +150,65 @@ Run integrate(const Modes& modes, const VectorXd& damping, const State& state, c
   return run;
 }
 
+/// What the trial's structure and sensors are, within their scatter.
+struct Drawn {
+  VectorXd x, gain;  ///< nuisances in deviations; factor of each channel
+};
+
+Drawn draw(const Bench& bench, const diagnosis::FeatureMap& map, std::uint64_t seed) {
+  Drawn drawn{VectorXd(static_cast<Index>(map.nuisances().size())), VectorXd::Ones(static_cast<Index>(bench.channels.size()))};
+  for (Index j = 0; j < drawn.x.size(); ++j) {
+    const diagnosis::Nuisance& v = map.nuisances()[static_cast<std::size_t>(j)];
+    std::uint64_t again = 0;
+    do drawn.x[j] = normal_number(seed, 1, static_cast<std::uint64_t>(j) * 64 + again++);
+    while (drawn.x[j] < v.lower || drawn.x[j] > v.upper);
+    if (v.kind == diagnosis::Nuisance::Kind::gain) drawn.gain[v.index] = 1.0 + v.deviation * drawn.x[j];
+  }
+  return drawn;
+}
+
+/// The structure in a condition, with its people, causes and dampers.
+State state_in(const Condition& condition, const diagnosis::ReducedModel& model, const std::vector<Cause>& causes,
+               const std::pair<MatrixXd, MatrixXd>& matrices, const std::vector<int>& columns) {
+  State state{columns, matrices.first, matrices.second, MatrixXd(0, std::ssize(columns)), {}};
+  if (condition.people.value_or(0.0) > 0.0) {
+    const ReducedPlace& deck = model.sets.at("global").front();
+    state.mass += *condition.people * kPersonMass / deck.attributes.at("deck_mass") * deck.mass.part(columns);
+  }
+  for (const Cause& cause : causes) apply(cause, condition, state);
+  if (condition.dampers_on.value_or(false))
+    for (const ReducedPlace& damper : model.sets.at("dampers")) add_damper(damper, causes, state);
+  return state;
+}
+
+VectorXd damping_of(Index modes, std::uint64_t seed) {
+  VectorXd damping = VectorXd::Constant(modes, 0.01);
+  for (Index i = 0; i < std::min<Index>(12, modes); ++i)
+    damping[i] = 0.005 * std::exp(0.3 * normal_number(seed, 2, static_cast<std::uint64_t>(i)));
+  return damping;
+}
+
+/// What is wrong with the sensors, done to a run.
+void disturb(const std::vector<Cause>& causes, MatrixXd& acceleration) {
+  for (const Cause& cause : causes)
+    for (const diagnosis::ActionSpec& action : cause.candidate->hypothesis->actions) {
+      const auto& at = cause.candidate->channels;
+      if (action.kind == "channel.gain") acceleration.col(at[0]) *= cause.candidate->value(action.number.at("factor"), cause.a);
+      if (action.kind == "channel.sign") acceleration.col(at[0]) *= -1.0;
+      if (action.kind == "channel.swap") acceleration.col(at[0]).swap(acceleration.col(at[1]));
+    }
+}
+
+/// At the logger's rate, with the sensors' noise.
+MatrixXd logged(const MatrixXd& acceleration, std::uint64_t seed, std::uint64_t stream) {
+  MatrixXd record = signal::decimated(acceleration, kDecimation);
+  const double noise = kSensorNoise * std::sqrt(record.squaredNorm() / static_cast<double>(record.size()));
+  for (Index ch = 0; ch < record.cols(); ++ch)
+    for (Index t = 0; t < record.rows(); ++t)
+      record(t, ch) += noise * normal_number(seed, stream + static_cast<std::uint64_t>(ch), static_cast<std::uint64_t>(t));
+  return record;
+}
+
 }  // namespace
 
 const std::set<std::string>& families_of_integrated_records() {
@@ -165,33 +225,16 @@ Campaign integrated_records(const Bench& bench, const Hidden& hidden) {
   const std::uint64_t seed = hidden.seal.seed + 777;
   const diagnosis::ReducedModel& model = *bench.truth.reduced;
   const diagnosis::FeatureMap map(model, bench.rows, bench.scatter);
-  VectorXd x(static_cast<Index>(map.nuisances().size())), gain = VectorXd::Ones(static_cast<Index>(bench.channels.size()));
-  for (Index j = 0; j < x.size(); ++j) {
-    const diagnosis::Nuisance& v = map.nuisances()[static_cast<std::size_t>(j)];
-    std::uint64_t again = 0;
-    do x[j] = normal_number(seed, 1, static_cast<std::uint64_t>(j) * 64 + again++);
-    while (x[j] < v.lower || x[j] > v.upper);
-    if (v.kind == diagnosis::Nuisance::Kind::gain) gain[v.index] = 1.0 + v.deviation * x[j];
-  }
-  const diagnosis::FeatureMap::Base base = map.base(x);
+  const Drawn drawn = draw(bench, map, seed);
+  const diagnosis::FeatureMap::Base base = map.base(drawn.x);
   const std::vector<int> columns = columns_of(model, hidden.causes);
-  MatrixXd channels(gain.size(), static_cast<Index>(columns.size()));
-  for (Index c = 0; c < gain.size(); ++c) channels.row(c) = model.sensors.row(4 * c)(columns);
+  MatrixXd channels(drawn.gain.size(), static_cast<Index>(columns.size()));
+  for (Index c = 0; c < drawn.gain.size(); ++c) channels.row(c) = model.sensors.row(4 * c)(columns);
   for (std::size_t c = 0; c < campaign.conditions.size(); ++c) {
     Condition& condition = campaign.conditions[c];
-    const auto [stiffness, mass] = map.matrices(base, columns);
-    State state{columns, stiffness, mass, MatrixXd(0, channels.cols()), {}};
-    if (condition.people.value_or(0.0) > 0.0) {
-      const ReducedPlace& deck = model.sets.at("global").front();
-      state.mass += *condition.people * kPersonMass / deck.attributes.at("deck_mass") * deck.mass.part(columns);
-    }
-    for (const Cause& cause : hidden.causes) apply(cause, condition, state);
-    if (condition.dampers_on.value_or(false))
-      for (const ReducedPlace& damper : model.sets.at("dampers")) add_damper(damper, hidden.causes, state);
+    const State state = state_in(condition, model, hidden.causes, map.matrices(base, columns), columns);
     const Modes modes = modes_of(state);
-    VectorXd damping = VectorXd::Constant(modes.omega.size(), 0.01);
-    for (Index i = 0; i < std::min<Index>(12, damping.size()); ++i)
-      damping[i] = 0.005 * std::exp(0.3 * normal_number(seed, 2, static_cast<std::uint64_t>(i)));
+    const VectorXd damping = damping_of(modes.omega.size(), seed);
     Index amplitude_channel = 0;
     for (std::size_t k = 0; k < bench.rows.channels.size(); ++k)
       if (bench.rows.channels[k] == condition.amplitude_channel) amplitude_channel = static_cast<Index>(k);
@@ -203,22 +246,9 @@ Campaign integrated_records(const Bench& bench, const Hidden& hidden) {
     }
     Run run = integrate(modes, damping, state, channels, amplitude_channel, force, kSeconds, seed, stream);
     condition.amplitude_m = run.rms_m;
-    run.acceleration *= gain.asDiagonal();
-    for (const Cause& cause : hidden.causes)
-      for (const diagnosis::ActionSpec& action : cause.candidate->hypothesis->actions) {
-        const auto& at = cause.candidate->channels;
-        if (action.kind == "channel.gain")
-          run.acceleration.col(at[0]) *= cause.candidate->value(action.number.at("factor"), cause.a);
-        if (action.kind == "channel.sign") run.acceleration.col(at[0]) *= -1.0;
-        if (action.kind == "channel.swap") run.acceleration.col(at[0]).swap(run.acceleration.col(at[1]));
-      }
-    MatrixXd record = signal::decimated(run.acceleration, kDecimation);
-    const double noise = kSensorNoise * std::sqrt(record.squaredNorm() / static_cast<double>(record.size()));
-    for (Index ch = 0; ch < record.cols(); ++ch)
-      for (Index t = 0; t < record.rows(); ++t)
-        record(t, ch) +=
-            noise * normal_number(seed, stream + 9000 + static_cast<std::uint64_t>(ch), static_cast<std::uint64_t>(t));
-    campaign.records.push_back(std::move(record));
+    run.acceleration *= drawn.gain.asDiagonal();
+    disturb(hidden.causes, run.acceleration);
+    campaign.records.push_back(logged(run.acceleration, seed, stream + 9000));
   }
   return campaign;
 }

@@ -183,6 +183,103 @@ int dry_run(const twindeck::blind::Bench& bench, const std::vector<std::string>&
   return print_shares(hidden, count >= 400 ? 5 : count / 80) ? 0 : 1;
 }
 
+/// How often each family was hidden, found, named and in the reported set. @return whether none was hidden too seldom
+bool print_families(const std::vector<Score>& scores, const std::vector<std::string>& catalogue) {
+  std::map<std::string, std::array<int, 4>> families;
+  for (const std::string& family : catalogue) families[family] = {};
+  for (const Score& s : scores) {
+    auto& f = families[s.kind == "effect" ? s.family : "(" + s.kind + ")"];
+    f[0] += 1;
+    f[1] += s.detected;
+    f[2] += s.kind == "null" ? 0 : s.family_named;
+    f[3] += s.in_set;
+  }
+  fmt::print("\nby family: cases, detected, family named, truth in the reported set\n");
+  for (const auto& [family, f] : families) fmt::print("  {:<12} {:>4} {:>4} {:>4} {:>4}\n", family, f[0], f[1], f[2], f[3]);
+  std::map<std::string, int> alone;
+  for (const std::string& family : catalogue) alone[family] = families[family][0];
+  return scores.size() < 400 || print_shares(alone, 5);
+}
+
+/// Sizes of the reported sets and what they predict of rows held out. @return whether the sets are small enough, where that is
+/// judged
+bool print_sets(const std::vector<Score>& scores, twindeck::blind::Judge judge) {
+  double sizes = 0.0, squares = 0.0;
+  int sets = 0;
+  std::vector<double> ratios, with_truth;
+  for (const Score& s : scores) {
+    if (s.kind != "effect" || !s.detected || s.set_size <= 0) continue;
+    sizes += s.set_size;
+    squares += s.set_size * s.set_size;
+    ++sets;
+    ratios.push_back(s.held_out_ratio);
+    with_truth.push_back(s.ratio_with_truth);
+  }
+  if (sets < 2) return true;
+  const double mean = sizes / sets, half = 1.96 * std::sqrt(std::max(squares / sets - mean * mean, 0.0) / (sets - 1));
+  const bool wrong = mean - half > 1.5 && judge == twindeck::blind::Judge::targets;
+  fmt::print("  mean size of the reported set {:.2f} [{:.2f}, {:.2f}], target <= 1.5  {}\n", mean, mean - half, mean + half,
+             wrong ? "MISSED" : "held");
+  fmt::print(
+      "  held-out RMS, after over before, median of {} accepted causes {:.2f}, target <= 0.8; with the truth known {:.2f}\n",
+      ratios.size(), median(ratios), median(with_truth));
+  return !wrong;
+}
+
+void print_seconds(const std::vector<Score>& scores) {
+  double seconds = 0.0, slowest = 0.0;
+  for (const Score& s : scores) {
+    seconds += s.seconds / static_cast<double>(scores.size());
+    slowest = std::max(slowest, s.seconds);
+  }
+  fmt::print("  CPU seconds a trial: mean {:.2f}, largest {:.2f}, target <= 5\n", seconds, slowest);
+}
+
+void print_errors_of_sizes(const std::vector<Score>& scores) {
+  std::map<std::string, std::vector<double>> errors;
+  int limits = 0;
+  for (const Score& s : scores) {
+    limits += s.sized && s.one_sided;
+    if (s.sized && !s.one_sided) errors[s.family].push_back(s.magnitude_error);  // a limit has no size to compare
+  }
+  fmt::print("median relative error of the magnitude, where the entry is exact:");
+  for (const auto& [family, values] : errors) fmt::print(" {} {:.1f} % ({})", family, 100.0 * median(values), values.size());
+  fmt::print("; {} more have a limit on one side only\n", limits);
+}
+
+/// `count` trials from seed `first` on: run, scored and, without the model's form, judged. @return exit code
+int score_trials(const twindeck::blind::Bench& bench, const std::vector<std::string>& catalogue, int count, std::uint64_t first,
+                 bool with_form) {
+  const char* budget = std::getenv("TWINDECK_BLIND_SECONDS");
+  const auto run = [&](std::uint64_t seed) {
+    return twindeck::blind::run_case(bench, twindeck::blind::make_case(bench, seed), with_form);
+  };
+  const auto scores = run_all(
+      count, budget ? std::atof(budget) : 1e9, [&](int i) { return run(first + static_cast<std::uint64_t>(i)); },
+      [&](int i, const Score& s) { return line_of(first + static_cast<std::uint64_t>(i), s); });
+  if (static_cast<int>(scores.size()) < count)
+    fmt::print("{} of {} trials ran in the time given: the first ones in order, none left out\n", scores.size(), count);
+  const bool shared_out = print_families(scores, catalogue);
+  // Fewer trials settle no target: of 19 effects the family of 16 is named once in six runs of a method that names 93 %.
+  const auto judge = scores.size() < 400 ? twindeck::blind::Judge::own_rates : twindeck::blind::Judge::targets;
+  fmt::print("\nscore, exact 95 % intervals\n");
+  bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores, judge) && shared_out;
+  print_what_limits_families(scores);
+  held = print_sets(scores, judge) && held;
+  print_seconds(scores);
+  print_errors_of_sizes(scores);
+  if (std::getenv("TWINDECK_FRESH") != nullptr) {
+    const std::uint64_t seed = std::random_device{}();
+    fmt::print("\none trial with a fresh seed, {}:\n{}\n", seed, line_of(seed, run(seed)));
+  }
+  if (with_form) return 0;
+  const char* what = judge == twindeck::blind::Judge::targets
+                         ? "target is missed"
+                         : "count is worse than the method's own rate gives in a thousand runs";
+  fmt::print("{} {}\n", held ? "no" : "a", what);
+  return held ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -194,7 +291,6 @@ int main(int argc, char** argv) {
   const int shift = nulls ? 1 : 0;
   const int count = argc > 1 + shift ? std::atoi(argv[1 + shift]) : 60;
   const auto first = static_cast<std::uint64_t>(argc > 2 + shift ? std::atoll(argv[2 + shift]) : nulls ? 100001 : 1);
-  const char* budget = std::getenv("TWINDECK_BLIND_SECONDS");
   const auto bench = twindeck::blind::make_bench();
   const auto catalogue = twindeck::blind::families_of(bench);
   fmt::print(
@@ -210,75 +306,5 @@ int main(int argc, char** argv) {
     return print_coverage(bench, std::atoi(argv[2]), {argv + 3, argv + argc});
   if (argc > 2 && std::string(argv[1]) == "--count") return dry_run(bench, catalogue, std::atoi(argv[2]), 1);
   if (nulls) return null_calibration(bench, count, first);
-  const auto run = [&](std::uint64_t seed) {
-    return twindeck::blind::run_case(bench, twindeck::blind::make_case(bench, seed), with_form);
-  };
-  const auto scores = run_all(
-      count, budget ? std::atof(budget) : 1e9, [&](int i) { return run(first + static_cast<std::uint64_t>(i)); },
-      [&](int i, const Score& s) { return line_of(first + static_cast<std::uint64_t>(i), s); });
-  if (static_cast<int>(scores.size()) < count)
-    fmt::print("{} of {} trials ran in the time given: the first ones in order, none left out\n", scores.size(), count);
-  std::map<std::string, std::array<int, 4>> families;
-  for (const std::string& family : catalogue) families[family] = {};
-  for (const Score& s : scores) {
-    auto& f = families[s.kind == "effect" ? s.family : "(" + s.kind + ")"];
-    f[0] += 1;
-    f[1] += s.detected;
-    f[2] += s.kind == "null" ? 0 : s.family_named;
-    f[3] += s.in_set;
-  }
-  fmt::print("\nby family: cases, detected, family named, truth in the reported set\n");
-  for (const auto& [family, f] : families) fmt::print("  {:<12} {:>4} {:>4} {:>4} {:>4}\n", family, f[0], f[1], f[2], f[3]);
-  std::map<std::string, int> alone;
-  for (const std::string& family : catalogue) alone[family] = families[family][0];
-  const bool shared_out = scores.size() < 400 || print_shares(alone, 5);
-  const auto effect = [](const Score& s) { return s.kind == "effect"; };
-  const auto found = [&](const Score& s) { return effect(s) && s.detected; };
-  // Fewer trials settle no target: of 19 effects the family of 16 is named once in six runs of a method that names 93 %.
-  const auto judge = scores.size() < 400 ? twindeck::blind::Judge::own_rates : twindeck::blind::Judge::targets;
-  fmt::print("\nscore, exact 95 % intervals\n");
-  bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores, judge) && shared_out;
-  print_what_limits_families(scores);
-  double sizes = 0.0, squares = 0.0, seconds = 0.0, slowest = 0.0;
-  int sets = 0, limits = 0;
-  std::vector<double> ratios, with_truth;
-  std::map<std::string, std::vector<double>> errors;
-  for (const Score& s : scores) {
-    seconds += s.seconds / static_cast<double>(scores.size());
-    slowest = std::max(slowest, s.seconds);
-    if (found(s) && s.set_size > 0) {
-      sizes += s.set_size;
-      squares += s.set_size * s.set_size;
-      ++sets;
-      ratios.push_back(s.held_out_ratio);
-      with_truth.push_back(s.ratio_with_truth);
-    }
-    limits += s.sized && s.one_sided;
-    if (s.sized && !s.one_sided) errors[s.family].push_back(s.magnitude_error);  // a limit has no size to compare
-  }
-  if (sets > 1) {
-    const double mean = sizes / sets, half = 1.96 * std::sqrt(std::max(squares / sets - mean * mean, 0.0) / (sets - 1));
-    const bool wrong = mean - half > 1.5 && judge == twindeck::blind::Judge::targets;
-    held = held && !wrong;
-    fmt::print("  mean size of the reported set {:.2f} [{:.2f}, {:.2f}], target <= 1.5  {}\n", mean, mean - half, mean + half,
-               wrong ? "MISSED" : "held");
-    const double ratio = median(ratios);
-    fmt::print(
-        "  held-out RMS, after over before, median of {} accepted causes {:.2f}, target <= 0.8; with the truth known {:.2f}\n",
-        ratios.size(), ratio, median(with_truth));
-  }
-  fmt::print("  CPU seconds a trial: mean {:.2f}, largest {:.2f}, target <= 5\n", seconds, slowest);
-  fmt::print("median relative error of the magnitude, where the entry is exact:");
-  for (const auto& [family, values] : errors) fmt::print(" {} {:.1f} % ({})", family, 100.0 * median(values), values.size());
-  fmt::print("; {} more have a limit on one side only\n", limits);
-  if (std::getenv("TWINDECK_FRESH") != nullptr) {
-    const std::uint64_t seed = std::random_device{}();
-    fmt::print("\none trial with a fresh seed, {}:\n{}\n", seed, line_of(seed, run(seed)));
-  }
-  if (with_form) return 0;
-  const char* what = judge == twindeck::blind::Judge::targets
-                         ? "target is missed"
-                         : "count is worse than the method's own rate gives in a thousand runs";
-  fmt::print("{} {}\n", held ? "no" : "a", what);
-  return held ? 0 : 1;
+  return score_trials(bench, catalogue, count, first, with_form);
 }

@@ -13,6 +13,7 @@
 #include "broken_inputs/case_table.hpp"
 #include "broken_inputs/made_record.hpp"
 #include "io/npy.hpp"
+#include "npy_double.hpp"
 
 namespace twindeck::broken {
 namespace {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "core/random.hpp"
-#include "io/npy.hpp"
+#include "npy_double.hpp"
 #include "records/record.hpp"
 #include "records/universal.hpp"
 #include "universal_series.hpp"

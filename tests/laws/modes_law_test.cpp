@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "dynamics/eigenmodes.hpp"
+#include "inertia.hpp"
 #include "linalg/generalized_eigen.hpp"
-#include "linalg/inertia.hpp"
 #include "random_system.hpp"
 #include "sensitivity/eigen_sensitivity.hpp"
 
@@ -49,7 +49,7 @@ TEST_P(ModesLaw, NoModeIsPassedOver) {
   for (int i = 0; i + 1 < kModes; ++i) {
     if (modes.eigenvalue[i + 1] - modes.eigenvalue[i] < 1e-6 * modes.eigenvalue[i]) continue;
     const double between = 0.5 * (modes.eigenvalue[i] + modes.eigenvalue[i + 1]);
-    EXPECT_EQ(twindeck::linalg::count_eigenvalues_below(s.stiffness(s.initial()), solver.mass(), between), i + 1);
+    EXPECT_EQ(count_eigenvalues_below(s.stiffness(s.initial()), solver.mass(), between), i + 1);
   }
 }
 

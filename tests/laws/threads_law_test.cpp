@@ -5,9 +5,8 @@
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
-#include "ponte/generator.hpp"
+#include "prototype_bridge.hpp"
 #include "sensitivity/eigen_sensitivity.hpp"
-#include "test_places.hpp"
 
 namespace {
 
@@ -20,8 +19,7 @@ struct Result {
 
 Result with_threads(int threads) {
   twindeck::set_thread_count(threads);
-  const auto model = twindeck::ponte::generate_compatible(
-      std::string(TWINDECK_SOURCE_DIR) + "/data/ponte_del_mare/prototype.toml", "preliminary");
+  const auto model = twindeck::tests::prototype_bridge("preliminary");
   const Eigen::VectorXd theta = twindeck::fe::initial_parameters(model);
   const auto state = twindeck::fe::find_prestress(model, theta);
   const auto system = twindeck::fe::assemble(model, state);

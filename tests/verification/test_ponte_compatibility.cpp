@@ -3,7 +3,7 @@
 // alone leave 0.007 %.
 #include <cstdio>
 
-#include "ponte/generator.hpp"
+#include "prototype_bridge.hpp"
 #include "test_ponte_reference.hpp"
 
 namespace twindeck {
@@ -15,7 +15,7 @@ TEST_P(PonteCompatibility, ReturnsThePrototypesFrequencies) {
   const std::string variant = GetParam();
   const std::vector<double> expected = reference::frequencies().at(variant);
   ASSERT_EQ(expected.size(), 16U);
-  const fe::Model model = ponte::generate_compatible(reference::bridge_toml(), variant);
+  const fe::Model model = tests::prototype_bridge(variant);
   const reference::Solved solved = reference::solve(model, 16);
   // The mast of the preliminary variant is filled to its top, so it lacks the node at the end of the infill.
   EXPECT_EQ(solved.dofs, variant == "preliminary" ? 4740 : 4746);

@@ -3,7 +3,7 @@
 // may move no frequency by 3 %.
 #include <cstdio>
 
-#include "ponte/generator.hpp"
+#include "prototype_bridge.hpp"
 #include "test_ponte_reference.hpp"
 
 namespace twindeck {
@@ -14,7 +14,7 @@ class PonteFormulation : public ::testing::TestWithParam<const char*> {};
 TEST_P(PonteFormulation, StaysWithinThreePercentOfThePrototype) {
   const std::string variant = GetParam();
   const std::vector<double> expected = reference::frequencies().at(variant);
-  const reference::Solved solved = reference::solve(ponte::generate(reference::bridge_toml(), variant), 16);
+  const reference::Solved solved = reference::solve(ponte::generate(tests::prototype_toml(), variant), 16);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const double f = solved.frequency_Hz[static_cast<Eigen::Index>(i)];
     const double difference_pct = 100.0 * (f / expected[i] - 1.0);

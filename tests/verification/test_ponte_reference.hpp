@@ -15,10 +15,6 @@
 /// What a prototype of the bridge, written independently in another language with its own elements, returned for each variant.
 namespace twindeck::reference {
 
-inline std::filesystem::path bridge_toml() {
-  return std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
-}
-
 /// Frequencies by variant [Hz], printed to 0.1 mHz.
 inline std::map<std::string, std::vector<double>> frequencies() {
   const auto table =

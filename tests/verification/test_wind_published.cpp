@@ -70,7 +70,7 @@ TEST(WindPublished, IabseFlatPlate) {
   // The benchmark's own numbers come out when the apparent moment of inertia is left out, as its flat plate does.
   const auto system = iabse_flat_plate(false);
   const auto branches = follow_all(system, speeds(1, 80, 1));
-  const double found = aero::lowest_critical_point(system, branches).value().speed_m_s;
+  const double found = lowest_critical_point(system, branches).value().speed_m_s;
   report("IABSE flat plate, as the benchmark [m/s]", found, 77.45);
   EXPECT_NEAR(found / 77.45, 1.0, 0.001);
   // In-wind modes, printed to four digits. Torsion 0.2 % and 0.0015. Heave is damped up to 55 %, where forces of harmonic
@@ -105,7 +105,7 @@ TEST(WindPublished, StorebaeltSectionWith18Derivatives) {
   const auto system = section_model(structure({0.052, 0.1, 0.278}, 0.003), 31, 1.22, derivatives,
                                     {{1 / std::sqrt(m), 0, 0}, {0, 1 / std::sqrt(m), 0}, {0, 0, 1 / std::sqrt(J)}});
   const auto branches = follow_all(system, speeds(1, 76, 1));
-  const double found = aero::lowest_critical_point(system, branches).value().speed_m_s;
+  const double found = lowest_critical_point(system, branches).value().speed_m_s;
   report("Storebaelt section, flutter [m/s]", found, 72.3);
   EXPECT_NEAR(found / 72.3, 1.0, 0.005);
   // Torsion in wind; the source fits curves through the derivatives, we join them by lines: 1 % and 0.002.
@@ -164,7 +164,7 @@ TEST(WindPublished, IabseFullBridgeWithTwelveModes) {
                                        {{"deck", 31, aero::Polar::linear({}), iabse_bridge_derivatives()}}, strips, motions,
                                        wind, aero::everywhere(aero::published_yaw_rule("A")));
   const auto branches = follow_all(system, speeds(1, 72, 1));
-  const double found = aero::lowest_critical_point(system, branches).value().speed_m_s;
+  const double found = lowest_critical_point(system, branches).value().speed_m_s;
   report("IABSE full bridge, flutter [m/s]", found, 69.8);
   EXPECT_NEAR(found / 69.8, 1.0, 0.005);
   const std::array<std::array<double, 3>, 5> published = {
@@ -204,25 +204,30 @@ TEST(WindPublished, SimplySupportedThinPlate) {
   std::vector<aero::Branch> branches;
   for (int mode = 1; mode <= 3; ++mode)
     branches.push_back(aero::follow_mode(system, starts[static_cast<std::size_t>(mode - 1)], mode, speeds(5, 145, 5)));
-  const auto found = aero::lowest_critical_point(system, branches).value();
+  const auto found = lowest_critical_point(system, branches).value();
   report("Simply supported thin plate, flutter [m/s]", found.speed_m_s, 139.9);
   report("Simply supported thin plate, flutter [Hz]", found.frequency_Hz, 0.3801);
   EXPECT_NEAR(found.speed_m_s / 139.9, 1.0, 0.005);
   EXPECT_NEAR(found.frequency_Hz / 0.3801, 1.0, 0.005);
 }
 
-// Cantilever modes of bending and of torsion, coupled by the offset of mass from the elastic axis.
-TEST(WindPublished, GolandWingWithExactTheodorsen) {
-  const double span = 6.096, b2 = 2 * 0.9144, EI = 9.773e6, GJ = 9.876e5, mass = 35.717, I_ea = 8.642, rho = 1.225;
+constexpr double kGolandSpan = 6.096;
+constexpr std::array<double, 8> kGolandRoots = {1.875104068711961,  4.694091132974175,  7.854757438237613, 10.995540734875467,
+                                                14.137168391046471, 17.278759532088237, 20.42035225104125, 23.561944901806445};
+
+/// Shape of a cantilever in bending, in the exponential form of cosh - cos - s (sinh - sin): no cancellation at the higher
+/// roots.
+double goland_bending(std::size_t i, double x) {
+  const double b = kGolandRoots[i], s = (std::cosh(b) + std::cos(b)) / (std::sinh(b) + std::sin(b)), t = b * x / kGolandSpan;
+  return 0.5 * ((1 - s) * std::exp(t) + (1 + s) * std::exp(-t)) - std::cos(t) + s * std::sin(t);
+}
+
+double goland_torsion(std::size_t i, double x) { return std::sin((static_cast<double>(i) + 0.5) * pi * x / kGolandSpan); }
+
+/// The wing by Ritz's method on eight shapes each of bending and torsion.
+aero::AeroelasticSystem goland_wing() {
+  const double span = kGolandSpan, b2 = 2 * 0.9144, EI = 9.773e6, GJ = 9.876e5, mass = 35.717, I_ea = 8.642, rho = 1.225;
   const double elastic_axis = 0.33 * b2, mass_axis = 0.43 * b2;
-  const std::array<double, 8> root = {1.875104068711961,  4.694091132974175,  7.854757438237613, 10.995540734875467,
-                                      14.137168391046471, 17.278759532088237, 20.42035225104125, 23.561944901806445};
-  const auto bending = [&](std::size_t i, double x) {
-    // exp form of cosh - cos - s (sinh - sin): no cancellation at the higher roots
-    const double b = root[i], s = (std::cosh(b) + std::cos(b)) / (std::sinh(b) + std::sin(b)), t = b * x / span;
-    return 0.5 * ((1 - s) * std::exp(t) + (1 + s) * std::exp(-t)) - std::cos(t) + s * std::sin(t);
-  };
-  const auto torsion = [&](std::size_t i, double x) { return std::sin((static_cast<double>(i) + 0.5) * pi * x / span); };
   const int n = 8, points = 400;
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2 * n, 2 * n), K = M, shape_z(points, 2 * n), shape_a(points, 2 * n);
   const double dx = span / points;
@@ -232,16 +237,16 @@ TEST(WindPublished, GolandWingWithExactTheodorsen) {
     const double x = (k + 0.5) * dx;
     for (int i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      shape_z(k, i) = bending(at, x);
+      shape_z(k, i) = goland_bending(at, x);
       shape_a(k, i) = 0;
       shape_z(k, n + i) = 0;
-      shape_a(k, n + i) = torsion(at, x);
+      shape_a(k, n + i) = goland_torsion(at, x);
     }
   }
   M += dx * (mass * shape_z.transpose() * shape_z + I_ea * shape_a.transpose() * shape_a +
              S * (shape_z.transpose() * shape_a + shape_a.transpose() * shape_z));
   for (int i = 0; i < n; ++i) {
-    const double b = root[static_cast<std::size_t>(i)];
+    const double b = kGolandRoots[static_cast<std::size_t>(i)];
     K(i, i) = EI * std::pow(b / span, 4) * span;  // integral of the squared shape is the span
     K(n + i, n + i) = GJ * std::pow((i + 0.5) * pi / span, 2) * span / 2;
   }
@@ -261,13 +266,18 @@ TEST(WindPublished, GolandWingWithExactTheodorsen) {
     for (int j = 0; j < 2 * n; ++j) columns.push_back({0.0, z(k, j) - (0.5 * b2 - elastic_axis) * a(k, j), a(k, j)});
     motions.push_back(motion(columns));
   }
-  const aero::AeroelasticSystem system(s, {{"wing", b2, aero::Polar::linear({}), std::make_shared<aero::FlatPlate>()}}, strips,
-                                       motions, wind, aero::everywhere(aero::published_yaw_rule("A")));
-  const auto starts = aero::still_air_modes(s);
+  return aero::AeroelasticSystem(s, {{"wing", b2, aero::Polar::linear({}), std::make_shared<aero::FlatPlate>()}}, strips,
+                                 motions, wind, aero::everywhere(aero::published_yaw_rule("A")));
+}
+
+// Cantilever modes of bending and of torsion, coupled by the offset of mass from the elastic axis.
+TEST(WindPublished, GolandWingWithExactTheodorsen) {
+  const aero::AeroelasticSystem system = goland_wing();
+  const auto starts = aero::still_air_modes(system.structure());
   std::vector<aero::Branch> branches;
   for (int mode = 1; mode <= 2; ++mode)
     branches.push_back(aero::follow_mode(system, starts[static_cast<std::size_t>(mode - 1)], mode, speeds(10, 150, 5)));
-  const auto found = aero::lowest_critical_point(system, branches).value();
+  const auto found = lowest_critical_point(system, branches).value();
   report("Goland wing, flutter [m/s]", found.speed_m_s, 136.983977);
   report("Goland wing, flutter [rad/s]", 2 * pi * found.frequency_Hz, 70.033013);
   EXPECT_NEAR(found.speed_m_s / 136.983977, 1.0, 5e-4);

@@ -64,8 +64,19 @@ inline std::vector<aero::Branch> follow_all(const aero::AeroelasticSystem& syste
   return branches;
 }
 
+/// The lowest critical point of the branches.
+inline std::optional<aero::CriticalPoint> lowest_critical_point(const aero::AeroelasticSystem& system,
+                                                                const std::vector<aero::Branch>& branches) {
+  std::optional<aero::CriticalPoint> lowest;
+  for (const aero::Branch& branch : branches) {
+    const std::optional<aero::CriticalPoint> found = aero::critical_point(system, branch);
+    if (found && (!lowest || found->speed_m_s < lowest->speed_m_s)) lowest = found;
+  }
+  return lowest;
+}
+
 inline double critical_speed(const aero::AeroelasticSystem& system, const std::vector<double>& v) {
-  const auto found = aero::lowest_critical_point(system, follow_all(system, v));
+  const auto found = lowest_critical_point(system, follow_all(system, v));
   return found ? found->speed_m_s : std::nan("");
 }
 

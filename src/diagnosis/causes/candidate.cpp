@@ -79,6 +79,13 @@ std::map<std::string, double> own_frequency(const Candidate& candidate, const Fe
   return {{"f_own", modelled->second}, {"f_own_low", 0.6 * modelled->second}, {"f_own_high", 1.6 * modelled->second}};
 }
 
+std::set<int> measured_channels(const FeatureSet& features) {
+  std::set<int> measured;
+  for (const Row& row : features.rows)
+    if (row.channel >= 0) measured.insert(row.channel);
+  return measured;
+}
+
 /// Whether load tests are there, and a support of this name holds vertically.
 bool can_settle(const ReducedModel& model, const std::string& support) {
   const auto& grounds = model.load_tests.grounds;
@@ -86,92 +93,114 @@ bool can_settle(const ReducedModel& model, const std::string& support) {
                      [&](const Ground& ground) { return ground.support == support && ground.settle.squaredNorm() > 0.0; });
 }
 
+Candidate& add(const Hypothesis& h, const std::string& location, std::vector<Candidate>& found) {
+  found.emplace_back();
+  found.back().hypothesis = &h;
+  found.back().location = location;
+  return found.back();
+}
+
+void add_channels(const Hypothesis& h, const FeatureSet& features, std::vector<Candidate>& found) {
+  for (const int c : measured_channels(features))
+    add(h, "channel:" + features.channels[static_cast<std::size_t>(c)], found).channels = {c};
+}
+
+void add_pairs_of_channels(const Hypothesis& h, const FeatureSet& features, std::vector<Candidate>& found) {
+  const std::set<int> measured = measured_channels(features);
+  for (const int c : measured)
+    for (const int d : measured) {
+      if (d <= c) continue;
+      const auto& a = features.direction[static_cast<std::size_t>(c)];
+      const auto& b = features.direction[static_cast<std::size_t>(d)];
+      const bool known = a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0;
+      if (h.filter == "same_direction" && known && std::abs(a.dot(b)) < 0.7) continue;
+      const std::string& of_c = features.channels[static_cast<std::size_t>(c)];
+      add(h, "channels:" + of_c + "," + features.channels[static_cast<std::size_t>(d)], found).channels = {c, d};
+    }
+}
+
+/// Each measured mode once, in the order of the rows.
+void add_modes(const Hypothesis& h, const FeatureSet& features, std::vector<Candidate>& found) {
+  std::set<std::string> known;
+  for (const Row& row : features.rows)
+    if (row.type == RowType::frequency && known.insert(row.mode).second) add(h, "mode:" + row.mode, found).mode = row.mode;
+}
+
+/// Each node with every other where there are up to nine, else with the four nearest of those that come after it.
+void add_pairs_of_nodes(const Hypothesis& h, const std::vector<ReducedPlace>& nodes, std::vector<Candidate>& found) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+      const double distance = (nodes[i].x_m - nodes[j].x_m).norm();
+      others.emplace_back(std::isfinite(distance) ? distance : static_cast<double>(j - i), j);
+    }
+    std::sort(others.begin(), others.end());
+    for (std::size_t k = 0; k < others.size() && (nodes.size() <= 9 || k < 4); ++k) {
+      const ReducedPlace& other = nodes[others[k].second];
+      add(h, "nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5), found).places = {&nodes[i], &other};
+    }
+  }
+}
+
+/// Places of a move: the dampers in the order of the moved forces, then where they go.
+void add_damper_moves(const Hypothesis& h, const ReducedModel& model, const std::vector<ReducedPlace>& moves,
+                      std::vector<Candidate>& found) {
+  for (const ReducedPlace& moved : moves) {
+    Candidate& candidate = add(h, moved.id, found);
+    std::string names = moved.id.substr(8, moved.id.find('@') - 8) + ",";
+    for (std::size_t comma = names.find(','); comma != std::string::npos; names.erase(0, comma + 1), comma = names.find(','))
+      candidate.places.push_back(model.place("dampers", "damper:" + names.substr(0, comma)));
+    candidate.places.push_back(&moved);
+    if (std::find(candidate.places.begin(), candidate.places.end(), nullptr) != candidate.places.end()) found.pop_back();
+  }
+}
+
+/// Places of a type: all dampers of it.
+void add_damper_types(const Hypothesis& h, const ReducedModel& model, const std::vector<ReducedPlace>& types,
+                      std::vector<Candidate>& found) {
+  for (const ReducedPlace& type : types) {
+    Candidate& all = add(h, type.id, found);
+    for (const ReducedPlace& damper : model.sets.at("dampers"))
+      if (damper.attributes.contains("type") && damper.attributes.at("type") == type.attributes.at("type"))
+        all.places.push_back(&damper);
+  }
+}
+
+/// Whether every factor has something to scale there.
+bool can_act(const Candidate& candidate, const ReducedModel& model) {
+  if (candidate.places.empty()) return true;
+  const ReducedPlace& place = *candidate.places[0];
+  return std::none_of(candidate.hypothesis->actions.begin(), candidate.hypothesis->actions.end(),
+                      [&](const ActionSpec& action) {
+                        return (action.kind.ends_with(".stiffness") && place.stiffness.size() == 0) ||
+                               (action.kind == "support.settle" && !can_settle(model, candidate.location)) ||
+                               (action.kind == "scale.mass" && place.mass.size() == 0);
+                      });
+}
+
 /// Locations of a set before bounds and priors.
 std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model, const FeatureSet& features) {
   std::vector<Candidate> found;
-  const auto add = [&](const std::string& location) -> Candidate& {
-    found.emplace_back();
-    found.back().hypothesis = &h;
-    found.back().location = location;
-    return found.back();
-  };
-  std::set<int> measured;
-  std::vector<std::string> modes;
-  for (const Row& row : features.rows) {
-    if (row.channel >= 0) measured.insert(row.channel);
-    if (row.type == RowType::frequency && std::find(modes.begin(), modes.end(), row.mode) == modes.end())
-      modes.push_back(row.mode);
-  }
+  const auto of_model = model.sets.find(h.set == "pairs(nodes)" ? "nodes" : h.set);
+  const bool there = of_model != model.sets.end();
   if (h.set == "channels") {
-    for (const int c : measured) add("channel:" + features.channels[static_cast<std::size_t>(c)]).channels = {c};
+    add_channels(h, features, found);
   } else if (h.set == "pairs(channels)") {
-    for (const int c : measured)
-      for (const int d : measured) {
-        if (d <= c) continue;
-        const auto& a = features.direction[static_cast<std::size_t>(c)];
-        const auto& b = features.direction[static_cast<std::size_t>(d)];
-        const bool known = a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0;
-        if (h.filter == "same_direction" && known && std::abs(a.dot(b)) < 0.7) continue;
-        add("channels:" + features.channels[static_cast<std::size_t>(c)] + "," + features.channels[static_cast<std::size_t>(d)])
-            .channels = {c, d};
-      }
+    add_pairs_of_channels(h, features, found);
   } else if (h.set == "modes") {
-    for (const std::string& mode : modes) add("mode:" + mode).mode = mode;
-  } else if (h.set == "pairs(nodes)") {
-    const auto at = model.sets.find("nodes");
-    if (at == model.sets.end()) return found;
-    const auto& nodes = at->second;
-    // Each node with its nearest few that are not its neighbours by name would be a choice of structure; without one, each with
-    // every other up to twelve nodes, else with its six nearest.
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      std::vector<std::pair<double, std::size_t>> others;
-      for (std::size_t j = i + 1; j < nodes.size(); ++j) {
-        const double distance = (nodes[i].x_m - nodes[j].x_m).norm();
-        others.emplace_back(std::isfinite(distance) ? distance : static_cast<double>(j - i), j);
-      }
-      std::sort(others.begin(), others.end());
-      for (std::size_t k = 0; k < others.size() && (nodes.size() <= 9 || k < 4); ++k) {
-        const ReducedPlace& other = nodes[others[k].second];
-        add("nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5)).places = {&nodes[i], &other};
-      }
-    }
-  } else if (h.set == "damper_moves") {
-    const auto alternatives = model.sets.find(h.set);
-    if (alternatives == model.sets.end()) return found;
-    for (const ReducedPlace& moved : alternatives->second) {
-      Candidate& candidate = add(moved.id);  // the dampers in the order of the moved forces, then where they go
-      std::string names = moved.id.substr(8, moved.id.find('@') - 8) + ",";
-      for (std::size_t comma = names.find(','); comma != std::string::npos; names.erase(0, comma + 1), comma = names.find(','))
-        candidate.places.push_back(model.place("dampers", "damper:" + names.substr(0, comma)));
-      candidate.places.push_back(&moved);
-      if (std::find(candidate.places.begin(), candidate.places.end(), nullptr) != candidate.places.end()) found.pop_back();
-    }
-  } else if (h.set == "damper_types") {
-    const auto types = model.sets.find(h.set);
-    if (types == model.sets.end()) return found;
-    for (const ReducedPlace& type : types->second) {
-      Candidate& all = add(type.id);
-      for (const ReducedPlace& damper : model.sets.at("dampers"))
-        if (damper.attributes.contains("type") && damper.attributes.at("type") == type.attributes.at("type"))
-          all.places.push_back(&damper);
-    }
-  } else if (const auto at = model.sets.find(h.set); at != model.sets.end()) {
-    for (const ReducedPlace& place : at->second) add(place.id).places = {&place};
+    add_modes(h, features, found);
+  } else if (there && h.set == "pairs(nodes)") {
+    add_pairs_of_nodes(h, of_model->second, found);
+  } else if (there && h.set == "damper_moves") {
+    add_damper_moves(h, model, of_model->second, found);
+  } else if (there && h.set == "damper_types") {
+    add_damper_types(h, model, of_model->second, found);
+  } else if (there) {
+    for (const ReducedPlace& place : of_model->second) add(h, place.id, found).places = {&place};
   }
   if (h.set == "stays")
     for (Candidate& candidate : found) candidate.own = own_frequency(candidate, features);
-  // A factor needs something to scale.
-  const auto nothing_there = [&](const Candidate& candidate) {
-    for (const ActionSpec& action : h.actions) {
-      if (candidate.places.empty()) continue;
-      if (action.kind.ends_with(".stiffness") && candidate.places[0]->stiffness.size() == 0) return true;
-      if (action.kind == "support.settle" && !can_settle(model, candidate.location)) return true;
-      if (action.kind == "scale.mass" && candidate.places[0]->mass.size() == 0) return true;
-    }
-    return false;
-  };
-  std::erase_if(found, nothing_there);
-  std::erase_if(found, [](const Candidate& candidate) { return !resolvable(candidate); });
+  std::erase_if(found, [&](const Candidate& candidate) { return !can_act(candidate, model) || !resolvable(candidate); });
   return found;
 }
 
@@ -242,72 +271,104 @@ MeasuredModes measured_modes(const FeatureSet& features) {
   return measured;
 }
 
-void bound(Candidate& candidate, const MeasuredModes& measured) {
-  const Hypothesis& h = *candidate.hypothesis;
-  const auto k = static_cast<Index>(h.unknowns.size());
-  candidate.low.resize(k);
-  candidate.high.resize(k);
-  struct Start {
-    double value;
-    Tuning tuning;
-  };
-  std::vector<std::vector<Start>> start;
-  for (Index i = 0; i < k; ++i) {
-    const UnknownSpec& u = h.unknowns[static_cast<std::size_t>(i)];
-    const auto resolve = [&](const Expression& e) { return e.name.empty() ? e.factor : e.factor * attribute(candidate, e); };
-    double low = resolve(u.low), high = resolve(u.high);
-    const bool change = !candidate.state.empty() && u.name == "factor";
-    if (change) {
-      const auto of_material = [&](const char* name, double otherwise) {
-        const auto found = candidate.places.empty() ? std::map<std::string, double>::const_iterator{}
-                                                    : candidate.places[0]->attributes.find(name);
-        return candidate.places.empty() || found == candidate.places[0]->attributes.end() ? otherwise : found->second;
-      };
-      low = of_material("least_change", std::min(low, kLeastChange));
-      high = of_material("most_change", std::max(high, kMostChange));
-    }
-    if (!(low < high) || (u.log && !(low > 0.0))) {
-      throw InputError({h.file, u.low.line, h.id + "." + u.name},
-                       fmt::format("bounds {} and {} at {}, expected low < high{}", low, high, candidate.location,
-                                   u.log ? ", both above 0" : ""),
-                       "mend low and high in the catalogue");
-    }
-    candidate.log.push_back(u.log);
-    candidate.low[i] = u.log ? std::log(low) : low;
-    candidate.high[i] = u.log ? std::log(high) : high;
-    std::vector<Start> tried, values;
-    for (const Expression& e : u.start) {
-      if (e.name == "f_measured") {
-        candidate.tuned = static_cast<int>(i);
-        for (const auto& [label, f] : measured.modes) tried.push_back({e.factor * f, {label, measured.condition, e.factor}});
-      } else {
-        tried.push_back({resolve(e), {}});
-      }
-    }
-    if (change)
-      for (const double start_at : kChangeStarts) tried.push_back({start_at, {}});
-    for (Start s : tried) {
-      if (!(s.value > low && s.value < high)) continue;
-      if (u.log) s.value = std::log(s.value);
-      values.push_back(s);
-    }
-    if (values.empty()) values = {{0.5 * (candidate.low[i] + candidate.high[i]), {}}};
-    start.push_back(values);
+/// A magnitude that the screen tries of one unknown, in the unknown's coordinate.
+struct Start {
+  double value;
+  Tuning tuning;
+};
+
+/// A number of the candidate's first place, `otherwise` where it has none.
+double of_material(const Candidate& candidate, const char* name, double otherwise) {
+  if (candidate.places.empty()) return otherwise;
+  const auto found = candidate.places[0]->attributes.find(name);
+  return found == candidate.places[0]->attributes.end() ? otherwise : found->second;
+}
+
+double resolved(const Candidate& candidate, const Expression& e) {
+  return e.name.empty() ? e.factor : e.factor * attribute(candidate, e);
+}
+
+/// Whether an unknown is the factor between two states of a structure.
+bool is_change(const Candidate& candidate, const UnknownSpec& u) { return !candidate.state.empty() && u.name == "factor"; }
+
+struct Range {
+  double low, high;
+};
+
+/// Bounds of an unknown at the candidate's place, in its own unit.
+/// @throws InputError  unless low < high
+Range range_of(const Candidate& candidate, const UnknownSpec& u) {
+  double low = resolved(candidate, u.low), high = resolved(candidate, u.high);
+  if (is_change(candidate, u)) {
+    low = of_material(candidate, "least_change", std::min(low, kLeastChange));
+    high = of_material(candidate, "most_change", std::max(high, kMostChange));
   }
-  candidate.starts = {Eigen::VectorXd(k)};
+  if (!(low < high) || (u.log && !(low > 0.0))) {
+    const Hypothesis& h = *candidate.hypothesis;
+    throw InputError({h.file, u.low.line, h.id + "." + u.name},
+                     fmt::format("bounds {} and {} at {}, expected low < high{}", low, high, candidate.location,
+                                 u.log ? ", both above 0" : ""),
+                     "mend low and high in the catalogue");
+  }
+  return {low, high};
+}
+
+/// Starts of an unknown within its bounds; the middle of its coordinate where there are none.
+std::vector<Start> starts_of(const Candidate& candidate, const UnknownSpec& u, const Range& range, double middle,
+                             const MeasuredModes& measured) {
+  std::vector<Start> tried, starts;
+  for (const Expression& e : u.start) {
+    if (e.name == "f_measured")
+      for (const auto& [label, f] : measured.modes) tried.push_back({e.factor * f, {label, measured.condition, e.factor}});
+    else
+      tried.push_back({resolved(candidate, e), {}});
+  }
+  if (is_change(candidate, u))
+    for (const double start_at : kChangeStarts) tried.push_back({start_at, {}});
+  for (Start s : tried) {
+    if (!(s.value > range.low && s.value < range.high)) continue;
+    if (u.log) s.value = std::log(s.value);
+    starts.push_back(s);
+  }
+  if (starts.empty()) starts = {{middle, {}}};
+  return starts;
+}
+
+/// Every combination of the unknowns' starts, the last unknown's running fastest.
+void combine(const std::vector<std::vector<Start>>& by_unknown, Candidate& candidate) {
+  candidate.starts = {Eigen::VectorXd(std::ssize(by_unknown))};
   candidate.tuning = {Tuning{}};
-  for (Index i = 0; i < k; ++i) {
+  for (std::size_t i = 0; i < by_unknown.size(); ++i) {
     std::vector<Eigen::VectorXd> grown;
     std::vector<Tuning> tuning;
     for (std::size_t n = 0; n < candidate.starts.size(); ++n)
-      for (const Start& s : start[static_cast<std::size_t>(i)]) {
+      for (const Start& s : by_unknown[i]) {
         grown.push_back(candidate.starts[n]);
-        grown.back()[i] = s.value;
+        grown.back()[static_cast<Index>(i)] = s.value;
         tuning.push_back(s.tuning.mode.empty() ? candidate.tuning[n] : s.tuning);
       }
     candidate.starts = grown;
     candidate.tuning = tuning;
   }
+}
+
+/// Bounds and starts of the unknowns at the candidate's place.
+void bound(Candidate& candidate, const MeasuredModes& measured) {
+  const Hypothesis& h = *candidate.hypothesis;
+  candidate.low.resize(std::ssize(h.unknowns));
+  candidate.high.resize(std::ssize(h.unknowns));
+  std::vector<std::vector<Start>> starts;
+  for (Index i = 0; i < std::ssize(h.unknowns); ++i) {
+    const UnknownSpec& u = h.unknowns[static_cast<std::size_t>(i)];
+    const Range range = range_of(candidate, u);
+    candidate.log.push_back(u.log);
+    candidate.low[i] = u.log ? std::log(range.low) : range.low;
+    candidate.high[i] = u.log ? std::log(range.high) : range.high;
+    if (std::any_of(u.start.begin(), u.start.end(), [](const Expression& e) { return e.name == "f_measured"; }))
+      candidate.tuned = static_cast<int>(i);
+    starts.push_back(starts_of(candidate, u, range, 0.5 * (candidate.low[i] + candidate.high[i]), measured));
+  }
+  combine(starts, candidate);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
@@ -43,6 +45,8 @@ fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const
 }
 
 const std::string& support_name(const fe::Spring& spring) { return spring.group.empty() ? spring.name : spring.group; }
+
+bool is_damper(const fe::Spring& spring) { return spring.damping > 0.0 || spring.friction_N > 0.0; }
 
 /// Two symmetric matrices that differ by a factor alone, or are both not there.
 bool alike(const Symmetric& a, const Symmetric& b) {
@@ -195,60 +199,44 @@ void ElementPlaces::add_stays(Places& places) const {
   }
 }
 
-void ElementPlaces::add_springs(Places& places) const {
-  std::vector<std::string> order;
-  // A spring may have the name of a support that is fixed in other directions: what is rigid there says nothing of the spring.
-  std::set<std::string> of_springs;
-  for (const fe::Spring& spring : model_.springs)
-    if (spring.damping == 0.0 && spring.friction_N == 0.0 && !stands_for_rigid(spring)) of_springs.insert(support_name(spring));
-  const auto place_name = [&](const fe::Spring& spring) {
-    const std::string name = support_name(spring);
-    return stands_for_rigid(spring) && of_springs.contains(name) ? name + " fixed" : name;
-  };
-  std::map<std::string, std::array<Sum, 2>> grounded;  // translations, rotations
-  std::map<std::string, Eigen::Vector3d> where;
-  std::set<std::string> rigid;
-  std::vector<std::string> types;
+Place ElementPlaces::damper_place(const fe::Spring& damper) const {
+  fe::Spring unit = damper;
+  unit.stiffness = 1.0;
+  const fe::ElementMatrix k = fe::spring_stiffness(unit);
+  // k = b b': b is its column of the largest diagonal entry over the root of that entry.
+  Index largest = 0;
+  k.matrix.diagonal().maxCoeff(&largest);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < k.dofs.size(); ++i)
+    entries.emplace_back(k.dofs[i], 0, k.matrix(static_cast<Index>(i), largest) / std::sqrt(k.matrix(largest, largest)));
+  Eigen::SparseMatrix<double> direction(expansion_.rows(), 1);
+  direction.setFromTriplets(entries.begin(), entries.end());
+  Place place{"damper:" + damper.name,
+              model_.nodes[static_cast<std::size_t>(damper.node)].x_m,
+              {},
+              {},
+              Eigen::SparseMatrix<double>(expansion_.transpose() * direction),
+              {},
+              {}};
+  place.attributes["damping"] = damper.damping;
+  place.attributes["stiffness"] = damper.stiffness;
+  place.attributes["series"] = damper.series ? 1.0 : 0.0;
+  place.attributes["always_on"] = damper.active ? 1.0 : 0.0;
+  if (damper.friction_N > 0.0) place.attributes["friction"] = damper.friction_N;
+  return place;
+}
+
+void ElementPlaces::add_dampers(Places& places) const {
+  std::vector<std::string> types;  // dampers of one make are wrong in the same way
   for (const fe::Spring& spring : model_.springs) {
-    const bool damper = spring.damping > 0.0 || spring.friction_N > 0.0;
-    const Eigen::Vector3d x = model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
-    if (damper) {
-      fe::Spring unit = spring;
-      unit.stiffness = 1.0;
-      const fe::ElementMatrix k = fe::spring_stiffness(unit);
-      std::vector<Eigen::Triplet<double>> entries;
-      const double sign = 1.0;
-      // k = b b': b is its column of the largest diagonal entry over the root of that entry.
-      Index largest = 0;
-      k.matrix.diagonal().maxCoeff(&largest);
-      for (std::size_t i = 0; i < k.dofs.size(); ++i)
-        entries.emplace_back(k.dofs[i], 0,
-                             sign * k.matrix(static_cast<Index>(i), largest) / std::sqrt(k.matrix(largest, largest)));
-      Eigen::SparseMatrix<double> direction(expansion_.rows(), 1);
-      direction.setFromTriplets(entries.begin(), entries.end());
-      Place place{"damper:" + spring.name, x, {}, {}, Eigen::SparseMatrix<double>(expansion_.transpose() * direction), {}, {}};
-      place.attributes["damping"] = spring.damping;
-      place.attributes["stiffness"] = spring.stiffness;
-      place.attributes["series"] = spring.series ? 1.0 : 0.0;
-      place.attributes["always_on"] = spring.active ? 1.0 : 0.0;
-      if (spring.friction_N > 0.0) place.attributes["friction"] = spring.friction_N;
-      if (!spring.group.empty()) {  // dampers of one make are wrong in the same way
-        const auto at = std::find(types.begin(), types.end(), spring.group);
-        place.attributes["type"] = static_cast<double>(at - types.begin());
-        if (at == types.end()) types.push_back(spring.group);
-      }
-      places.sets["dampers"].push_back(std::move(place));
-      continue;
+    if (!is_damper(spring)) continue;
+    Place place = damper_place(spring);
+    if (!spring.group.empty()) {
+      const auto at = std::find(types.begin(), types.end(), spring.group);
+      place.attributes["type"] = static_cast<double>(at - types.begin());
+      if (at == types.end()) types.push_back(spring.group);
     }
-    if (!fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
-    const std::string name = place_name(spring);
-    if (stands_for_rigid(spring)) rigid.insert(name);
-    if (!grounded.contains(name)) {
-      order.push_back(name);
-      grounded[name][0].size = grounded[name][1].size = expansion_.rows();
-      where[name] = x;
-    }
-    grounded.at(name)[spring.rotation ? 1 : 0].add(fe::spring_stiffness(spring));
+    places.sets["dampers"].push_back(std::move(place));
   }
   for (std::size_t type = 0; type < types.size(); ++type) {  // "dampers:C1,C2": all of a make together
     Place all{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
@@ -265,17 +253,45 @@ void ElementPlaces::add_springs(Places& places) const {
     all.attributes["type"] = static_cast<double>(type);
     places.sets["damper_types"].push_back(std::move(all));
   }
-  for (const std::string& name : order) {
+}
+
+void ElementPlaces::add_supports(Places& places) const {
+  // A spring may have the name of a support that is fixed in other directions: what is rigid there says nothing of the spring.
+  std::set<std::string> of_springs;
+  for (const fe::Spring& spring : model_.springs)
+    if (!is_damper(spring) && !stands_for_rigid(spring)) of_springs.insert(support_name(spring));
+  struct Support {
+    std::string name;
+    Eigen::Vector3d x_m;
+    bool rigid;
+    std::array<Sum, 2> stiffness;  // of translations, of rotations
+  };
+  std::vector<Support> supports;
+  std::map<std::string, std::size_t> position;
+  for (const fe::Spring& spring : model_.springs) {
+    if (is_damper(spring) || !fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
+    const bool rigid = stands_for_rigid(spring);
+    std::string name = support_name(spring);
+    if (rigid && of_springs.contains(name)) name += " fixed";
+    const auto [at, is_new] = position.try_emplace(name, supports.size());
+    if (is_new) {
+      const Eigen::Vector3d& x_m = model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
+      supports.push_back({name, x_m, false, {Sum{expansion_.rows(), {}}, Sum{expansion_.rows(), {}}}});
+    }
+    Support& support = supports[at->second];
+    support.rigid = support.rigid || rigid;
+    support.stiffness[spring.rotation ? 1 : 0].add(fe::spring_stiffness(spring));
+  }
+  for (const Support& support : supports) {
     for (const bool rotation : {false, true}) {
-      const Sum& sum = grounded.at(name)[rotation ? 1 : 0];
+      const Sum& sum = support.stiffness[rotation ? 1 : 0];
       if (sum.entries.empty()) continue;
-      Place place{"support:" + name, where.at(name), free(sum), {}, {}, {}, {}};
+      Place place{"support:" + support.name, support.x_m, free(sum), {}, {}, {}, {}};
       // A spring that stands for a rigid support must fall by orders before anything moves; a bearing may err both ways.
-      const bool stiff = rigid.contains(name);
-      place.attributes["f_low"] = stiff ? 1e-6 : 0.02;
-      place.attributes["f_soft"] = stiff ? 2e-5 : 0.25;
-      place.attributes["f_stiff"] = stiff ? 5e-4 : 4.0;
-      place.attributes["f_high"] = stiff ? 1e-2 : 30.0;
+      place.attributes["f_low"] = support.rigid ? 1e-6 : 0.02;
+      place.attributes["f_soft"] = support.rigid ? 2e-5 : 0.25;
+      place.attributes["f_stiff"] = support.rigid ? 5e-4 : 4.0;
+      place.attributes["f_high"] = support.rigid ? 1e-2 : 30.0;
       places.sets[rotation ? "foundations" : "supports"].push_back(std::move(place));
     }
   }

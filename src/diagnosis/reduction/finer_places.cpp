@@ -86,14 +86,6 @@ int NodeGraph::position(const std::string& name) const {
   return found == positions_.end() ? -1 : found->second;
 }
 
-double NodeGraph::spacing(const std::string& node) const {
-  const int at = position(node);
-  double least = kFar;
-  if (at >= 0)
-    for (const auto& [other, length] : edges_[static_cast<std::size_t>(at)]) least = std::min(least, length);
-  return std::isfinite(least) ? least : 0.0;
-}
-
 std::vector<NodeGraph::Reached> NodeGraph::reached_from(const std::vector<int>& located) const {
   std::vector<Reached> out(names_.size(), Reached{kFar, -1, -1});
   using Step = std::pair<double, int>;

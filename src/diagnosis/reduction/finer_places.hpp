@@ -23,8 +23,6 @@ class NodeGraph {
   /// @param located  names of the nodes that are candidate locations; unknown names are passed over
   /// @return         names, the shortest way first; empty where every neighbour of the centre is a location
   [[nodiscard]] std::vector<std::string> between(const std::string& centre, const std::vector<std::string>& located) const;
-  /// Length of the shortest edge at a node [m, or edges]; 0 for an unknown name.
-  [[nodiscard]] double spacing(const std::string& node) const;
 
  private:
   struct Reached {

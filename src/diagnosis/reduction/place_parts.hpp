@@ -19,8 +19,9 @@ class ElementPlaces {
 
   /// Set elements. @param points  what elements are near to; the middles of `centres` where empty
   void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
-  void add_stays(Places& places) const;    ///< set stays
-  void add_springs(Places& places) const;  ///< sets supports, foundations, dampers, damper_types
+  void add_stays(Places& places) const;     ///< set stays
+  void add_dampers(Places& places) const;   ///< sets dampers, damper_types
+  void add_supports(Places& places) const;  ///< sets supports, foundations
   /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as.
   void add_groups(Places& places) const;
   /// Set support_moves: where a support on a line of beams may stand instead.
@@ -37,6 +38,7 @@ class ElementPlaces {
   [[nodiscard]] Symmetric free(const Sum& sum) const;
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;
+  [[nodiscard]] Place damper_place(const fe::Spring& damper) const;
   [[nodiscard]] bool stands_for_rigid(const fe::Spring& spring) const;
 
   const Structure& structure_;

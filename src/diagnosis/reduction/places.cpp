@@ -169,7 +169,8 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
     else
       elements.add_zones(nearest_of(elements.centroids(), options.zone_centres), places, options.zone_centres);
     elements.add_stays(places);
-    elements.add_springs(places);
+    elements.add_dampers(places);
+    elements.add_supports(places);
     elements.add_groups(places);
     elements.add_support_moves(places);
     elements.add_moves(options.moves, places);

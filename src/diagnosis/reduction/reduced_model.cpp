@@ -236,6 +236,12 @@ struct ReducedModel::Kept {
   Eigen::MatrixXd low, answers;  ///< the modes and responses that own vectors are made of
   int vectors_per_place = 0;
   bool whole = false;  ///< V is the identity
+
+  /// The stiffness as the structure stands, and the factor that static corrections come from.
+  void factorize(const Structure& structure);
+  /// The common vectors, then each place's own.
+  OwnColumns make_basis(const Structure& structure, const Places& places, const dynamics::EigenModes& modes,
+                        const ReductionOptions& options);
 };
 
 namespace {
@@ -258,6 +264,24 @@ ReducedPlace reduced(const Place& place, bool scattered, const std::shared_ptr<c
   return out;
 }
 
+/// Modes as the structure stands; all that it has, where its masses are fewer than asked for.
+dynamics::EigenModes modes_of(const Structure& structure, const ReductionOptions& options) {
+  dynamics::ModalSolver solver(*structure.system);
+  dynamics::EigenModes modes =
+      solver.solve(structure.theta, static_cast<int>(std::min<Index>(options.modes, structure.system->size())));
+  if (!modes.status.converged && modes.frequency_Hz.size() > 0)
+    modes = solver.solve(structure.theta, static_cast<int>(modes.frequency_Hz.size()));
+  if (modes.frequency_Hz.size() == 0) throw InputError({structure.source, 0, ""}, "has no modes: " + modes.status.message, "");
+  return modes;
+}
+
+/// Answers to the loads of load tests, of unit strain energy.
+MatrixXd unit_answers(const LoadTests& tests, const linalg::Cholesky& factor, const Symmetric& stiffness) {
+  MatrixXd answers = factor.solve(loads_to_answer(tests));
+  for (Index c = 0; c < answers.cols(); ++c) answers.col(c) /= std::sqrt(answers.col(c).dot(stiffness * answers.col(c)));
+  return answers;
+}
+
 }  // namespace
 
 double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
@@ -277,76 +301,79 @@ const ReducedPlace* ReducedModel::place(const std::string& set, const std::strin
 }
 
 ReducedModel::ReducedModel(const Structure& structure, const Places& places, const ReductionOptions& options)
-    : parameters(structure.system->parameters), theta(structure.theta), total_mass_kg(places.total_mass_kg) {
-  const fe::ParametricSystem& system = *structure.system;
-  const Index n = system.size();
-  const bool whole = n <= options.full_below;
-
-  // 1. Modes as the structure stands, and the factor that static corrections come from.
-  dynamics::ModalSolver solver(system);
-  int wanted = static_cast<int>(std::min<Index>(options.modes, n));
-  dynamics::EigenModes modes = solver.solve(theta, wanted);
-  if (!modes.status.converged && modes.frequency_Hz.size() > 0)
-    modes = solver.solve(theta, static_cast<int>(modes.frequency_Hz.size()));  // fewer masses than that
-  if (modes.frequency_Hz.size() == 0) throw InputError({structure.source, 0, ""}, "has no modes: " + modes.status.message, "");
+    : parameters(structure.system->parameters),
+      theta(structure.theta),
+      total_mass_kg(places.total_mass_kg),
+      kept_(std::make_shared<Kept>()) {
+  const dynamics::EigenModes modes = modes_of(structure, options);
   frequency_Hz = modes.frequency_Hz;
-  const linalg::SparseMatrix lower = system.stiffness(theta);
-  kept_ = std::make_shared<Kept>();
-  Symmetric& stiffness_now = kept_->stiffness;
-  linalg::Cholesky& factor = kept_->factor;
-  stiffness_now = Symmetric(lower.selfadjointView<Eigen::Lower>());
-  if (!factor.factorize(lower).converged) {
-    const Symmetric mass_now = Symmetric(system.mass(theta).selfadjointView<Eigen::Lower>());
-    stiffness_now -= dynamics::free_structure_shift(lower, system.mass(theta)) * mass_now;
-    const linalg::SparseMatrix shifted = stiffness_now.triangularView<Eigen::Lower>();
-    const Status status = factor.factorize(shifted);
-    if (!status.converged) throw InputError({structure.source, 0, ""}, "has a singular stiffness: " + status.message, "");
-  }
-
-  // 2. The basis: common vectors, then each place's own.
-  Basis basis(stiffness_now, n);
-  const MatrixXd low = modes.shapes.leftCols(std::min<Index>(options.corrected_modes, modes.shapes.cols()));
-  kept_->low = low;
+  kept_->factorize(structure);
+  kept_->whole = structure.system->size() <= options.full_below;
+  kept_->low = modes.shapes.leftCols(std::min<Index>(options.corrected_modes, modes.shapes.cols()));
   kept_->vectors_per_place = options.vectors_per_place;
-  kept_->whole = whole;
-  std::map<std::string, std::vector<std::vector<int>>> own;
-  if (whole) {
-    kept_->basis = std::make_shared<ReducedBasis>(MatrixXd::Identity(n, n));
+  OwnColumns own;
+  if (kept_->whole) {
+    kept_->basis = std::make_shared<ReducedBasis>(MatrixXd::Identity(structure.system->size(), structure.system->size()));
   } else {
-    basis.append(modes.shapes);
-    basis.append(corrections(basis, factor, system, theta, modes.eigenvalue, low, places, options));
-    if (const auto dampers = places.sets.find("dampers"); dampers != places.sets.end())
-      for (const Place& damper : dampers->second) basis.append(factor.solve(MatrixXd(damper.directions)));
-    MatrixXd& answers = kept_->answers;
-    if (!structure.load_tests.empty()) {
-      answers = factor.solve(loads_to_answer(structure.load_tests));
-      for (Index c = 0; c < answers.cols(); ++c)
-        answers.col(c) /= std::sqrt(answers.col(c).dot(stiffness_now * answers.col(c)));
-      basis.append(answers);
-      basis.append(answer_corrections(basis, factor, system, theta, answers, places, options));
-    }
-    std::vector<const Place*> all;
-    std::vector<int> count;
-    for (const auto& [set, list] : places.sets)
-      for (const Place& place : list) {
-        const bool served = set == "dampers" || (set == "global" && place.directions.size() == 0);  // by the common vectors
-        all.push_back(&place);
-        // A support may go to any of its stations, each with a static response of its own.
-        const int kept = set == "support_moves" ? options.vectors_per_move : options.vectors_per_place;
-        count.push_back(served ? 0 : kept);
-      }
-    std::vector<MatrixXd> vectors(all.size());
-    parallel_for(all.size(), [&](std::size_t i) { vectors[i] = own_vectors(basis, factor, *all[i], low, answers, count[i]); });
-    kept_->basis = std::make_shared<ReducedBasis>(basis.vectors());
-    const std::vector<std::vector<int>> columns = kept_->basis->append(vectors);
-    std::size_t at = 0;
-    for (const auto& [set, list] : places.sets)
-      for (std::size_t i = 0; i < list.size(); ++i) own[set].push_back(columns[at++]);
+    own = kept_->make_basis(structure, places, modes, options);
   }
   common = static_cast<int>(kept_->basis->common());
   const MatrixXd& v = kept_->basis->vectors;
+  project(*structure.system, places, own);
+  sensors = structure.sensors(v);
+  load_tests = projected(structure.load_tests, v);
+  // modes = V q with q from the K inner product (V is K-orthonormal), or the modes themselves.
+  mode_coordinates = kept_->whole ? modes.shapes : MatrixXd(v.transpose() * (kept_->stiffness * modes.shapes));
+}
 
-  // 3. Everything in that basis, the largest first: whole groups take as long as hundreds of places.
+void ReducedModel::Kept::factorize(const Structure& structure) {
+  const linalg::SparseMatrix lower = structure.system->stiffness(structure.theta);
+  stiffness = Symmetric(lower.selfadjointView<Eigen::Lower>());
+  if (factor.factorize(lower).converged) return;
+  const linalg::SparseMatrix lower_mass = structure.system->mass(structure.theta);
+  stiffness -= dynamics::free_structure_shift(lower, lower_mass) * Symmetric(lower_mass.selfadjointView<Eigen::Lower>());
+  const linalg::SparseMatrix shifted = stiffness.triangularView<Eigen::Lower>();
+  const Status status = factor.factorize(shifted);
+  if (!status.converged) throw InputError({structure.source, 0, ""}, "has a singular stiffness: " + status.message, "");
+}
+
+ReducedModel::OwnColumns ReducedModel::Kept::make_basis(const Structure& structure, const Places& places,
+                                                        const dynamics::EigenModes& modes, const ReductionOptions& options) {
+  const fe::ParametricSystem& system = *structure.system;
+  Basis shared(stiffness, system.size());
+  shared.append(modes.shapes);
+  shared.append(corrections(shared, factor, system, structure.theta, modes.eigenvalue, low, places, options));
+  if (const auto dampers = places.sets.find("dampers"); dampers != places.sets.end())
+    for (const Place& damper : dampers->second) shared.append(factor.solve(MatrixXd(damper.directions)));
+  if (!structure.load_tests.empty()) {
+    answers = unit_answers(structure.load_tests, factor, stiffness);
+    shared.append(answers);
+    shared.append(answer_corrections(shared, factor, system, structure.theta, answers, places, options));
+  }
+
+  std::vector<const Place*> all;
+  std::vector<int> count;
+  for (const auto& [set, list] : places.sets)
+    for (const Place& place : list) {
+      const bool served = set == "dampers" || (set == "global" && place.directions.size() == 0);  // by the common vectors
+      all.push_back(&place);
+      // A support may go to any of its stations, each with a static response of its own.
+      const int wanted = set == "support_moves" ? options.vectors_per_move : options.vectors_per_place;
+      count.push_back(served ? 0 : wanted);
+    }
+  std::vector<MatrixXd> own(all.size());
+  parallel_for(all.size(), [&](std::size_t i) { own[i] = own_vectors(shared, factor, *all[i], low, answers, count[i]); });
+  basis = std::make_shared<ReducedBasis>(shared.vectors());
+  const std::vector<std::vector<int>> columns = basis->append(own);
+  OwnColumns by_set;
+  std::size_t at = 0;
+  for (const auto& [set, list] : places.sets)
+    for (std::size_t i = 0; i < list.size(); ++i) by_set[set].push_back(columns[at++]);
+  return by_set;
+}
+
+void ReducedModel::project(const fe::ParametricSystem& system, const Places& places, const OwnColumns& own) {
+  // The largest first: whole groups take as long as hundreds of places.
   struct Job {
     Index size;
     std::function<void()> run;
@@ -355,7 +382,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   const auto reduce_terms = [&](const std::vector<fe::Term>& terms, std::vector<Term>& out) {
     out.resize(terms.size());
     for (std::size_t t = 0; t < terms.size(); ++t)
-      jobs.push_back({n, [&, t] {
+      jobs.push_back({system.size(), [&, t] {
                         out[t] = {terms[t].coefficient, ReducedMatrix(symmetric_of(system, terms[t]), kept_->basis, true)};
                       }});
   };
@@ -367,9 +394,9 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
     reduced_set.resize(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Place& place = list[i];
-      const auto* columns = whole ? nullptr : &own.at(set)[i];
+      const auto* columns = kept_->whole ? nullptr : &own.at(set)[i];
       const auto reduce = [&, i, columns, scattered = is_scattered(set)] {
-        reduced_set[i] = reduced(place, scattered, kept_->basis, factor, total_mass_kg);
+        reduced_set[i] = reduced(place, scattered, kept_->basis, kept_->factor, total_mass_kg);
         if (columns != nullptr) reduced_set[i].columns = *columns;
       };
       jobs.push_back({place.stiffness.nonZeros() + place.mass.nonZeros(), reduce});
@@ -377,10 +404,6 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   }
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.size > b.size; });
   parallel_for(jobs.size(), [&](std::size_t i) { jobs[i].run(); });
-  sensors = structure.sensors(v);
-  load_tests = projected(structure.load_tests, v);
-  // modes = V q with q from the K inner product (V is K-orthonormal), or the modes themselves.
-  mode_coordinates = whole ? modes.shapes : MatrixXd(v.transpose() * (stiffness_now * modes.shapes));
 }
 
 void ReducedModel::extend(const Structure& structure, const Places& places, const std::string& set,

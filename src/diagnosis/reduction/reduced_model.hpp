@@ -75,6 +75,10 @@ class ReducedModel {
   [[nodiscard]] const ReducedPlace* place(const std::string& set, const std::string& id) const;
 
  private:
+  using OwnColumns = std::map<std::string, std::vector<std::vector<int>>>;  ///< of each place of each set
+  /// Terms and places in the coordinates of the basis.
+  void project(const fe::ParametricSystem& system, const Places& places, const OwnColumns& own);
+
   struct Kept;                  ///< what `extend` needs: the basis in full coordinates, the factor of K
   std::shared_ptr<Kept> kept_;  ///< a model that has copies cannot be extended
 };

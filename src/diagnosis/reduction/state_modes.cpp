@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "linalg/dense.hpp"
-#include "linalg/unsymmetric_eigen.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -363,8 +362,7 @@ class ModalRoots {
     system.block(2 * m, 0, p, m) = rate.asDiagonal() * stiff * low.transpose();
     system.block(2 * m, 2 * m, p, p) = -(rate.asDiagonal() * stiff);
     system.block(2 * m, 2 * m, p, p).diagonal() -= back;
-    const linalg::UnsymmetricEigen eigen = with_shapes ? linalg::unsymmetric_eigen(std::move(system))
-                                                       : linalg::UnsymmetricEigen{linalg::eigenvalues(std::move(system)), {}};
+    const linalg::UnsymmetricEigen eigen = linalg::unsymmetric_eigen(std::move(system), with_shapes);
     for (Index i = 0; i < eigen.values.size(); ++i) {
       const Complex s = eigen.values[i];
       if (!(s.imag() > 1e-6) || !oscillates(s) || std::abs(s) > highest) continue;

@@ -56,10 +56,12 @@ TEST(Forces, NodalBlocksThroughTheModesAreTheModalMatrices) {
       const aero::Strip& strip = system.strips()[i];
       const aero::StripBlock block =
           aero::self_excited(system.sections()[static_cast<std::size_t>(strip.section)], strip, rule, 1.25, 20.0, 4.0);
-      const aero::NodeBlock node = aero::to_global(block, aero::kinematics(strip, rule.axes, system.wind()));
-      damping += system.motions()[i].transpose() * node.damping * system.motions()[i];
-      stiffness += system.motions()[i].transpose() * node.stiffness * system.motions()[i];
-      symmetric = symmetric && node.damping.isApprox(node.damping.transpose());
+      // At the node in global axes: what the paper's pair of Matrix27 elements holds.
+      const aero::Kinematics r = aero::kinematics(strip, rule.axes, system.wind());
+      const Eigen::Matrix<double, 6, 6> c = r.transpose() * block.damping * r, k = r.transpose() * block.stiffness * r;
+      damping += system.motions()[i].transpose() * c * system.motions()[i];
+      stiffness += system.motions()[i].transpose() * k * system.motions()[i];
+      symmetric = symmetric && c.isApprox(c.transpose());
     }
     const aero::AeroelasticSystem::Block modal = system.self_excited(20.0, 4.0);
     EXPECT_TRUE(modal.damping.isApprox(damping, 1e-12)) << rule.name;

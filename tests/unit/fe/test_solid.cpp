@@ -73,18 +73,6 @@ TEST(Solid, PatchTest) {
   EXPECT_NEAR((u - exact.head<24>()).norm() / exact.head<24>().norm(), 0.0, 1e-12);
   // Forces on the faces are those of the stress, whose energy is ½ σ:ε V.
   EXPECT_NEAR(0.5 * exact.dot(k * exact), 0.5 * (3 * 2000.0 * 1e-3 + 3 * 400.0 * 1e-3), 1e-10);
-  for (const Element& e : model.elements) {
-    SolidGeometry g;
-    Vector24 displaced;
-    for (std::size_t i = 0; i < 8; ++i) {
-      g.node_m[i] = model.nodes[static_cast<std::size_t>(e.nodes[i])].x_m;
-      displaced.segment<3>(3 * static_cast<Eigen::Index>(i)) = exact.segment<3>(3 * e.nodes[i]);
-    }
-    const SolidState state = solid_centre_state(g, {1e6, 0.25}, displaced);
-    Eigen::Matrix<double, 6, 1> stress;
-    stress << 2000, 2000, 2000, 400, 400, 400;
-    EXPECT_NEAR((state.stress_Pa - stress).norm(), 0.0, 1e-8);
-  }
 }
 
 // Oracle: a body that moves as a whole has no strain; everything else does (rank 18, no zero-energy mode).

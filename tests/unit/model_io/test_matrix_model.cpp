@@ -69,7 +69,6 @@ TEST(MatrixModel, CarriesLabelsAndParameters) {
   EXPECT_EQ(system.parameters[1].target, fe::Target::matrix_mass);
   EXPECT_EQ(system.parameters[1].of, std::vector<std::string>{"b"});
   EXPECT_EQ(system.parameters[0].upper, 4.0);
-  EXPECT_EQ(model_files(folder.path()).size(), 6u);
 }
 
 TEST(MatrixModel, RoundTripKeepsEveryBit) {

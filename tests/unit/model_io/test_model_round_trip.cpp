@@ -166,13 +166,6 @@ TEST(ModelRoundTrip, WritesTheSameBytesAgain) {
   }
 }
 
-TEST(ModelRoundTrip, ListsItsFilesForTheManifest) {
-  const TestFolder folder;
-  write_model(one_of_everything(), folder.path());
-  EXPECT_EQ(model_files(folder.path()).size(), std::size(kFiles) + 2);  // and K, C of the matrix element
-  EXPECT_FALSE(is_matrix_model(folder.path()));
-}
-
 TEST(ModelRoundTrip, OptionalFilesAndColumnsMayBeMissing) {
   // Oracle: the defaults that fe/model.hpp documents; G = E / (2 (1 + nu)) of an isotropic material.
   const TestFolder folder;

@@ -6,12 +6,12 @@
 
 #include "core/error.hpp"
 #include "ponte/generator.hpp"
-#include "test_places.hpp"
+#include "prototype_bridge.hpp"
 
 namespace twindeck::ponte {
 namespace {
 
-const std::filesystem::path kPrototypeFile = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
+const std::filesystem::path kPrototypeFile = twindeck::tests::prototype_toml();
 
 // Message of generating `variant` from bridge.toml with `from` (its first occurrence) replaced by `to`; the error must name the
 // line of that place, or one so many lines below.

@@ -14,12 +14,12 @@
 
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
-#include "test_places.hpp"
+#include "prototype_bridge.hpp"
 
 namespace twindeck::ponte {
 namespace {
 
-const std::filesystem::path kBridge = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
+const std::filesystem::path kBridge = twindeck::tests::prototype_toml();
 
 const fe::Model& model(const std::string& variant) {
   static std::map<std::string, fe::Model> models;
@@ -335,7 +335,7 @@ TEST(Variants, BoundsAreThoseOfSection42) {
 }
 
 TEST(Variants, CompatibleModelHasThePrototypesPulls) {
-  const fe::Model m = generate_compatible(kBridge, "refined");
+  const fe::Model m = twindeck::tests::prototype_bridge("refined");
   EXPECT_EQ(m.prestress.rule, fe::PullRule::given);
   EXPECT_FALSE(m.formulation.shear_flexible);
   EXPECT_NEAR(stay(m, "SE6").pull_N, 368.77e3, 1.0);

@@ -8,12 +8,12 @@
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
 #include "ponte/generator.hpp"
-#include "test_places.hpp"
+#include "prototype_bridge.hpp"
 
 namespace twindeck::ponte {
 namespace {
 
-const std::filesystem::path kFormsFile = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/prototype.toml";
+const std::filesystem::path kFormsFile = twindeck::tests::prototype_toml();
 
 fe::Model formed(const Values& values) { return generate_with_values(kFormsFile, "refined", "", values); }
 

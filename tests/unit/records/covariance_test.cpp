@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "io/npy.hpp"
+#include "npy_double.hpp"
 
 namespace twindeck::records {
 namespace {

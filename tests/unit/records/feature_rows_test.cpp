@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "io/npy.hpp"
+#include "npy_double.hpp"
 
 namespace twindeck::records {
 namespace {

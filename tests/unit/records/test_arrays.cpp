@@ -4,7 +4,7 @@
 #include <matio.h>
 
 #include "core/error.hpp"
-#include "io/npy.hpp"
+#include "npy_double.hpp"
 #include "records/inspect.hpp"
 #include "scratch.hpp"
 

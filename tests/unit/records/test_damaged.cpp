@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "io/npy.hpp"
+#include "npy_double.hpp"
 #include "records/inspect.hpp"
 #include "records/survives.hpp"
 #include "refusal.hpp"

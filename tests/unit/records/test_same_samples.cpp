@@ -7,7 +7,9 @@
 #include <array>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "io/npy.hpp"
+#include "npy_double.hpp"
 #include "same_samples.hpp"
 #include "test_places.hpp"
 #include "universal_writer.hpp"

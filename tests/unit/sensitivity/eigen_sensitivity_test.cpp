@@ -13,7 +13,7 @@ using twindeck::dynamics::ModalSolver;
 using twindeck::fe::ParametricSystem;
 using twindeck::sensitivity::channel_shape_derivatives;
 using twindeck::sensitivity::frequency_jacobian;
-using twindeck::sensitivity::shape_derivative;
+using twindeck::sensitivity::ShapeSensitivity;
 using twindeck::tests::SpringChain;
 
 EigenModes solve(const ParametricSystem& system, const Eigen::VectorXd& theta, int n) {
@@ -78,7 +78,7 @@ TEST(FrequencyJacobian, SplitsRepeatedFrequencies) {
 void expect_shape_derivative(const ParametricSystem& system, int parameter, int n_modes, double h, double tolerance) {
   const Eigen::VectorXd theta = system.initial();
   const EigenModes modes = solve(system, theta, n_modes);
-  const Eigen::MatrixXd derivative = shape_derivative(system, theta, modes, parameter);
+  const Eigen::MatrixXd derivative = ShapeSensitivity(system, theta, modes).derivative(parameter);
   const auto shapes_at = [&](double step) {
     Eigen::VectorXd moved = theta;
     moved[parameter] += step;
@@ -191,7 +191,7 @@ TEST(ShapeDerivative, FollowsTheNormalisation) {
   const SpringChain chain{.n = 90};
   const auto system = chain.system();
   const EigenModes modes = solve(system, system.initial(), 5);
-  const Eigen::MatrixXd derivative = shape_derivative(system, system.initial(), modes, 1);
+  const Eigen::MatrixXd derivative = ShapeSensitivity(system, system.initial(), modes).derivative(1);
   EXPECT_LT((derivative + modes.shapes / (2.0 * chain.m)).norm(), 1e-8 * derivative.norm());
 }
 

@@ -10,13 +10,24 @@
 namespace twindeck::wind {
 namespace {
 
+/// sqrt(S_j) drift_j of each point.
+Eigen::VectorXcd of_points(const FieldDefinition& field, double f_Hz) {
+  return spectra(field, f_Hz).cwiseSqrt().cwiseProduct(drift(field, f_Hz));
+}
+
+/// S(f) of Eq. (13), Hermitian.
+Eigen::MatrixXcd cross_spectrum(const FieldDefinition& field, double f_Hz) {
+  const Eigen::VectorXcd point = of_points(field, f_Hz);
+  return point.asDiagonal() * coherence(field, f_Hz) * point.conjugate().asDiagonal();
+}
+
 TEST(Field, FactorTimesItsAdjointIsTheCrossSpectrum) {
   for (const Component c : components) {
     for (const bool frozen : {false, true}) {
       FieldDefinition field = test::two_arcs(c);
       field.frozen = frozen;
       for (const double f : {1.0 / 600.0, 0.01, 0.1, 0.7244, 3.0, 8.0}) {
-        const Eigen::MatrixXcd s = cross_spectrum(field, f), h = spectral_factor(field, f);
+        const Eigen::MatrixXcd s = cross_spectrum(field, f), h = of_points(field, f).asDiagonal() * coherence_factor(field, f);
         EXPECT_LT((h * h.adjoint() - s).cwiseAbs().maxCoeff() / s.cwiseAbs().maxCoeff(), 1e-10) << f;
         EXPECT_EQ(h.triangularView<Eigen::StrictlyUpper>().toDenseMatrix().cwiseAbs().maxCoeff(), 0.0);
       }
