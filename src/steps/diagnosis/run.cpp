@@ -5,12 +5,11 @@
 #include <chrono>
 #include <set>
 
+#include "diagnosis/files/measurement_corrections.hpp"
 #include "diagnosis/form_diagnosis.hpp"
 #include "diagnosis/refinement.hpp"
 #include "steps/diagnosis/extension.hpp"
-#include "steps/diagnosis/measurement_corrections.hpp"
 #include "steps/diagnosis/outputs.hpp"
-#include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/setup.hpp"
 
 /// The step from its inputs to its files, and what it says at the end.
@@ -30,7 +29,7 @@ void say_form(const diagnosis::FormReport& form, StepContext& context) {
 }
 
 /// The last lines of the step.
-void say_sentences(diagnosis::Verdict verdict, const Sentences& sentences, StepContext& context) {
+void say_sentences(diagnosis::Verdict verdict, const diagnosis::Sentences& sentences, StepContext& context) {
   context.say("verdict: " + name_of(verdict));
   context.say("  what is wrong: " + sentences.what);
   context.say("  why: " + sentences.why);
@@ -53,7 +52,7 @@ diagnosis::DiagnoseOptions options_of(const DiagnosisConfig& config, const Thres
 }
 
 void say_modes_explained(const diagnosis::Diagnosis& result, StepContext& context) {
-  if (const auto gain = explained_gain(result))
+  if (const auto gain = diagnosis::explained_gain(result))
     context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
 }
 
@@ -102,7 +101,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
     context.say("plan.csv says what these rows would see");
     return {};
   }
-  const bool form = with_form(config, inputs.features);  // its rules have thresholds of their own
+  const bool form = config.with_form(inputs.features);  // its rules have thresholds of their own
   const Threshold threshold =
       form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
   diagnosis::Refinement refinement(inputs.structure, inputs.places, *inputs.reduced, inputs.features);
@@ -112,29 +111,32 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
                                      : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
-  const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,
-                          inputs.places);
-  const IdsInWords ids = ids_in_words(places, inference, result.ranking);
-  put_into_words(result, places, ids);
+  const diagnosis::PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,
+                                     inputs.places);
+  const diagnosis::IdsInWords ids = diagnosis::ids_in_words(places, inference, result.ranking);
+  diagnosis::put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
   const diagnosis::Inference judged(result.with_form ? *result.with_form : map, entries.candidates);
   write_tables(judged, inputs, entries, result, context.out);
   const diagnosis::FullCheck check = checked(inputs, map, result, context);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
-  const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
-  const Told told{
-      places,     ids, sentences_of(judged, result, places, ids, next), next, diagnosis::model_parameters(inference, result),
-      corrections};
-  std::vector<Finding> account = inputs.account;
-  for (Finding& finding : account) finding.text = ids.in_text(finding.text);
+  const std::vector<records::Correction> corrections = diagnosis::corrections_of(result, inputs.features.channels);
+  const std::vector<std::string> next = diagnosis::measure_next(result, places, ids, entries.invisible);
+  const Told told{places,
+                  ids,
+                  diagnosis::sentences_of(judged, result, places, ids, next),
+                  next,
+                  diagnosis::model_parameters(inference, result),
+                  corrections};
+  std::vector<diagnosis::Finding> account = inputs.account;
+  for (diagnosis::Finding& finding : account) finding.text = ids.in_text(finding.text);
   write_diagnosis(result, account, told, check, config.residual_alpha, seconds, threshold.from, context.out / "diagnosis.json");
-  write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
-  for (const Finding& finding : account) context.say(finding.text);
+  diagnosis::write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
+  for (const diagnosis::Finding& finding : account) context.say(finding.text);
   say_modes_explained(result, context);
   if (result.form) say_form(*result.form, context);
   say_sentences(result.verdict, told.sentences, context);
-  for (const std::string& line : correction_advice(corrections)) context.say(line);
+  for (const std::string& line : diagnosis::correction_advice(corrections)) context.say(line);
   return {};
 }
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/bar_stays_effect.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/evidence.hpp"
+#include "diagnosis/files/load_test_files.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
 #include "steps/diagnosis/config.hpp"
-#include "steps/diagnosis/evidence.hpp"
-#include "steps/diagnosis/extended_stays.hpp"
-#include "steps/diagnosis/load_tests.hpp"
-#include "steps/diagnosis/model.hpp"
 #include "steps/diagnosis/read_files.hpp"
 #include "steps/shared/run_step.hpp"
 
@@ -19,18 +19,18 @@ namespace twindeck::steps {
 
 /// Everything that a diagnosis works on.
 struct DiagnosisInputs {
-  std::shared_ptr<DiagnosedModel> model;
+  std::shared_ptr<diagnosis::DiagnosedModel> model;
   diagnosis::Structure structure;  ///< borrows from `model`
   diagnosis::Places places;
   std::unique_ptr<diagnosis::ReducedModel> reduced;
   diagnosis::FeatureSet features;
-  std::vector<Correction> corrected;  ///< what of the features --correct has put right
+  std::vector<records::Correction> corrected;  ///< what of the features --correct has put right
   std::vector<diagnosis::Hypothesis> catalogue;
-  std::vector<Finding> account;             ///< what claims and rows say before any odds
-  LoadTestFiles load_tests;                 ///< where loads and gauges stand
-  std::optional<BarStaysEffect> bar_stays;  ///< where stays swing that the model has as bars
+  std::vector<diagnosis::Finding> account;             ///< what claims and rows say before any odds
+  diagnosis::LoadTestFiles load_tests;                 ///< where loads and gauges stand
+  std::optional<diagnosis::BarStaysEffect> bar_stays;  ///< where stays swing that the model has as bars
   /// What the causes are put into: `model`, with the stays that swing as cables.
-  std::shared_ptr<const DiagnosedModel> extended;
+  std::shared_ptr<const diagnosis::DiagnosedModel> extended;
 };
 
 /// The model reduced, with its places, and the rows that it can be compared with.

@@ -15,18 +15,6 @@
 /// What a step takes of a measurement: the options that say which part, and the files that the part is in.
 namespace twindeck::steps {
 
-// s9_diagnosis says these names without their room.
-using dynamics::MeasuredFrequencies;
-using matching::Channel;
-using matching::Measured;
-using records::Correction;
-using records::FeatureRow;
-using records::FeatureRows;
-using records::MeasuredChoice;
-using records::MeasuredCondition;
-using records::read_channels;
-using records::read_conditions;
-
 /// `--condition NAME`, `--state NAME` and `--correct FILE`: the options of every step that reads measured modes or features.
 [[nodiscard]] std::vector<Flag> measured_flags();
 

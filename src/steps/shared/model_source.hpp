@@ -9,12 +9,6 @@
 
 namespace twindeck::steps {
 
-// s9_diagnosis says these names without their room.
-using dynamics::from_model;
-using dynamics::LoadedModel;
-using dynamics::ReadModel;
-using dynamics::solvable;
-
 /// Reads a model folder, of finite elements or of matrices.
 [[nodiscard]] dynamics::ReadModel read_model_folder(const std::filesystem::path& folder);
 
