@@ -6,7 +6,7 @@
 #include "diagnosis/reduction/diagnosed_model.hpp"
 #include "diagnosis/reduction/structure.hpp"
 
-/// What s9_diagnosis takes of load tests.
+/// The load cases and gauges of load tests, as their files place them on the model.
 namespace twindeck::diagnosis {
 
 struct LoadTestFiles {
@@ -17,8 +17,7 @@ struct LoadTestFiles {
 /// The load cases that rows were measured under and the gauges of the channels, over the structure's free dofs; nothing where
 /// no row is of a load test.
 /// @throws InputError  naming the line: see diagnosis/reduction/load_test_vectors.hpp and model_io/load_cases.hpp; a row whose
-/// channel shows nothing
-///         of the model's motion
+/// channel shows nothing of the model's motion
 [[nodiscard]] LoadTests load_tests_in_use(const DiagnosedModel& model, const Structure& structure, const Places& places,
                                           const FeatureSet& features, const LoadTestFiles& files);
 

@@ -23,6 +23,8 @@ struct DiagnosedModel {
 /// The channels that show the motion of a point, as measured degrees of freedom in their order; gauges are left out.
 [[nodiscard]] matching::Measured channels_at_points(const std::vector<matching::Channel>& channels);
 
+/// @param loaded  a model of finite elements, whose supports are released into springs, or of matrices, which is taken as it is
+/// @param sensor_tolerance_m  farthest that a channel may lie from the node that stands for it [m]
 [[nodiscard]] std::shared_ptr<DiagnosedModel> prepare_model(const dynamics::LoadedModel& loaded,
                                                             const std::vector<matching::Channel>& channels,
                                                             double sensor_tolerance_m);

@@ -15,15 +15,15 @@
 #include "diagnosis/reduction/diagnosed_model.hpp"
 #include "matching/mode_name.hpp"
 #include "matching/shapes_at_sensors.hpp"
+#include "runner/shipped_files.hpp"
+#include "runner/study.hpp"
 #include "steps/measured/measured_input.hpp"
-#include "steps/shared/shipped_files.hpp"
-#include "steps/shared/study.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
-std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const StepContext& context) {
+std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const runner::StepContext& context) {
   if (const auto given = context.flag("catalogue")) return *given;
   if (!config.catalogue.empty()) return config.catalogue;
   const std::filesystem::path catalogue = "workflows/common/hypotheses";
@@ -31,14 +31,14 @@ std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const Step
     const auto beside = context.study.parent_path() / "common/hypotheses";
     if (!std::filesystem::is_directory(catalogue) && std::filesystem::is_directory(beside)) return beside;
   }
-  return shipped(catalogue);
+  return runner::shipped(catalogue);
 }
 
-void read_measurement(const DiagnosisConfig& config, StepContext& context, DiagnosisFiles& files) {
+void read_measurement(const DiagnosisConfig& config, runner::StepContext& context, DiagnosisFiles& files) {
   if (context.features)
     files.folder = *context.features;
   else if (!context.study.empty())
-    files.folder = read_study(context.study).features;
+    files.folder = runner::read_study(context.study).features;
   if (files.folder.empty())
     throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
   context.input(files.folder);
@@ -53,7 +53,7 @@ void read_measurement(const DiagnosisConfig& config, StepContext& context, Diagn
   files.claims = diagnosis::read_claims(files.folder);
 }
 
-std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, StepContext& context) {
+std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, runner::StepContext& context) {
   const auto folder = catalogue_folder(config, context);
   std::vector<diagnosis::Hypothesis> causes =
       diagnosis::read_catalogue(std::filesystem::is_directory(folder) ? context.input(folder) : folder);
@@ -68,11 +68,11 @@ std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, St
   return causes;
 }
 
-dynamics::ReadModel read_diagnosed_model(StepContext& context) {
+dynamics::ReadModel read_diagnosed_model(runner::StepContext& context) {
   const auto updated = context.results / "s6_updating" / "model";
   // A study that updates nothing is diagnosed on its own model.
   const bool own = !context.model && !context.study.empty() && !std::filesystem::is_directory(updated) &&
-                   !read_study(context.study).model_folder.empty();
+                   !runner::read_study(context.study).model_folder.empty();
   return own ? load_study_model(context, "") : load_model(context, updated);
 }
 
@@ -93,7 +93,7 @@ void refuse_unknown_names(const DiagnosisConfig& config, const DiagnosisFiles& f
 
 }  // namespace
 
-DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, StepContext& context) {
+DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, runner::StepContext& context) {
   DiagnosisFiles files;
   read_measurement(config, context, files);
   files.catalogue = read_causes(config, context);

@@ -27,6 +27,6 @@ struct DiagnosisFiles {
 };
 
 /// @throws InputError  for a file that is not sound, and for a name in one of them that the others do not have
-[[nodiscard]] DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, StepContext& context);
+[[nodiscard]] DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, runner::StepContext& context);
 
 }  // namespace twindeck::steps

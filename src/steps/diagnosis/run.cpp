@@ -17,7 +17,7 @@ namespace twindeck::steps {
 
 namespace {
 
-void say_form(const diagnosis::FormReport& form, StepContext& context) {
+void say_form(const diagnosis::FormReport& form, runner::StepContext& context) {
   context.say(
       fmt::format("  form error of the model: {:.2f} % in frequency ({:.2f} to {:.2f}), {:.2f} % in shape ({:.2f} to {:.2f})",
                   100.0 * form.frequency.level, 100.0 * form.frequency.low, 100.0 * form.frequency.high,
@@ -29,7 +29,7 @@ void say_form(const diagnosis::FormReport& form, StepContext& context) {
 }
 
 /// The last lines of the step.
-void say_sentences(diagnosis::Verdict verdict, const diagnosis::Sentences& sentences, StepContext& context) {
+void say_sentences(diagnosis::Verdict verdict, const diagnosis::Sentences& sentences, runner::StepContext& context) {
   context.say("verdict: " + name_of(verdict));
   context.say("  what is wrong: " + sentences.what);
   context.say("  why: " + sentences.why);
@@ -51,7 +51,7 @@ diagnosis::DiagnoseOptions options_of(const DiagnosisConfig& config, const Thres
   return options;
 }
 
-void say_modes_explained(const diagnosis::Diagnosis& result, StepContext& context) {
+void say_modes_explained(const diagnosis::Diagnosis& result, runner::StepContext& context) {
   if (const auto gain = diagnosis::explained_gain(result))
     context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
 }
@@ -70,7 +70,7 @@ void write_tables(const diagnosis::Inference& inference, const DiagnosisInputs& 
 
 /// The winner against the full model, as many of the lowest modes as were measured.
 diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::FeatureMap& map,
-                             const diagnosis::Diagnosis& result, StepContext& context) {
+                             const diagnosis::Diagnosis& result, runner::StepContext& context) {
   std::set<std::string> labels;
   for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
   diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
@@ -83,7 +83,7 @@ diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::Fea
   return check;
 }
 
-Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, StepContext& context) {
+Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   DiagnosisInputs inputs = prepare_diagnosis(config, files, context);
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
@@ -142,7 +142,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
 
 }  // namespace
 
-Computation read_diagnosis(const DiagnosisConfig& config, StepContext& context) {
+runner::Computation read_diagnosis(const DiagnosisConfig& config, runner::StepContext& context) {
   return [&config, &context, files = read_diagnosis_files(config, context)] { return run_diagnosis(config, files, context); };
 }
 

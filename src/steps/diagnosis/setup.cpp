@@ -87,7 +87,7 @@ void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row
 
 }  // namespace
 
-DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, StepContext& context) {
+DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   DiagnosisInputs inputs;
   inputs.features = files.features;
   inputs.corrected = files.corrected;
@@ -125,7 +125,7 @@ std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const Diag
 }
 
 Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference,
-                         StepContext& context) {
+                         runner::StepContext& context) {
   std::filesystem::path folder = config.threshold_cache;
   if (folder.empty()) folder = (context.results.empty() ? context.out.parent_path() : context.results) / "thresholds";
   const std::string key = diagnosis::threshold_key({config.alpha, config.nulls, config.modes, config.most_refined,

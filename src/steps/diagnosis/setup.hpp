@@ -11,9 +11,9 @@
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/files/load_test_files.hpp"
 #include "diagnosis/reduction/diagnosed_model.hpp"
+#include "runner/run_step.hpp"
 #include "steps/diagnosis/config.hpp"
 #include "steps/diagnosis/read_files.hpp"
-#include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
 
@@ -35,7 +35,7 @@ struct DiagnosisInputs {
 
 /// The model reduced, with its places, and the rows that it can be compared with.
 [[nodiscard]] DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
-                                                StepContext& context);
+                                                runner::StepContext& context);
 
 /// Threshold of the largest log odds: of a cached null calibration where the same model, rows (without their values), catalogue
 /// and rule were run before, of one run now where the configuration asks for it, else the analytic tail.
@@ -44,7 +44,7 @@ struct Threshold {
   std::string from;
 };
 [[nodiscard]] Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
-                                       const diagnosis::Inference& inference, StepContext& context);
+                                       const diagnosis::Inference& inference, runner::StepContext& context);
 
 /// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
 /// @param unmeasured  gets those that no row names

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 /// Content of `workflows/<study>/study.toml`. Paths are relative to the current folder (the root of the repository).
 struct Study {
@@ -29,4 +29,4 @@ struct Study {
 /// Meaning, unit, range and default of each key of study.toml.
 [[nodiscard]] std::string describe_study();
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

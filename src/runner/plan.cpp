@@ -1,4 +1,4 @@
-#include "steps/shared/plan.hpp"
+#include "runner/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "core/printable.hpp"
 #include "io/manifest.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace fs = std::filesystem;
 namespace {
 
@@ -49,4 +49,4 @@ std::string plan_of(const Step& step, const StepContext& context, const fs::path
                      step.token, step.summary, reads(context), writes, takes);
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

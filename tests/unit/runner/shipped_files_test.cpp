@@ -1,4 +1,4 @@
-#include "steps/shared/shipped_files.hpp"
+#include "runner/shipped_files.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,4 +61,4 @@ TEST_F(ShippedFiles, AStudysOwnFileIsNeverReplaced) {
 }
 
 }  // namespace
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 /// Sets the number of threads of our own parallel loops and returns it; 0 means one per processor.
 ///
@@ -8,4 +8,4 @@ namespace twindeck::steps {
 /// on the number of threads. Our own loops sum in a fixed order. Private to run_step.
 int set_threads(int asked);
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

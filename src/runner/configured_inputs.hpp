@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 /// Folders that a step reads, as named in its configuration; --model and --campaign take precedence. A study then names the
 /// inputs of its steps once, and a step run by hand gives the same result as through make. Private to run_step.
@@ -23,4 +23,4 @@ class ConfiguredInputs {
   std::string model_, campaign_;
 };
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -5,9 +5,9 @@
 #include <string>
 #include <thread>
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 /// Says that a step works on while it reports nothing else: "s9_diagnosis: working, 12 s so far", on a terminal from two
 /// seconds of silence on, in one line that is rewritten; otherwise a line every half minute of silence. Nothing with --quiet.
@@ -28,4 +28,4 @@ class Heartbeat {
   std::thread thread_;
 };
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -1,4 +1,4 @@
-#include "steps/shared/cli.hpp"
+#include "runner/command_line.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "model_io/ansys.hpp"
 #include "model_io/nastran.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace fs = std::filesystem;
 namespace {
 
@@ -198,4 +198,4 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
   return line;
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

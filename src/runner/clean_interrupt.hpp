@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 /// During its lifetime, Ctrl-C or a termination removes the partial folder and ends the program by that signal. Earlier results
 /// stay unchanged, no partial files remain, and Make or the shell sees the signal. Private to run_step.
@@ -14,4 +14,4 @@ class CleanInterrupt {
   CleanInterrupt& operator=(const CleanInterrupt&) = delete;
 };
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -1,15 +1,14 @@
-#include "steps/shared/model_outputs.hpp"
+#include "model_io/model_tables.hpp"
 
 #include <map>
 #include <optional>
 #include <set>
 
 #include "io/csv.hpp"
-#include "model_io/export.hpp"
-#include "model_io/inp.hpp"
+#include "model_io/modes_io.hpp"
 #include "model_io/names.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::model_io {
 namespace {
 
 std::string stay_name(const fe::Element& element) { return element.name.empty() ? std::to_string(element.id) : element.name; }
@@ -23,23 +22,6 @@ struct PartCount {
 const char* arrangement_of(const fe::Spring& spring) {
   if (spring.stiffness == 0.0) return "viscous";
   return spring.series ? "series" : "parallel";
-}
-
-}  // namespace
-
-modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes) {
-  modal::ModeSet all = model_io::to_mode_set(model, system, modes);
-  if (model == nullptr) return all;
-  modal::ModeSet kept = all;
-  kept.dofs.clear();
-  std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < all.dofs.size(); ++i) {
-    if (all.dofs[i].direction.front() == 'r') continue;
-    kept.dofs.push_back(all.dofs[i]);
-    rows.push_back(static_cast<Eigen::Index>(i));
-  }
-  kept.shapes = all.shapes(rows, Eigen::all);
-  return kept;
 }
 
 void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder) {
@@ -105,7 +87,7 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
     summary.save(folder / "summary.csv");
     return;
   }
-  const std::vector<std::string>& types = model_io::element_type_names();
+  const std::vector<std::string>& types = element_type_names();
   std::vector<std::size_t> of_type(types.size(), 0);
   std::map<std::string, PartCount> parts;
   for (const fe::Element& e : model->elements) {
@@ -133,14 +115,29 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
   summary.save(folder / "summary.csv");
 }
 
-void export_inp(const dynamics::LoadedModel& loaded, int n_modes, const StepContext& context) {
-  if (loaded.fe_model() == nullptr) {
-    throw InputError({"command line", 0, "--export-inp"}, "a matrix model has no elements to export", "use --export-matrices");
+}  // namespace
+
+modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes) {
+  modal::ModeSet all = to_mode_set(model, system, modes);
+  if (model == nullptr) return all;
+  modal::ModeSet kept = all;
+  kept.dofs.clear();
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < all.dofs.size(); ++i) {
+    if (all.dofs[i].direction.front() == 'r') continue;
+    kept.dofs.push_back(all.dofs[i]);
+    rows.push_back(static_cast<Eigen::Index>(i));
   }
-  using model_io::InpFlavour;
-  const auto notes = model_io::write_inp(*loaded.model, loaded.state, InpFlavour::calculix, n_modes, context.out / "model.inp");
-  for (const std::string& note : notes) context.say("model.inp: " + note);
-  model_io::write_inp(*loaded.model, loaded.state, InpFlavour::abaqus, n_modes, context.out / "model_abaqus.inp");
+  kept.shapes = all.shapes(rows, Eigen::all);
+  return kept;
 }
 
-}  // namespace twindeck::steps
+void write_model_tables(const dynamics::LoadedModel& loaded, const PartOf& part_of, const std::filesystem::path& folder) {
+  const fe::Model* model = loaded.fe_model();
+  write_stays(model, loaded.state, folder);
+  write_member_forces(model, loaded.state, folder);
+  write_dampers(model, folder);
+  write_summary(model, loaded.system, part_of, folder);
+}
+
+}  // namespace twindeck::model_io

@@ -1,4 +1,4 @@
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 #include "core/parallel.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ TEST_F(RunStep, AMessageWithoutFileGetsTheOneOfItsKey) {
 }
 
 }  // namespace
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -1,10 +1,10 @@
-#include "steps/shared/shipped_files.hpp"
+#include "runner/shipped_files.hpp"
 
 #include <array>
 #include <string>
 #include <string_view>
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace fs = std::filesystem;
 namespace {
 
@@ -34,4 +34,4 @@ fs::path shipped(const fs::path& path) {
   return shipped(path, fs::read_symlink("/proc/self/exe", ignored));
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

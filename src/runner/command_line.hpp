@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 /// The parsed command line. Private to run_step.
 struct CommandLine {
@@ -30,4 +30,4 @@ struct CommandLine {
 /// @throws InputError  for anything that is wrong on the command line; place is the option
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const Step& step);
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

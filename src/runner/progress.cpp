@@ -9,10 +9,10 @@
 #include <mutex>
 
 #include "core/printable.hpp"
-#include "steps/shared/heartbeat.hpp"
-#include "steps/shared/run_step.hpp"
+#include "runner/heartbeat.hpp"
+#include "runner/run_step.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -116,4 +116,4 @@ void Heartbeat::beat(const std::string& token) {
   if (on_screen) std::fputs("\r\033[K", stderr);
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

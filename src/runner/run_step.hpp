@@ -12,7 +12,10 @@
 #include "core/reporter.hpp"
 #include "io/config.hpp"
 
-namespace twindeck::steps {
+/// Room runner: the program round every step. It takes the command line, the study's settings and what a step is (`Step`: its
+/// keys, its options, how it reads, what it computes). It gives a run with one contract for all of them: options, exit codes,
+/// manifest, results that appear as a whole or not at all, and what people see while it works.
+namespace twindeck::runner {
 
 /// Input of a step. Files are written into `out`, a temporary folder that replaces the earlier results only when the step has
 /// finished.
@@ -80,4 +83,4 @@ struct Step {
 /// to <out>.unconverged), 2 bad input, 3 our own mistake; each failure is one line on stderr.
 int run_step(int argc, char** argv, Step step);
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

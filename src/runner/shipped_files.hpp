@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 /// Where a file of the product's own lies: the catalogue of causes (`workflows/common/…`) and the turbulence sets
 /// (`data/wind/…`), which a study names relative to the root of the source tree. A path that exists as given is returned
@@ -18,4 +18,4 @@ namespace twindeck::steps {
 /// The same for the running program.
 [[nodiscard]] std::filesystem::path shipped(const std::filesystem::path& path);
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

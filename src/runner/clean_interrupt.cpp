@@ -1,4 +1,4 @@
-#include "steps/shared/run_step_signals.hpp"
+#include "runner/clean_interrupt.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -9,7 +9,7 @@
 
 #include "io/atomic.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace {
 
 // A handler may do next to nothing, so it writes the signal's number into a pipe; a thread that may do anything reads it.
@@ -64,4 +64,4 @@ CleanInterrupt::~CleanInterrupt() {
   }
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

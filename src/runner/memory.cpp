@@ -1,11 +1,11 @@
-#include "steps/shared/run_step_memory.hpp"
+#include "runner/memory.hpp"
 
 #include <cstdlib>
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 void keep_freed_memory() {
 #if defined(__GLIBC__)
@@ -16,4 +16,4 @@ void keep_freed_memory() {
 #endif
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -1,6 +1,6 @@
-#include "steps/shared/configured_inputs.hpp"
+#include "runner/configured_inputs.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace fs = std::filesystem;
 
 ConfiguredInputs::ConfiguredInputs(Step& step) {
@@ -28,4 +28,4 @@ void ConfiguredInputs::apply(const Step& step, StepContext& context) const {
   set("campaign", campaign_, context.campaign);
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -1,9 +1,9 @@
-#include "steps/shared/study.hpp"
+#include "runner/study.hpp"
 
 #include "core/error.hpp"
 #include "io/config.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 namespace {
 
@@ -54,4 +54,4 @@ Study read_study(const std::filesystem::path& folder) {
   return study;
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

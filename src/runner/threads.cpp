@@ -1,9 +1,9 @@
-#include "steps/shared/run_step_threads.hpp"
+#include "runner/threads.hpp"
 
 #include "core/parallel.hpp"
 #include "linalg/one_thread.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 
 int set_threads(int asked) {
   const int threads = asked > 0 ? asked : processor_count();
@@ -12,4 +12,4 @@ int set_threads(int asked) {
   return threads;
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner

@@ -1,4 +1,4 @@
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,17 +15,17 @@
 #include "io/atomic.hpp"
 #include "io/manifest.hpp"
 #include "model_io/model_folder.hpp"
-#include "steps/shared/cli.hpp"
-#include "steps/shared/configured_inputs.hpp"
-#include "steps/shared/heartbeat.hpp"
-#include "steps/shared/plan.hpp"
-#include "steps/shared/run_step_memory.hpp"
-#include "steps/shared/run_step_signals.hpp"
-#include "steps/shared/run_step_threads.hpp"
-#include "steps/shared/shipped_files.hpp"
-#include "steps/shared/study.hpp"
+#include "runner/clean_interrupt.hpp"
+#include "runner/command_line.hpp"
+#include "runner/configured_inputs.hpp"
+#include "runner/heartbeat.hpp"
+#include "runner/memory.hpp"
+#include "runner/plan.hpp"
+#include "runner/shipped_files.hpp"
+#include "runner/study.hpp"
+#include "runner/threads.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::runner {
 namespace fs = std::filesystem;
 namespace {
 
@@ -267,4 +267,4 @@ int run_step(int argc, char** argv, Step step) {
   }
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::runner
