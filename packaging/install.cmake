@@ -1,6 +1,6 @@
 # What `make install` and `make package` put where. Two components, which CPack makes two Debian packages of: twindeck, which an engineer
 # needs, and twindeck-data, the studies of this repository. Below share/twindeck the files keep their places of the source tree, so that one
-# Makefile and one rule for finding them (src/steps/shared/shipped_files.hpp) serve both.
+# Makefile and one rule for finding them (src/runner/shipped_files.hpp) serve both.
 set(share share/twindeck)
 get_property(executables GLOBAL PROPERTY twindeck_executables)
 find_program(TWINDECK_PYTHON NAMES /usr/bin/python3 python3 REQUIRED)

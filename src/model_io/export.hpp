@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model_io/export_matrices.hpp"
+#include "model_io/model_tables.hpp"
 #include "model_io/modes_io.hpp"
 #include "model_io/vtu.hpp"
 

@@ -1,12 +1,12 @@
+#include "runner/run_step.hpp"
 #include "steps/campaign/campaign_config.hpp"
 #include "steps/campaign/test_campaign.hpp"
-#include "steps/shared/run_step.hpp"
 
 /// Step 0: the virtual test campaign (paper sections 3.1 and 3.2): records of a bridge whose truth is known.
 int main(int argc, char** argv) {
-  using namespace twindeck::steps;
-  CampaignConfig settings;
-  Step step;
+  using namespace twindeck;
+  steps::CampaignConfig settings;
+  runner::Step step;
   step.token = "s0_campaign";
   step.summary = "Simulates the test campaign on the virtual bridge and writes its records as loggers would.";
   step.examples = {
@@ -15,6 +15,6 @@ int main(int argc, char** argv) {
   };
   step.fields = settings.fields();
   step.flags = {{"calibrate", false, "only find the corrections that bring the named frequencies about: corrections.csv"}};
-  step.read = [&](StepContext& context) { return read_test_campaign(context, settings); };
-  return run_step(argc, argv, std::move(step));
+  step.read = [&](runner::StepContext& context) { return steps::read_test_campaign(context, settings); };
+  return runner::run_step(argc, argv, std::move(step));
 }

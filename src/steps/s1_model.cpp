@@ -4,20 +4,21 @@
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/model_check.hpp"
 #include "dynamics/unit_slips.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/export.hpp"
 #include "ponte/generator.hpp"
+#include "runner/run_step.hpp"
+#include "runner/study.hpp"
+#include "steps/model/export_inp.hpp"
 #include "steps/model/mesh_convergence.hpp"
 #include "steps/model/model_config.hpp"
-#include "steps/shared/model_outputs.hpp"
 #include "steps/shared/model_source.hpp"
-#include "steps/shared/run_step.hpp"
-#include "steps/shared/study.hpp"
 
 namespace {
 
 using namespace twindeck;
 
-Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bool is_bridge, steps::StepContext& context) {
+Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bool is_bridge, runner::StepContext& context) {
   // 1. The model, prestressed and assembled; a mechanism is refused here.
   const dynamics::LoadedModel loaded = dynamics::solvable(read);
   const fe::Model* model = loaded.fe_model();
@@ -31,13 +32,10 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
 
   // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, and the model as a folder of data for any
   // other step.
-  model_io::write_modes(steps::published_modes(model, loaded.system, modes), context.out);
+  model_io::write_modes(model_io::published_modes(model, loaded.system, modes), context.out);
   if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
-  steps::write_stays(model, loaded.state, context.out);
-  steps::write_member_forces(model, loaded.state, context.out);
-  steps::write_dampers(model, context.out);
-  steps::write_summary(model, loaded.system, is_bridge ? steps::PartOf(ponte::part_of) : steps::PartOf(), context.out);
-  steps::save_model(loaded, loaded.theta, context.out / "model");
+  model_io::write_model_tables(loaded, is_bridge ? model_io::PartOf(ponte::part_of) : model_io::PartOf(), context.out);
+  model_io::save_model(loaded, loaded.theta, context.out / "model");
   if (context.has_flag("export-matrices")) {
     model_io::write_matrices(loaded.system, loaded.theta, context.out);
     if (model != nullptr) model_io::write_damping(*model, loaded.system, loaded.theta, context.out);
@@ -46,17 +44,17 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
 
   // 4. The same modes on other meshes: how far this one is from converged.
   if (!config.meshes.empty() && is_bridge) {
-    steps::write_mesh_convergence(steps::read_study(context.study), config.variant, config.meshes,
+    steps::write_mesh_convergence(runner::read_study(context.study), config.variant, config.meshes,
                                   static_cast<int>(config.n_modes), context.out / "mesh_convergence.csv");
   }
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }
 
-steps::Computation read(const steps::ModelConfig& config, steps::StepContext& context) {
+runner::Computation read(const steps::ModelConfig& config, runner::StepContext& context) {
   const dynamics::ReadModel model = dynamics::with_displacements(steps::load_study_model(context, config.variant),
                                                                  config.displacements, static_cast<int>(config.load_steps));
-  const bool is_bridge = !context.model && steps::read_study(context.study).model_generator == "ponte";
-  if (is_bridge) steps::refuse_unknown_meshes(steps::read_study(context.study), config.variant, config.meshes);
+  const bool is_bridge = !context.model && runner::read_study(context.study).model_generator == "ponte";
+  if (is_bridge) steps::refuse_unknown_meshes(runner::read_study(context.study), config.variant, config.meshes);
   return [&config, &context, model, is_bridge] { return run(config, model, is_bridge, context); };
 }
 
@@ -64,7 +62,7 @@ steps::Computation read(const steps::ModelConfig& config, steps::StepContext& co
 
 int main(int argc, char** argv) {
   steps::ModelConfig config;
-  steps::Step step;
+  runner::Step step;
   step.token = "s1_model";
   step.summary = "Builds or reads the finite element model, finds its prestress and its modes.";
   step.examples = {"s1_model --study workflows/ponte_del_mare --out results/ponte_del_mare/s1_model --set variant=refined",
@@ -75,6 +73,6 @@ int main(int argc, char** argv) {
       {"export-matrices", false,
        "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv, and C.mtx where there are dampers"},
       {"export-inp", false, "also write the model for CalculiX (model.inp) and Abaqus (model_abaqus.inp)"}};
-  step.read = [&config](steps::StepContext& context) { return read(config, context); };
-  return steps::run_step(argc, argv, std::move(step));
+  step.read = [&config](runner::StepContext& context) { return read(config, context); };
+  return runner::run_step(argc, argv, std::move(step));
 }

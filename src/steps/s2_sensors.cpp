@@ -1,11 +1,11 @@
+#include "runner/run_step.hpp"
 #include "steps/sensors/sensors.hpp"
-#include "steps/shared/run_step.hpp"
 
 /// Step 2: sensor setups, how well they tell the modes apart, and the blind test (paper section 3.1, Table 3).
 int main(int argc, char** argv) {
-  using namespace twindeck::steps;
-  SensorsConfig config;
-  Step step;
+  using namespace twindeck;
+  steps::SensorsConfig config;
+  runner::Step step;
   step.token = "s2_sensors";
   step.summary = "Scores sensor setups by AutoMAC, searches for better ones and tests them blindly on simulated records.";
   step.examples = {
@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
   };
   step.fields = config.fields();
   step.configured_inputs = {"model"};
-  step.read = [&](StepContext& context) { return read_sensors(context, config); };
-  return run_step(argc, argv, std::move(step));
+  step.read = [&](runner::StepContext& context) { return steps::read_sensors(context, config); };
+  return runner::run_step(argc, argv, std::move(step));
 }

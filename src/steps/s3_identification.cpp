@@ -1,16 +1,16 @@
 /// Step 3 (paper section 3.2, Table 4, Figs. 10-13): modes with standard deviations from records of one or several setups.
 #include "identification/stays.hpp"
 #include "records/inspect.hpp"
+#include "runner/run_step.hpp"
 #include "steps/identification/identification_config.hpp"
 #include "steps/identification/inputs.hpp"
 #include "steps/identification/outputs.hpp"
-#include "steps/shared/run_step.hpp"
 
 namespace {
 
 using namespace twindeck;
 
-Status run(const steps::IdentificationConfig& config, steps::IdentificationInputs& read, const steps::StepContext& context) {
+Status run(const steps::IdentificationConfig& config, steps::IdentificationInputs& read, const runner::StepContext& context) {
   // 1. Each condition: spectra, subspace identification, stabilisation, selection (Eqs. 3-4), standard deviations; setups
   // merged.
   std::vector<identification::ConditionResult>& results = read.conditions;
@@ -35,7 +35,7 @@ Status run(const steps::IdentificationConfig& config, steps::IdentificationInput
 
 int main(int argc, char** argv) {
   steps::IdentificationConfig config;
-  steps::Step step;
+  runner::Step step;
   step.token = "s3_identification";
   step.summary =
       "Identifies modes with standard deviations from vibration records: ambient, free decays, stays, measured inputs.";
@@ -48,9 +48,9 @@ int main(int argc, char** argv) {
                  [](const std::string& file) { return records::describe(records::inspect(file)); }}};
   step.fields = config.fields();
   step.configured_inputs = {"campaign"};
-  step.read = [&config](steps::StepContext& context) -> steps::Computation {
+  step.read = [&config](runner::StepContext& context) -> runner::Computation {
     auto read = steps::read_identification_inputs(config, context);
     return [&config, &context, read = std::move(read)]() mutable { return run(config, read, context); };
   };
-  return steps::run_step(argc, argv, std::move(step));
+  return runner::run_step(argc, argv, std::move(step));
 }

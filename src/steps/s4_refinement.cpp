@@ -1,12 +1,12 @@
+#include "runner/run_step.hpp"
 #include "steps/measured/measured_input.hpp"
 #include "steps/refinement/refinement.hpp"
-#include "steps/shared/run_step.hpp"
 
 /// Step 4: as-built changes, comparison with the measured modes, pairing (paper section 4.1, Tables 6 and 7).
 int main(int argc, char** argv) {
-  using namespace twindeck::steps;
-  RefinementConfig config;
-  Step step;
+  using namespace twindeck;
+  steps::RefinementConfig config;
+  runner::Step step;
   step.token = "s4_refinement";
   step.summary =
       "As-built changes one by one, comparison of the initial and the refined model with the measured modes, and their "
@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
       "s4_refinement --model my_bridge/model --features my_bridge/features --condition summer --out my_bridge/summer",
   };
   step.fields = config.fields();
-  step.flags = measured_flags();
+  step.flags = steps::measured_flags();
   step.configured_inputs = {"model"};
-  step.read = [&](StepContext& context) { return read_refinement(context, config); };
-  return run_step(argc, argv, std::move(step));
+  step.read = [&](runner::StepContext& context) { return steps::read_refinement(context, config); };
+  return runner::run_step(argc, argv, std::move(step));
 }

@@ -2,16 +2,16 @@
 #include <fmt/format.h>
 
 #include "dynamics/unit_slips.hpp"
+#include "runner/run_step.hpp"
 #include "sensitivity/frequency_sensitivities.hpp"
 #include "steps/sensitivity/outputs.hpp"
 #include "steps/shared/model_source.hpp"
-#include "steps/shared/run_step.hpp"
 
 namespace {
 
 using namespace twindeck;
 
-Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& read, steps::StepContext& context) {
+Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& read, runner::StepContext& context) {
   // 1. The refined model, with the prestress of its own parameter values, frozen.
   const dynamics::LoadedModel loaded = dynamics::solvable(read);
   if (!loaded.state.status.converged) return loaded.state.status;
@@ -46,7 +46,7 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   return found.status;
 }
 
-steps::Computation read(const steps::SensitivityConfig& config, steps::StepContext& context) {
+runner::Computation read(const steps::SensitivityConfig& config, runner::StepContext& context) {
   const dynamics::ReadModel model = steps::load_model(context, context.results / "s4_refinement" / "model");
   steps::check_sensitivity_config(config, model.parameters(), model.source);
   return [&config, &context, model] { return run(config, model, context); };
@@ -56,13 +56,13 @@ steps::Computation read(const steps::SensitivityConfig& config, steps::StepConte
 
 int main(int argc, char** argv) {
   steps::SensitivityConfig config;
-  steps::Step step;
+  runner::Step step;
   step.token = "s5_sensitivity";
   step.summary = "Sensitivity of the modes to the parameters, selection of parameters, identifiability.";
   step.examples = {"s5_sensitivity --study workflows/ponte_del_mare --out results/ponte_del_mare/s5_sensitivity",
                    "s5_sensitivity --model my_bridge --out results/my_bridge/s5_sensitivity --set n_modes=8"};
   step.fields = config.fields();
   step.configured_inputs = {"model"};
-  step.read = [&config](steps::StepContext& context) { return read(config, context); };
-  return steps::run_step(argc, argv, std::move(step));
+  step.read = [&config](runner::StepContext& context) { return read(config, context); };
+  return runner::run_step(argc, argv, std::move(step));
 }

@@ -1,9 +1,9 @@
 /// Step 6 (paper section 4.2, Tables 8 to 10): parameters updated within their bounds to the measured frequencies.
 #include "dynamics/unit_slips.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/export.hpp"
 #include "steps/measured/comparison_tables.hpp"
 #include "steps/measured/measured_input.hpp"
-#include "steps/shared/model_outputs.hpp"
 #include "steps/updating/inputs.hpp"
 #include "steps/updating/outputs.hpp"
 #include "steps/updating/weighing_tables.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace twindeck;
 
-Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& read, steps::StepContext& context) {
+Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& read, runner::StepContext& context) {
   // 1. The refined model and the measured modes.
   const auto& [model, measured, active, published] = read;
   const dynamics::LoadedModel before = dynamics::solvable(model);
@@ -52,8 +52,8 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   // 5. Tables, the model, and the outcome in words.
   steps::write_updating(parameters, active, comparison, config.common_pairs, result, context.out);
   steps::write_mac(measured, followed, context.out);
-  model_io::write_modes(steps::published_modes(after.fe_model(), after.system, modes_after), context.out);
-  steps::save_model(before, result.theta, context.out / "model");
+  model_io::write_modes(model_io::published_modes(after.fe_model(), after.system, modes_after), context.out);
+  model_io::save_model(before, result.theta, context.out / "model");
   for (const std::string& line : steps::report_lines(parameters, active, result)) context.say(line);
   steps::report_weighing(context, {before, active, measured, pairing, rows, result});
   context.say(updating::summary_line(comparison, account));
@@ -64,7 +64,7 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
 
 int main(int argc, char** argv) {
   steps::UpdatingConfig config;
-  steps::Step step;
+  runner::Step step;
   step.token = "s6_updating";
   step.summary = "Updates parameters within their bounds to the measured frequencies (dogleg, several starts).";
   step.examples = {"s6_updating --study workflows/ponte_del_mare --out results/ponte_del_mare/s6_updating",
@@ -73,8 +73,8 @@ int main(int argc, char** argv) {
   step.fields = config.fields();
   step.flags = steps::measured_flags();
   step.configured_inputs = {"model"};
-  step.read = [&config](steps::StepContext& context) -> steps::Computation {
+  step.read = [&config](runner::StepContext& context) -> runner::Computation {
     return [&config, &context, read = steps::read_updating(config, context)] { return run(config, read, context); };
   };
-  return steps::run_step(argc, argv, std::move(step));
+  return runner::run_step(argc, argv, std::move(step));
 }

@@ -2,9 +2,9 @@
 #include "steps/aerodynamics/aerodynamics.hpp"
 
 int main(int argc, char** argv) {
-  using namespace twindeck::steps;
-  AerodynamicsConfig config;
-  Step step;
+  using namespace twindeck;
+  steps::AerodynamicsConfig config;
+  runner::Step step;
   step.token = "s7_aerodynamics";
   step.summary =
       "Static wind forces, damping over the wind speed and critical speeds of the models of Table 11, with and without "
@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
                    "--set nodes_per_deck=60"};
   step.fields = config.fields();
   step.configured_inputs = {"model"};
-  step.read = [&](StepContext& context) { return read_aerodynamics(context, config); };
-  return run_step(argc, argv, std::move(step));
+  step.read = [&](runner::StepContext& context) { return steps::read_aerodynamics(context, config); };
+  return runner::run_step(argc, argv, std::move(step));
 }

@@ -1,11 +1,11 @@
 /// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21): turbulent wind, accelerations with dampers, hybrid deployment.
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 #include "steps/validation/validation.hpp"
 
 int main(int argc, char** argv) {
   using namespace twindeck;
   steps::ValidationConfig config;
-  steps::Step step;
+  runner::Step step;
   step.token = "s8_validation";
   step.summary =
       "Simulates turbulent wind on the updated bridge and its accelerations in wind events, with intervals over seeds.";
@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
                    "--set turbulence_set='\"EN 0\"'"};
   step.fields = config.fields();
   step.configured_inputs = {"model", "campaign"};
-  step.read = [&config](steps::StepContext& context) { return steps::read_validation(context, config); };
-  return steps::run_step(argc, argv, std::move(step));
+  step.read = [&config](runner::StepContext& context) { return steps::read_validation(context, config); };
+  return runner::run_step(argc, argv, std::move(step));
 }

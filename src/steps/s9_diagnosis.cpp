@@ -6,7 +6,7 @@
 int main(int argc, char** argv) {
   using namespace twindeck;
   steps::DiagnosisConfig config;
-  steps::Step step;
+  runner::Step step;
   step.token = "s9_diagnosis";
   step.summary = "Finds what the model gets wrong, names the cause, extends the model, measures the gain on held-out rows.";
   step.examples = {
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   step.configured_inputs = {"model"};
   step.flags = {{"catalogue", true, "folder of hypotheses, one TOML file each"},
                 {"plan", false, "only say what these rows would see: plan.csv"}};
-  for (const steps::Flag& flag : steps::measured_flags()) step.flags.push_back(flag);
-  step.read = [&config](steps::StepContext& context) { return steps::read_diagnosis(config, context); };
-  return steps::run_step(argc, argv, std::move(step));
+  for (const runner::Flag& flag : steps::measured_flags()) step.flags.push_back(flag);
+  step.read = [&config](runner::StepContext& context) { return steps::read_diagnosis(config, context); };
+  return runner::run_step(argc, argv, std::move(step));
 }

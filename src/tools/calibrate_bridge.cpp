@@ -6,7 +6,7 @@
 
 #include "calibration/calibration_file.hpp"
 #include "calibration/calibration_tables.hpp"
-#include "steps/shared/run_step_threads.hpp"
+#include "runner/threads.hpp"
 
 namespace {
 
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   app.add_flag("--write", options.write, "write the fitted values into the definition of the bridge")->excludes(trials);
   CLI11_PARSE(app, argc, argv);
   try {
-    steps::set_threads(threads);
+    runner::set_threads(threads);
     return run(options);
   } catch (const InputError& error) {
     std::fprintf(stderr, "calibrate_bridge: %s\n", error.what());

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "blind/trial.hpp"
+#include "diagnosis/files/catalogue_files.hpp"
 #include "ponte/generator.hpp"
-#include "steps/diagnosis/catalogue.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::blind {
@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3d> positions(const std::vector<diagnosis::Place>& plac
 
 Side make_side(int along, const std::vector<matching::Channel>& channels, const diagnosis::PlaceOptions& options) {
   Side side;
-  side.model = steps::prepare_model(dynamics::from_model(bridge(along)), channels, 0.6);
+  side.model = diagnosis::prepare_model(dynamics::from_model(bridge(along)), channels, 0.6);
   const diagnosis::Structure structure = side.model->structure();
   side.places = diagnosis::find_places(structure, options);
   diagnosis::ReductionOptions reduction;
@@ -161,7 +161,7 @@ void take_nominal(Bench& bench) {
 
 Bench make_bench() {
   Bench bench;
-  bench.catalogue = steps::read_catalogue(kRoot / "workflows/common/hypotheses");
+  bench.catalogue = diagnosis::read_catalogue(kRoot / "workflows/common/hypotheses");
   const fe::Model coarse = bridge(2);
   bench.channels = sixteen_channels(coarse);
   diagnosis::PlaceOptions options;

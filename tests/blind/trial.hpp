@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
-#include "steps/diagnosis/model.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
 
 /// Blind trials in the tier of features (sealed generator, diagnosis, scorer): the truth is computed on another mesh than the
 /// one that diagnoses, with parameters and element scatter drawn anew for every case, the null ones too.
@@ -15,7 +15,7 @@ namespace twindeck::blind {
 
 /// One side: a mesh with everything reduced.
 struct Side {
-  std::shared_ptr<steps::DiagnosedModel> model;
+  std::shared_ptr<diagnosis::DiagnosedModel> model;
   diagnosis::Places places;
   std::unique_ptr<diagnosis::ReducedModel> reduced;
 };

@@ -1,7 +1,7 @@
 /// Decks of CalculiX and Abaqus, read and made into a structure.
+#include "dynamics/loaded_model.hpp"
 #include "fuzz/target.hpp"
 #include "model_io/inp.hpp"
-#include "steps/shared/model_source.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace twindeck;

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "fuzz/target.hpp"
-#include "steps/shared/model_source.hpp"
+#include "model_io/any_model_folder.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace twindeck;
@@ -10,6 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                        "supports.csv", "springs.csv",  "links.csv",      "masses.csv",
                                        "points.csv",   "model.toml",   "constraints.csv"};
   if (size == 0) return 0;
-  return fuzz::read_folder("model/model", names[data[0] % names.size()], data + 1, size - 1,
-                           [](const auto& folder) { static_cast<void>(dynamics::solvable(steps::read_model_folder(folder))); });
+  return fuzz::read_folder("model/model", names[data[0] % names.size()], data + 1, size - 1, [](const auto& folder) {
+    static_cast<void>(dynamics::solvable(model_io::read_model_folder(folder)));
+  });
 }

@@ -240,6 +240,8 @@ class CoverageTable(unittest.TestCase):
         files = [{"filename": "src/fe/beam.cpp", "line_total": 60, "line_covered": 60, "branch_total": 10, "branch_covered": 5},
                  {"filename": "src/fe/shell.cpp", "line_total": 40, "line_covered": 30, "branch_total": 0, "branch_covered": 0},
                  {"filename": "src/steps/model/run.cpp", "line_total": 100, "line_covered": 10, "branch_total": 4, "branch_covered": 1}]
+        self.assertEqual([rooms.room(f"src/diagnosis/{name}.cpp") for name in ("gain", "causes/candidate", "words/sentences")],
+                         ["diagnosis", "diagnosis", "diagnosis/words"])
         found = rooms.by_room({"files": files})
         self.assertEqual(found, {"fe": [100, 90, 10, 5], "steps": [100, 10, 4, 1]})
         lines = rooms.table(found).splitlines()

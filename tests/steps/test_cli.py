@@ -1,6 +1,6 @@
 """The command line contract of every step, tried on s1_model (it stands on the same run_step as all others).
 
-Oracle: the contract in src/steps/shared/run_step.hpp: what is printed, exit codes, and that earlier results stay whole.
+Oracle: the contract in src/runner/run_step.hpp: what is printed, exit codes, and that earlier results stay whole.
 """
 
 import hashlib

@@ -61,7 +61,7 @@ void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model
   write_summary(config, model, found, folder / "summary.csv");
 }
 
-void say_outcome(const StepContext& context, const AerodynamicsConfig& config, const aero::Instabilities& found) {
+void say_outcome(const runner::StepContext& context, const AerodynamicsConfig& config, const aero::Instabilities& found) {
   for (const aero::CriticalRow& row : found.critical) {
     if (row.point) {
       context.say(fmt::format(
@@ -81,8 +81,8 @@ void say_outcome(const StepContext& context, const AerodynamicsConfig& config, c
   }
 }
 
-Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config, const std::vector<aero::DeckAerodynamics>& data,
-                        const dynamics::ReadModel& read) {
+Status run_aerodynamics(runner::StepContext& context, const AerodynamicsConfig& config,
+                        const std::vector<aero::DeckAerodynamics>& data, const dynamics::ReadModel& read) {
   // 1. The updated model with its aerodynamic nodes, modes, and the angles of attack of its shape under dead load.
   const dynamics::LoadedModel loaded = dynamics::solvable(read);
   if (!loaded.state.status.converged) return loaded.state.status;
@@ -118,7 +118,7 @@ Status run_aerodynamics(StepContext& context, const AerodynamicsConfig& config, 
 
 }  // namespace
 
-Computation read_aerodynamics(StepContext& context, const AerodynamicsConfig& config) {
+runner::Computation read_aerodynamics(runner::StepContext& context, const AerodynamicsConfig& config) {
   const std::vector<aero::DeckAerodynamics> data = read_deck_aerodynamics(config, context);
   const dynamics::ReadModel model = load_model(context, context.results / "s6_updating" / "model");
   static_cast<void>(aero::aero_nodes_of(config, model.fe_model(), model.source));

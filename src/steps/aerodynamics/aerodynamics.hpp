@@ -1,12 +1,12 @@
 #pragma once
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
 
 /// Step 7: a model in mean wind (paper section 5.1, Tables 11, 12, Figs 16 to 20).
 namespace twindeck::steps {
 
 /// The step.
-[[nodiscard]] Computation read_aerodynamics(StepContext& context, const AerodynamicsConfig& config);
+[[nodiscard]] runner::Computation read_aerodynamics(runner::StepContext& context, const AerodynamicsConfig& config);
 
 }  // namespace twindeck::steps

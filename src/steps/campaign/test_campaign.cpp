@@ -30,7 +30,7 @@ namespace {
 constexpr double kHighestTruth_Hz = 3.0;
 
 Status write_calibration(const virtual_bridge::VirtualBridge& bridge, const virtual_bridge::CampaignSettings& settings,
-                         const StepContext& context) {
+                         const runner::StepContext& context) {
   const virtual_bridge::BridgeTuning found = tune(bridge, settings, context);
   io::CsvWriter csv({"parameter", "factor"});
   for (std::size_t i = 0; i < bridge.undivided.parameters.size(); ++i) {
@@ -78,7 +78,7 @@ const virtual_bridge::ConditionModel& model_of(const ConditionModels& models, co
 }
 
 /// Records of the decks, each with random streams of its own, so that threads change nothing.
-std::vector<Simulated> simulate_decks(const StepContext& context, const virtual_bridge::CampaignSettings& settings,
+std::vector<Simulated> simulate_decks(const runner::StepContext& context, const virtual_bridge::CampaignSettings& settings,
                                       const CampaignInputs& read, const ConditionModels& models) {
   std::vector<Simulated> simulated(settings.records.size());
   parallel_for(settings.records.size(), [&](std::size_t i) {
@@ -95,7 +95,7 @@ std::vector<Simulated> simulate_decks(const StepContext& context, const virtual_
 }
 
 /// Records of single stays.
-std::vector<virtual_bridge::StayRecord> simulate_stays(const StepContext& context,
+std::vector<virtual_bridge::StayRecord> simulate_stays(const runner::StepContext& context,
                                                        const virtual_bridge::CampaignSettings& settings,
                                                        const CampaignInputs& read, const fe::Model& bridge) {
   std::vector<virtual_bridge::StayRecord> stays;
@@ -123,9 +123,9 @@ std::optional<std::size_t> longest_record(const virtual_bridge::CampaignSettings
 }
 
 /// What is true of each condition's longest record. @return how large the motion was in it, by condition
-std::map<std::string, Amplitude> write_truth(const StepContext& context, const virtual_bridge::CampaignSettings& settings,
-                                             const CampaignInputs& read, const ConditionModels& models,
-                                             const std::vector<Simulated>& simulated,
+std::map<std::string, Amplitude> write_truth(const runner::StepContext& context,
+                                             const virtual_bridge::CampaignSettings& settings, const CampaignInputs& read,
+                                             const ConditionModels& models, const std::vector<Simulated>& simulated,
                                              const std::vector<virtual_bridge::StayRecord>& stays) {
   TruthTables truth;
   std::map<std::string, Amplitude> amplitudes;
@@ -143,7 +143,8 @@ std::map<std::string, Amplitude> write_truth(const StepContext& context, const v
   return amplitudes;
 }
 
-Status run_test_campaign(StepContext& context, const virtual_bridge::CampaignSettings& settings, const CampaignInputs& read) {
+Status run_test_campaign(runner::StepContext& context, const virtual_bridge::CampaignSettings& settings,
+                         const CampaignInputs& read) {
   // 1. The bridge as it is built, in each condition.
   const virtual_bridge::VirtualBridge bridge = virtual_bridge::numbered(read.bridge);
   if (context.has_flag("calibrate")) return write_calibration(bridge, settings, context);
@@ -166,7 +167,7 @@ Status run_test_campaign(StepContext& context, const virtual_bridge::CampaignSet
 
 }  // namespace
 
-Computation read_test_campaign(StepContext& context, const virtual_bridge::CampaignSettings& settings) {
+runner::Computation read_test_campaign(runner::StepContext& context, const virtual_bridge::CampaignSettings& settings) {
   CampaignInputs read;
   read.bridge = virtual_bridge::read_virtual_bridge(context.input(settings.bridge), settings);
   if (!context.has_flag("calibrate")) {

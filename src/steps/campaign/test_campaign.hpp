@@ -1,6 +1,6 @@
 #pragma once
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 #include "virtual_bridge/campaign_settings.hpp"
 
 namespace twindeck::steps {
@@ -14,6 +14,7 @@ namespace twindeck::steps {
 /// column `participation_<setup>` a setup of the condition; modes below 3 Hz, `mode` empty for those that Table 4 does not
 /// name), truth/shapes.csv (`condition,mode,channel,value,value_imag` of the named modes), truth/stays.csv, truth/dampers.csv.
 /// With --calibrate: corrections.csv alone, the factors that bring the named frequencies about.
-[[nodiscard]] Computation read_test_campaign(StepContext& context, const virtual_bridge::CampaignSettings& settings);
+[[nodiscard]] runner::Computation read_test_campaign(runner::StepContext& context,
+                                                     const virtual_bridge::CampaignSettings& settings);
 
 }  // namespace twindeck::steps

@@ -6,7 +6,7 @@
 
 namespace twindeck::steps {
 
-virtual_bridge::VirtualWind read_virtual_wind(StepContext& context, const virtual_bridge::CampaignSettings& settings) {
+virtual_bridge::VirtualWind read_virtual_wind(runner::StepContext& context, const virtual_bridge::CampaignSettings& settings) {
   virtual_bridge::VirtualWind out;
   AerodynamicsConfig config;
   io::FieldTable fields = config.fields();

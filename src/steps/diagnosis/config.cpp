@@ -10,12 +10,12 @@ io::FieldTable DiagnosisConfig::fields() {
       .text("further_causes", further_causes,
             "folder of causes beside the catalogue: a study's own, or a family at other places")
       .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
-      .texts("left_out", left_out, "types of rows that are not used, such as shape_imag, or modes, \"mode:8\"")
+      .texts("left_out", rows.left_out, "types of rows that are not used, such as shape_imag, or modes, \"mode:8\"")
       .number("least_mac", least_mac, "", {0.0, 1.0},
               "modes of which the model has none this alike are left out, and reported; 0: none is")
-      .boolean("names_alike", names_alike,
+      .boolean("names_alike", rows.names_alike,
                "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
-      .number("highest_frequency", highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
+      .number("highest_frequency", rows.highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
       .texts("hold_out", hold_out,
              "rows kept from the fit: \"condition\", \"condition/mode\", \"condition/mode/type\" or "
              "\"condition/every_second\", \"none\"; empty: marks, else the rule")
@@ -70,6 +70,10 @@ io::FieldTable DiagnosisConfig::fields() {
       .number("scatter.model_form", scatter.model_form, "", io::non_negative(),
               "of a frequency, alike in all conditions of a mode: what a model that is known to be off leaves open");
   return t;
+}
+
+bool DiagnosisConfig::with_form(const diagnosis::FeatureSet& features) const {
+  return form == "on" && diagnosis::has_rows_of_modes(features);
 }
 
 }  // namespace twindeck::steps

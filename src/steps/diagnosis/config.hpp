@@ -4,20 +4,19 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/rows_in_use.hpp"
 #include "io/config.hpp"
 
 namespace twindeck::steps {
 
 /// Configuration of s9_diagnosis.
 struct DiagnosisConfig {
-  std::string catalogue;              ///< folder; empty: workflows/common/hypotheses or its installed copy
-  std::string damper_places;          ///< file of places where dampers might stand instead
-  std::string further_causes;         ///< folder of causes beside it, which may put a family at another set of places
-  std::vector<std::string> pairs;     ///< "7X-8N", where no shape was measured
-  std::vector<std::string> left_out;  ///< types of rows, or "mode:8", that are not used
-  double least_mac = 0.0;             ///< modes of which the model has none this alike are left out, and reported
-  bool names_alike = false;           ///< one name for a mode in all conditions, by likeness of shape
-  double highest_Hz = 0.0;            ///< modes above it are left out; 0: none
+  std::string catalogue;           ///< folder; empty: workflows/common/hypotheses or its installed copy
+  std::string damper_places;       ///< file of places where dampers might stand instead
+  std::string further_causes;      ///< folder of causes beside it, which may put a family at another set of places
+  std::vector<std::string> pairs;  ///< "7X-8N", where no shape was measured
+  double least_mac = 0.0;          ///< modes of which the model has none this alike are left out, and reported
+  diagnosis::RowChoice rows;
   std::vector<std::string> hold_out;  ///< "condition", "condition/mode": in place of marks and rule
   double alpha = 0.01, residual_alpha = 0.001, residual_alpha_named = 0.01, either_within = 3.0, least_log_odds = 3.0;
   diagnosis::SearchOptions search;
@@ -32,6 +31,8 @@ struct DiagnosisConfig {
   diagnosis::ScatterOptions scatter;
 
   [[nodiscard]] io::FieldTable fields();
+  /// Whether the model's form competes with the causes.
+  [[nodiscard]] bool with_form(const diagnosis::FeatureSet& features) const;
 };
 
 }  // namespace twindeck::steps

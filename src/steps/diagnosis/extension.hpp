@@ -2,14 +2,14 @@
 
 #include <filesystem>
 
-#include "steps/diagnosis/model.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
 
 namespace twindeck::steps {
 
 /// Writes `folder` as a model that every step accepts, with the parameters of the extended fit and the causes put in as far as
 /// a model folder can say them; extension.toml lists each cause with its numbers and whether the model holds it. Causes on the
 /// measurement's side leave the model as it is and correct channels.csv beside it.
-void write_extended_model(const DiagnosedModel& model, const diagnosis::Places& places, const diagnosis::Diagnosis& result,
-                          const std::filesystem::path& folder);
+void write_extended_model(const diagnosis::DiagnosedModel& model, const diagnosis::Places& places,
+                          const diagnosis::Diagnosis& result, const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

@@ -6,19 +6,16 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "diagnosis/bar_stays_effect.hpp"
+#include "diagnosis/visibility.hpp"
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
-#include "steps/diagnosis/extended_stays.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
 constexpr std::size_t kToldBlocks = 5;  ///< of the residual test: those that stand out most
-constexpr double kNatsForAName = 5.0;   ///< 1/2 s² + ln(prior) - 2 > 3: what a name needs, with 2 nats for its unknowns
-constexpr double kVisibleSigma = 1.0;   ///< standard deviations: a shorter signature is less than the noise
-constexpr double kNoSignature = 1e-6;   ///< standard deviations: of an entry that does nothing here
-constexpr int kMagnitudeHalvings = 12;  ///< of a magnitude's range: to 1 part in 4096
 
 using diagnosis::Diagnosis;
 using diagnosis::Inference;
@@ -62,7 +59,7 @@ nlohmann::ordered_json listed_parameters(const std::vector<diagnosis::EffectPara
 
 /// State, place and rivals of an effect. A coordinate that is not known is null.
 void add_place_and_rivals(const diagnosis::Effect& effect, const Told& told, nlohmann::ordered_json& json) {
-  const PlaceInWords place = told.places.at(effect.cause.candidate->location);
+  const diagnosis::PlaceInWords place = told.places.at(effect.cause.candidate->location);
   json["state"] = effect.state;
   json["place"] = {{"words", place.words}, {"x_m", place.x_m.x()}, {"y_m", place.x_m.y()}, {"z_m", place.x_m.z()}};
   if (effect.within_m > 0.0) json["place"]["within_m"] = effect.within_m;
@@ -86,7 +83,7 @@ nlohmann::ordered_json listed_model_parameters(const std::vector<diagnosis::Mode
   return out;
 }
 
-nlohmann::ordered_json listed_sentences(const Sentences& sentences) {
+nlohmann::ordered_json listed_sentences(const diagnosis::Sentences& sentences) {
   return {{"what", sentences.what},
           {"why", sentences.why},
           {"how_sure", sentences.how_sure},
@@ -129,7 +126,7 @@ nlohmann::ordered_json effect_json(const diagnosis::Effect& effect, const Told& 
 }
 
 nlohmann::ordered_json gain_json(const Diagnosis& result) {
-  const diagnosis::Gain gain = told_gain(result);
+  const diagnosis::Gain gain = diagnosis::told_gain(result);
   nlohmann::ordered_json json = {{"held_out", gain.held_out},
                                  {"rows", gain.rows},
                                  {"before", gain.before},
@@ -137,7 +134,7 @@ nlohmann::ordered_json gain_json(const Diagnosis& result) {
                                  {"reduction_pct", gain.reduction_pct},
                                  {"interval_pct", {gain.low_pct, gain.high_pct}},
                                  {"level", 0.90}};
-  if (const auto explained = explained_gain(result)) {
+  if (const auto explained = diagnosis::explained_gain(result)) {
     json["modes_measured"] = explained->measured;
     json["modes_explained_before"] = explained->before;
     json["modes_explained_after"] = explained->after;
@@ -147,7 +144,7 @@ nlohmann::ordered_json gain_json(const Diagnosis& result) {
 
 }  // namespace
 
-void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& account, const Told& told,
+void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Finding>& account, const Told& told,
                      const diagnosis::FullCheck& check, double residual_alpha, double seconds,
                      const std::string& threshold_from, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
@@ -165,7 +162,7 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
     json["scatter"].push_back(
         {{"of", s.of}, {"rows", s.rows}, {"times_stated", s.scale}, {"low", s.low}, {"high", s.high}, {"level", 0.90}});
   json["account"] = nlohmann::ordered_json::array();
-  for (const Finding& finding : account)
+  for (const diagnosis::Finding& finding : account)
     json["account"].push_back({{"kind", finding.kind},
                                {"text", finding.text},
                                {"names", finding.names},
@@ -174,7 +171,7 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
   json["effects"] = nlohmann::ordered_json::array();
   for (const auto& effect : result.effects) json["effects"].push_back(effect_json(effect, told));
   json["measurement_corrections"] = nlohmann::ordered_json::array();
-  for (const Correction& c : told.corrections)
+  for (const records::Correction& c : told.corrections)
     json["measurement_corrections"].push_back(
         {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}});
   json["localisation"] = nlohmann::ordered_json::array();
@@ -184,9 +181,9 @@ void write_diagnosis(const Diagnosis& result, const std::vector<Finding>& accoun
   json["gain"] = gain_json(result);
   if (result.form) add_form(*result.form, json);
   json["measure_next"] = told.measure_next;
-  const auto listed = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
-  json["full_model"] = {{"frequency_Hz", listed(check.full_Hz)},
-                        {"reduced_Hz", listed(check.reduced_Hz)},
+  const auto values = [](const VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
+  json["full_model"] = {{"frequency_Hz", values(check.full_Hz)},
+                        {"reduced_Hz", values(check.reduced_Hz)},
                         {"largest_deviation_pct", check.largest_pct}};
   json["model_parameters"] = listed_model_parameters(told.model_parameters);
   json["parameters_on_bounds"] = result.on_bounds;
@@ -200,7 +197,7 @@ void write_residuals(const Inference& inference, const Diagnosis& result, const 
                      "residual_after", "beyond_before", "beyond_after"});
   const auto& map = inference.map();
   const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
-  const double limit = sidak_limit(map.features().rows.size());
+  const double limit = diagnosis::sidak_limit(map.features().rows.size());
   for (std::size_t r = 0; r < map.features().rows.size(); ++r) {
     const Row& row = map.features().rows[r];
     const auto i = static_cast<Index>(r);
@@ -299,89 +296,14 @@ void write_misfit(const Inference& inference, const Diagnosis& result, const std
   csv.save(file);
 }
 
-namespace {
-
-/// The strongest signature that the screen tries of an entry.
-struct Seen {
-  const diagnosis::Candidate* candidate;
-  VectorXd a, signature;
-};
-
-std::vector<Seen> strongest_signatures(const Inference& inference, const diagnosis::Fit& base) {
-  std::vector<Seen> seen;
-  for (const auto& candidate : inference.candidates()) {
-    Seen best{candidate.get(), {}, {}};
-    for (const VectorXd& a : candidate->starts) {
-      const VectorXd s = inference.signature(base, *candidate, a);
-      if (s.size() > 0 && (best.signature.size() == 0 || s.norm() > best.signature.norm())) {
-        best.a = a;
-        best.signature = s;
-      }
-    }
-    if (best.signature.size() > 0) seen.push_back(best);
-  }
-  return seen;
-}
-
-/// Smallest magnitude of the first unknown whose signature is as long as `needed`: from nothing (a factor of 1, else the lower
-/// bound) to the tried magnitude, by bisection.
-double smallest_magnitude(const Inference& inference, const diagnosis::Fit& base, const Seen& one, double needed) {
-  const diagnosis::Candidate& candidate = *one.candidate;
-  const bool factor = candidate.hypothesis->unknowns[0].name == "factor";
-  const double neutral =
-      factor && candidate.low[0] < 0.0 && candidate.high[0] > 0.0 ? 0.0 : (candidate.log[0] ? candidate.low[0] : 0.0);
-  double near = factor && candidate.log[0] ? 0.0 : neutral, far = one.a[0];
-  for (int i = 0; i < kMagnitudeHalvings; ++i) {
-    VectorXd a = one.a;
-    a[0] = 0.5 * (near + far);
-    const VectorXd s = inference.signature(base, candidate, a);
-    (s.size() > 0 && s.norm() > needed ? far : near) = a[0];
-  }
-  VectorXd a = one.a;
-  a[0] = far;
-  return candidate.physical(a, 0);
-}
-
-/// The entry of another family that comes nearest to one, and how far it stays away, in standard deviations.
-std::pair<std::string, double> best_imitation(const Seen& one, const std::vector<Seen>& seen) {
-  const double sigma = one.signature.norm();
-  double separation = sigma;
-  std::string imitation;
-  for (const Seen& other : seen) {
-    if (other.candidate->hypothesis == one.candidate->hypothesis || other.signature.norm() < kNoSignature) continue;
-    const double along = one.signature.dot(other.signature) / other.signature.norm();
-    const double rest = std::sqrt(std::max(sigma * sigma - along * along, 0.0));
-    if (rest < separation) {
-      separation = rest;
-      imitation = other.candidate->id();
-    }
-  }
-  return {imitation, separation};
-}
-
-}  // namespace
-
 void write_plan(const Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
                 const std::filesystem::path& file) {
   io::CsvWriter csv(
       {"cause", "location", "unknown", "smallest", "unit", "sigma", "best_imitation", "separation_sigma", "status"});
-  const diagnosis::Fit base = inference.fit({}, {});
-  const std::vector<Seen> seen = strongest_signatures(inference, base);
-  for (const Seen& one : seen) {
+  for (const diagnosis::Visibility& one : diagnosis::visibility(inference)) {
     const auto& spec = one.candidate->hypothesis->unknowns;
-    const double needed = std::sqrt(2.0 * (kNatsForAName - one.candidate->log_prior));
-    const double sigma = one.signature.norm();
-    std::optional<double> smallest;
-    std::string status = "visible";
-    if (sigma < kVisibleSigma)
-      status = "these data cannot see it";
-    else if (!spec.empty() && sigma < needed)
-      status = "too small at the tried magnitude";
-    else if (!spec.empty())
-      smallest = smallest_magnitude(inference, base, one, needed);
-    const auto [imitation, separation] = best_imitation(one, seen);
-    csv.row({one.candidate->hypothesis->id, one.candidate->location, spec.empty() ? "" : spec[0].name, smallest,
-             spec.empty() ? "" : spec[0].unit, sigma, imitation, separation, status});
+    csv.row({one.candidate->hypothesis->id, one.candidate->location, spec.empty() ? "" : spec[0].name, one.smallest,
+             spec.empty() ? "" : spec[0].unit, one.sigma, one.imitation, one.separation, one.status});
   }
   for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "", "", "", "not visible: " + none.reason});
   csv.save(file);

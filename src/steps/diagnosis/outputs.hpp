@@ -4,27 +4,27 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/evidence.hpp"
 #include "diagnosis/full_check.hpp"
 #include "diagnosis/model_parameters.hpp"
-#include "steps/diagnosis/evidence.hpp"
-#include "steps/diagnosis/sentences.hpp"
+#include "diagnosis/words/sentences.hpp"
 #include "steps/measured/measured_input.hpp"
 
 namespace twindeck::steps {
 
 /// What a diagnosis is told with. The first two are borrowed.
 struct Told {
-  const PlaceWords& places;
-  const IdsInWords& ids;
-  Sentences sentences;
+  const diagnosis::PlaceWords& places;
+  const diagnosis::IdsInWords& ids;
+  diagnosis::Sentences sentences;
   std::vector<std::string> measure_next;
   std::vector<diagnosis::ModelParameter> model_parameters;
-  std::vector<Correction> corrections;  ///< of corrections_of
+  std::vector<records::Correction> corrections;  ///< of corrections_of
 };
 
 /// diagnosis.json, as docs/ describes it.
 /// @param check  of the winner against the full model
-void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<Finding>& account, const Told& told,
+void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<diagnosis::Finding>& account, const Told& told,
                      const diagnosis::FullCheck& check, double residual_alpha, double seconds,
                      const std::string& threshold_from, const std::filesystem::path& file);
 /// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,

@@ -7,23 +7,23 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "io/csv.hpp"
+#include "diagnosis/files/catalogue_files.hpp"
+#include "diagnosis/files/claims_file.hpp"
+#include "diagnosis/files/damper_places.hpp"
+#include "diagnosis/files/feature_files.hpp"
+#include "diagnosis/files/load_test_files.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
 #include "matching/mode_name.hpp"
 #include "matching/shapes_at_sensors.hpp"
-#include "steps/diagnosis/catalogue.hpp"
-#include "steps/diagnosis/features.hpp"
-#include "steps/diagnosis/load_tests.hpp"
-#include "steps/diagnosis/model.hpp"
-#include "steps/diagnosis/rows_in_use.hpp"
+#include "runner/shipped_files.hpp"
+#include "runner/study.hpp"
 #include "steps/measured/measured_input.hpp"
-#include "steps/shared/shipped_files.hpp"
-#include "steps/shared/study.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
-std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const StepContext& context) {
+std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const runner::StepContext& context) {
   if (const auto given = context.flag("catalogue")) return *given;
   if (!config.catalogue.empty()) return config.catalogue;
   const std::filesystem::path catalogue = "workflows/common/hypotheses";
@@ -31,56 +31,34 @@ std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const Step
     const auto beside = context.study.parent_path() / "common/hypotheses";
     if (!std::filesystem::is_directory(catalogue) && std::filesystem::is_directory(beside)) return beside;
   }
-  return shipped(catalogue);
+  return runner::shipped(catalogue);
 }
 
-/// @param model  null for a matrix model, which has no dampers
-std::vector<diagnosis::DamperMove> read_damper_places(const std::filesystem::path& file, const fe::Model* model) {
-  const auto table = io::CsvTable::read(file, {"alternative", "damper", "x_m", "y_m", "z_m"}, {});
-  std::vector<std::string> known;
-  if (model != nullptr)
-    for (const fe::Spring& spring : model->springs)
-      if (diagnosis::can_be_moved(spring)) known.push_back(spring.name);
-  std::vector<diagnosis::DamperMove> moves;
-  for (std::size_t r = 0; r < table.rows(); ++r) {
-    const std::string name = table.text(r, "alternative"), damper = table.text(r, "damper");
-    if (std::find(known.begin(), known.end(), damper) == known.end())
-      table.fail(
-          r, "damper",
-          fmt::format("'{}' is no damper of the model between a node and the ground{}", damper, did_you_mean(damper, known)),
-          known.empty() ? "the model has none: leave damper_places out"
-                        : fmt::format("name one of its springs.csv: {}", fmt::join(known, ", ")));
-    if (moves.empty() || moves.back().name != name) moves.push_back({name, {}, {}});
-    moves.back().dampers.push_back(damper);
-    moves.back().x_m.emplace_back(table.number(r, "x_m"), table.number(r, "y_m"), table.number(r, "z_m"));
-  }
-  return moves;
-}
-
-void read_measurement(const DiagnosisConfig& config, StepContext& context, DiagnosisFiles& files) {
+void read_measurement(const DiagnosisConfig& config, runner::StepContext& context, DiagnosisFiles& files) {
   if (context.features)
     files.folder = *context.features;
   else if (!context.study.empty())
-    files.folder = read_study(context.study).features;
+    files.folder = runner::read_study(context.study).features;
   if (files.folder.empty())
     throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
   context.input(files.folder);
-  const MeasuredChoice choice = asked_choice(context);
-  files.features = read_all_features(files.folder, choice);
+  const records::MeasuredChoice choice = asked_choice(context);
+  files.features = diagnosis::read_all_features(files.folder, choice);
   files.corrected = choice.corrections;
   for (const diagnosis::Row& row : files.features.rows)
     if (row.type == diagnosis::RowType::stay_frequency) files.stay_rows.push_back(row);
-  choose_rows(config, files.features);
-  if (std::filesystem::exists(files.folder / "channels.csv")) files.channels = read_channels(files.folder / "channels.csv");
-  files.claims = read_claims(files.folder);
+  diagnosis::choose_rows(config.rows, files.features);
+  if (std::filesystem::exists(files.folder / "channels.csv"))
+    files.channels = records::read_channels(files.folder / "channels.csv");
+  files.claims = diagnosis::read_claims(files.folder);
 }
 
-std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, StepContext& context) {
+std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, runner::StepContext& context) {
   const auto folder = catalogue_folder(config, context);
   std::vector<diagnosis::Hypothesis> causes =
-      read_catalogue(std::filesystem::is_directory(folder) ? context.input(folder) : folder);
+      diagnosis::read_catalogue(std::filesystem::is_directory(folder) ? context.input(folder) : folder);
   if (config.further_causes.empty()) return causes;
-  for (diagnosis::Hypothesis& h : read_catalogue(context.input(config.further_causes))) {
+  for (diagnosis::Hypothesis& h : diagnosis::read_catalogue(context.input(config.further_causes))) {
     const auto same = [&](const diagnosis::Hypothesis& other) { return other.id == h.id && other.set == h.set; };
     if (std::any_of(causes.begin(), causes.end(), same))
       throw InputError({h.file, 1, "id"}, fmt::format("'{}' stands at {} in the catalogue already", h.id, h.set),
@@ -90,38 +68,39 @@ std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, St
   return causes;
 }
 
-ReadModel read_diagnosed_model(StepContext& context) {
+dynamics::ReadModel read_diagnosed_model(runner::StepContext& context) {
   const auto updated = context.results / "s6_updating" / "model";
   // A study that updates nothing is diagnosed on its own model.
   const bool own = !context.model && !context.study.empty() && !std::filesystem::is_directory(updated) &&
-                   !read_study(context.study).model_folder.empty();
+                   !runner::read_study(context.study).model_folder.empty();
   return own ? load_study_model(context, "") : load_model(context, updated);
 }
 
 /// Names in one file or the configuration that another file must have.
 void refuse_unknown_names(const DiagnosisConfig& config, const DiagnosisFiles& files) {
-  refuse_unknown_loads(files.folder, files.model.source);
-  refuse_unplaced_load_tests(files.features, files.channels, files.model, {files.model.source, files.folder / "channels.csv"});
-  refuse_unknown_stays(files.features, files.model.fe_model(), files.folder);
-  refuse_unplaced_channels(channels_at_points(files.channels), files.model, config.sensor_tolerance_m);
+  diagnosis::refuse_unknown_loads(files.folder, files.model.source);
+  diagnosis::refuse_unplaced_load_tests(files.features, files.channels, files.model,
+                                        {files.model.source, files.folder / "channels.csv"});
+  diagnosis::refuse_unknown_stays(files.features, files.model.fe_model(), files.folder);
+  refuse_unplaced_channels(diagnosis::channels_at_points(files.channels), files.model, config.sensor_tolerance_m);
   // How many modes the basis has is known once the model is reduced.
   static_cast<void>(
       matching::read_pairs(config.pairs, std::numeric_limits<Eigen::Index>::max(), {"", 0, "pairs"}, "raise modes"));
   if (config.hold_out.empty()) return;
   diagnosis::FeatureSet rows = files.features;
-  hold_out(config, rows);
+  diagnosis::hold_out(config.hold_out, config.with_form(rows), rows);
 }
 
 }  // namespace
 
-DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, StepContext& context) {
+DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, runner::StepContext& context) {
   DiagnosisFiles files;
   read_measurement(config, context, files);
   files.catalogue = read_causes(config, context);
   files.model = read_diagnosed_model(context);
   refuse_unknown_names(config, files);
   if (!config.damper_places.empty())
-    files.moves = read_damper_places(context.input(config.damper_places), files.model.fe_model());
+    files.moves = diagnosis::read_damper_places(context.input(config.damper_places), files.model.fe_model());
   return files;
 }
 

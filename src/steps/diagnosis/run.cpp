@@ -5,12 +5,11 @@
 #include <chrono>
 #include <set>
 
+#include "diagnosis/files/measurement_corrections.hpp"
 #include "diagnosis/form_diagnosis.hpp"
 #include "diagnosis/refinement.hpp"
 #include "steps/diagnosis/extension.hpp"
-#include "steps/diagnosis/measurement_corrections.hpp"
 #include "steps/diagnosis/outputs.hpp"
-#include "steps/diagnosis/rows_in_use.hpp"
 #include "steps/diagnosis/setup.hpp"
 
 /// The step from its inputs to its files, and what it says at the end.
@@ -18,7 +17,7 @@ namespace twindeck::steps {
 
 namespace {
 
-void say_form(const diagnosis::FormReport& form, StepContext& context) {
+void say_form(const diagnosis::FormReport& form, runner::StepContext& context) {
   context.say(
       fmt::format("  form error of the model: {:.2f} % in frequency ({:.2f} to {:.2f}), {:.2f} % in shape ({:.2f} to {:.2f})",
                   100.0 * form.frequency.level, 100.0 * form.frequency.low, 100.0 * form.frequency.high,
@@ -30,7 +29,7 @@ void say_form(const diagnosis::FormReport& form, StepContext& context) {
 }
 
 /// The last lines of the step.
-void say_sentences(diagnosis::Verdict verdict, const Sentences& sentences, StepContext& context) {
+void say_sentences(diagnosis::Verdict verdict, const diagnosis::Sentences& sentences, runner::StepContext& context) {
   context.say("verdict: " + name_of(verdict));
   context.say("  what is wrong: " + sentences.what);
   context.say("  why: " + sentences.why);
@@ -53,8 +52,8 @@ diagnosis::DiagnoseOptions options_of(const DiagnosisConfig& config, const Thres
   return options;
 }
 
-void say_modes_explained(const diagnosis::Diagnosis& result, StepContext& context) {
-  if (const auto gain = explained_gain(result))
+void say_modes_explained(const diagnosis::Diagnosis& result, runner::StepContext& context) {
+  if (const auto gain = diagnosis::explained_gain(result))
     context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
 }
 
@@ -72,7 +71,7 @@ void write_tables(const diagnosis::Inference& inference, const DiagnosisInputs& 
 
 /// The winner against the full model, as many of the lowest modes as were measured.
 diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::FeatureMap& map,
-                             const diagnosis::Diagnosis& result, StepContext& context) {
+                             const diagnosis::Diagnosis& result, runner::StepContext& context) {
   std::set<std::string> labels;
   for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
   diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
@@ -85,7 +84,7 @@ diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::Fea
   return check;
 }
 
-Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, StepContext& context) {
+Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   DiagnosisInputs inputs = prepare_diagnosis(config, files, context);
   diagnosis::FeatureMap map(*inputs.reduced, inputs.features, config.scatter);
@@ -103,7 +102,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
     context.say("plan.csv says what these rows would see");
     return {};
   }
-  const bool form = with_form(config, inputs.features);  // its rules have thresholds of their own
+  const bool form = config.with_form(inputs.features);  // its rules have thresholds of their own
   const Threshold threshold =
       form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
   diagnosis::Refinement refinement(inputs.structure, inputs.places, *inputs.reduced, inputs.features);
@@ -113,36 +112,39 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
                                      : diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
-  const PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,
-                          inputs.places);
-  const IdsInWords ids = ids_in_words(places, inference, result.ranking);
-  put_into_words(result, places, ids);
+  const diagnosis::PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,
+                                     inputs.places);
+  const diagnosis::IdsInWords ids = diagnosis::ids_in_words(places, inference, result.ranking);
+  diagnosis::put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
   const diagnosis::Inference judged(result.with_form ? *result.with_form : map, entries.candidates);
   write_tables(judged, inputs, entries, result, context.out);
   const diagnosis::FullCheck check = checked(inputs, map, result, context);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const std::vector<Correction> corrections = corrections_of(result, inputs.features.channels);
-  const std::vector<std::string> next = measure_next(result, places, ids, entries.invisible);
-  const Told told{
-      places,     ids, sentences_of(judged, result, places, ids, next), next, diagnosis::model_parameters(inference, result),
-      corrections};
-  std::vector<Finding> account = inputs.account;
-  for (Finding& finding : account) finding.text = ids.in_text(finding.text);
+  const std::vector<records::Correction> corrections = diagnosis::corrections_of(result, inputs.features.channels);
+  const std::vector<std::string> next = diagnosis::measure_next(result, places, ids, entries.invisible);
+  const Told told{places,
+                  ids,
+                  diagnosis::sentences_of(judged, result, places, ids, next),
+                  next,
+                  diagnosis::model_parameters(inference, result),
+                  corrections};
+  std::vector<diagnosis::Finding> account = inputs.account;
+  for (diagnosis::Finding& finding : account) finding.text = ids.in_text(finding.text);
   write_diagnosis(result, account, told, check, options.residual_level(result), seconds, threshold.from,
                   context.out / "diagnosis.json");
-  write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
-  for (const Finding& finding : account) context.say(finding.text);
+  diagnosis::write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
+  for (const diagnosis::Finding& finding : account) context.say(finding.text);
   say_modes_explained(result, context);
   if (result.form) say_form(*result.form, context);
   say_sentences(result.verdict, told.sentences, context);
-  for (const std::string& line : correction_advice(corrections)) context.say(line);
+  for (const std::string& line : diagnosis::correction_advice(corrections)) context.say(line);
   return {};
 }
 
 }  // namespace
 
-Computation read_diagnosis(const DiagnosisConfig& config, StepContext& context) {
+runner::Computation read_diagnosis(const DiagnosisConfig& config, runner::StepContext& context) {
   return [&config, &context, files = read_diagnosis_files(config, context)] { return run_diagnosis(config, files, context); };
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "runner/run_step.hpp"
 #include "steps/diagnosis/config.hpp"
-#include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
 
 /// The step.
-[[nodiscard]] Computation read_diagnosis(const DiagnosisConfig& config, StepContext& context);
+[[nodiscard]] runner::Computation read_diagnosis(const DiagnosisConfig& config, runner::StepContext& context);
 
 }  // namespace twindeck::steps

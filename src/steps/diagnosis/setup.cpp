@@ -8,28 +8,27 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "diagnosis/files/feature_files.hpp"
+#include "diagnosis/files/threshold_file.hpp"
 #include "diagnosis/null_calibration.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "matching/mode_name.hpp"
-#include "steps/diagnosis/features.hpp"
-#include "steps/diagnosis/rows_in_use.hpp"
-#include "steps/diagnosis/threshold_file.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
 /// Measured frequencies of each condition.
-std::vector<MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& features) {
-  std::vector<MeasuredFrequencies> conditions(features.conditions.size());
+std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& features) {
+  std::vector<dynamics::MeasuredFrequencies> conditions(features.conditions.size());
   for (const diagnosis::Row& row : features.rows) {
     if (row.type != diagnosis::RowType::frequency) continue;
-    MeasuredFrequencies& found = conditions[static_cast<std::size_t>(row.condition)];
+    dynamics::MeasuredFrequencies& found = conditions[static_cast<std::size_t>(row.condition)];
     found.names.push_back(fmt::format("{} of {}", row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name));
     found.frequency_Hz.conservativeResize(found.frequency_Hz.size() + 1);
     found.frequency_Hz.tail<1>()[0] = row.value;
   }
-  std::erase_if(conditions, [](const MeasuredFrequencies& found) { return found.names.empty(); });
+  std::erase_if(conditions, [](const dynamics::MeasuredFrequencies& found) { return found.names.empty(); });
   return conditions;
 }
 
@@ -40,7 +39,8 @@ void reduce(const diagnosis::PlaceOptions& place_options, int modes, DiagnosisIn
   diagnosis::Structure& structure = inputs.structure;
   structure = inputs.model->structure();
   inputs.places = diagnosis::find_places(structure, place_options);
-  structure.load_tests = load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
+  structure.load_tests =
+      diagnosis::load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
   diagnosis::ReductionOptions reduction;
   reduction.modes = modes;
   // Fits end far from where the basis is made (full_model): parameters on bounds, element scatter off by several deviations.
@@ -55,7 +55,7 @@ void reduce(const diagnosis::PlaceOptions& place_options, int modes, DiagnosisIn
 }
 
 /// A reduced model that predicts modes: of all places only the dampers, which change them, are there.
-diagnosis::ReducedModel reduced_for_modes(const DiagnosedModel& model, int modes, int corrected) {
+diagnosis::ReducedModel reduced_for_modes(const diagnosis::DiagnosedModel& model, int modes, int corrected) {
   const diagnosis::Structure structure = model.structure();
   diagnosis::Places places = diagnosis::find_places(structure, {});
   std::erase_if(places.sets, [](const auto& set) { return set.first != "dampers"; });
@@ -73,12 +73,13 @@ void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row
                                            2 * static_cast<int>(config.modes)};
   auto found = diagnosis::find_bar_stays(inputs.model->structure(), inputs.features, stay_rows, options);
   if (!found) return;
-  const ModesExplained before = modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
-  auto cables = std::make_shared<DiagnosedModel>(*inputs.model);
-  cables->loaded = from_model(std::move(found->extended));
+  const diagnosis::ModesExplained before =
+      diagnosis::modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
+  auto cables = std::make_shared<diagnosis::DiagnosedModel>(*inputs.model);
+  cables->loaded = dynamics::from_model(std::move(found->extended));
   const diagnosis::ReducedModel reduced =
       reduced_for_modes(*cables, std::max(static_cast<int>(config.modes), found->modes_in_basis), found->modes_in_band + 2);
-  const ModesExplained after = modes_explained(reduced, inputs.features, config.scatter, found->rule);
+  const diagnosis::ModesExplained after = diagnosis::modes_explained(reduced, inputs.features, config.scatter, found->rule);
   if (after.explained <= before.explained) return;
   inputs.bar_stays.emplace(std::move(found->stays), found->log_odds, before, after);
   inputs.extended = std::move(cables);
@@ -86,27 +87,27 @@ void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row
 
 }  // namespace
 
-DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, StepContext& context) {
+DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   DiagnosisInputs inputs;
   inputs.features = files.features;
   inputs.corrected = files.corrected;
   inputs.catalogue = files.catalogue;
-  const LoadedModel loaded = solvable(files.model);
+  const dynamics::LoadedModel loaded = dynamics::solvable(files.model);
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
   inputs.load_tests = {loaded.source, files.folder / "channels.csv"};
-  inputs.model = prepare_model(loaded, files.channels, config.sensor_tolerance_m);
+  inputs.model = diagnosis::prepare_model(loaded, files.channels, config.sensor_tolerance_m);
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
   place_options.moves = files.moves;
   reduce(place_options, static_cast<int>(config.modes), inputs);
-  refuse_slack_stays(inputs.features, inputs.places, files.folder);
+  diagnosis::refuse_slack_stays(inputs.features, inputs.places, files.folder);
   inputs.extended = inputs.model;
   if (config.stays == "auto") swing_stays(config, files.stay_rows, inputs);
-  inputs.account = account_of(files.claims, inputs.features, files.channels, inputs.places);
+  inputs.account = diagnosis::account_of(files.claims, inputs.features, files.channels, inputs.places);
   warn_of_unit_slips(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
   const double least_mac = config.least_mac > 0.0 || !inputs.bar_stays ? config.least_mac : kAlike;
-  if (const auto unpaired = leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))
+  if (const auto unpaired = diagnosis::leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))
     inputs.account.push_back(*unpaired);
-  hold_out(config, inputs.features);
+  diagnosis::hold_out(config.hold_out, config.with_form(inputs.features), inputs.features);
   return inputs;
 }
 
@@ -124,14 +125,16 @@ std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const Diag
 }
 
 Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference,
-                         StepContext& context) {
+                         runner::StepContext& context) {
   std::filesystem::path folder = config.threshold_cache;
   if (folder.empty()) folder = (context.results.empty() ? context.out.parent_path() : context.results) / "thresholds";
-  const std::string key = threshold_key(config, inputs, inference, context.seed);
-  const auto file = threshold_file(folder, key);
+  const std::string key = diagnosis::threshold_key({config.alpha, config.nulls, config.modes, config.most_refined,
+                                                    config.search.refine_within, config.scatter, config.pairs},
+                                                   *inputs.reduced, inputs.features, inputs.catalogue, inference, context.seed);
+  const auto file = diagnosis::threshold_file(folder, key);
   // The same words whether they were kept or run now: a second run gives the same bytes.
   const std::string from = fmt::format("{} nulls, {}", config.nulls, file.filename().string());
-  if (const auto kept = read_threshold(file, key)) {
+  if (const auto kept = diagnosis::read_threshold(file, key)) {
     context.input(file);
     return {*kept, from};
   }
@@ -146,9 +149,9 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
   std::sort(sorted.begin(), sorted.end());
   const auto at = static_cast<std::size_t>(std::ceil((1.0 - config.alpha) * static_cast<double>(sorted.size()))) - 1;
   const double threshold = sorted[std::min(at, sorted.size() - 1)];
-  write_threshold(threshold, config.nulls, 1.0 - config.alpha, file, key);
+  diagnosis::write_threshold(threshold, config.nulls, 1.0 - config.alpha, file, key);
   context.input(file);
-  return {read_threshold(file, key).value_or(threshold), from};  // as it is kept, to six decimals
+  return {diagnosis::read_threshold(file, key).value_or(threshold), from};  // as it is kept, to six decimals
 }
 
 }  // namespace twindeck::steps

@@ -6,36 +6,36 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/bar_stays_effect.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/evidence.hpp"
+#include "diagnosis/files/load_test_files.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
+#include "runner/run_step.hpp"
 #include "steps/diagnosis/config.hpp"
-#include "steps/diagnosis/evidence.hpp"
-#include "steps/diagnosis/extended_stays.hpp"
-#include "steps/diagnosis/load_tests.hpp"
-#include "steps/diagnosis/model.hpp"
 #include "steps/diagnosis/read_files.hpp"
-#include "steps/shared/run_step.hpp"
 
 namespace twindeck::steps {
 
 /// Everything that a diagnosis works on.
 struct DiagnosisInputs {
-  std::shared_ptr<DiagnosedModel> model;
+  std::shared_ptr<diagnosis::DiagnosedModel> model;
   diagnosis::Structure structure;  ///< borrows from `model`
   diagnosis::Places places;
   std::unique_ptr<diagnosis::ReducedModel> reduced;
   diagnosis::FeatureSet features;
-  std::vector<Correction> corrected;  ///< what of the features --correct has put right
+  std::vector<records::Correction> corrected;  ///< what of the features --correct has put right
   std::vector<diagnosis::Hypothesis> catalogue;
-  std::vector<Finding> account;             ///< what claims and rows say before any odds
-  LoadTestFiles load_tests;                 ///< where loads and gauges stand
-  std::optional<BarStaysEffect> bar_stays;  ///< where stays swing that the model has as bars
+  std::vector<diagnosis::Finding> account;             ///< what claims and rows say before any odds
+  diagnosis::LoadTestFiles load_tests;                 ///< where loads and gauges stand
+  std::optional<diagnosis::BarStaysEffect> bar_stays;  ///< where stays swing that the model has as bars
   /// What the causes are put into: `model`, with the stays that swing as cables.
-  std::shared_ptr<const DiagnosedModel> extended;
+  std::shared_ptr<const diagnosis::DiagnosedModel> extended;
 };
 
 /// The model reduced, with its places, and the rows that it can be compared with.
 [[nodiscard]] DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
-                                                StepContext& context);
+                                                runner::StepContext& context);
 
 /// Threshold of the largest log odds: of a cached null calibration where the same model, rows (without their values), catalogue
 /// and rule were run before, of one run now where the configuration asks for it, else the analytic tail.
@@ -44,7 +44,7 @@ struct Threshold {
   std::string from;
 };
 [[nodiscard]] Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
-                                       const diagnosis::Inference& inference, StepContext& context);
+                                       const diagnosis::Inference& inference, runner::StepContext& context);
 
 /// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
 /// @param unmeasured  gets those that no row names

@@ -11,7 +11,7 @@ namespace twindeck::steps {
 namespace {
 
 /// data/<study>/campaign where somebody has put records of their own, else what s0_campaign wrote.
-std::filesystem::path default_campaign(const StepContext& context) {
+std::filesystem::path default_campaign(const runner::StepContext& context) {
   const std::filesystem::path own = std::filesystem::path("data") / context.study.lexically_normal().filename() / "campaign";
   const bool is_there = !context.study.empty() && std::filesystem::exists(own / "campaign.toml");
   if (is_there) return own;
@@ -25,7 +25,7 @@ std::filesystem::path default_campaign(const StepContext& context) {
 }
 
 /// Registered are the lists and records, and nothing else that lies there.
-records::Campaign read_lists(StepContext& context) {
+records::Campaign read_lists(runner::StepContext& context) {
   const auto folder = context.campaign ? *context.campaign : default_campaign(context);
   if (!std::filesystem::exists(folder)) context.input(folder);
   records::Campaign campaign = records::read_campaign(folder);
@@ -52,7 +52,7 @@ class LeftOut {
     }
   }
   /// Warns of each, or refuses with the first where nothing else is left to identify.
-  void report(StepContext& context, bool nothing_left) const {
+  void report(runner::StepContext& context, bool nothing_left) const {
     if (nothing_left && first_) throw *first_;
     for (const std::string& warning : warnings_) context.warn(warning);
   }
@@ -64,7 +64,8 @@ class LeftOut {
 
 std::vector<identification::Conditioned> read_kind(const records::Campaign& campaign, const records::RecordChoice& choice,
                                                    const identification::IdentificationSettings& config,
-                                                   Eigen::Index decimation, const StepContext& context, LeftOut& left_out) {
+                                                   Eigen::Index decimation, const runner::StepContext& context,
+                                                   LeftOut& left_out) {
   std::vector<identification::Conditioned> records;
   for (const records::RecordGroup& group : records::record_groups(campaign, choice, true)) {
     left_out.attempt("setup " + group.setup, [&] {
@@ -77,7 +78,8 @@ std::vector<identification::Conditioned> read_kind(const records::Campaign& camp
 
 }  // namespace
 
-IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config, StepContext& context) {
+IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config,
+                                                runner::StepContext& context) {
   IdentificationInputs read;
   read.campaign = read_lists(context);
   LeftOut left_out;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "identification/condition.hpp"
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
 namespace twindeck::steps {
 
@@ -18,6 +18,6 @@ struct IdentificationInputs {
 /// Reads a campaign: `--campaign`, else data/<study>/campaign, else what s0_campaign wrote.
 /// @throws InputError  as read_campaign, record_groups, read_condition and condition_records
 [[nodiscard]] IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config,
-                                                              StepContext& context);
+                                                              runner::StepContext& context);
 
 }  // namespace twindeck::steps

@@ -6,18 +6,18 @@
 #include "io/csv.hpp"
 #include "matching/mode_name.hpp"
 #include "model_io/export.hpp"
-#include "steps/shared/study.hpp"
+#include "runner/study.hpp"
 
 namespace twindeck::steps {
 
-std::vector<Flag> measured_flags() {
+std::vector<runner::Flag> measured_flags() {
   return {{"condition", true, "condition of the measurement to look at: a table of conditions.toml"},
           {"state", true, "state of the structure to look at: the key `state` in conditions.toml (missing there: reference)"},
           {"correct", true,
            "file of corrections of single channels, as s9_diagnosis writes it (corrections.toml), made before anything else"}};
 }
 
-std::vector<records::Correction> asked_corrections(StepContext& context) {
+std::vector<records::Correction> asked_corrections(runner::StepContext& context) {
   const std::optional<std::string> file = context.flag("correct");
   if (!file) return {};
   if (!std::filesystem::is_regular_file(*file))
@@ -28,7 +28,7 @@ std::vector<records::Correction> asked_corrections(StepContext& context) {
   return corrections;
 }
 
-records::MeasuredChoice asked_choice(StepContext& context, const std::string& condition) {
+records::MeasuredChoice asked_choice(runner::StepContext& context, const std::string& condition) {
   records::MeasuredChoice choice;
   const auto name = [&](const char* flag) {
     const std::optional<std::string> given = context.flag(flag);
@@ -70,7 +70,7 @@ matching::Measured read_measured_modes(const std::filesystem::path& folder, cons
 namespace {
 
 /// Comparing and updating go by modes: that rows of load tests were left is said.
-void warn_of_load_tests(const std::filesystem::path& folder, StepContext& context) {
+void warn_of_load_tests(const std::filesystem::path& folder, runner::StepContext& context) {
   const auto table = io::CsvTable::read(folder / "rows.csv", {"type"}, {}, true);
   int count = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) count += table.text(row, "type").starts_with("static_") ? 1 : 0;
@@ -79,7 +79,7 @@ void warn_of_load_tests(const std::filesystem::path& folder, StepContext& contex
 
 }  // namespace
 
-std::optional<matching::Measured> find_measured(StepContext& context, const std::string& condition) {
+std::optional<matching::Measured> find_measured(runner::StepContext& context, const std::string& condition) {
   if (context.modes) {
     for (const char* flag : {"condition", "state"}) {
       if (context.has_flag(flag))
@@ -92,14 +92,14 @@ std::optional<matching::Measured> find_measured(StepContext& context, const std:
   if (context.features)
     folder = *context.features;
   else if (!context.study.empty())
-    folder = read_study(context.study).features;
+    folder = runner::read_study(context.study).features;
   const records::MeasuredChoice choice = asked_choice(context, condition);
   if (!folder.empty()) {
     matching::Measured measured = records::read_measured_features(context.input(folder), choice);
     warn_of_load_tests(folder, context);
     return measured;
   }
-  for (const Flag& flag : measured_flags()) {
+  for (const runner::Flag& flag : measured_flags()) {
     if (context.has_flag(flag.name))
       throw InputError({"command line", 0, "--" + flag.name}, "is given, but no measured modes are",
                        "give --features DIR or --modes DIR");

@@ -10,34 +10,22 @@
 #include "records/corrections.hpp"
 #include "records/feature_rows.hpp"
 #include "records/measured_features.hpp"
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
 /// What a step takes of a measurement: the options that say which part, and the files that the part is in.
 namespace twindeck::steps {
 
-// s9_diagnosis says these names without their room.
-using dynamics::MeasuredFrequencies;
-using matching::Channel;
-using matching::Measured;
-using records::Correction;
-using records::FeatureRow;
-using records::FeatureRows;
-using records::MeasuredChoice;
-using records::MeasuredCondition;
-using records::read_channels;
-using records::read_conditions;
-
 /// `--condition NAME`, `--state NAME` and `--correct FILE`: the options of every step that reads measured modes or features.
-[[nodiscard]] std::vector<Flag> measured_flags();
+[[nodiscard]] std::vector<runner::Flag> measured_flags();
 
 /// What `--correct FILE` asks for, registered as an input and written into the manifest. Empty without the option.
 /// @throws InputError  see read_corrections; a missing file
-[[nodiscard]] std::vector<records::Correction> asked_corrections(StepContext& context);
+[[nodiscard]] std::vector<records::Correction> asked_corrections(runner::StepContext& context);
 
 /// Reads these options.
 /// @param condition  of the step's configuration: used if neither --condition nor --state is given
 /// @throws InputError  see asked_corrections; an empty name
-[[nodiscard]] records::MeasuredChoice asked_choice(StepContext& context, const std::string& condition = "");
+[[nodiscard]] records::MeasuredChoice asked_choice(runner::StepContext& context, const std::string& condition = "");
 
 /// Reads modes.csv, and shapes.csv and channels.csv if they exist, from a folder (`--modes DIR`).
 /// @throws InputError  as above
@@ -47,7 +35,7 @@ using records::read_conditions;
 /// The measured modes that a step works with: `--modes DIR`, else `--features DIR`, else the study's features, registered as
 /// inputs. Empty if none of the three exists.
 /// @param condition  of the step's configuration; --condition takes precedence
-[[nodiscard]] std::optional<matching::Measured> find_measured(StepContext& context, const std::string& condition);
+[[nodiscard]] std::optional<matching::Measured> find_measured(runner::StepContext& context, const std::string& condition);
 
 /// Input of warn_of_unit_slips for a step that compares with one condition.
 [[nodiscard]] std::vector<dynamics::MeasuredFrequencies> frequencies_of(const std::optional<matching::Measured>& measured);

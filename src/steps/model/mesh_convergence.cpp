@@ -9,12 +9,12 @@
 
 namespace twindeck::steps {
 
-void refuse_unknown_meshes(const Study& study, const std::string& variant, const std::vector<std::string>& meshes) {
+void refuse_unknown_meshes(const runner::Study& study, const std::string& variant, const std::vector<std::string>& meshes) {
   for (const std::string& mesh : meshes) static_cast<void>(ponte::generate(study.model_file, variant, mesh));
 }
 
-void write_mesh_convergence(const Study& study, const std::string& variant, const std::vector<std::string>& meshes, int n_modes,
-                            const std::filesystem::path& file) {
+void write_mesh_convergence(const runner::Study& study, const std::string& variant, const std::vector<std::string>& meshes,
+                            int n_modes, const std::filesystem::path& file) {
   constexpr int beyond = 5;  // solved for beyond the modes shown, so that one that moves up is among them
   const auto solved = [&](const std::string& mesh) {
     return matching::solve_modes(dynamics::from_model(ponte::generate(study.model_file, variant, mesh)), n_modes + beyond);

@@ -10,13 +10,14 @@
 #include "dynamics/unit_slips.hpp"
 #include "matching/comparison.hpp"
 #include "matching/solved_model.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/export.hpp"
 #include "ponte/change_study.hpp"
+#include "runner/study.hpp"
 #include "steps/measured/comparison_tables.hpp"
 #include "steps/measured/measured_input.hpp"
 #include "steps/refinement/change_table.hpp"
-#include "steps/shared/model_outputs.hpp"
-#include "steps/shared/study.hpp"
+#include "steps/shared/model_source.hpp"
 
 namespace twindeck::steps {
 
@@ -49,7 +50,7 @@ namespace {
 /// What the step reads.
 struct RefinementInputs {
   dynamics::ReadModel initial;
-  std::optional<Study> generated;  ///< the study whose generator writes the model; a model of the user's own has none
+  std::optional<runner::Study> generated;  ///< the study whose generator writes the model; a model of the user's own has none
   std::optional<dynamics::ReadModel> refined;  ///< the generator's variant
   std::optional<matching::Measured> measured;
 };
@@ -61,17 +62,20 @@ std::vector<bool> compared_modes(const matching::Measured& measured, const match
   return keep;
 }
 
-Place place_of_pairs(const StepContext& context) { return {(context.study / "s4_refinement.toml").string(), 0, "pairs"}; }
+Place place_of_pairs(const runner::StepContext& context) {
+  return {(context.study / "s4_refinement.toml").string(), 0, "pairs"};
+}
 
-matching::Pairing pair_refined(const StepContext& context, const RefinementConfig& config, const matching::Measured& measured,
-                               const matching::SolvedModel& refined, const matching::PairingOptions& options) {
+matching::Pairing pair_refined(const runner::StepContext& context, const RefinementConfig& config,
+                               const matching::Measured& measured, const matching::SolvedModel& refined,
+                               const matching::PairingOptions& options) {
   if (measured.modes.has_shapes())
     return matching::pair_at_sensors(measured, refined.loaded, refined.modes, options, config.sensor_tolerance_m);
   if (config.pairs.empty()) return matching::pair_by_order(measured, refined.modes.frequency_Hz.size());
   return matching::pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place_of_pairs(context));
 }
 
-matching::PairingAccount compare_with_measurement(StepContext& context, const RefinementConfig& config,
+matching::PairingAccount compare_with_measurement(runner::StepContext& context, const RefinementConfig& config,
                                                   const std::optional<matching::Measured>& measured,
                                                   const matching::SolvedModel& initial, const matching::SolvedModel& refined) {
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
@@ -104,7 +108,7 @@ matching::PairingAccount compare_with_measurement(StepContext& context, const Re
   return account;
 }
 
-Status run_refinement(StepContext& context, const RefinementConfig& config, const RefinementInputs& read) {
+Status run_refinement(runner::StepContext& context, const RefinementConfig& config, const RefinementInputs& read) {
   // 1. Initial and refined model, with their modes. A model of the user's own is both.
   dynamics::LoadedModel initial_model = dynamics::solvable(read.initial);
   dynamics::LoadedModel refined_source = read.refined ? dynamics::solvable(*read.refined) : initial_model;
@@ -112,8 +116,9 @@ Status run_refinement(StepContext& context, const RefinementConfig& config, cons
       std::min<Eigen::Index>(config.n_modes, std::min(initial_model.system.size(), refined_source.system.size())));
   const matching::SolvedModel initial = matching::solve_modes(std::move(initial_model), n);
   const matching::SolvedModel refined = matching::solve_modes(std::move(refined_source), n);
-  model_io::write_modes(published_modes(refined.loaded.fe_model(), refined.loaded.system, refined.modes), context.out);
-  save_model(refined.loaded, refined.loaded.theta, context.out / "model");
+  model_io::write_modes(model_io::published_modes(refined.loaded.fe_model(), refined.loaded.system, refined.modes),
+                        context.out);
+  model_io::save_model(refined.loaded, refined.loaded.theta, context.out / "model");
 
   // 2. Against the measurement.
   const matching::PairingAccount account = compare_with_measurement(context, config, read.measured, initial, refined);
@@ -134,11 +139,11 @@ Status run_refinement(StepContext& context, const RefinementConfig& config, cons
 
 }  // namespace
 
-Computation read_refinement(StepContext& context, const RefinementConfig& config) {
+runner::Computation read_refinement(runner::StepContext& context, const RefinementConfig& config) {
   RefinementInputs read;
   read.initial = load_model(context, context.results / "s1_model" / "model");
   if (!context.model && !context.study.empty()) {
-    const Study study = read_study(context.study);
+    const runner::Study study = runner::read_study(context.study);
     if (!study.model_generator.empty()) {
       read.generated = study;
       read.refined = load_study_model(context, config.variant);

@@ -5,7 +5,7 @@
 
 #include "io/config.hpp"
 #include "matching/pairing_account.hpp"
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 
 /// As-built changes and comparison with the measurement: paper section 4.1, Tables 6 and 7.
 namespace twindeck::steps {
@@ -25,6 +25,6 @@ struct RefinementConfig {
 };
 
 /// The step: everything between the command line and the manifest.
-[[nodiscard]] Computation read_refinement(StepContext& context, const RefinementConfig& config);
+[[nodiscard]] runner::Computation read_refinement(runner::StepContext& context, const RefinementConfig& config);
 
 }  // namespace twindeck::steps

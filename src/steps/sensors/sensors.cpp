@@ -131,7 +131,7 @@ struct SensorsInputs {
   std::vector<int> nodes;  ///< of the model, one a point
 };
 
-Status run_sensors(StepContext& context, const SensorsConfig& config, const SensorsInputs& read) {
+Status run_sensors(runner::StepContext& context, const SensorsConfig& config, const SensorsInputs& read) {
   // 1. The model's modes at the candidates.
   const auto& [points, setups, candidates, model, nodes] = read;
   const dynamics::LoadedModel loaded = dynamics::solvable(model);
@@ -164,7 +164,7 @@ Status run_sensors(StepContext& context, const SensorsConfig& config, const Sens
 
 }  // namespace
 
-Computation read_sensors(StepContext& context, const SensorsConfig& config) {
+runner::Computation read_sensors(runner::StepContext& context, const SensorsConfig& config) {
   SensorsInputs read;
   read.points = read_points(context.input(config.points));
   read.setups = read_setups(context.input(config.setups), read.points);

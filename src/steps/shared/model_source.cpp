@@ -1,41 +1,31 @@
 #include "steps/shared/model_source.hpp"
 
-#include <memory>
 #include <utility>
 
 #include "fe/mass_words.hpp"
 #include "model_io/ansys.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/inp.hpp"
-#include "model_io/load_cases.hpp"
-#include "model_io/model_folder.hpp"
 #include "model_io/nastran.hpp"
 #include "model_io/printed_mass.hpp"
 #include "ponte/generator.hpp"
-#include "steps/shared/study.hpp"
+#include "runner/study.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
 /// Mass, centre and inertia: a lost part, a wrong density or unit shows there first.
-dynamics::ReadModel with_mass_said(const StepContext& context, const std::filesystem::path& file, dynamics::ReadModel read) {
+dynamics::ReadModel with_mass_said(const runner::StepContext& context, const std::filesystem::path& file,
+                                   dynamics::ReadModel read) {
   context.say(fe::mass_words(fe::mass_properties(*read.fe_model())));
   if (const std::string printed = model_io::printed_mass(file); !printed.empty())
     context.say("beside it, in the deck's units: " + printed);
   return read;
 }
 
-}  // namespace
-
-dynamics::ReadModel read_model_folder(const std::filesystem::path& folder) {
-  if (!model_io::is_matrix_model(folder)) return dynamics::valid_model(model_io::read_model(folder));
-  dynamics::ReadModel read;
-  read.source = folder.string();
-  read.matrices = model_io::read_matrix_model(folder);
-  return read;
-}
-
-dynamics::ReadModel import_inp(StepContext& context, const std::filesystem::path& file) {
+/// Reads an .inp file of CalculiX or Abaqus, or a deck of ANSYS, and reports what it cannot use, with the mass of the whole.
+dynamics::ReadModel import_inp(runner::StepContext& context, const std::filesystem::path& file) {
   context.input(file);
   auto beside = file;
   beside.replace_extension(".toml");
@@ -45,7 +35,8 @@ dynamics::ReadModel import_inp(StepContext& context, const std::filesystem::path
   return with_mass_said(context, file, dynamics::valid_model(std::move(imported.model)));
 }
 
-dynamics::ReadModel import_nastran(StepContext& context, const std::filesystem::path& file) {
+/// Reads a Nastran deck, registers the files that it includes, and reports what it cannot use.
+dynamics::ReadModel import_nastran(runner::StepContext& context, const std::filesystem::path& file) {
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
@@ -55,11 +46,13 @@ dynamics::ReadModel import_nastran(StepContext& context, const std::filesystem::
   return with_mass_said(context, file, dynamics::valid_model(std::move(imported.model)));
 }
 
-dynamics::ReadModel import_file(StepContext& context, const std::filesystem::path& file) {
+dynamics::ReadModel import_file(runner::StepContext& context, const std::filesystem::path& file) {
   return model_io::is_nastran_file(file) ? import_nastran(context, file) : import_inp(context, file);
 }
 
-dynamics::ReadModel load_model(StepContext& context, const std::filesystem::path& default_folder) {
+}  // namespace
+
+dynamics::ReadModel load_model(runner::StepContext& context, const std::filesystem::path& default_folder) {
   const std::filesystem::path folder = context.model.value_or(default_folder);
   if (std::filesystem::is_regular_file(folder)) return import_file(context, folder);
   if (!std::filesystem::is_directory(folder)) {
@@ -68,34 +61,22 @@ dynamics::ReadModel load_model(StepContext& context, const std::filesystem::path
                      context.model ? "give --model (or the key `model`) the folder that holds model.toml"
                                    : "run " + step + " first, or give a model folder by --model DIR");
   }
-  return read_model_folder(context.input(folder));
+  return model_io::read_model_folder(context.input(folder));
 }
 
-dynamics::ReadModel load_study_model(StepContext& context, const std::string& variant) {
+dynamics::ReadModel load_study_model(runner::StepContext& context, const std::string& variant) {
   if (context.model) return load_model(context, *context.model);
   if (context.study.empty()) {
     throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
   }
-  const Study study = read_study(context.study);
+  const runner::Study study = runner::read_study(context.study);
   if (!study.model_inp.empty()) return import_file(context, study.model_inp);
   if (study.model_folder.empty() && study.model_generator.empty()) {
     throw InputError({(context.study / "study.toml").string(), 0, "model"}, "names no model",
                      "give [model] generator and file, or folder, or a model folder by --model DIR");
   }
-  if (study.model_generator.empty()) return read_model_folder(context.input(study.model_folder));
+  if (study.model_generator.empty()) return model_io::read_model_folder(context.input(study.model_folder));
   return dynamics::valid_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
-}
-
-void save_model(const dynamics::LoadedModel& loaded, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
-  if (loaded.model) {
-    model_io::write_model(fe::with_parameters(*loaded.model, theta), folder);
-  } else {
-    fe::ParametricSystem system = loaded.system;
-    for (std::size_t p = 0; p < system.parameters.size(); ++p)
-      system.parameters[p].initial = theta[static_cast<Eigen::Index>(p)];
-    model_io::write_matrix_model(system, folder);
-  }
-  model_io::carry_load_cases(loaded.source, folder);
 }
 
 }  // namespace twindeck::steps

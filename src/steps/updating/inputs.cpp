@@ -17,7 +17,7 @@
 namespace twindeck::steps {
 namespace {
 
-std::vector<std::string> selected_by_sensitivity(StepContext& context) {
+std::vector<std::string> selected_by_sensitivity(runner::StepContext& context) {
   const std::filesystem::path file = context.results / "s5_sensitivity" / "selection.csv";
   if (!std::filesystem::is_regular_file(file)) {
     throw InputError({file.string(), 0, ""}, "is not there, but parameters_from is \"s5_sensitivity\"",
@@ -35,7 +35,8 @@ bool has_range(const fe::Parameter& parameter) { return parameter.lower < parame
 
 }  // namespace
 
-std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics::ReadModel& model, StepContext& context) {
+std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics::ReadModel& model,
+                                   runner::StepContext& context) {
   const std::vector<fe::Parameter>& parameters = model.parameters();
   std::vector<std::string> known;
   for (const fe::Parameter& parameter : parameters) known.push_back(parameter.name);
@@ -72,7 +73,7 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics:
 }
 
 std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, const std::vector<fe::Parameter>& parameters,
-                                              const std::vector<int>& active, StepContext& context) {
+                                              const std::vector<int>& active, runner::StepContext& context) {
   if (config.published_values.empty()) return {};
   const io::CsvTable table =
       io::CsvTable::read(context.input(config.published_values), {"parameter", "unit", "final_value"}, {}, true);
@@ -97,7 +98,7 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
   return {values};
 }
 
-UpdatingInputs read_updating(const UpdatingConfig& config, StepContext& context) {
+UpdatingInputs read_updating(const UpdatingConfig& config, runner::StepContext& context) {
   UpdatingInputs read;
   read.model = load_model(context, context.results / "s4_refinement" / "model");
   std::optional<matching::Measured> measured = find_measured(context, config.condition);

@@ -67,7 +67,7 @@ void write_weighing(const updating::Weighed& weighed, const updating::Posterior&
 
 }  // namespace
 
-void report_weighing(StepContext& context, const updating::Weighed& weighed) {
+void report_weighing(runner::StepContext& context, const updating::Weighed& weighed) {
   const updating::UpdatingResult& result = weighed.result;
   if (!weighed.rows.given() || result.at_optimum.jacobian.size() == 0) return;
   Eigen::VectorXd x(result.scale.size());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 #include "updating/weighing.hpp"
 
 namespace twindeck::steps {
@@ -14,6 +14,6 @@ namespace twindeck::steps {
 ///  - `weighing.csv`: quantity,value,unit: chi_squared, degrees_of_freedom, misfit, rows, free_scales
 /// and says in words how well the model agrees, what cannot be told apart, and which directions are flat. Nothing without
 /// weighed rows.
-void report_weighing(StepContext& context, const updating::Weighed& weighed);
+void report_weighing(runner::StepContext& context, const updating::Weighed& weighed);
 
 }  // namespace twindeck::steps

@@ -16,7 +16,7 @@ namespace twindeck::steps {
 
 namespace {
 
-AerodynamicsConfig read_step_7(const ValidationConfig& config, StepContext& context) {
+AerodynamicsConfig read_step_7(const ValidationConfig& config, runner::StepContext& context) {
   if (config.aerodynamics.empty() && context.study.empty()) {
     throw InputError({"", 0, "aerodynamics"}, "neither a study nor a configuration of step 7 was given",
                      "give --study, or --set aerodynamics=s7_aerodynamics.toml");
@@ -30,7 +30,7 @@ AerodynamicsConfig read_step_7(const ValidationConfig& config, StepContext& cont
 }
 
 /// The level that step 7 fitted for a set.
-double fitted_level(StepContext& context, const std::string& set) {
+double fitted_level(runner::StepContext& context, const std::string& set) {
   const std::filesystem::path file = context.input(context.results / "s7_aerodynamics" / "sets.csv");
   const io::CsvTable table = io::CsvTable::read(file, {"set", "level"}, {}, true);
   std::vector<std::string> known;
@@ -44,7 +44,7 @@ double fitted_level(StepContext& context, const std::string& set) {
 
 }  // namespace
 
-ValidationInputs read_validation_inputs(const ValidationConfig& config, StepContext& context) {
+ValidationInputs read_validation_inputs(const ValidationConfig& config, runner::StepContext& context) {
   if (config.events.empty() || config.runs.empty()) {
     throw InputError({"", 0, config.events.empty() ? "event" : "run"}, "none is given", "add [[event]] and [[run]] tables");
   }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dynamics/loaded_model.hpp"
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 #include "steps/validation/measured.hpp"
 #include "steps/validation/validation_config.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
@@ -19,6 +19,6 @@ struct ValidationInputs {
   std::vector<aero::SectionAero> sections;  ///< of the set, at the level that step 7 fitted
   MeasuredRms measured;
 };
-[[nodiscard]] ValidationInputs read_validation_inputs(const ValidationConfig& config, StepContext& context);
+[[nodiscard]] ValidationInputs read_validation_inputs(const ValidationConfig& config, runner::StepContext& context);
 
 }  // namespace twindeck::steps

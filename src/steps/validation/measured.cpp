@@ -10,7 +10,7 @@
 
 namespace twindeck::steps {
 
-MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config) {
+MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config) {
   MeasuredRms out;
   const bool wanted = std::any_of(config.events.begin(), config.events.end(),
                                   [](const buffeting::WindEvent& e) { return !e.condition.empty(); });

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 #include "steps/validation/validation_config.hpp"
 
 namespace twindeck::steps {
@@ -13,6 +13,6 @@ namespace twindeck::steps {
 /// monitoring point whose name it has. Empty for events whose condition is not named. `--campaign`, or the study's s0_campaign.
 /// @throws InputError  if the campaign is there but has no wind record of a condition that is named
 using MeasuredRms = std::map<std::pair<std::string, std::string>, double>;
-[[nodiscard]] MeasuredRms measured_rms(StepContext& context, const ValidationConfig& config);
+[[nodiscard]] MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config);
 
 }  // namespace twindeck::steps

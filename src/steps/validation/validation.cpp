@@ -15,7 +15,7 @@ namespace twindeck::steps {
 
 namespace {
 
-Status run_validation(StepContext& context, const ValidationConfig& config, const ValidationInputs& read) {
+Status run_validation(runner::StepContext& context, const ValidationConfig& config, const ValidationInputs& read) {
   // 1. The bridge, reduced, and the turbulence.
   const wind::TurbulenceSet& set = read.turbulence;
   const buffeting::BridgeInWind bridge =
@@ -47,7 +47,7 @@ Status run_validation(StepContext& context, const ValidationConfig& config, cons
 
 }  // namespace
 
-Computation read_validation(StepContext& context, const ValidationConfig& config) {
+runner::Computation read_validation(runner::StepContext& context, const ValidationConfig& config) {
   return [&context, &config, read = read_validation_inputs(config, context)] { return run_validation(context, config, read); };
 }
 

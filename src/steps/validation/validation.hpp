@@ -1,12 +1,12 @@
 #pragma once
 
-#include "steps/shared/run_step.hpp"
+#include "runner/run_step.hpp"
 #include "steps/validation/validation_config.hpp"
 
 /// Step 8: the bridge in turbulent wind (paper sections 5.2 and 6, Tables 13, 14, Fig. 21).
 namespace twindeck::steps {
 
 /// The step.
-[[nodiscard]] Computation read_validation(StepContext& context, const ValidationConfig& config);
+[[nodiscard]] runner::Computation read_validation(runner::StepContext& context, const ValidationConfig& config);
 
 }  // namespace twindeck::steps

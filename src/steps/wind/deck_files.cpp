@@ -52,7 +52,7 @@ void check_laws(const aero::DeckWind& deck, const aero::DeckAerodynamics& data) 
 
 }  // namespace
 
-std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSettings& config, StepContext& context) {
+std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSettings& config, runner::StepContext& context) {
   if (config.decks.empty())
     throw InputError({"", 0, "deck"}, "no deck is given", "add a [[deck]] with name, chord, polar and flutter");
   std::vector<aero::DeckAerodynamics> data;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "blind/form/form_table.hpp"
-#include "steps/shared/model_source.hpp"
+#include "dynamics/loaded_model.hpp"
 
 namespace twindeck::blind::form {
 

@@ -5,9 +5,9 @@
 #include <ctime>
 
 #include "blind/form/measurement.hpp"
+#include "diagnosis/files/catalogue_files.hpp"
 #include "diagnosis/form_diagnosis.hpp"
-#include "steps/diagnosis/catalogue.hpp"
-#include "steps/diagnosis/model.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::blind::form {
@@ -39,7 +39,7 @@ Eigen::VectorXd draw_factors(const Layout& layout, Stream& random) {
 
 const std::vector<diagnosis::Hypothesis>& catalogue() {
   static const std::vector<diagnosis::Hypothesis> all =
-      steps::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/common/hypotheses");
+      diagnosis::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/common/hypotheses");
   return all;
 }
 
@@ -191,7 +191,7 @@ void run_form_case(const FormCase& hidden, FormScore& score, const std::function
   const Layout& layout = hidden.truth.layout;
   const double begin = cpu_seconds();
   constexpr double kTolerance_m = 0.5;  // of step 9
-  const auto model = steps::prepare_model(dynamics::from_model(coarse_model(layout)), channels_of(layout), kTolerance_m);
+  const auto model = diagnosis::prepare_model(dynamics::from_model(coarse_model(layout)), channels_of(layout), kTolerance_m);
   const diagnosis::Structure structure = model->structure();
   const diagnosis::Places places = diagnosis::find_places(structure, {});
   const diagnosis::ReducedModel reduced(structure, places, reduction_for(layout.modes));

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "blind/form/measurement.hpp"
-#include "steps/shared/model_source.hpp"
+#include "dynamics/loaded_model.hpp"
 
 namespace twindeck::blind::form {
 namespace {

@@ -80,7 +80,7 @@ TEST(SofteningCause, ScalesStiffnessByTheHyperbolaOfTheAmplitude) {
     }
   }
   const Examined e = examine(
-      chain, features, steps::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/meloland_overpass/hypotheses"));
+      chain, features, diagnosis::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/meloland_overpass/hypotheses"));
   const auto base = e.map->base(VectorXd::Zero(static_cast<Index>(e.map->nuisances().size())));
   const auto p = e.map->predict(base, {{&e.entry("soften@group:g5"), VectorXd::Constant(1, std::log(0.004))}}, false);
   ASSERT_TRUE(p.valid);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "diagnosis/diagnose.hpp"
-#include "steps/diagnosis/catalogue.hpp"
+#include "diagnosis/files/catalogue_files.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::tests {
@@ -182,7 +182,7 @@ class Chain {
 /// The catalogue of the product, or only these families of it.
 inline std::vector<diagnosis::Hypothesis> catalogue(const std::vector<std::string>& only = {}) {
   std::vector<diagnosis::Hypothesis> all =
-      steps::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/common/hypotheses");
+      diagnosis::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/common/hypotheses");
   if (!only.empty()) std::erase_if(all, [&](const auto& h) { return std::find(only.begin(), only.end(), h.id) == only.end(); });
   return all;
 }

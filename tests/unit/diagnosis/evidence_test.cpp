@@ -2,7 +2,7 @@
 // changes against the ranges of section 4.2, (0.92/0.748)² - 1, Table 10's diagonal) and, for Table 13, the ratio computed here
 // from M1's own row; made-up errors without a channel that stands off; Student's law of two and six degrees of freedom in
 // tables.
-#include "steps/diagnosis/evidence.hpp"
+#include "diagnosis/evidence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <filesystem>
 
 #include "chain.hpp"
+#include "diagnosis/files/claims_file.hpp"
+#include "diagnosis/files/feature_files.hpp"
 #include "records/measured_tables.hpp"
-#include "steps/diagnosis/features.hpp"
-#include "steps/diagnosis/setup.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::tests {
@@ -20,17 +20,17 @@ namespace {
 
 const std::filesystem::path kFeatures = std::string(TWINDECK_SOURCE_DIR) + "/data/ponte_del_mare/features";
 
-std::vector<steps::Finding> account() {
+std::vector<diagnosis::Finding> account() {
   diagnosis::Places places;
   places.sets["supports"] = {{"support:ramp", {72.0, 3.0, 11.0}, {}, {}, {}, {}, {}},
                              {"support:mast", {0.0, 0.0, 0.0}, {}, {}, {}, {}, {}}};
   places.sets["damper_types"] = {{"dampers:C1,C2,C3,C4", {0.0, 0.0, 0.0}, {}, {}, {}, {}, {}}};
-  return steps::account_of(steps::read_claims(kFeatures), steps::read_all_features(kFeatures),
-                           records::read_channels(kFeatures / "channels.csv"), places);
+  return diagnosis::account_of(diagnosis::read_claims(kFeatures), diagnosis::read_all_features(kFeatures),
+                               records::read_channels(kFeatures / "channels.csv"), places);
 }
 
-const steps::Finding& finding(const std::vector<steps::Finding>& all, const std::string& kind) {
-  for (const steps::Finding& one : all)
+const diagnosis::Finding& finding(const std::vector<diagnosis::Finding>& all, const std::string& kind) {
+  for (const diagnosis::Finding& one : all)
     if (one.kind == kind) return one;
   throw std::runtime_error("no finding " + kind);
 }
@@ -49,7 +49,7 @@ TEST(Evidence, PublishedUpdatingEndsOnFourBoundsAndLeavesPairsThatAreNone) {
 }
 
 TEST(Evidence, DampersStiffenTheFirstModeByHalfWhichADashpotThatMovesCannot) {
-  const steps::Finding dampers = finding(account(), "dampers");
+  const diagnosis::Finding dampers = finding(account(), "dampers");
   EXPECT_EQ(dampers.names, std::vector<std::string>{"1"});
   EXPECT_NE(dampers.text.find("51 %"), std::string::npos) << dampers.text;  // (0.92/0.748)² - 1 = 0.513
   EXPECT_EQ(dampers.candidates, (std::vector<std::string>{"fric@dampers:C1,C2,C3,C4", "dampk@dampers:C1,C2,C3,C4"}));
@@ -58,12 +58,12 @@ TEST(Evidence, DampersStiffenTheFirstModeByHalfWhichADashpotThatMovesCannot) {
 TEST(Evidence, OneAccelerometerStandsOffInEveryWindModelAndEvent) {
   const auto all = account();
   std::vector<std::string> channels;
-  for (const steps::Finding& one : all)
+  for (const diagnosis::Finding& one : all)
     if (one.kind == "channel") channels.push_back(one.names[0]);
   EXPECT_EQ(channels, std::vector<std::string>{"M1"});  // and none of the seven others
   EXPECT_EQ(finding(all, "channel").candidates, (std::vector<std::string>{"gain@channel:M1", "brg@support:ramp"}));
   EXPECT_NE(finding(all, "channel").split_by.find("M1"), std::string::npos);
-  const auto factors = steps::channel_factors(steps::read_claims(kFeatures));
+  const auto factors = diagnosis::channel_factors(diagnosis::read_claims(kFeatures));
   ASSERT_EQ(factors.size(), 8u);
   EXPECT_EQ(factors[0].records, 6);
   // Raw mean of ln(1 + error) of M1 is 0.79; the records' own levels, medians over channels, lie within 0.2 of nothing.
@@ -75,13 +75,13 @@ TEST(Evidence, OneAccelerometerStandsOffInEveryWindModelAndEvent) {
 }
 
 TEST(Evidence, ErrorsThatAllChannelsShareNameNone) {
-  std::vector<steps::Claim> claims;
+  std::vector<diagnosis::Claim> claims;
   for (int record = 0; record < 3; ++record)
     for (int channel = 0; channel < 6; ++channel)
-      claims.push_back({steps::Claim::Kind::rms_error, "c" + std::to_string(channel), "r" + std::to_string(record),
+      claims.push_back({diagnosis::Claim::Kind::rms_error, "c" + std::to_string(channel), "r" + std::to_string(record),
                         100.0 + 10.0 * record + 3.0 * ((channel * 5 + record) % 6), 0.0, 0.0, ""});
-  for (const auto& factor : steps::channel_factors(claims)) EXPECT_GT(factor.p_value, 0.05) << factor.channel;
-  EXPECT_TRUE(steps::channel_factors({claims.begin(), claims.begin() + 3}).empty());  // too few to stand off from
+  for (const auto& factor : diagnosis::channel_factors(claims)) EXPECT_GT(factor.p_value, 0.05) << factor.channel;
+  EXPECT_TRUE(diagnosis::channel_factors({claims.begin(), claims.begin() + 3}).empty());  // too few to stand off from
 }
 
 /// A chain with dampers of one make at its masses 4 and 9, which may also stand the other way round.
@@ -115,7 +115,7 @@ struct TwoDampers {
       features.rows.push_back({diagnosis::RowType::damping, std::to_string(m), -1, "", 0, 1.0, 0.1, false});
     hypotheses = catalogue({"fric", "dampc"});
     for (diagnosis::Hypothesis& h :
-         steps::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/ponte_del_mare/hypotheses"))
+         diagnosis::read_catalogue(std::string(TWINDECK_SOURCE_DIR) + "/workflows/ponte_del_mare/hypotheses"))
       if (h.id == "fric" || h.id == "dampplace") hypotheses.push_back(h);
     entries = diagnosis::instantiate(hypotheses, *reduced, features);
     map = std::make_unique<diagnosis::FeatureMap>(*reduced, features, diagnosis::ScatterOptions{});

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
 #include "diagnosis/reduction/load_test_vectors.hpp"
-#include "steps/diagnosis/model.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -84,7 +84,7 @@ class Girder {
         features_.rows.push_back(
             {types_[c], "", static_cast<int>(c), "", static_cast<int>(features_.conditions.size()) - 1, 1.0, 0.1, false});
     }
-    prepared_ = steps::prepare_model(dynamics::from_model(model), channels_, 0.01);
+    prepared_ = diagnosis::prepare_model(dynamics::from_model(model), channels_, 0.01);
     structure_ = prepared_->structure();
     places_ = diagnosis::find_places(structure_, {});
     std::vector<diagnosis::Gauge> gauges;
@@ -149,7 +149,7 @@ class Girder {
   std::vector<RowType> types_;
   diagnosis::FeatureSet features_;
   int at_middle_ = 0;
-  std::shared_ptr<steps::DiagnosedModel> prepared_;
+  std::shared_ptr<diagnosis::DiagnosedModel> prepared_;
   diagnosis::Structure structure_;
   diagnosis::Places places_;
   std::unique_ptr<diagnosis::ReducedModel> reduced_;

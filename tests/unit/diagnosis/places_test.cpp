@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "chain.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "ponte/generator.hpp"
-#include "steps/diagnosis/model.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::tests {
@@ -51,7 +51,7 @@ TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
   channel.name = channel.point = "M3";
   channel.x_m = model.nodes[static_cast<std::size_t>(model.monitoring_points.at("M3"))].x_m;
   channel.direction = Eigen::Vector3d::UnitZ();
-  const auto prepared = steps::prepare_model(dynamics::from_model(model), {channel}, 0.6);
+  const auto prepared = diagnosis::prepare_model(dynamics::from_model(model), {channel}, 0.6);
   const auto structure = prepared->structure();
   const auto places = diagnosis::find_places(
       structure, {.max_zones = 8, .max_nodes = 4, .moves = {}, .zone_centres = {}, .node_positions = {}});

@@ -11,7 +11,7 @@
 #include "chain.hpp"
 #include "diagnosis/promising_ties.hpp"
 #include "dynamics/eigenmodes.hpp"
-#include "steps/shared/model_source.hpp"
+#include "dynamics/loaded_model.hpp"
 
 namespace twindeck::tests {
 namespace {

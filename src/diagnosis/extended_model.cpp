@@ -1,0 +1,329 @@
+#include "diagnosis/extended_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+
+const Place* place_of(const Places& places, const std::string& set, const std::string& id) {
+  const auto found = places.sets.find(set);
+  if (found == places.sets.end()) return nullptr;
+  for (const Place& place : found->second)
+    if (place.id == id) return &place;
+  return nullptr;
+}
+
+/// What a location called after an element is made of: a zone, or a half of a zone or group.
+const Place* element_place(const Places& places, const std::string& id) {
+  if (!id.starts_with("element:")) return nullptr;
+  for (const auto& [set, list] : places.sets)
+    for (const Place& place : list)
+      if (place.id == id) return &place;
+  return nullptr;
+}
+
+int node_position(const fe::Model& model, const std::string& id) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (std::to_string(model.nodes[i].id) == id) return static_cast<int>(i);
+  throw InputError({model.source, 0, id}, "is no node of the model", "");
+}
+
+/// Gives elements materials of their own with scaled modulus or density.
+void scale_materials(fe::Model& model, const std::vector<int>& elements, double modulus, double density,
+                     const std::string& tag) {
+  std::map<int, int> copies;
+  for (const int e : elements) {
+    fe::Element& element = model.elements[static_cast<std::size_t>(e)];
+    const auto [at, is_new] = copies.try_emplace(element.material, static_cast<int>(model.materials.size()));
+    if (is_new) {
+      fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
+      material.name += "_" + tag;
+      material.youngs_modulus_Pa *= modulus;
+      material.shear_modulus_Pa *= modulus;
+      material.density_kg_m3 *= density;
+      model.materials.push_back(material);
+    }
+    element.material = at->second;
+  }
+}
+
+/// @return whether there is a parameter of that name
+bool scale_parameter(std::vector<fe::Parameter>& parameters, Eigen::VectorXd& theta, const std::string& name, double factor) {
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (parameters[p].name != name) continue;
+    double& value = theta[static_cast<Index>(p)];
+    value = value != 0.0 && parameters[p].initial != 0.0 ? value * factor : value + factor - 1.0;
+    parameters[p].lower = std::min(parameters[p].lower, value);
+    parameters[p].upper = std::max(parameters[p].upper, value);
+    return true;
+  }
+  return false;
+}
+
+/// Elements and springs of a group.
+void scale_group(fe::Model& model, const std::string& name, double stiffness, double density, const std::string& tag) {
+  std::vector<int> elements;
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+    if (model.elements[e].group == name) elements.push_back(static_cast<int>(e));
+  scale_materials(model, elements, stiffness, density, tag);
+  for (fe::Spring& spring : model.springs)
+    if (spring.group == name && spring.node2 >= 0) spring.stiffness *= stiffness;
+}
+
+/// Whether a spring is of the support that a place names: "pier", or "pier fixed" for what is rigid of it where springs have
+/// the name too.
+bool of_support(const fe::Model& model, const fe::Spring& spring, std::string name) {
+  const auto group = [](const fe::Spring& s) { return s.group.empty() ? s.name : s.group; };
+  const auto rigid = [](const fe::Spring& s) { return s.name.find(kRigidSpring) != std::string::npos; };
+  static const std::string fixed = " fixed";
+  const bool asked_rigid = name.ends_with(fixed);
+  if (asked_rigid) name.resize(name.size() - fixed.size());
+  if (spring.node2 >= 0 || group(spring) != name || (asked_rigid && !rigid(spring))) return false;
+  if (asked_rigid || !rigid(spring)) return true;
+  return std::none_of(model.springs.begin(), model.springs.end(),
+                      [&](const fe::Spring& other) { return group(other) == name && other.node2 < 0 && !rigid(other); });
+}
+
+/// The support at the node of its line that is nearest to a position.
+void move_support(fe::Model& model, const Place& place, const std::string& name, double position) {
+  const auto stations = static_cast<int>(place.attributes.at("stations"));
+  int best = 0;
+  for (int i = 1; i < stations; ++i) {
+    const auto off = [&](int k) { return std::abs(place.attributes.at("x_" + std::to_string(k)) - position); };
+    if (off(i) < off(best)) best = i;
+  }
+  const int node = static_cast<int>(place.attributes.at("node_" + std::to_string(best)));
+  for (fe::Spring& spring : model.springs)
+    if (of_support(model, spring, name) && !spring.rotation) spring.node = node;
+}
+
+/// A spring from a node to the ground, in the direction of an action or in all.
+void add_prop(fe::Model& model, int node, const ActionSpec& action, double stiffness) {
+  const auto named = action.text.find("direction");
+  for (int d = named != action.text.end() && named->second == "vertical" ? 2 : 0; d < 3; ++d) {
+    fe::Spring spring;
+    spring.name = fmt::format("prop_{}_{}", model.nodes[static_cast<std::size_t>(node)].id, "xyz"[d]);
+    spring.group = "prop";
+    spring.node = node;
+    spring.direction = Eigen::Vector3d::Unit(d);
+    spring.stiffness = stiffness;
+    model.springs.push_back(spring);
+  }
+}
+
+/// A body on springs beside a node: a node of its own that only moves.
+void add_oscillator(fe::Model& model, int node, double mass, double frequency_Hz) {
+  long id = 0;
+  for (const fe::Node& n : model.nodes) id = std::max(id, n.id);
+  model.nodes.push_back({id + 1, model.nodes[static_cast<std::size_t>(node)].x_m});
+  const auto body = static_cast<int>(model.nodes.size()) - 1;
+  model.supports.push_back({"oscillator_" + std::to_string(id + 1), body, {false, false, false, true, true, true}});
+  model.masses.push_back({"oscillator", body, mass, Eigen::Vector3d::Zero()});
+  for (int d = 0; d < 3; ++d) {
+    fe::Spring spring;
+    spring.name = fmt::format("oscillator_{}_{}", id + 1, "xyz"[d]);
+    spring.group = "oscillator";
+    spring.node = body;
+    spring.node2 = node;
+    spring.direction = Eigen::Vector3d::Unit(d);
+    spring.stiffness = mass * std::pow(2.0 * M_PI * frequency_Hz, 2);
+    model.springs.push_back(spring);
+  }
+}
+
+/// A cause that is put into a finite element model, with the name of its location: "17" of "element:17".
+struct Extension {
+  fe::Model& model;
+  Eigen::VectorXd& theta;
+  const Places& places;
+  const Cause& cause;
+  std::string name;
+
+  [[nodiscard]] double value(const ActionSpec& action, const char* of) const {
+    return cause.candidate->value(action.number.at(of), cause.a);
+  }
+  /// The location among the places of the model.
+  [[nodiscard]] const Place& place() const {
+    const Place* found = place_of(places, cause.candidate->hypothesis->set, cause.candidate->location);
+    TWINDECK_ASSERT(found != nullptr);
+    return *found;
+  }
+};
+
+/// A factor on the stiffness or mass of a group, of elements or of a support.
+bool apply_scale(Extension& to, const ActionSpec& action) {
+  const Candidate& c = *to.cause.candidate;
+  const bool mass = action.kind == "scale.mass";
+  const double factor = to.value(action, "factor");
+  const std::string id = c.hypothesis->id + "_" + to.name;
+  if (const Place* part = element_place(to.places, c.location); part != nullptr) {
+    scale_materials(to.model, part->elements, mass ? 1.0 : factor, mass ? factor : 1.0, id);
+    return true;
+  }
+  if (c.hypothesis->set == "groups") {
+    if (scale_parameter(to.model.parameters, to.theta, to.name, factor)) return true;
+    scale_group(to.model, to.name, mass ? 1.0 : factor, mass ? factor : 1.0, id);
+    return true;
+  }
+  if (c.hypothesis->set == "stays") {
+    scale_materials(to.model, to.place().elements, mass ? 1.0 : factor, mass ? factor : 1.0, id);
+    return true;
+  }
+  if (c.hypothesis->set == "supports" || c.hypothesis->set == "foundations") {
+    for (fe::Spring& spring : to.model.springs)
+      if (of_support(to.model, spring, to.name) && spring.rotation == (c.hypothesis->set == "foundations"))
+        spring.stiffness *= factor;
+    return true;
+  }
+  return false;
+}
+
+/// A spring between two nodes, "17,23", along their line. @return false if they stand in one place
+bool add_tie(fe::Model& model, const std::string& name, double stiffness) {
+  const auto comma = name.find(',');
+  fe::Spring tie;
+  tie.name = "tie_" + name.substr(0, comma) + "_" + name.substr(comma + 1);
+  tie.group = "tie";
+  tie.node = node_position(model, name.substr(0, comma));
+  tie.node2 = node_position(model, name.substr(comma + 1));
+  const Eigen::Vector3d along =
+      model.nodes[static_cast<std::size_t>(tie.node2)].x_m - model.nodes[static_cast<std::size_t>(tie.node)].x_m;
+  if (!(along.norm() > 0.0)) return false;
+  tie.direction = along.normalized();
+  tie.stiffness = stiffness;
+  model.springs.push_back(tie);
+  return true;
+}
+
+/// Dampers moved, taken away, or with another law.
+void apply_damper(Extension& to, const ActionSpec& action) {
+  const auto acts_on = [&](const fe::Spring& s) { return ("," + to.name + ",").find("," + s.name + ",") != std::string::npos; };
+  if (action.kind == "damper.move") {
+    const Place& place = to.place();
+    const auto& places = to.cause.candidate->places;
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+      for (fe::Spring& spring : to.model.springs)
+        if ("damper:" + spring.name == places[i]->id)
+          spring.node = static_cast<int>(place.attributes.at("node_" + std::to_string(i)));
+    return;
+  }
+  if (action.kind == "damper.absent") {
+    std::erase_if(to.model.springs, acts_on);
+    return;
+  }
+  for (fe::Spring& spring : to.model.springs) {
+    if (!acts_on(spring)) continue;
+    if (action.kind == "damper.damping") spring.damping *= to.value(action, "factor");
+    if (action.kind == "damper.series" || action.kind == "damper.friction") {
+      spring.stiffness = to.value(action, "stiffness");
+      spring.series = true;
+    }
+    if (action.kind == "damper.friction") spring.friction_N = to.value(action, "threshold");
+  }
+}
+
+/// Puts one action into a finite element model. @return whether a model folder can say it
+bool apply(fe::Model& model, Eigen::VectorXd& theta, const Places& places, const Cause& cause, const ActionSpec& action) {
+  const Candidate& c = *cause.candidate;
+  Extension to{model, theta, places, cause, c.location.substr(c.location.find(':') + 1)};
+  const std::string& kind = action.kind;
+  if (kind == "scale.stiffness" || kind == "scale.mass") return apply_scale(to, action);
+  if (kind == "element.spring" && c.places.size() != 1)
+    return c.hypothesis->set == "pairs(nodes)" && add_tie(model, to.name, to.value(action, "stiffness"));
+  if (kind == "support.move")
+    move_support(model, to.place(), to.name, to.value(action, "position"));
+  else if (kind == "element.spring")
+    add_prop(model, node_position(model, to.name), action, to.value(action, "stiffness"));
+  else if (kind == "mass.add")
+    model.masses.push_back({"added_mass", node_position(model, to.name), to.value(action, "mass"), Eigen::Vector3d::Zero()});
+  else if (kind == "element.oscillator")
+    add_oscillator(model, node_position(model, to.name), to.value(action, "mass"), to.value(action, "frequency"));
+  else if (kind.starts_with("damper."))
+    apply_damper(to, action);
+  else
+    return false;
+  return true;
+}
+
+bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& cause, const ActionSpec& action) {
+  const Candidate& c = *cause.candidate;
+  const std::string name = c.location.substr(c.location.find(':') + 1);
+  if ((action.kind == "scale.stiffness" || action.kind == "scale.mass") && c.hypothesis->set == "groups") {
+    scale_parameter(system.parameters, theta, name, c.value(action.number.at("factor"), cause.a));
+    return true;
+  }
+  const bool mass = action.kind == "mass.add";
+  if (!mass && !(action.kind == "element.spring" && c.places.size() == 1)) return false;
+  fe::Term term;  // on the diagonal, which every pattern has
+  term.label = c.id();
+  for (std::size_t i = 0; i < system.dofs.size(); ++i) {
+    if (system.dofs[i].node != name || system.dofs[i].direction > 2) continue;
+    for (int p = system.pattern.outerIndexPtr()[i]; p < system.pattern.outerIndexPtr()[i + 1]; ++p) {
+      if (system.pattern.innerIndexPtr()[p] != static_cast<int>(i)) continue;
+      term.position.push_back(p);
+      term.value.push_back(c.value(action.number.at(mass ? "mass" : "stiffness"), cause.a));
+    }
+  }
+  (mass ? system.mass_terms : system.stiffness_terms).push_back(term);
+  return true;
+}
+
+}  // namespace
+
+ExtendedModel extended_model(const DiagnosedModel& model, const Places& places, const Diagnosis& result) {
+  ExtendedModel out;
+  Eigen::VectorXd theta = result.after.base.theta.size() > 0 ? result.after.base.theta : model.loaded.theta;
+  if (model.loaded.model)
+    out.elements = fe::with_parameters(*model.loaded.model, theta);
+  else
+    out.system = model.loaded.system;
+  for (const Effect& effect : result.effects) {
+    bool held = true;
+    for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions)
+      held = (out.elements ? apply(*out.elements, theta, places, effect.cause, action)
+                           : apply(out.system, theta, effect.cause, action)) &&
+             held;
+    out.holds.push_back(held);
+  }
+  if (out.elements) {
+    out.elements = fe::with_parameters(*out.elements, theta);
+    return out;
+  }
+  for (std::size_t p = 0; p < out.system.parameters.size(); ++p) {
+    fe::Parameter& parameter = out.system.parameters[p];
+    parameter.initial = theta[static_cast<Index>(p)];
+    parameter.lower = std::min(parameter.lower, parameter.initial);
+    parameter.upper = std::max(parameter.upper, parameter.initial);
+  }
+  return out;
+}
+
+CorrectedChannels corrected_channels(std::vector<matching::Channel> channels, const Diagnosis& result) {
+  std::vector<double> gain(channels.size(), 1.0);
+  for (const Effect& effect : result.effects) {
+    const Candidate& c = *effect.cause.candidate;
+    for (const ActionSpec& action : c.hypothesis->actions) {
+      if (c.channels.empty()) continue;
+      const auto first = static_cast<std::size_t>(c.channels[0]);
+      if (action.kind == "channel.gain") gain[first] /= c.value(action.number.at("factor"), effect.cause.a);
+      if (action.kind == "channel.sign") channels[first].direction *= -1.0;
+      if (action.kind == "channel.swap") {
+        const auto second = static_cast<std::size_t>(c.channels[1]);
+        std::swap(channels[first].name, channels[second].name);
+      }
+    }
+  }
+  return {std::move(channels), std::move(gain)};
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,321 @@
+#include "diagnosis/files/catalogue_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "diagnosis/features/features.hpp"
+#include "io/toml_value.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+/// Reads one file; each reader refuses what it does not know, with its line.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file) {}
+
+  Hypothesis read() {
+    h_.file = file_.string();
+    for (const io::TomlEntry& entry : io::read_toml(file_)) {
+      if (entry.key == "hypothesis")
+        hypothesis(table(entry));
+      else if (entry.key == "location")
+        location(table(entry));
+      else if (entry.key == "parameter")
+        each(entry, [&](const auto& t) { parameter(t); });
+      else if (entry.key == "action")
+        each(entry, [&](const auto& t) { action(t); });
+      else if (entry.key == "needs")
+        needs(table(entry));
+      else if (entry.key == "report")
+        report(table(entry));
+      else
+        unknown(entry, {"hypothesis", "location", "parameter", "action", "needs", "report"});
+    }
+    if (h_.id.empty()) fail(1, "hypothesis.id", "is missing", "name the cause: [hypothesis] id = \"…\"");
+    if (h_.set.empty()) fail(1, "location.set", "is missing", "say where the cause can sit: [location] set = \"nodes\"");
+    if (h_.actions.empty()) fail(1, "action", "is missing", "say what the cause does: [[action]] kind = \"…\"");
+    for (const auto& a : h_.actions) check_numbers(a);
+    return h_;
+  }
+
+ private:
+  using Table = io::TomlValue::Table;
+
+  [[noreturn]] void fail(long line, const std::string& key, const std::string& problem, const std::string& mend) const {
+    throw InputError({file_.string(), line, key}, problem, mend);
+  }
+  [[noreturn]] void unknown(const io::TomlEntry& entry, const std::vector<std::string>& known) const {
+    const std::string nearest = nearest_name(entry.key, known);
+    fail(entry.line, "", "unknown key '" + entry.key + "'",
+         nearest.empty() ? fmt::format("known keys are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
+  }
+  const Table& table(const io::TomlEntry& entry) const {
+    const auto* found = entry.value.as<Table>();
+    if (found == nullptr)
+      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a table", "write [" + entry.key + "]");
+    return *found;
+  }
+  template <typename Use>
+  void each(const io::TomlEntry& entry, Use use) const {
+    const auto* list = entry.value.as<io::TomlValue::Array>();
+    if (list == nullptr)
+      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected tables", "write [[" + entry.key + "]]");
+    for (const io::TomlValue& value : *list) {
+      const auto* entries = value.as<Table>();
+      if (entries == nullptr)
+        fail(entry.line, entry.key, "holds " + io::shown(value) + ", expected tables", "write [[" + entry.key + "]]");
+      use(*entries);
+    }
+  }
+  std::string text(const io::TomlEntry& entry) const {
+    const auto* found = entry.value.as<std::string>();
+    if (found == nullptr) fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected text", "write it in quotes");
+    return *found;
+  }
+  Expression expression(const io::TomlEntry& entry) const { return expression(entry.value, entry.line, entry.key); }
+  Expression expression(const io::TomlValue& value, long line, const std::string& key) const {
+    Expression e;
+    e.line = line;
+    if (const auto* number = value.as<double>())
+      e.factor = *number;
+    else if (const auto* whole = value.as<long>())
+      e.factor = static_cast<double>(*whole);
+    else if (const auto* t = value.as<std::string>()) {
+      const auto star = t->find('*');
+      e.name = star == std::string::npos ? *t : t->substr(star + 1);
+      if (star != std::string::npos) {
+        const auto [end, error] = std::from_chars(t->data(), t->data() + star, e.factor);
+        if (error != std::errc() || end != t->data() + star)
+          fail(line, key, fmt::format("is '{}', expected a number, a name or \"number*name\"", *t), "");
+      }
+    } else {
+      fail(line, key, "is " + io::shown(value) + ", expected a number or a text", "write 1.5, a name, or \"1.5*name\"");
+    }
+    if (!(std::abs(e.factor) <= largest_number))
+      fail(line, key, "is " + io::shown(value) + ", expected a finite number", "correct the value");
+    return e;
+  }
+  /// A number that must be above 0.
+  double positive(const io::TomlEntry& entry) const {
+    const Expression e = expression(entry);
+    if (!e.name.empty() || !(e.factor > 0.0))
+      fail(entry.line, entry.key, "is " + io::shown(entry.value) + ", expected a number above 0",
+           "1 is the weight of most causes");
+    return e.factor;
+  }
+
+  void hypothesis(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "id")
+        h_.id = text(e);
+      else if (e.key == "title")
+        h_.title = text(e);
+      else if (e.key == "side") {
+        const std::string side = text(e);
+        if (side != "model" && side != "measurement")
+          fail(e.line, "side", fmt::format("is '{}', expected model or measurement", side), "");
+        h_.measurement = side == "measurement";
+      } else if (e.key == "prior_weight")
+        h_.prior_weight = positive(e);
+      else
+        unknown(e, {"id", "title", "side", "prior_weight"});
+    }
+  }
+  void location(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "set") {
+        h_.set = text(e);
+        const auto& known = location_sets();
+        if (std::find(known.begin(), known.end(), h_.set) == known.end())
+          fail(e.line, "location.set", fmt::format("'{}' is no set of locations{}", h_.set, did_you_mean(h_.set, known)),
+               fmt::format("use one of {}", fmt::join(known, ", ")));
+      } else if (e.key == "filter")
+        h_.filter = text(e);
+      else
+        unknown(e, {"set", "filter"});
+    }
+  }
+  void parameter(const Table& entries) {
+    UnknownSpec u;
+    bool low = false, high = false;
+    for (const auto& e : entries) {
+      if (e.key == "name")
+        u.name = text(e);
+      else if (e.key == "unit")
+        u.unit = text(e);
+      else if (e.key == "low") {
+        u.low = expression(e);
+        low = true;
+      } else if (e.key == "high") {
+        u.high = expression(e);
+        high = true;
+      } else if (e.key == "scale")
+        u.log = is_log(e);
+      else if (e.key == "start") {
+        const auto* list = e.value.as<io::TomlValue::Array>();
+        if (list == nullptr) fail(e.line, "start", "is no list", "");
+        for (const auto& value : *list) u.start.push_back(expression(value, e.line, "start"));
+      } else
+        unknown(e, {"name", "unit", "low", "high", "scale", "start"});
+    }
+    if (u.name.empty() || !low || !high)
+      fail(entries.empty() ? 0 : entries.front().line, "parameter", "lacks name, low or high", "");
+    check_bounds(u);
+    h_.unknowns.push_back(u);
+  }
+  void check_name(const Expression& e, const std::string& key) const {
+    if (e.name.empty() || e.name == "f_measured" || is_place_number(e.name)) return;
+    fail(e.line, key, fmt::format("'{}' is no number of a place{}", e.name, did_you_mean(e.name, place_numbers())),
+         fmt::format("use a number, or one of {}", fmt::join(place_numbers(), ", ")));
+  }
+  /// What of the bounds the file alone shows; their values where a place gives them are checked there.
+  void check_bounds(const UnknownSpec& u) const {
+    check_name(u.low, "low");
+    check_name(u.high, "high");
+    for (const Expression& e : u.start) check_name(e, "start");
+    const bool comparable = u.low.name == u.high.name && !u.low.name.starts_with("x_");  // a coordinate may be negative
+    if (comparable && !(u.low.factor < u.high.factor))
+      fail(u.low.line, u.name + ".low", fmt::format("{:g} is not below high, {:g}", u.low.factor, u.high.factor),
+           "exchange them, or correct one");
+    if (u.log && !(u.low.factor > 0.0) && !u.low.name.starts_with("x_"))
+      fail(u.low.line, u.name + ".low", fmt::format("{:g} has no logarithm", u.low.factor),
+           "give a value above 0, or scale = \"lin\"");
+  }
+  bool is_log(const io::TomlEntry& entry) const {
+    const std::string scale = text(entry);
+    if (scale != "log" && scale != "lin" && scale != "linear")
+      fail(entry.line, "scale", "is '" + scale + "', expected \"lin\" or \"log\"", "log suits what may be off by a factor");
+    return scale == "log";
+  }
+  void action(const Table& entries) {
+    ActionSpec a;
+    for (const auto& e : entries) {
+      a.line = a.line == 0 ? e.line : a.line;
+      if (e.key == "kind") {
+        a.kind = text(e);
+        a.line = e.line;
+      } else if (e.key == "variable")
+        a.text[e.key] = condition_key(text(e), e.line, "action.variable");
+      else if (e.key == "direction") {
+        a.text[e.key] = text(e);
+        if (a.text[e.key] != "vertical")
+          fail(e.line, "direction", fmt::format("is '{}', expected \"vertical\"", a.text[e.key]),
+               "leave it out for all directions");
+      } else if (e.key != "at")
+        a.number[e.key] = expression(e);
+    }
+    h_.actions.push_back(a);
+  }
+  void check_numbers(const ActionSpec& a) const {
+    const auto& kinds = action_kinds();
+    const auto found = kinds.find(a.kind);
+    if (found == kinds.end()) {
+      std::vector<std::string> names;
+      for (const auto& [name, numbers] : kinds) names.push_back(name);
+      fail(a.line, "action.kind", fmt::format("unknown primitive '{}'{}", a.kind, did_you_mean(a.kind, names)),
+           fmt::format("use one of {}", fmt::join(names, ", ")));
+    }
+    for (const std::string& name : found->second)
+      if (!a.number.contains(name))
+        fail(a.line, "action." + name, fmt::format("is missing; {} takes {}", a.kind, fmt::join(found->second, ", ")), "");
+    for (const auto& number : a.number) {
+      const std::string& name = number.first;
+      const Expression& value = number.second;
+      if (std::find(found->second.begin(), found->second.end(), name) == found->second.end())
+        fail(value.line, "action." + name, fmt::format("is no number of {}{}", a.kind, did_you_mean(name, found->second)), "");
+      if (value.name.starts_with('$') &&
+          std::none_of(h_.unknowns.begin(), h_.unknowns.end(), [&](const auto& u) { return "$" + u.name == value.name; }))
+        fail(value.line, "action." + name, fmt::format("names '{}', which is no [[parameter]]", value.name), "");
+      if (!value.name.starts_with('$')) check_name(value, "action." + name);
+    }
+  }
+  /// One of the keys of a condition. @param key  of the catalogue that names it
+  std::string condition_key(const std::string& name, long line, const std::string& key) const {
+    const auto& known = condition_keys();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      fail(line, key, fmt::format("'{}' is no key of a condition{}", name, did_you_mean(name, known)),
+           fmt::format("use one of {}", fmt::join(known, ", ")));
+    return name;
+  }
+  std::string demand(const io::TomlEntry& entry) const {
+    const auto& known = condition_demands();
+    const std::string asked = text(entry);
+    if (std::find(known.begin(), known.end(), asked) == known.end())
+      fail(entry.line, "needs.conditions." + entry.key, fmt::format("is '{}'{}", asked, did_you_mean(asked, known)),
+           fmt::format("use one of {}", fmt::join(known, ", ")));
+    return asked;
+  }
+  int count(const io::TomlEntry& entry) const {
+    constexpr long most = 1000;  // different values of a condition: more than anybody measures at
+    const auto* whole = entry.value.as<long>();
+    if (whole == nullptr || *whole < 1 || *whole > most)
+      fail(entry.line, "needs.distinct." + entry.key,
+           fmt::format("is {}, expected a whole number from 1 to {}", io::shown(entry.value), most),
+           "say how many different values the rows must have");
+    return static_cast<int>(*whole);
+  }
+  void needs(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "conditions")
+        for (const auto& c : table(e)) h_.needs.conditions[condition_key(c.key, c.line, "needs.conditions")] = demand(c);
+      else if (e.key == "distinct")
+        for (const auto& c : table(e)) h_.needs.distinct[condition_key(c.key, c.line, "needs.distinct")] = count(c);
+      else if (e.key == "rows") {
+        const auto* list = e.value.as<io::TomlValue::Array>();
+        if (list == nullptr) fail(e.line, "rows", "is no list", "");
+        for (const auto& value : *list) {
+          const auto& known = row_type_names();
+          const std::string type = value.as<std::string>() ? *value.as<std::string>() : "";
+          if (std::find(known.begin(), known.end(), type) == known.end())
+            fail(e.line, "needs.rows", fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
+          h_.needs.rows.push_back(type);
+        }
+      } else
+        unknown(e, {"conditions", "distinct", "rows"});
+    }
+  }
+  void report(const Table& entries) {
+    for (const auto& e : entries) {
+      if (e.key == "sentence")
+        h_.sentence = text(e);
+      else if (e.key == "remedy")
+        h_.remedy = text(e);
+      else
+        unknown(e, {"sentence", "remedy"});
+    }
+  }
+
+  std::filesystem::path file_;
+  Hypothesis h_;
+};
+
+}  // namespace
+
+std::vector<Hypothesis> read_catalogue(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw InputError({folder.string(), 0, ""}, "is no folder, expected the catalogue of hypotheses", "give --catalogue DIR");
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  if (files.empty()) throw InputError({folder.string(), 0, ""}, "holds no *.toml, expected one for each cause", "");
+  std::sort(files.begin(), files.end());
+  std::vector<Hypothesis> catalogue;
+  std::set<std::string> ids;
+  for (const auto& file : files) {
+    catalogue.push_back(Reader(file).read());
+    if (!ids.insert(catalogue.back().id).second)
+      throw InputError({file.string(), 0, "id"}, fmt::format("'{}' is the id of another file too", catalogue.back().id),
+                       "give each its own");
+  }
+  return catalogue;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,82 @@
+#include "diagnosis/files/measurement_corrections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/atomic.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+bool is_fault_of_channels(const Candidate& candidate) {
+  const std::vector<ActionSpec>& actions = candidate.hypothesis->actions;
+  return !candidate.channels.empty() && std::all_of(actions.begin(), actions.end(), [](const ActionSpec& action) {
+    return action.kind == "channel.sign" || action.kind == "channel.swap" || action.kind == "channel.gain";
+  });
+}
+
+records::Correction undo(const ActionSpec& action, const Cause& cause, const std::vector<std::string>& channels) {
+  const Candidate& candidate = *cause.candidate;
+  const auto name = [&](std::size_t which) { return channels[static_cast<std::size_t>(candidate.channels[which])]; };
+  records::Correction correction;
+  correction.channel = name(0);
+  if (action.kind == "channel.swap") {
+    correction.action = records::Correction::Action::exchange;
+    correction.with = name(1);
+  } else if (action.kind == "channel.gain") {
+    correction.action = records::Correction::Action::scale;
+    correction.factor = 1.0 / candidate.value(action.number.at("factor"), cause.a);
+  }
+  return correction;
+}
+
+std::vector<std::string> words(const std::vector<records::Correction>& corrections) {
+  std::vector<std::string> said;
+  for (const records::Correction& correction : corrections) said.push_back(words_of(correction));
+  return said;
+}
+
+}  // namespace
+
+std::vector<records::Correction> corrections_of(const Diagnosis& result, const std::vector<std::string>& channels) {
+  std::vector<records::Correction> of_values, exchanges;
+  for (const Effect& effect : result.effects) {
+    if (effect.cluster.size() > 1 || !is_fault_of_channels(*effect.cause.candidate)) continue;
+    for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions) {
+      const records::Correction correction = undo(action, effect.cause, channels);
+      (correction.action == records::Correction::Action::exchange ? exchanges : of_values).push_back(correction);
+    }
+  }
+  of_values.insert(of_values.end(), exchanges.rbegin(), exchanges.rend());
+  return of_values;
+}
+
+void write_corrections(const std::vector<records::Correction>& before, const std::vector<records::Correction>& found,
+                       const std::filesystem::path& file) {
+  if (found.empty()) return;
+  std::string text =
+      "# What is to be put right in the measured features before they are used: --correct FILE of steps 4, 6 and 9.\n";
+  if (!before.empty()) text += fmt::format("# Corrected in this run already: {}.\n", fmt::join(words(before), ", "));
+  text += fmt::format("# Found in this run: {}.\n", fmt::join(words(found), ", "));
+  std::vector<records::Correction> all = before;
+  for (const records::Correction& correction : found) {
+    if (const auto undone = undone_by(all, correction))
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(*undone));  // what was put right before was right
+    else
+      all.push_back(correction);
+  }
+  io::write_file_atomically(file, text + corrections_toml(all));
+}
+
+std::vector<std::string> correction_advice(const std::vector<records::Correction>& found) {
+  if (found.empty()) return {};
+  std::vector<std::string> channels;
+  for (const records::Correction& correction : found)
+    channels.push_back(correction.with.empty() ? correction.channel : correction.channel + " and " + correction.with);
+  return {fmt::format("correct {}, then update: --correct with corrections.toml of this step ({})", fmt::join(channels, ", "),
+                      fmt::join(words(found), ", "))};
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,143 @@
+#include "model_io/model_tables.hpp"
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include "io/csv.hpp"
+#include "model_io/modes_io.hpp"
+#include "model_io/names.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+std::string stay_name(const fe::Element& element) { return element.name.empty() ? std::to_string(element.id) : element.name; }
+
+/// Nodes of a part, and how many elements of each type and springs it has.
+struct PartCount {
+  std::set<int> nodes;
+  std::map<std::string, std::size_t> pieces;
+};
+
+const char* arrangement_of(const fe::Spring& spring) {
+  if (spring.stiffness == 0.0) return "viscous";
+  return spring.series ? "series" : "parallel";
+}
+
+void write_stays(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder) {
+  io::CsvWriter stays(
+      {"stay", "group", "length_m", "pull_N", "site_pull_N", "stress_Pa", "equivalent_modulus_Pa", "deviation_from_site_pct"});
+  for (std::size_t i = 0; model != nullptr && i < model->elements.size(); ++i) {
+    const fe::Element& e = model->elements[i];
+    if (e.type != fe::ElementType::stay) continue;
+    const Eigen::Vector3d chord =
+        model->nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model->nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
+    const fe::Material& material = model->materials[static_cast<std::size_t>(e.material)];
+    const auto at = static_cast<Eigen::Index>(i);
+    const double pull = state.stay_pull_N.size() > at ? state.stay_pull_N[at] : 0.0;
+    const double stress = pull / model->sections[static_cast<std::size_t>(e.section)].area_m2;
+    const fe::Dischinger law{material.density_kg_m3 * model->gravity_m_s2, chord.head<2>().norm(), stress};
+    // Without pull the model leaves the sag out too, and the stay acts with the modulus of its material.
+    const double modulus = stress > 0.0 ? law.modulus(material.youngs_modulus_Pa) : material.youngs_modulus_Pa;
+    const auto where_measured = [&](double value) { return e.pull_N > 0.0 ? std::optional<double>(value) : std::nullopt; };
+    stays.row({stay_name(e), e.group, chord.norm(), pull, where_measured(e.pull_N), stress, modulus,
+               where_measured(100.0 * (pull / e.pull_N - 1.0))});
+  }
+  stays.save(folder / "stays.csv");
+}
+
+void write_member_forces(const fe::Model* model, const fe::PrestressState& state, const std::filesystem::path& folder) {
+  io::CsvWriter members({"element", "group", "x_m", "y_m", "z_m", "length_m", "axial_force_N"});
+  for (std::size_t i = 0; model != nullptr && i < model->elements.size(); ++i) {
+    const fe::Element& e = model->elements[i];
+    if (e.type != fe::ElementType::beam && e.type != fe::ElementType::bar) continue;
+    const auto end = [&](std::size_t k) -> Eigen::Vector3d {
+      return model->nodes[static_cast<std::size_t>(e.nodes[k])].x_m + e.offset_m[k];
+    };
+    const Eigen::Vector3d middle = 0.5 * (end(0) + end(1));
+    const auto at = static_cast<Eigen::Index>(i);
+    const double force = state.axial_force_N.size() > at ? state.axial_force_N[at] : 0.0;
+    members.row({e.id, e.group, middle.x(), middle.y(), middle.z(), (end(1) - end(0)).norm(), force});
+  }
+  members.save(folder / "member_forces.csv");
+}
+
+void write_dampers(const fe::Model* model, const std::filesystem::path& folder) {
+  io::CsvWriter dampers({"damper", "group", "damping_N_s_m", "stiffness_N_m", "arrangement"});
+  if (model != nullptr) {
+    for (const auto& s : model->springs) {
+      if (s.group.starts_with("damper")) dampers.row({s.name, s.group, s.damping, s.stiffness, arrangement_of(s)});
+    }
+  }
+  dampers.save(folder / "dampers.csv");
+}
+
+void write_summary(const fe::Model* model, const fe::ParametricSystem& system, const PartOf& part_of,
+                   const std::filesystem::path& folder) {
+  io::CsvWriter summary({"quantity", "value", "unit"});
+  const auto count = [&](const std::string& quantity, std::size_t value) {
+    summary.row({quantity, static_cast<long>(value), "-"});
+  };
+  count("degrees_of_freedom", static_cast<std::size_t>(system.size()));
+  count("parameters", system.parameters.size());
+  if (model == nullptr) {
+    std::set<std::string> nodes;
+    for (const auto& dof : system.dofs) nodes.insert(dof.node);
+    count("nodes", nodes.size());
+    summary.save(folder / "summary.csv");
+    return;
+  }
+  const std::vector<std::string>& types = element_type_names();
+  std::vector<std::size_t> of_type(types.size(), 0);
+  std::map<std::string, PartCount> parts;
+  for (const fe::Element& e : model->elements) {
+    const auto type = static_cast<std::size_t>(e.type);
+    ++of_type[type];
+    if (!part_of) continue;
+    PartCount& part = parts[part_of(e.group)];
+    part.nodes.insert(e.nodes.begin(), e.nodes.end());
+    ++part.pieces[types[type] + "s"];
+  }
+  if (part_of) {
+    for (const fe::Spring& spring : model->springs) ++parts[part_of(spring.group)].pieces["springs"];
+  }
+  count("nodes", model->nodes.size());
+  count("elements", model->elements.size());
+  for (std::size_t type = 0; type < types.size(); ++type) count(types[type] + "s", of_type[type]);
+  count("springs", model->springs.size());
+  count("rigid_links", model->links.size());
+  if (!model->constraints.empty()) count("constraints", model->constraints.size());
+  count("point_masses", model->masses.size());
+  for (const auto& [name, part] : parts) {
+    if (!part.nodes.empty()) count("nodes_" + name, part.nodes.size());
+    for (const auto& [kind, number] : part.pieces) count(kind + "_" + name, number);
+  }
+  summary.save(folder / "summary.csv");
+}
+
+}  // namespace
+
+modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes) {
+  modal::ModeSet all = to_mode_set(model, system, modes);
+  if (model == nullptr) return all;
+  modal::ModeSet kept = all;
+  kept.dofs.clear();
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < all.dofs.size(); ++i) {
+    if (all.dofs[i].direction.front() == 'r') continue;
+    kept.dofs.push_back(all.dofs[i]);
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  kept.shapes = all.shapes(rows, Eigen::all);
+  return kept;
+}
+
+void write_model_tables(const dynamics::LoadedModel& loaded, const PartOf& part_of, const std::filesystem::path& folder) {
+  const fe::Model* model = loaded.fe_model();
+  write_stays(model, loaded.state, folder);
+  write_member_forces(model, loaded.state, folder);
+  write_dampers(model, folder);
+  write_summary(model, loaded.system, part_of, folder);
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,270 @@
+#include "runner/run_step.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+
+#include "core/build_info.hpp"
+#include "core/printable.hpp"
+#include "io/atomic.hpp"
+#include "io/manifest.hpp"
+#include "model_io/model_folder.hpp"
+#include "runner/clean_interrupt.hpp"
+#include "runner/command_line.hpp"
+#include "runner/configured_inputs.hpp"
+#include "runner/heartbeat.hpp"
+#include "runner/memory.hpp"
+#include "runner/plan.hpp"
+#include "runner/shipped_files.hpp"
+#include "runner/study.hpp"
+#include "runner/threads.hpp"
+
+namespace twindeck::runner {
+namespace fs = std::filesystem;
+namespace {
+
+/// One line whatever was thrown.
+int failure(const std::string& token, const std::string& kind, const std::string& message, int code) {
+  std::fputs(fmt::format("{}: {}{}\n", token, kind, printable(message)).c_str(), stderr);
+  return code;
+}
+
+/// What a size in a file or the configuration asks for that no machine has.
+InputError too_large() {
+  return {{}, "asks for more memory than there is", "look for a size, a duration or a number of modes that is too large"};
+}
+
+/// The step's configuration: its own file in the study, then --set in order.
+void read_configuration(const CommandLine& line, Step& step, StepContext& context) {
+  if (!line.study.empty()) {
+    if (const fs::path study_file = line.study / "study.toml"; fs::exists(study_file)) {
+      context.seed = read_study(line.study).seed;
+      context.input(study_file);
+    }
+    if (const fs::path own = line.study / (step.token + ".toml"); fs::exists(own)) {
+      step.fields.load(context.input(own));
+    }
+  }
+  for (const std::string& assignment : line.sets) step.fields.set(assignment);
+  if (line.seed) context.seed = *line.seed;
+}
+
+/// Only a folder of this very step, or an empty one, may be replaced: --out set to something else must not cost anybody's
+/// files.
+void refuse_to_replace_foreign(const fs::path& folder, const std::string& token) {
+  if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) return;
+  if (!fs::is_directory(folder) || !io::is_step_folder(folder)) {
+    throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' exists and holds no results of a step",
+                     "name another folder, or remove this one yourself");
+  }
+  if (const std::string owner = io::read_manifest(folder).step; owner != token) {
+    throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' holds results of " + owner,
+                     "name another folder");
+  }
+}
+
+/// The nearest folder above the results that exists must take them: said before a long computation, and by --check.
+void refuse_unmakeable(const fs::path& folder) {
+  std::error_code unreadable;
+  fs::path above = fs::absolute(folder).parent_path();
+  while (!fs::exists(above, unreadable) && above.has_relative_path()) above = above.parent_path();
+  if (fs::is_directory(above, unreadable) && ::access(above.c_str(), W_OK | X_OK) == 0) return;
+  throw InputError({"command line", 0, "--out"}, fmt::format("'{}' cannot be made in '{}'", folder.string(), above.string()),
+                   "name a place in a folder that you may write to");
+}
+
+fs::path unconverged_place(fs::path out) { return out += ".unconverged"; }
+
+std::map<std::string, std::string> hashes_below(const fs::path& folder) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) hashes[fs::relative(entry.path(), folder).generic_string()] = io::sha256(entry.path());
+  }
+  return hashes;
+}
+
+io::Manifest manifest_of(const Status& status, const Step& step, const StepContext& context) {
+  io::Manifest manifest;
+  manifest.step = step.token;
+  manifest.status = status.converged ? "converged" : "unconverged";
+  manifest.message = status.message;
+  manifest.config_toml = step.fields.print();
+  manifest.seed = context.seed;
+  manifest.threads = context.threads;
+  for (const auto& [path, hash] : context.input_hashes_) manifest.inputs[path] = hash;
+  manifest.outputs = hashes_below(context.out);
+  return manifest;
+}
+
+/// A key of the step's configuration, or all; or all of one of the files that are no step's own.
+std::string describe(const Step& step, const std::string& key) {
+  if (key == "study.toml") return describe_study();
+  if (key == "model.toml") return model_io::describe_model_toml();
+  return step.fields.describe(key);
+}
+
+/// The line of an InputError that names no file: a key of the configuration stands where it was given, anything else concerns
+/// the study or the model that the step was run on.
+std::string located(const InputError& error, const Step& step, const StepContext& context) {
+  if (!error.place().file.empty()) return error.what();
+  const std::optional<Place> given = error.place().key.empty() ? std::nullopt : step.fields.place_of(error.place().key);
+  if (given && !given->file.empty()) {
+    return given->file + (given->line > 0 ? ":" + std::to_string(given->line) : "") + ": " + error.what();
+  }
+  const std::string source = context.model ? context.model->string() : context.study.string();
+  return (source.empty() ? "command line" : source) + ": " + error.what();
+}
+
+int compute(int argc, char** argv, const CommandLine& line, Step& step, const ConfiguredInputs& configured,
+            StepContext& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const fs::path out = io::without_trailing_slash(line.out);
+  const fs::path unconverged = unconverged_place(out);
+
+  // 1. Everything that can be refused is refused before anything is written.
+  read_configuration(line, step, context);
+  step.fields.require();
+  refuse_to_replace_foreign(out, step.token);
+  refuse_to_replace_foreign(unconverged, step.token);
+  refuse_unmakeable(out);
+  context.study = line.study;
+  context.results = line.results.empty() ? (out.has_parent_path() ? out.parent_path() : fs::path(".")) : line.results;
+  context.model = line.model;
+  context.campaign = line.campaign;
+  context.modes = line.modes;
+  context.features = line.features;
+  context.flags_ = line.flags;
+  configured.apply(step, context);
+  context.threads = set_threads(line.threads);
+  keep_freed_memory();
+  const CleanInterrupt interrupt(io::FolderReplacement::partial_place(out));  // first, so that no moment is uncovered
+  const Computation computation = step.read(context);
+  if (line.check) {
+    if (!line.quiet) std::fputs(plan_of(step, context, out).c_str(), stdout);
+    return 0;
+  }
+
+  // 2. The step computes and writes beside its place.
+  io::FolderReplacement replacement(out);
+  context.out = replacement.partial();
+  const Status status = [&] {
+    const Heartbeat heartbeat(context);
+    return computation();
+  }();
+
+  // 3. The manifest comes last.
+  io::Manifest manifest = manifest_of(status, step, context);
+  manifest.warnings = context.warnings_;
+  manifest.corrections = context.corrections_;
+  manifest.command_line.assign(argv, argv + argc);
+  manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  io::write_manifest(manifest, context.out);
+
+  // 4. What is finished replaces what was there; what did not converge goes beside it.
+  if (!status.converged && !line.accept_unconverged) {
+    replacement.publish(unconverged);
+    return failure(step.token, "not converged: ",
+                   status.message + "; see " + unconverged.string() + ", or publish it with --accept-unconverged", 1);
+  }
+  replacement.publish();
+  std::error_code ignored;
+  fs::remove_all(unconverged, ignored);  // of an earlier attempt, now overtaken
+  if (!context.corrections_.empty())
+    context.say(fmt::format("the measurement was corrected first: {}", fmt::join(context.corrections_, ", ")));
+  context.say(fmt::format("{} in {:.1f} s, written to {}", status.converged ? "done" : "accepted though not converged",
+                          manifest.seconds, out.string()));
+  return 0;
+}
+
+}  // namespace
+
+std::optional<std::string> StepContext::flag(const std::string& name) const {
+  const std::string wanted = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  for (const auto& [given, value] : flags_) {
+    if (given == wanted) return value;
+  }
+  return std::nullopt;
+}
+
+fs::path StepContext::resolved(const std::string& path) const {
+  constexpr std::string_view below_results = "{results}/";
+  return path.starts_with(below_results) ? results / path.substr(below_results.size()) : fs::path(path);
+}
+
+bool StepContext::has_flag(const std::string& name) const { return flag(name).has_value(); }
+
+fs::path StepContext::input(const fs::path& asked) {
+  const fs::path path = shipped(asked);
+  if (!fs::exists(path)) {
+    throw InputError({path.string(), 0, ""}, "does not exist",
+                     "run the step that writes it, or point to your own data (--help)");
+  }
+  io::check_against_manifest(path);
+  const auto register_file = [&](const fs::path& file) {
+    inputs_.push_back(file);
+    input_hashes_.emplace(file.generic_string(), io::sha256(file));
+  };
+  if (!fs::is_directory(path)) {
+    register_file(path);
+    return path;
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(path)) {
+    // A manifest tells seconds and dates of another step; what counts is the files that it vouches for.
+    if (entry.is_regular_file() && entry.path().filename() != "manifest.json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::for_each(files.begin(), files.end(), register_file);
+  return path;
+}
+
+int run_step(int argc, char** argv, Step step) {
+  StepContext context;
+  context.token_ = step.token;
+  try {
+    const ConfiguredInputs configured(step);
+    const CommandLine line = parse_command_line(argc, argv, step);
+    context.quiet = line.quiet;
+    switch (line.action) {
+      case CommandLine::Action::help:
+        std::fputs(line.text.c_str(), stdout);
+        return 0;
+      case CommandLine::Action::print:
+        std::fputs(line.text.c_str(), stdout);
+        return 0;
+      case CommandLine::Action::version:
+        std::fputs((line.text + "\n").c_str(), stdout);
+        return 0;
+      case CommandLine::Action::describe:
+        std::fputs(describe(step, line.text).c_str(), stdout);
+        return 0;
+      case CommandLine::Action::print_config:
+        read_configuration(line, step, context);
+        std::fputs(step.fields.print().c_str(), stdout);
+        return 0;
+      case CommandLine::Action::run:
+        return compute(argc, argv, line, step, configured, context);
+    }
+    throw InternalError("the command line asks for nothing known");
+  } catch (const InputError& error) {
+    return failure(step.token, "", located(error, step, context), 2);
+  } catch (const fs::filesystem_error& error) {
+    return failure(step.token, "", error.what(), 2);
+  } catch (const std::bad_alloc&) {
+    return failure(step.token, "", located(too_large(), step, context), 2);
+  } catch (const std::length_error&) {
+    return failure(step.token, "", located(too_large(), step, context), 2);
+  } catch (const std::exception& error) {
+    return failure(step.token, "internal error: ", error.what(), 3);
+  } catch (...) {
+    return failure(step.token, "internal error: ", "something unknown was thrown", 3);
+  }
+}
+
+}  // namespace twindeck::runner
