@@ -233,14 +233,11 @@ Hidden hide(const Bench& bench, std::uint64_t seed, Stream& random, const HideOp
     const bool shown = draw_effect(shared, family, target, random, twin, a, sigma) && sigma >= 0.8 * least;
     // A family that these data hardly show is hidden all the same: what is said of it then is of interest too.
     if (!shown && !(kind == 'e' && options.least_sigma <= 3.0 && sigma > 0.0)) continue;
-    if (kind == 'e') hidden.seal.said_by_others = said_by_others(shared, *twin.diagnosing, a);
-    if (kind == 'o' && said_by_others(shared, *twin.diagnosing, a)) continue;
+    hidden.seal.said_by_others = kind != 't' && said_by_others(shared, *twin.diagnosing, a);
+    if (kind == 'o' && hidden.seal.said_by_others) continue;
     if (!truth.empty() && truth[0].candidate->hypothesis == twin.truth->hypothesis) continue;
     truth.push_back({twin.truth, a});
-    if (truth.size() == 1)
-      hidden.seal.sigma = sigma;
-    else
-      hidden.seal.sigma = std::min(hidden.seal.sigma, sigma);
+    hidden.seal.sigma = truth.size() == 1 ? sigma : std::min(hidden.seal.sigma, sigma);
     hidden.seal.families.push_back(family);
     hidden.seal.locations.push_back(twin.diagnosing->location);
     std::vector<double> magnitude;
