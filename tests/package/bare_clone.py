@@ -36,6 +36,7 @@ def main():
         bare_root.base(root.folder, given)
         bare_root.make_home(root)
         subprocess.run(["git", "clone", "-q", "--bare", "--no-hardlinks", str(ROOT), str(root.folder / "srv/twindeck.git")], check=True)
+        subprocess.run(["chown", "-R", bare_root.USER, str(root.folder / "srv")], check=True)  # git refuses another user's
         from_clone(root)
     finally:
         shutil.rmtree(holder)
