@@ -24,25 +24,28 @@ struct Diagnosis;
 struct DiagnoseOptions {
   double alpha = 0.01;            ///< false alarms allowed by the threshold
   double least_log_odds = 3.0;    ///< least log odds of a named cause, whatever the threshold of the null calibration
-  double threshold = 3.0;         ///< of the largest log odds (from null calibration, or the analytic tail)
-  double either_within = 3.0;     ///< nats: causes this near the best are not told apart
-  double same_direction = 0.95;   ///< |cos| of signatures above which causes within `same_within` are not told apart either
-  double same_within = 8.0;       ///< nats
-  double equal_within = 1.0;      ///< nats: causes in one direction this near the best explain equally well
-  double residual_alpha = 0.001;  ///< level of the residual test where nothing is named
-  /// The same where something is: a name is a claim, and a wrong one leaves more than chance leaves. Of 135 right names on
-  /// seeds 4001 to 4400 one has a smaller p, of 17 wrong ones for causes that the catalogue lacks six.
+  double threshold = 3.0;         ///< log odds above which a cause is named: of the null calibration, or analytic_threshold
+  double either_within = 3.0;     ///< nats: causes within this distance of the best are not told apart from it
+  double same_direction = 0.95;   ///< |cos| of signatures: above it, causes within `same_within` are not told apart either
+  double same_within = 8.0;       ///< nats from the best, see `same_direction`
+  double equal_within = 1.0;      ///< nats: causes with one direction within this distance of the best explain equally well
+  double residual_alpha = 0.001;  ///< level of the residual test if no cause is named
+  /// Level of the residual test if a cause is named. A name is a claim, and a wrong name leaves a larger misfit than chance
+  /// does. On seeds 4001 to 4400, one of 135 right names has a p-value below this level. Of 17 wrong names for causes that the
+  /// catalogue lacks, six do.
   double residual_alpha_named = 0.01;
-  /// Nats that a further cause needs which is tuned to a mode (an oscillator, a stay that swings). It can follow one mode
-  /// through all conditions, and so hides what a wrong first cause leaves. On seeds 4001 to 4400 and 5001 to 5400 wrong ones
-  /// had 4 to 23.
+  /// Least log odds (nats) of a further cause that is tuned to a mode (an oscillator, a vibrating stay). Such a cause can
+  /// follow one mode through all conditions. It can therefore hide the misfit that a wrong first cause leaves. On seeds 4001 to
+  /// 4400 and 5001 to 5400, wrong causes of this kind had 4 to 23 nats.
   double further_tuned = 25.0;
   int most_causes = 4;
   int bootstrap = 2000;  ///< resamples of held-out blocks
   SearchOptions search;
-  Refinement* refinement = nullptr;  ///< lays locations round the leading one before it is named; null: those of the catalogue
+  /// Adds candidate locations around the leading location before a cause is named. Null: only the locations of the catalogue.
+  Refinement* refinement = nullptr;
 
-  [[nodiscard]] double residual_level(const Diagnosis& result) const;  ///< of the two the one that this result is tested at
+  /// Level of the residual test for this result: `residual_alpha` or `residual_alpha_named`.
+  [[nodiscard]] double residual_level(const Diagnosis& result) const;
 };
 
 /// Another member of a cause's cluster.
@@ -55,11 +58,11 @@ struct Rival {
 
 struct Effect {
   Cause cause;
-  std::string state;                 ///< of the structure in which it acts; empty: in all
+  std::string state;                 ///< state of the structure in which it acts; empty: all states
   std::vector<std::string> cluster;  ///< "fric@damper:C1", the best first
   std::vector<Rival> rivals;         ///< the others of the cluster, in its order
   double log_odds = 0.0, probability = 0.0;
-  double within_m = 0.0;  ///< the cause sits no further than this from its location; 0 where the location itself stands out
+  double within_m = 0.0;  ///< [m] largest distance of the cause from its location; 0 if the data single out the location
   std::string split_by, sentence, remedy;
   std::vector<EffectParameter> parameters;  ///< 90 % intervals
 };
@@ -76,21 +79,23 @@ struct Diagnosis {
   std::string message;  ///< one line for people
   double log_odds = 0.0, threshold = 0.0, alpha = 0.0;
   ResidualTest residual;              ///< with the causes in the model
-  std::vector<ScatterScale> scatter;  ///< likewise; filled by scatter_scales on request
+  std::vector<ScatterScale> scatter;  ///< with the causes in the model; filled by scatter_scales on request
   bool after_extension = false;
   std::vector<Effect> effects;
   std::vector<LocationScore> localisation;
   Gain gain;
   std::vector<std::string> on_bounds;  ///< of the model without causes
   Fit before, after;
-  std::vector<Scored> ranking;     ///< of the first search; odds widened as those of the effects
+  std::vector<Scored> ranking;     ///< of the first search; its odds are widened like those of the effects
   std::optional<FormReport> form;  ///< set if the model's form was a hypothesis
-  /// Rows with that form error in their covariance: what their residuals are told by. Null without a form.
+  /// Rows with the form error of `form` in their covariance. Reported residuals are standardised with it. Null if `form` is not
+  /// set.
   std::shared_ptr<const FeatureMap> with_form;
 };
 
-/// Finds what is wrong, why, and the gain from naming it (docs/diagnosis.md): forward steps with a backward check, clusters,
-/// the verdict, the gain on held-out rows. Deterministic: `seed` sets the resampling of held-out blocks.
+/// Finds what is wrong, why, and the gain from naming it (docs/diagnosis.md). Each forward step adds the leading cause and
+/// checks the earlier causes again. The result has the cluster of each cause, the verdict, and the gain on held-out rows. The
+/// result is deterministic: `seed` sets the resampling of held-out blocks.
 [[nodiscard]] Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
 /// Threshold of the largest log odds at false-alarm rate alpha by the union bound over candidates, chi² tails with the

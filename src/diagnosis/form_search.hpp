@@ -7,27 +7,27 @@
 #include "diagnosis/inference.hpp"
 #include "diagnosis/inference/form_evidence.hpp"
 
-/// Private to src/diagnosis: every entry of the catalogue against "nothing but the model's form", scales summed over under
-/// each.
+/// Private to src/diagnosis. Compares every entry of the catalogue with the hypothesis "nothing but the model's form". The
+/// evidence of each hypothesis is summed over the scales of the form error.
 namespace twindeck::diagnosis {
 
-/// An entry, weighed.
+/// An entry of the catalogue with its evidence.
 struct FormEntry {
   const Candidate* candidate = nullptr;
-  int contrast = -1;                    ///< in which it acts; -1: in all conditions alike
+  int contrast = -1;                    ///< position of the contrast in which it acts; -1: in all conditions alike
   std::vector<Inference::Tried> tried;  ///< magnitudes of the screen
-  int first_signature = 0;              ///< of `tried` in the base's system
+  int first_signature = 0;              ///< column of the base's signatures that belongs to the first of `tried`
   HypothesisEvidence evidence;
-  double log_weight = -1e300;  ///< evidence and prior
+  double log_weight = -1e300;  ///< ln evidence plus ln prior
   Eigen::VectorXd a;           ///< magnitudes at the best point
-  Eigen::VectorXd fitted;      ///< where refined: those that the system's residual is at
+  Eigen::VectorXd fitted;      ///< if refined: magnitudes of the fit `with`
   double effect = 0.0;         ///< RMS change of frequencies, ln
   bool refined = false;        ///< linearised with the entry in the model
-  Fit with;                    ///< where refined, and its system
+  Fit with;                    ///< if refined: the fit with the entry in the model; `system` is linearised there
   FormSystem system;
 };
 
-/// A cause that was accepted leaves something over in its contrast.
+/// Contrast and effect of the accepted cause. A part of its effect may be left over in this contrast.
 struct Leftover {
   int contrast = -1;
   double effect = 0.0;
@@ -35,7 +35,7 @@ struct Leftover {
 
 struct FormSearch {
   Fit base;
-  FormSystem system;  ///< at the base, signatures of every entry's magnitudes
+  FormSystem system;  ///< at the base, with the signatures of all entries at all their magnitudes
   HypothesisEvidence none;
   std::vector<HypothesisEvidence> something_else;  ///< (n_contrasts)
   double none_weight = 0.0;
@@ -43,29 +43,30 @@ struct FormSearch {
   std::vector<FormEntry> entries;   ///< the best first
 };
 
-/// What a search works on. `informed` has the form error in the covariance of its rows, so that a fit does not bend to it;
-/// `plain` has the identification's alone.
+/// Input of a search. `informed` has the form error in the covariance of its rows, so that the form error does not bias a fit.
+/// `plain` has the covariance of the identification alone.
 struct FormSetting {
   const Inference& plain;
   const Inference& informed;
-  int dof;  ///< of the rows that count
+  int dof;  ///< degrees of freedom of the rows in use
   std::vector<Contrast> contrasts;
   ScaleGrid grid;
-  Eigen::MatrixXd many;  ///< many small causes, a part of the form error
+  Eigen::MatrixXd many;  ///< columns of many_small_causes, a part of the form error
 };
 
-/// Whether an effect grows with the magnitude. What is tuned turns with its frequency, a support's place is no size, and what
-/// has no unknown is there or not.
+/// Whether the effect of a candidate grows with its first magnitude. There are three exceptions. The effect of a tuned cause
+/// depends on its frequency. The position of a moved support is not a size. A candidate without unknowns has no magnitude.
 [[nodiscard]] bool is_a_size(const Candidate& candidate);
 
-/// Magnitudes of the screen are taken times these where they can be scaled: (n_factors)
+/// Factors on the magnitudes of the screen (n_factors); 1 alone if they cannot be scaled.
 [[nodiscard]] std::vector<double> magnitude_factors(const Candidate& candidate);
 
-/// Weighs everything against a fit with the accepted causes, then linearises with each of the leaders in the model, from the
-/// fit without it and from the prior's mean, and keeps the larger evidence.
+/// First computes the evidence of every hypothesis at `base`, the fit with the accepted causes. Then fits the model with each
+/// leading entry in it, once from `base` and once from the prior mean, and linearises there. The larger evidence counts.
 [[nodiscard]] FormSearch search_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover);
 
-/// ln prior: nothing 0.5, something else changed 0.05 a contrast, the catalogue 0.4 together.
+/// ln of the prior probabilities: 0.5 for none, 0.05 for "something else changed" in each contrast, 0.4 for the whole
+/// catalogue.
 [[nodiscard]] double log_prior_of_none();
 [[nodiscard]] double log_prior_of_something_else();
 [[nodiscard]] double log_prior_of(const Candidate& candidate);

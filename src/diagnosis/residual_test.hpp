@@ -7,8 +7,8 @@
 
 namespace twindeck::diagnosis {
 
-/// Misfit of a block of rows (one condition, mode, channel or type) against its prediction from all other rows, or of its
-/// slopes against temperature, amplitude, wind or people.
+/// Misfit of a block. A block is either the rows of one condition, mode, channel or type, compared with their prediction from
+/// all other rows, or the slopes of all modes against temperature, amplitude, wind or people.
 struct BlockMisfit {
   std::string name;  ///< "frequency_Hz in frost", "shape of mode 3", "channel M4z", "frequency_Hz against temperature"
   int rows = 0;
@@ -17,23 +17,25 @@ struct BlockMisfit {
   double p_value = 1.0;
 };
 
-/// Whether a misfit is left that bounds, element scatter and the named causes do not explain.
+/// Tests whether there is a misfit that bounds, element scatter and the named causes do not explain.
 struct ResidualTest {
   double statistic = 0.0;  ///< of all training rows
   int dof = 0;
   double p_value = 1.0;
   std::vector<BlockMisfit> blocks;  ///< the least likely first
-  double block_p_value = 1.0;       ///< of the least likely block, times their number (Bonferroni)
+  double block_p_value = 1.0;       ///< p-value of the least likely block, times the number of blocks (Bonferroni)
 
   [[nodiscard]] bool rejects(double alpha) const { return p_value < alpha || block_p_value < alpha; }
 };
 
-/// Two tests of a fit, each at its level. The sum over all rows detects a misfit that is spread. The rows of each block against
-/// their prediction by all others detect a misfit in a few rows, which is lost in the sum. With r = y - g + J x ~ N(0, S) and
-/// u = S^-1 r, the block b given the rest has the statistic u_b' ((S^-1)_bb)^-1 u_b (conditional normal law; Cook and Weisberg
-/// 1982, section 3.5, for the deletion of several rows). Slopes D (a column a mode: a line through its rows, in what varies
-/// between conditions) are tested in the same way, by the score D'u of variance D' S^-1 D (Rao 1948): they detect a
-/// wrong cause that follows the mean trend of all modes but not the trend of each mode.
+/// Two tests of a fit. The sum over all rows detects a misfit that is spread over many rows. The test of the blocks detects a
+/// misfit in a few rows, which the sum over all rows hides. It compares the rows of each block with their prediction from all
+/// other rows. With r = y - g + J x ~ N(0, S) and u = S^-1 r, the block b given the other rows has the statistic
+/// u_b' ((S^-1)_bb)^-1 u_b (conditional normal distribution; Cook and Weisberg 1982, section 3.5, for the deletion of several
+/// rows).
+/// Slopes are tested in the same way. Each column of D belongs to one mode. It is a straight line through the rows of the mode,
+/// as a function of a variable that differs between conditions. The score D'u has the variance D' S^-1 D (Rao 1948). The test
+/// of the slopes detects a wrong cause that follows the mean trend of all modes but not the trend of each mode.
 [[nodiscard]] ResidualTest residual_test(const Inference& inference, const Fit& fit);
 
 }  // namespace twindeck::diagnosis

@@ -2,21 +2,24 @@
 
 #include "fe/shell_membrane.hpp"
 
-/// What the membrane, bending and mass of the four-node shell share: the mean plane and the bilinear map on it.
+/// The mean plane of the four-node shell and the bilinear map on this plane. The membrane, bending and mass matrices all use
+/// them.
 namespace twindeck::fe::shell {
 
-/// Mean plane of a quadrilateral: through the mean of its nodes, parallel to both diagonals, so that the nodes lie alternately
-/// `+h` and `-h` off it. Local x joins the midpoints of the sides 4-1 and 2-3, z = x13 × x24 / |x13 × x24|.
+/// Mean plane of a quadrilateral. It contains the mean of the nodes and is parallel to both diagonals. The distances of the
+/// nodes from it are therefore `+h` and `-h` in turn. Local x goes from the midpoint of side 4-1 to the midpoint of side 2-3.
+/// Local z is x13 × x24 / |x13 × x24|.
 struct Frame {
   Eigen::Matrix3d axes;                     ///< rows local x, y, z in global axes
   std::array<Eigen::Vector2d, 4> corner_m;  ///< projected nodes, origin at their mean
-  std::array<double, 4> height_m;           ///< of the nodes above the plane
+  std::array<double, 4> height_m;           ///< signed distances of the nodes from the plane, along local z
 };
-/// @throws InputError for a quadrilateral without area, or not convex
+/// @throws InputError for a quadrilateral that has no area or is not convex
 [[nodiscard]] Frame frame_of(const ShellGeometry& geometry);
 
-/// Local displacements (x y z rx ry rz) of the projected corners from global nodal ones, (24 × 24). The distance between node
-/// and plane is a rigid arm: u_corner = R (u_node + θ × (-h z)), so a warped element still moves freely as a rigid body.
+/// Transformation of global nodal displacements to local displacements (x y z rx ry rz) of the projected corners, (24 × 24). A
+/// rigid link joins each node to its projected corner: u_corner = R (u_node + θ × (-h z)). A warped element can therefore move
+/// as a rigid body without forces.
 [[nodiscard]] Matrix24 corner_displacements(const Frame& frame);
 
 /// Bilinear map at (ξ, η) ∈ [-1, 1]²; `jacobian` rows are d(x, y)/dξ and d(x, y)/dη.

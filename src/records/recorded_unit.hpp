@@ -6,22 +6,22 @@
 
 namespace twindeck::records {
 
-/// A unit that records come in.
+/// A unit of the numbers in a record.
 struct RecordedUnit {
-  std::string quantity;    ///< acceleration | velocity | displacement | force; "" for what a converter gives before calibration
-  double si_factor = 0.0;  ///< physical value in SI = factor · number; 0 for volts and counts, which have none
+  std::string quantity;    ///< acceleration | velocity | displacement | force; "" for volts and counts, before calibration
+  double si_factor = 0.0;  ///< physical value in SI = factor · number; 0 for volts and counts, which have no such factor
 };
 
-/// The unit in the spellings of loggers, latin-1 or UTF-8: "g", "mg", "m/s²", "mm/s", "µm", "kN", "mV", "counts" …; nothing if
-/// it is not known.
+/// The unit with the given name. Names are spelled as loggers write them, in latin-1 or UTF-8: "g", "mg", "m/s²", "mm/s",
+/// "µm", "kN", "mV", "counts" … @return empty if the name is unknown
 [[nodiscard]] std::optional<RecordedUnit> recorded_unit(const std::string& unit);
 
-/// Units of a quantity as they are usually written, for messages.
+/// The usual names of the units of a quantity, for messages.
 [[nodiscard]] std::vector<std::string> units_of(const std::string& quantity);
 
-/// Unit of an acceleration, velocity, displacement or force as a factor to SI; 0 where it is not known.
+/// Factor from a unit of acceleration, velocity, displacement or force to SI; 0 if the unit is unknown.
 [[nodiscard]] double si_factor(const std::string& unit);
-/// What the unit measures: "acceleration", "velocity", "displacement", "force", or "".
+/// Quantity of a unit: "acceleration", "velocity", "displacement", "force", or "" if the unit has none or is unknown.
 [[nodiscard]] std::string quantity_of(const std::string& unit);
 
 }  // namespace twindeck::records

@@ -4,30 +4,31 @@
 #include <memory>
 #include <vector>
 
-/// Residuals of an update that weighs frequencies and mode shapes by the covariance of the measurement. It takes measured rows
-/// and what a model computes for them, and gives residuals in standard deviations with their exact derivatives.
+/// Residuals of an updating that weights frequencies and mode shapes by the covariance of the measurement. The input is the
+/// measured rows and the values that a model computes for them. The output is residuals in standard deviations, with their
+/// exact derivatives.
 namespace twindeck::updating {
 
 /// One measured component of a mode shape.
 struct ShapeRow {
-  int target = 0;  ///< position of the target whose shape it is
+  int target = 0;  ///< position of the target to whose shape it belongs
   int channel = 0;
   bool imaginary = false;
-  double value = 0.0;  ///< [-] in any norm, sign and phase that is common to the target's rows
+  double value = 0.0;  ///< [-] norm, sign and phase are free, but the same in all rows of the target
 };
 
 /// Measured rows and their covariance: the frequencies of all targets in their order, then the components of shapes. A
 /// component that was not measured has no row.
 struct MeasuredRows {
-  Eigen::MatrixXd channels;            ///< (n × n_channels) column c: channel c shows c' phi; empty without shapes
-  std::vector<ShapeRow> shape;         ///< empty: frequencies alone
-  std::vector<std::vector<int>> span;  ///< (n_targets) start modes in whose span the measured shape may lie: the target's own,
-                                       ///< and those that are close to it
-  Eigen::MatrixXd covariance;          ///< (n_rows × n_rows) [Hz², Hz, 1], positive definite; empty: no weighing, Eq. (5)
+  Eigen::MatrixXd channels;            ///< (n × n_channels) channel k reads column(k)' phi; empty without shapes
+  std::vector<ShapeRow> shape;         ///< empty if only frequencies were measured
+  std::vector<std::vector<int>> span;  ///< (n_targets) modes of the start model in whose span the measured shape may lie: the
+                                       ///< mode of the target and the modes close to it
+  Eigen::MatrixXd covariance;          ///< (n_rows × n_rows) [Hz², Hz, 1], positive definite; empty: no weighting, Eq. (5)
   [[nodiscard]] bool given() const { return covariance.size() > 0; }
 };
 
-/// What a model computes for measured rows at one point.
+/// Values that a model computes for the measured rows at one point.
 struct ComputedRows {
   Eigen::VectorXd frequency_Hz;              ///< (n_targets)
   Eigen::MatrixXd shape;                     ///< (n_channels × n_modes)
@@ -41,17 +42,18 @@ struct WeightedEvaluation {
   Eigen::VectorXd residual;   ///< (n_residuals)
   Eigen::MatrixXd jacobian;   ///< (n_residuals × n_active); empty if not asked for
   Eigen::VectorXd predicted;  ///< (n_residuals) computed value of each row, shapes with their best scales, in the rows' units
-  int scales = 0;             ///< free scales that the shapes have used up
+  int scales = 0;             ///< number of free scales that were fitted to the shapes
 };
 
 /// Residuals of measured rows d with covariance Sigma = L L':
 ///   r = -P L⁻¹ (d - g),   P = 1 - A A⁺,   A = L⁻¹ S,
-/// where g holds the computed frequencies and S the computed shapes. P removes what any complex scale of each shape explains,
-/// and within a cluster any combination of its shapes. For one shape ‖r‖² = (1 - MAC) ‖L⁻¹ d‖², the MAC in the metric of Sigma;
-/// the vector is smooth where MAC = 1, which a square root of 1 - MAC is not. Of all scales ‖r‖² is the least, so that the sum
-/// is minus twice the logarithm of the likelihood. The derivatives are those of Golub and Pereyra:
+/// where g holds the computed frequencies and S the computed shapes. P removes the part of L⁻¹ d that a complex scale of each
+/// computed shape explains. Within a cluster of close modes it removes any linear combination of their shapes. For one shape
+/// ‖r‖² = (1 - MAC) ‖L⁻¹ d‖², with the MAC in the metric of Sigma. The vector r is smooth at MAC = 1, but the square root of
+/// 1 - MAC is not. ‖r‖² is the minimum over all scales, so the sum is minus twice the logarithm of the likelihood. The
+/// derivatives are those of Golub and Pereyra:
 ///   dr = P (dA s + L⁻¹ dg) - A⁺' dA' r,   s = A⁺ L⁻¹ (d - g).
-/// A change of A within its own span, which turning modes of a cluster make, drops out.
+/// A change of A within its own span does not change r. Modes of a cluster that rotate into each other cause such a change.
 /// Reference: Golub and Pereyra (1973), SIAM Journal on Numerical Analysis 10, 413-432 (variable projection).
 class WeightedRows {
  public:
@@ -65,7 +67,7 @@ class WeightedRows {
   [[nodiscard]] int size() const { return static_cast<int>(kept_.size()); }
   [[nodiscard]] const MeasuredRows& measured() const { return *measured_; }
   [[nodiscard]] bool has_shapes() const { return !measured_->shape.empty(); }
-  /// Columns of the spans for reference modes at new positions. @param position (n_reference), -1 for a lost mode
+  /// The spans, with each reference mode replaced by its new position. @param position (n_reference), -1 for a lost mode
   /// @return empty if a mode is lost
   [[nodiscard]] std::vector<std::vector<int>> spans_at(const std::vector<int>& position) const;
 

@@ -21,28 +21,30 @@ struct ReducedPlace {
   std::map<std::string, double> attributes;
 };
 
-/// What of a place's matrices there is at other values of the parameters: 1 but for a group that a parameter scales, which is
-/// `value` / `reduced_at` of what it was where the basis was made.
+/// Factor on the matrices of a location at other values of the parameters. For a group of elements that is scaled by a
+/// parameter, it is `value` / `reduced_at` of that parameter. For all other locations it is 1.
+/// @param reduced_at  (n_parameters) values at which the basis was made
 [[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
                                      const Eigen::VectorXd& value);
 
 struct ReductionOptions {
-  int modes = 30;                 ///< of the unchanged structure
-  int parameter_vectors = 10;     ///< corrections for changed parameters and element scatter: the strongest directions of all
-  double least_correction = 0.0;  ///< part of any mode's omega² below which a correction is left out
+  int modes = 30;                 ///< number of modes of the unchanged structure in the basis
+  int parameter_vectors = 10;     ///< most corrections for changed parameters and element scatter; the strongest are kept
+  double least_correction = 0.0;  ///< a correction below this part of every mode's omega² is left out
   double element_change = 0.0;    ///< relative change of a group of elements by element scatter; 0: no corrections
-  int corrected_modes = 8;        ///< lowest modes whose static response to a change at a place is kept …
-  int vectors_per_place = 3;      ///< … in its strongest directions
-  int vectors_per_move = 8;       ///< the same for a support that may stand elsewhere on its line
-  int full_below = 60;            ///< a structure with no more dofs is not reduced
+  int corrected_modes = 8;        ///< number of lowest modes whose static responses to a change at a location are used
+  int vectors_per_place = 3;      ///< most vectors of a location: the strongest directions of these responses
+  int vectors_per_move = 8;       ///< most vectors of a support that may stand elsewhere on its line
+  int full_below = 60;            ///< a structure with at most this number of dofs is not reduced
 };
 
-/// The structure projected once to a small basis, so that thousands of changed structures can be solved:
+/// The structure, projected once onto a small basis. Thousands of changed structures can then be solved:
 ///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by
 ///   place].
-/// A change at a location uses the common vectors and those of the location: K^-1 (dK Phi) for a factor, K^-1 b for a force
-/// direction b (statically exact; Craig and Bampton 1968, MacNeal 1971). With load tests V also holds K^-1 f of each load, and
-/// its first-order change by parameters, element scatter and causes. V is orthonormal in K up to a common factor.
+/// A change at a location uses the common vectors and the vectors of the location. These are K^-1 (dK Phi) for a factor, and
+/// K^-1 b for a force direction b (statically exact; Craig and Bampton 1968, MacNeal 1971). If there are load tests, V also
+/// holds K^-1 f for each load f, and the first-order changes of K^-1 f by parameters, element scatter and causes. V is
+/// orthonormal in K up to a common factor.
 class ReducedModel {
  public:
   struct Term {
@@ -54,19 +56,19 @@ class ReducedModel {
   ReducedModel(const Structure& structure, const Places& places, const ReductionOptions& options);
 
   std::vector<fe::Parameter> parameters;
-  Eigen::VectorXd theta;  ///< (n_parameters) where the basis was made
+  Eigen::VectorXd theta;  ///< (n_parameters) values at which the basis was made
   std::vector<Term> stiffness, mass;
   std::map<std::string, std::vector<ReducedPlace>> sets;
   Eigen::MatrixXd sensors;  ///< (4 n_channels × r), see SensorValues
   int common = 0;           ///< basis vectors that every solve uses: 0 … common-1
   double total_mass_kg = 0.0;
-  Eigen::VectorXd frequency_Hz;      ///< of the computed modes of the unchanged full model
+  Eigen::VectorXd frequency_Hz;      ///< of the modes of the unchanged full model
   Eigen::MatrixXd mode_coordinates;  ///< (r × n_modes) the same modes in the basis
-  LoadTests load_tests;              ///< in the basis, which answers their loads exactly at `theta`
+  LoadTests load_tests;              ///< in the basis, which gives their displacements exactly at `theta`
 
-  /// Takes in further places as a set of their own, with their static responses as further basis vectors. Coordinates that were
-  /// there before keep their numbers and meaning, so that predictions without the further places stay the same.
-  /// @param structure, places  those that the model was made of
+  /// Adds further locations as a new set, with their static responses as further basis vectors. Earlier coordinates keep their
+  /// numbers and meaning, so predictions without the further locations do not change.
+  /// @param structure, places  the same as in the constructor
   /// @param set                a name that `sets` does not have
   void extend(const Structure& structure, const Places& places, const std::string& set, const std::vector<Place>& further);
 
@@ -79,7 +81,7 @@ class ReducedModel {
   /// Terms and places in the coordinates of the basis.
   void project(const fe::ParametricSystem& system, const Places& places, const OwnColumns& own);
 
-  struct Kept;                  ///< what `extend` needs: the basis in full coordinates, the factor of K
+  struct Kept;                  ///< input of `extend`: the basis in full coordinates, the factor of K
   std::shared_ptr<Kept> kept_;  ///< a model that has copies cannot be extended
 };
 
