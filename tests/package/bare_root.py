@@ -21,8 +21,9 @@ import guide  # noqa: E402
 
 SUITE, MIRROR = "bookworm", "http://deb.debian.org/debian"
 USER, HOME = "1000:1000", "/home/engineer"
-# Name spaces of their own: what is mounted for a command is gone with it. /proc and /dev are what apt and Python ask for.
-ENTER = 'mount -t proc proc "$0/proc" && mount --bind /dev "$0/dev" && exec chroot "$@"'
+# Name spaces of their own: what is mounted for a command is gone with it. /proc and /dev are what apt and Python ask for; without
+# /dev/pts what a package's script says is an error of input and output.
+ENTER = 'mount -t proc proc "$0/proc" && mount --bind /dev "$0/dev" && mount -t devpts devpts "$0/dev/pts" && exec chroot "$@"'
 INSTALL = "DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends"
 
 
