@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -156,12 +157,12 @@ Fit lowest_from(const Inference& inference, const Fit& current, const std::vecto
   return lowest;
 }
 
-/// The fit extended by the first entry of the ranking that is above the threshold and keeps its promise. Odds on the linearised
-/// base are a promise: an entry with which the joint fit is no lower than without goes to the end of the ranking.
-Fit extended_by_first(const Inference& inference, const Fit& current, std::vector<Scored>& ranking, double ratio,
-                      double threshold) {
+/// The fit extended by the first entry of the ranking that is enough and keeps its promise. Odds on the linearised base are a
+/// promise: an entry with which the joint fit is no lower than without goes to the end of the ranking.
+Fit extended_by_first(const Inference& inference, const Fit& current, std::vector<Scored>& ranking,
+                      const std::function<bool(const Scored&)>& enough) {
   const auto n = static_cast<Index>(inference.map().nuisances().size());
-  while (tempered(ranking.front(), ratio) > threshold) {
+  while (enough(ranking.front())) {
     Scored& first = ranking.front();
     std::vector<Cause> causes = current.causes;
     causes.push_back({first.candidate, first.a});
@@ -202,13 +203,11 @@ class ForwardSteps {
       return false;
     }
     if (!search() || !lower_the_base(step == 0)) return false;
-    if (step > 0 && !set_faint_tuned_aside()) return false;
     Fit extended = weigh(last);
-    const bool found = tempered(ranking_.front(), ratio_) > out_.threshold;
-    if (!found && step > 0 && !first_look_.change.empty()) {
+    if (!enough(ranking_.front()) && step > 0 && !first_look_.change.empty()) {
       // That nothing more is there is said only after every entry was computed anew.
       ranking_ = inference_.search(current_, options_.search);
-      if (!widen() || !set_faint_tuned_aside()) return false;
+      if (!widen()) return false;
       extended = weigh(last);
     }
     if (step == 0) {
@@ -216,7 +215,7 @@ class ForwardSteps {
       out_.log_odds = tempered(ranking_.front(), ratio_);
       out_.localisation = location_map(inference_, current_, ranking_);
     }
-    if (last || tempered(ranking_.front(), ratio_) <= out_.threshold) return false;
+    if (last || !enough(ranking_.front())) return false;
     const Effect effect = first_effect();
     current_ = std::move(extended);
     out_.effects.push_back(effect);
@@ -231,14 +230,19 @@ class ForwardSteps {
     return true;
   }
 
-  /// Further causes that are tuned to a mode and too faint for that do not lead; they stay rivals. @return whether another
-  /// leads
-  bool set_faint_tuned_aside() {
-    const auto leads = [&](const Scored& scored) {
-      return scored.candidate->tuned < 0 || tempered(scored, ratio_) >= options_.further_tuned;
-    };
-    std::stable_partition(ranking_.begin(), ranking_.end(), leads);
-    return leads(ranking_.front()) && widen();
+  /// Whether an entry is a further cause that is tuned to a mode and too faint for that.
+  [[nodiscard]] bool faint_tuned(const Scored& scored) const {
+    return !out_.effects.empty() && scored.candidate->tuned >= 0 && tempered(scored, ratio_) < options_.further_tuned;
+  }
+
+  /// Whether the odds of an entry are enough for a place in the model.
+  [[nodiscard]] bool enough(const Scored& scored) const {
+    return tempered(scored, ratio_) > out_.threshold && !faint_tuned(scored);
+  }
+
+  /// They do not lead; they stay rivals.
+  void put_faint_tuned_last() {
+    std::stable_partition(ranking_.begin(), ranking_.end(), [this](const Scored& scored) { return !faint_tuned(scored); });
   }
 
   bool search() {
@@ -274,14 +278,17 @@ class ForwardSteps {
 
   /// Orders the leading entries. @return the fit with the first that keeps its promise, the fit so far if none does
   Fit weigh(bool last) {
-    if (!last && tempered(ranking_.front(), ratio_) > out_.threshold) {
+    put_faint_tuned_last();
+    ratio_ = birge(ranking_.front(), inference_.dof());
+    if (!last && enough(ranking_.front())) {
       if (options_.refinement != nullptr) look_round_leader(inference_, current_, ranking_, options_);
       ratio_ = birge(ranking_.front(), inference_.dof());
       prefer_mass_to_bound(inference_, current_, ranking_, ratio_, options_);
     }
     prefer_fewer_unknowns(ranking_, ratio_, options_);
     prefer_stated_priors(ranking_, ratio_);
-    return last ? current_ : extended_by_first(inference_, current_, ranking_, ratio_, out_.threshold);
+    put_faint_tuned_last();
+    return last ? current_ : extended_by_first(inference_, current_, ranking_, [this](const Scored& s) { return enough(s); });
   }
 
   /// The first entry as an effect, with the entries that these data cannot tell from it.

@@ -31,7 +31,7 @@ struct DiagnoseOptions {
   double equal_within = 1.0;      ///< nats: causes with one direction within this distance of the best explain equally well
   double residual_alpha = 0.001;  ///< level of the residual test if no cause is named
   /// Level of the residual test if a cause is named. A name is a claim, and a wrong name leaves a larger misfit than chance
-  /// does. On seeds 4001 to 4400, one of 135 right names has a p-value below this level. Of 17 wrong names for causes that the
+  /// does. On seeds 4001 to 4400, one of 135 right names has a p-value below this level. Of 15 wrong names for causes that the
   /// catalogue lacks, six do.
   double residual_alpha_named = 0.01;
   /// Least log odds (nats) of a further cause that is tuned to a mode (an oscillator, a vibrating stay). Such a cause can

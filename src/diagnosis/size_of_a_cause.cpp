@@ -6,6 +6,13 @@ namespace twindeck::diagnosis {
 
 using Eigen::Index;
 
+namespace {
+
+/// [-] of the range of an unknown, in logarithms: a search with bounds ends on them but for rounding.
+constexpr double kOnLowerBound = 1e-3;
+
+}  // namespace
+
 bool may_be_zero(const std::vector<EffectParameter>& parameters, const Candidate& candidate) {
   if (parameters.size() != 1 || !is_a_size(candidate) || candidate.log[0] || candidate.hypothesis->unknowns[0].name == "factor")
     return false;
@@ -14,13 +21,12 @@ bool may_be_zero(const std::vector<EffectParameter>& parameters, const Candidate
 }
 
 bool at_its_least(const Cause& cause) {
-  constexpr double kOnEnd = 1e-3;  // of the range, in logarithms: a search with bounds ends on them but for rounding
   const Candidate& candidate = *cause.candidate;
   for (Index i = 0; i < cause.a.size(); ++i) {
     const auto unknown = static_cast<std::size_t>(i);
     const bool size =
         candidate.log[unknown] && i != candidate.tuned && candidate.hypothesis->unknowns[unknown].name != "factor";
-    if (size && cause.a[i] - candidate.low[i] < kOnEnd * (candidate.high[i] - candidate.low[i])) return true;
+    if (size && cause.a[i] - candidate.low[i] < kOnLowerBound * (candidate.high[i] - candidate.low[i])) return true;
   }
   return false;
 }

@@ -80,6 +80,10 @@ struct Spring {
   double friction_N = 0.0;  ///< Coulomb threshold; 0 = none
   bool series = false;      ///< true: spring and dashpot in series (Maxwell); false: in parallel (Kelvin)
   bool active = true;       ///< false: carried as data (a damper that is not fitted), not assembled
+
+  [[nodiscard]] bool is_damper() const { return damping > 0.0 || friction_N > 0.0; }
+  /// Name of the support that a spring to the ground stands for.
+  [[nodiscard]] const std::string& support_name() const { return group.empty() ? name : group; }
 };
 
 /// Element given by its matrices: force f = M a + C v + K u on its degrees of freedom and on unknowns of its own. The matrices

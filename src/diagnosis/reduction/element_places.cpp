@@ -44,10 +44,6 @@ fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const
   }
 }
 
-const std::string& support_name(const fe::Spring& spring) { return spring.group.empty() ? spring.name : spring.group; }
-
-bool is_damper(const fe::Spring& spring) { return spring.damping > 0.0 || spring.friction_N > 0.0; }
-
 /// Two symmetric matrices that differ by a factor alone, or are both not there.
 bool alike(const Symmetric& a, const Symmetric& b) {
   if (a.size() == 0 || b.size() == 0) return a.nonZeros() == 0 && b.nonZeros() == 0;
@@ -229,7 +225,7 @@ Place ElementPlaces::damper_place(const fe::Spring& damper) const {
 void ElementPlaces::add_dampers(Places& places) const {
   std::vector<std::string> types;  // dampers of one make are wrong in the same way
   for (const fe::Spring& spring : model_.springs) {
-    if (!is_damper(spring)) continue;
+    if (!spring.is_damper()) continue;
     Place place = damper_place(spring);
     if (!spring.group.empty()) {
       const auto at = std::find(types.begin(), types.end(), spring.group);
@@ -259,7 +255,7 @@ void ElementPlaces::add_supports(Places& places) const {
   // A spring may have the name of a support that is fixed in other directions: what is rigid there says nothing of the spring.
   std::set<std::string> of_springs;
   for (const fe::Spring& spring : model_.springs)
-    if (!is_damper(spring) && !stands_for_rigid(spring)) of_springs.insert(support_name(spring));
+    if (!spring.is_damper() && !stands_for_rigid(spring)) of_springs.insert(spring.support_name());
   struct Support {
     std::string name;
     Eigen::Vector3d x_m;
@@ -269,9 +265,9 @@ void ElementPlaces::add_supports(Places& places) const {
   std::vector<Support> supports;
   std::map<std::string, std::size_t> position;
   for (const fe::Spring& spring : model_.springs) {
-    if (is_damper(spring) || !fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
+    if (spring.is_damper() || !fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
     const bool rigid = stands_for_rigid(spring);
-    std::string name = support_name(spring);
+    std::string name = spring.support_name();
     if (rigid && of_springs.contains(name)) name += " fixed";
     const auto [at, is_new] = position.try_emplace(name, supports.size());
     if (is_new) {
@@ -409,7 +405,7 @@ Place ElementPlaces::part(const std::vector<int>& elements) const {
 bool ElementPlaces::stands_for_rigid(const fe::Spring& spring) const {
   const auto& rigid = structure_.rigid_supports;
   return spring.name.find(kRigidSpring) != std::string::npos &&
-         std::find(rigid.begin(), rigid.end(), support_name(spring)) != rigid.end();
+         std::find(rigid.begin(), rigid.end(), spring.support_name()) != rigid.end();
 }
 
 void ElementPlaces::fill_global(Place& global) const {

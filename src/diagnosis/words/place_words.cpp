@@ -77,11 +77,6 @@ std::string words_of_target(fe::Target target, const std::string& of) {
   }
 }
 
-bool is_damper(const fe::Spring& spring) { return spring.damping > 0.0 || spring.friction_N > 0.0; }
-
-/// What a spring to the ground is called as a support.
-const std::string& support_name(const fe::Spring& spring) { return spring.group.empty() ? spring.name : spring.group; }
-
 }  // namespace
 
 PlaceWords::PlaceWords(const fe::Model* model, const std::vector<fe::DofLabel>& dofs,
@@ -130,10 +125,10 @@ void PlaceWords::find_landmarks() {
     for (const fe::Support& s : model_->supports)
       if (!s.name.empty()) add("the support " + s.name, at(s.node));
     for (const fe::Spring& s : model_->springs) {
-      if (is_damper(s))
+      if (s.is_damper())
         add("the damper " + s.name, at(s.node));
-      else if (s.node2 < 0 && !support_name(s).starts_with("node_"))
-        add("the support " + support_name(s), at(s.node));
+      else if (s.node2 < 0 && !s.support_name().starts_with("node_"))
+        add("the support " + s.support_name(), at(s.node));
     }
     for (const fe::Element& e : model_->elements)
       if (e.type == fe::ElementType::stay && !e.name.empty())
@@ -269,7 +264,7 @@ PlaceInWords PlaceWords::support(const std::string& name) const {
     for (const fe::Support& s : model_->supports)
       if (s.name == name) points.push_back(model_->nodes[static_cast<std::size_t>(s.node)].x_m);
     for (const fe::Spring& s : model_->springs)
-      if (!is_damper(s) && (s.group == name || s.name == name))
+      if (!s.is_damper() && (s.group == name || s.name == name))
         points.push_back(model_->nodes[static_cast<std::size_t>(s.node)].x_m);
   }
   return with_points("the support " + name, points);

@@ -9,12 +9,17 @@
 namespace twindeck::tests {
 namespace {
 
+/// A chain of ten masses whose spring g6 has 55 % of its stiffness, beside its scatter.
+ChainTruth with_soft_spring(const Chain& chain, std::mt19937_64& random) {
+  ChainTruth truth = chain.scattered(random);
+  truth.spring[6] = 0.55;
+  return truth;
+}
+
 TEST(Diagnose, NamesAndSizesASoftSpring) {
   const Chain chain({.masses = 10});
   std::mt19937_64 random(3);
-  ChainTruth truth = chain.scattered(random);
-  truth.spring[6] = 0.55;
-  const Examined e = diagnosed(chain, chain.measure(truth, &random), catalogue());
+  const Examined e = diagnosed(chain, chain.measure(with_soft_spring(chain, random), &random), catalogue());
   ASSERT_EQ(e.result.effects.size(), 1u) << e.result.message;
   const auto& effect = e.result.effects.front();
   EXPECT_EQ(effect.cause.candidate->id(), "stiffness@group:g6");
@@ -65,9 +70,7 @@ TEST(Diagnose, AFaintOscillatorFollowsNoOtherCause) {
 TEST(Diagnose, ANameIsTestedAtALevelOfItsOwn) {
   const Chain chain({.masses = 10});
   std::mt19937_64 random(3);
-  ChainTruth truth = chain.scattered(random);
-  truth.spring[6] = 0.55;
-  const Examined e = examine(chain, chain.measure(truth, &random), catalogue());
+  const Examined e = examine(chain, chain.measure(with_soft_spring(chain, random), &random), catalogue());
   diagnosis::DiagnoseOptions options;
   EXPECT_EQ(diagnosis::diagnose(*e.inference, options, 1).verdict, diagnosis::Verdict::named);
   options.residual_alpha = 0.999;  // where nothing is named
