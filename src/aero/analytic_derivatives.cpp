@@ -4,8 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "aero/flutter_derivatives.hpp"
-
 namespace twindeck::aero {
 
 using std::numbers::pi;

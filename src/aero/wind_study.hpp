@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "aero/stability.hpp"
+#include "aero/critical_speed.hpp"
+#include "aero/follow_mode.hpp"
 #include "aero/wind_model.hpp"
 #include "linalg/cholesky.hpp"
 

@@ -1,6 +1,5 @@
 #include "diagnosis/form_frame.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>

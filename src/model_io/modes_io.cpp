@@ -10,7 +10,6 @@
 #include "io/csv.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "matching/mode_name.hpp"
-#include "model_io/export.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {

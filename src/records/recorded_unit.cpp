@@ -1,6 +1,5 @@
 #include "records/recorded_unit.hpp"
 
-#include <algorithm>
 #include <array>
 #include <map>
 

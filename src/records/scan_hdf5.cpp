@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
-#include "records/record.hpp"
 #include "records/survives.hpp"
 #include "records/text_cells.hpp"
 

@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
 #include "records/mat_file.hpp"
-#include "records/record.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;

@@ -1,6 +1,5 @@
 #include "runner/memory.hpp"
 
-#include <cstdlib>
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif

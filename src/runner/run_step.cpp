@@ -14,7 +14,7 @@
 #include "core/printable.hpp"
 #include "io/atomic.hpp"
 #include "io/manifest.hpp"
-#include "model_io/model_folder.hpp"
+#include "model_io/model_toml.hpp"
 #include "runner/clean_interrupt.hpp"
 #include "runner/command_line.hpp"
 #include "runner/configured_inputs.hpp"

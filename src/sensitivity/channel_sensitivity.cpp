@@ -1,15 +1,12 @@
 #include "sensitivity/channel_sensitivity.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "core/parallel.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/krylov_basis.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
 #include "sensitivity/modal_forces.hpp"
+#include "sensitivity/shape_sensitivity.hpp"
 
 namespace twindeck::sensitivity {
 

@@ -1,12 +1,11 @@
 #include "sensitivity/frequency_jacobian.hpp"
 
 #include <Eigen/Dense>
-#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/shape_sensitivity.hpp"
 
 namespace twindeck::sensitivity {
 

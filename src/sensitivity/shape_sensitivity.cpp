@@ -1,14 +1,11 @@
 #include "sensitivity/shape_sensitivity.hpp"
 
 #include <numeric>
-#include <utility>
-#include <vector>
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "linalg/block_lanczos.hpp"
 #include "linalg/dense.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
 #include "sensitivity/modal_forces.hpp"
 
 namespace twindeck::sensitivity {

@@ -1,8 +1,6 @@
 #include "updating/structure_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"

@@ -11,7 +11,6 @@
 #include "core/parallel.hpp"
 #include "updating/leave_one_out.hpp"
 #include "updating/multi_start.hpp"
-#include "updating/optimality.hpp"
 #include "updating/residuals.hpp"
 #include "updating/search.hpp"
 

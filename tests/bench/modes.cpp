@@ -23,7 +23,9 @@
 #include "linalg/symmetric_product.hpp"
 #include "model_io/matrix_market.hpp"
 #include "ponte/generator.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/channel_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
+#include "sensitivity/shape_sensitivity.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "matching/mode_name.hpp"
-#include "model_io/export.hpp"
+#include "model_io/modes_io.hpp"
 #include "runner/study.hpp"
 
 namespace twindeck::steps {

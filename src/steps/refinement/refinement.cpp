@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "core/error.hpp"
@@ -11,7 +10,8 @@
 #include "matching/comparison.hpp"
 #include "matching/solved_model.hpp"
 #include "model_io/any_model_folder.hpp"
-#include "model_io/export.hpp"
+#include "model_io/model_tables.hpp"
+#include "model_io/modes_io.hpp"
 #include "ponte/change_study.hpp"
 #include "runner/study.hpp"
 #include "steps/measured/comparison_tables.hpp"

@@ -1,9 +1,10 @@
-#include "sensitivity/eigen_sensitivity.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
+#include "sensitivity/channel_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
+#include "sensitivity/shape_sensitivity.hpp"
 #include "unit/dynamics/spring_chain.hpp"
 
 namespace {
