@@ -126,7 +126,4 @@ void offer_optional_keys(DefinitionFile& file);
 /// @throws InputError naming file, line and key for a missing or unknown key, a value out of range, an unknown name
 [[nodiscard]] BridgeDefinition read_definition(DefinitionFile file);
 
-/// Names of all stays: NE1 ... , SE1 ..., NW..., SW..., BN, BS.
-[[nodiscard]] std::vector<std::string> stay_names(const BridgeDefinition& definition);
-
 }  // namespace twindeck::ponte

@@ -16,7 +16,7 @@ namespace {
 std::vector<FrequencyTarget> targets_of(const Eigen::VectorXd& frequency_Hz, const std::vector<int>& reference_mode) {
   std::vector<FrequencyTarget> targets;
   for (std::size_t i = 0; i < reference_mode.size(); ++i) {
-    targets.push_back({std::to_string(i + 1), reference_mode[i], frequency_Hz(static_cast<Eigen::Index>(i)), 0.0});
+    targets.push_back({std::to_string(i + 1), reference_mode[i], frequency_Hz(static_cast<Eigen::Index>(i))});
   }
   return targets;
 }
