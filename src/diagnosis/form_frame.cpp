@@ -26,15 +26,6 @@ const std::vector<std::string>& contrast_keys() {
   return keys;
 }
 
-std::optional<double> value_of(const Condition& condition, const std::string& key) {
-  if (key == "amplitude_m") return condition.amplitude_m;
-  if (key == "temperature_C") return condition.temperature_C;
-  if (key == "wind_m_s") return condition.wind_m_s;
-  if (key == "people") return condition.people;
-  if (condition.dampers_on) return *condition.dampers_on ? 1.0 : 0.0;
-  return std::nullopt;
-}
-
 /// Keys that an action goes by; none for what acts everywhere.
 std::vector<std::string> keys_of(const ActionSpec& action) {
   const std::string& kind = action.kind;
@@ -80,7 +71,7 @@ std::vector<Contrast> contrasts_of(const FeatureSet& features) {
   for (const std::string& key : contrast_keys()) {
     std::vector<std::optional<double>> values;
     for (std::size_t c = 0; c < used.size(); ++c)
-      values.push_back(used[c] ? value_of(features.conditions[c], key) : std::nullopt);
+      values.push_back(used[c] ? number_of(features.conditions[c], key) : std::nullopt);
     if (auto contrast = contrast_of(key, values)) out.push_back(std::move(*contrast));
   }
   const std::vector<std::string> states = states_of(features);

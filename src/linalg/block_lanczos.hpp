@@ -7,10 +7,8 @@ namespace twindeck::linalg {
 
 /// An operator A^-1 M that is self-adjoint in the (semi-)inner product of M, given by its products with blocks of vectors.
 struct SelfAdjointOperator {
-  Eigen::Index size = 0;
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> times_mass;  ///< M X
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>
-      from_mass;  ///< A^-1 Y, so that the operator is from_mass(times_mass(X))
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> from_mass;   ///< A^-1 Y: the operator is from_mass(times_mass(X))
 };
 
 struct BlockLanczosOptions {
@@ -20,8 +18,7 @@ struct BlockLanczosOptions {
 };
 
 struct BlockLanczosResult {
-  Eigen::VectorXd values;   ///< largest eigenvalues of the operator, descending
-  Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal
+  Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal, those of the largest eigenvalues first
   int converged = 0;
   int operations = 0;
 };

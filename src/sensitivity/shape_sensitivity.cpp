@@ -114,7 +114,6 @@ void ShapeSensitivity::find_further_modes(const linalg::SparseMatrix& shifted_st
   const Index n = modes_.shapes.rows(), wanted = std::min(kFurtherModes, n - modes_.shapes.cols());
   if (wanted < 1) return;
   linalg::SelfAdjointOperator op;
-  op.size = n;
   op.times_mass = [&](const MatrixXd& x) { return mass_->times(x); };
   op.from_mass = [&](const MatrixXd& y) {
     MatrixXd x = factor_.solve(y);
@@ -128,11 +127,8 @@ void ShapeSensitivity::find_further_modes(const linalg::SparseMatrix& shifted_st
     }
     return op.from_mass(mass_->times(block));
   };
-  linalg::BlockLanczosOptions options;
-  options.n_pairs = static_cast<int>(wanted);
-  options.tolerance = kFurtherError;
-  options.max_restarts = 0;
-  further_ = linalg::block_lanczos(op, start, options).vectors;
+  constexpr int restarts = 0;
+  further_ = linalg::block_lanczos(op, start, {static_cast<int>(wanted), kFurtherError, restarts}).vectors;
   // Rayleigh quotients of what was found, and its images exactly: it need not be modes to help, only these must be true.
   stiffness_further_ = linalg::SymmetricProduct(shifted_stiffness).times(further_);
   further_value_ = column_dots(further_, stiffness_further_);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
-#include "linalg/symmetric_product.hpp"
+#include "linalg/types.hpp"
 
 namespace twindeck::sensitivity {
 

@@ -5,7 +5,7 @@
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
-#include "linalg/symmetric_product.hpp"
+#include "linalg/types.hpp"
 #include "updating/bounded_quadratic.hpp"
 #include "updating/optimality.hpp"
 

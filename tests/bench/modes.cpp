@@ -20,7 +20,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/generalized_eigen.hpp"
 #include "linalg/one_thread.hpp"
-#include "linalg/symmetric_product.hpp"
+#include "linalg/types.hpp"
 #include "model_io/matrix_market.hpp"
 #include "ponte/generator.hpp"
 #include "sensitivity/channel_sensitivity.hpp"

@@ -12,7 +12,6 @@
 #include "matching/comparison.hpp"
 #include "matching/solved_model.hpp"
 #include "model_io/any_model_folder.hpp"
-#include "model_io/model_tables.hpp"
 #include "model_io/modes_io.hpp"
 #include "ponte/change_study.hpp"
 #include "runner/study.hpp"
