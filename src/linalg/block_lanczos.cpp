@@ -48,9 +48,10 @@ struct Basis : KrylovBasis {
 
 }  // namespace
 
-BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::function<MatrixXd(int)>& start,
-                                 const BlockLanczosOptions& options) {
-  const Index wanted = options.n_pairs;
+BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::function<MatrixXd(int)>& start, int n_pairs) {
+  constexpr double tolerance = 1e-9;  // residual in the M norm, relative to the eigenvalue of the operator
+  constexpr int max_restarts = 60;
+  const Index wanted = n_pairs;
   const MatrixXd first_block = start(0);
   const Index n = first_block.rows(), width = first_block.cols();
   // Room for the wanted pairs, as many again to hasten them, and the last block.
@@ -91,9 +92,8 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     const MatrixXd coupling = coupling_r * ritz.s.bottomRows(columns);
     const Index count = std::min(wanted, basis.size);
     Index converged = 0;
-    while (converged < count && coupling.col(converged).norm() <= options.tolerance * std::abs(ritz.values[converged]))
-      ++converged;
-    if (converged == wanted || exhausted || (full && restarts >= options.max_restarts)) {
+    while (converged < count && coupling.col(converged).norm() <= tolerance * std::abs(ritz.values[converged])) ++converged;
+    if (converged == wanted || exhausted || (full && restarts >= max_restarts)) {
       result.converged = static_cast<int>(exhausted ? count : converged);
       result.vectors = product(basis.v.leftCols(basis.size), ritz.s.leftCols(count));
       return result;

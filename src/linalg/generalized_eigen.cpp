@@ -61,7 +61,7 @@ BlockLanczosResult by_lanczos(const SymmetricProduct& mass, int n_pairs, const C
                                [&](const MatrixXd& y) { return factor.solve(y); }};
   // One application puts the block into the range of the operator, away from the null space of M.
   const auto start_block = [&](int draw) { return op.from_mass(mass.times(fixed_block(mass.size(), kBlock, draw))); };
-  BlockLanczosResult found = block_lanczos(op, start_block, {n_pairs});
+  BlockLanczosResult found = block_lanczos(op, start_block, n_pairs);
   found.operations += kBlock;
   return found;
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "sensitivity/shape_sensitivity.hpp"
 
 namespace twindeck::sensitivity {
 
