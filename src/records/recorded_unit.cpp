@@ -140,9 +140,4 @@ double si_factor(const std::string& unit) {
   return known ? known->si_factor : 0.0;
 }
 
-std::string quantity_of(const std::string& unit) {
-  const auto known = recorded_unit(unit);
-  return known ? known->quantity : "";
-}
-
 }  // namespace twindeck::records
