@@ -222,7 +222,6 @@ fs::path StepContext::input(const fs::path& asked) {
   }
   io::check_against_manifest(path);
   const auto register_file = [&](const fs::path& file) {
-    inputs_.push_back(file);
     input_hashes_.emplace(file.generic_string(), io::sha256(file));
   };
   if (!fs::is_directory(path)) {
