@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "aero/stability.hpp"
-
 namespace twindeck::aero {
 namespace {
 

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <numbers>
-#include <utility>
 
-#include "aero/flutter_derivatives.hpp"
 #include "core/angle.hpp"
 #include "core/error.hpp"
 

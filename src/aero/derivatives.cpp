@@ -1,6 +1,5 @@
 #include "aero/derivatives.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
-
-#include "aero/stability.hpp"
 
 namespace twindeck::aero {
 namespace {

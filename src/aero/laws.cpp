@@ -8,8 +8,6 @@
 #include <numbers>
 #include <optional>
 
-#include "aero/analytic_derivatives.hpp"
-#include "aero/derivative_table.hpp"
 #include "core/angle.hpp"
 
 namespace twindeck::aero {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "aero/flutter_derivatives.hpp"
 #include "aero/polar.hpp"

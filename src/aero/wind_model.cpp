@@ -1,12 +1,9 @@
 #include "aero/wind_model.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 
 #include "aero/analytic_derivatives.hpp"
-#include "aero/derivative_table.hpp"
-#include "aero/stability.hpp"
+#include "aero/follow_mode.hpp"
 #include "core/angle.hpp"
 #include "linalg/cholesky.hpp"
 #include "transient/reduced_basis.hpp"

@@ -32,8 +32,8 @@ Instability first_instability(const WindSettings& config, const AeroelasticSyste
   return lowest;
 }
 
-}  // namespace
-
+/// The lowest instability of the followed modes, and what speaks of its cause. Mode 1 alone and Den Hartog's speed without
+/// dampers.
 CriticalRow critical_row(const WindSettings& config, const std::string& set, const AeroelasticSystem& system, bool dampers,
                          double structural_damping) {
   CriticalRow row;
@@ -60,6 +60,7 @@ CriticalRow critical_row(const WindSettings& config, const std::string& set, con
   return row;
 }
 
+/// @param modes  how many are followed up to the highest speed
 DampingCurves damping_curves(const WindSettings& config, const std::string& set, const AeroelasticSystem& system, bool dampers,
                              double structural_damping, long modes) {
   DampingCurves curves{set, system.deployment().name, dampers, structural_damping, {}};
@@ -70,6 +71,8 @@ DampingCurves damping_curves(const WindSettings& config, const std::string& set,
   }
   return curves;
 }
+
+}  // namespace
 
 Instabilities find_instabilities(const WindSettings& config, const std::vector<FittedSet>& sets, const WindModel& model,
                                  const DampedModel& damped) {

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "aero/stability.hpp"
+#include "aero/critical_speed.hpp"
+#include "aero/follow_mode.hpp"
 #include "aero/wind_model.hpp"
 #include "linalg/cholesky.hpp"
 
@@ -52,15 +53,6 @@ struct StaticResponse {
 struct StaticDifference {
   double displacement_m = 0.0, rotation_rad = 0.0;
 };
-
-/// The lowest instability of the followed modes, and what speaks of its cause. Mode 1 alone and Den Hartog's speed without
-/// dampers.
-[[nodiscard]] CriticalRow critical_row(const WindSettings& config, const std::string& set, const AeroelasticSystem& system,
-                                       bool dampers, double structural_damping);
-
-/// @param modes  how many are followed up to the highest speed
-[[nodiscard]] DampingCurves damping_curves(const WindSettings& config, const std::string& set, const AeroelasticSystem& system,
-                                           bool dampers, double structural_damping, long modes);
 
 /// Critical speeds and damping curves of all sets.
 struct Instabilities {

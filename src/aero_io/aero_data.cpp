@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "aero/derivative_table.hpp"
 #include "core/angle.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"

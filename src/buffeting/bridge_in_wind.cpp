@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "buffeting/loads.hpp"
@@ -53,8 +52,6 @@ MatrixXd point_patterns(const dynamics::LoadedModel& loaded) {
   return loaded.system.expansion.transpose() * nodal;
 }
 
-}  // namespace
-
 Sensors find_sensors(const dynamics::LoadedModel& loaded, const aero::WindModel& model, const MatrixXd& vectors) {
   Sensors out;
   const MatrixXd full = loaded.system.expand(vectors);
@@ -72,6 +69,8 @@ Sensors find_sensors(const dynamics::LoadedModel& loaded, const aero::WindModel&
   }
   return out;
 }
+
+}  // namespace
 
 BridgeInWind prepare_bridge_in_wind(const WindEventSettings& config, const aero::WindSettings& aerodynamics,
                                     const dynamics::ReadModel& model, const std::vector<aero::SectionAero>& sections) {

@@ -25,8 +25,6 @@ struct Sensors {
   }
   [[nodiscard]] Eigen::Index vertical_row(std::size_t node) const { return lateral_row(node) + 1; }
 };
-[[nodiscard]] Sensors find_sensors(const dynamics::LoadedModel& loaded, const aero::WindModel& model,
-                                   const Eigen::MatrixXd& vectors);
 
 /// The updated bridge prepared for turbulent wind.
 struct BridgeInWind {

@@ -1,7 +1,5 @@
 #include "buffeting/response.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <vector>
 
 #include "aero/aeroelastic_system.hpp"
 #include "transient/newmark.hpp"

@@ -1,6 +1,5 @@
 #include "buffeting/simulated_runs.hpp"
 
-#include <cmath>
 #include <mutex>
 #include <numbers>
 #include <utility>

@@ -32,7 +32,9 @@ struct WindEventSettings {
   double comfort_vertical_m_s2 = 0.7, comfort_lateral_m_s2 = 0.1;
   double full_model_check_s = 0.0;
 
-  [[nodiscard]] aero::Equations equation_choice() const;
+  [[nodiscard]] aero::Equations equation_choice() const {
+    return equations == "as_printed" ? aero::Equations::as_printed : aero::Equations::consistent;
+  }
 };
 
 }  // namespace twindeck::buffeting

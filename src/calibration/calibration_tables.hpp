@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "calibration/calibration.hpp"
 #include "io/csv.hpp"

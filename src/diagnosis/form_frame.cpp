@@ -1,6 +1,5 @@
 #include "diagnosis/form_frame.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -25,15 +24,6 @@ constexpr double kFreeScale = 10.0;           // of a shape, relative: wide enou
 const std::vector<std::string>& contrast_keys() {
   static const std::vector<std::string> keys = {"dampers", "amplitude_m", "temperature_C", "wind_m_s", "people"};
   return keys;
-}
-
-std::optional<double> value_of(const Condition& condition, const std::string& key) {
-  if (key == "amplitude_m") return condition.amplitude_m;
-  if (key == "temperature_C") return condition.temperature_C;
-  if (key == "wind_m_s") return condition.wind_m_s;
-  if (key == "people") return condition.people;
-  if (condition.dampers_on) return *condition.dampers_on ? 1.0 : 0.0;
-  return std::nullopt;
 }
 
 /// Keys that an action goes by; none for what acts everywhere.
@@ -81,7 +71,7 @@ std::vector<Contrast> contrasts_of(const FeatureSet& features) {
   for (const std::string& key : contrast_keys()) {
     std::vector<std::optional<double>> values;
     for (std::size_t c = 0; c < used.size(); ++c)
-      values.push_back(used[c] ? value_of(features.conditions[c], key) : std::nullopt);
+      values.push_back(used[c] ? number_of(features.conditions[c], key) : std::nullopt);
     if (auto contrast = contrast_of(key, values)) out.push_back(std::move(*contrast));
   }
   const std::vector<std::string> states = states_of(features);

@@ -1,6 +1,5 @@
 #include "diagnosis/form_gain.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>

@@ -1,7 +1,6 @@
 #include "diagnosis/null_calibration.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <numbers>

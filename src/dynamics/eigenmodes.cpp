@@ -1,7 +1,6 @@
 #include "dynamics/eigenmodes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "core/error.hpp"
 #include "fe/parametric_system.hpp"

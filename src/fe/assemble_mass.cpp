@@ -1,6 +1,5 @@
 #include "fe/assemble_mass.hpp"
 
-#include "fe/assembly_terms.hpp"
 #include "fe/matrix_element.hpp"
 
 namespace twindeck::fe {

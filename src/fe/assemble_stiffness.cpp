@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "fe/assembly_terms.hpp"
 #include "fe/matrix_element.hpp"
 #include "fe/mixed_sides.hpp"
 

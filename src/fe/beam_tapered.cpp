@@ -44,6 +44,20 @@ void add_spring(Matrix12& k, int a, int b, double c) {
 /// Stiffness of ∫ dx/(E A) or ∫ dx/(G J), zero for a section without.
 double in_series(double sum) { return std::isfinite(sum) && sum > 0.0 ? 1.0 / sum : 0.0; }
 
+/// The section at ξ ∈ [0, 1].
+BeamStiffnessProperties section_at(const TaperedProperties& properties, double xi) {
+  const BeamStiffnessProperties &a = properties.end1, &b = properties.end2;
+  BeamStiffnessProperties s = a;
+  s.area_m2 = root_blend(a.area_m2, b.area_m2, xi, 2.0);
+  s.shear_area_y_m2 = root_blend(a.shear_area_y_m2, b.shear_area_y_m2, xi, 2.0);
+  s.shear_area_z_m2 = root_blend(a.shear_area_z_m2, b.shear_area_z_m2, xi, 2.0);
+  s.inertia_y_m4 = root_blend(a.inertia_y_m4, b.inertia_y_m4, xi, 4.0);
+  s.inertia_z_m4 = root_blend(a.inertia_z_m4, b.inertia_z_m4, xi, 4.0);
+  s.torsion_m4 = root_blend(a.torsion_m4, b.torsion_m4, xi, 4.0);
+  s.inertia_yz_m4 = ((1.0 - xi) * skewness(a) + xi * skewness(b)) * std::sqrt(s.inertia_y_m4 * s.inertia_z_m4);
+  return s;
+}
+
 /// With end 1 clamped, loads F and m at end 2 bend the section at x by κ = D⁻¹ (m + (L-x) F) and shear it by γ = S⁻¹ F; then
 /// ψ₂ = ∫ κ dx, w₂ = ∫ (L-x) κ + γ dx. The inverse of this 4 × 4 flexibility acts on w₂ - w₁ - L ψ₁ and ψ₂ - ψ₁.
 Matrix12 local_stiffness(const TaperedProperties& p, double length_m) {
@@ -88,19 +102,6 @@ Matrix12 at_nodes(const BeamGeometry& geometry, const TaperedProperties& propert
 }
 
 }  // namespace
-
-BeamStiffnessProperties section_at(const TaperedProperties& properties, double xi) {
-  const BeamStiffnessProperties &a = properties.end1, &b = properties.end2;
-  BeamStiffnessProperties s = a;
-  s.area_m2 = root_blend(a.area_m2, b.area_m2, xi, 2.0);
-  s.shear_area_y_m2 = root_blend(a.shear_area_y_m2, b.shear_area_y_m2, xi, 2.0);
-  s.shear_area_z_m2 = root_blend(a.shear_area_z_m2, b.shear_area_z_m2, xi, 2.0);
-  s.inertia_y_m4 = root_blend(a.inertia_y_m4, b.inertia_y_m4, xi, 4.0);
-  s.inertia_z_m4 = root_blend(a.inertia_z_m4, b.inertia_z_m4, xi, 4.0);
-  s.torsion_m4 = root_blend(a.torsion_m4, b.torsion_m4, xi, 4.0);
-  s.inertia_yz_m4 = ((1.0 - xi) * skewness(a) + xi * skewness(b)) * std::sqrt(s.inertia_y_m4 * s.inertia_z_m4);
-  return s;
-}
 
 Matrix12 tapered_beam_stiffness(const BeamGeometry& geometry, const TaperedProperties& properties) {
   return at_nodes(geometry, properties, local_stiffness(properties, beam_length(geometry)));

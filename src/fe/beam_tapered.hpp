@@ -12,9 +12,6 @@ struct TaperedProperties {
   BeamStiffnessProperties end1, end2;
 };
 
-/// The section at ξ ∈ [0, 1].
-[[nodiscard]] BeamStiffnessProperties section_at(const TaperedProperties& properties, double xi);
-
 /// Exact for end loads: the flexibility of the cantilever is integrated along the beam (eight Gauss points; relative error
 /// below 1e-8 for ends whose sizes differ twofold) and inverted, so nothing is assumed of the deflected shape. Releases and
 /// offsets as for the uniform beam, which is returned when both ends are equal. Reference: Przemieniecki (1968), Theory of

@@ -10,6 +10,7 @@
 #include "identification/channel_lag.hpp"
 #include "identification/limits.hpp"
 #include "sysid/common_motion.hpp"
+#include "sysid/merge_preger.hpp"
 
 namespace twindeck::identification {
 

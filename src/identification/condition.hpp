@@ -1,12 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/reporter.hpp"
 #include "identification/identification.hpp"
-#include "sysid/merging.hpp"
+#include "sysid/merge_poser.hpp"
 
 namespace twindeck::identification {
 

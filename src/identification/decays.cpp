@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace twindeck::identification {
 
@@ -46,6 +45,25 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
   }
 }
 
+/// First sample after the release: where the motion's running RMS over half a second is largest. @param data (n_samples ×
+/// n_channels)
+Index release_sample(const Samples& data, double rate_Hz) {
+  const Index half = std::max<Index>(2, static_cast<Index>(std::lround(0.5 * rate_Hz)));
+  if (data.rows() <= 2 * half) return 0;
+  const Eigen::VectorXd scale = data.colwise().squaredNorm().transpose().cwiseMax(1e-300);
+  const Eigen::VectorXd energy = (data.array().square().rowwise() / scale.transpose().array()).rowwise().sum();
+  double sum = energy.head(half).sum(), most = sum;
+  Index best = 0;
+  for (Index t = 1; t + half <= energy.size(); ++t) {
+    sum += energy[t + half - 1] - energy[t - 1];
+    if (sum > most) {
+      most = sum;
+      best = t;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<AmbientPartner> partner_of(const sysid::Cluster& mode, const std::vector<records::CampaignChannel>& channels,
@@ -69,23 +87,6 @@ std::string quantity_at_largest(const std::vector<records::CampaignChannel>& cha
   Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
   return channels[static_cast<std::size_t>(largest)].quantity;
-}
-
-Index release_sample(const Samples& data, double rate_Hz) {
-  const Index half = std::max<Index>(2, static_cast<Index>(std::lround(0.5 * rate_Hz)));
-  if (data.rows() <= 2 * half) return 0;
-  const Eigen::VectorXd scale = data.colwise().squaredNorm().transpose().cwiseMax(1e-300);
-  const Eigen::VectorXd energy = (data.array().square().rowwise() / scale.transpose().array()).rowwise().sum();
-  double sum = energy.head(half).sum(), most = sum;
-  Index best = 0;
-  for (Index t = 1; t + half <= energy.size(); ++t) {
-    sum += energy[t + half - 1] - energy[t - 1];
-    if (sum > most) {
-      most = sum;
-      best = t;
-    }
-  }
-  return best;
 }
 
 std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& records, const IdentificationSettings& config,

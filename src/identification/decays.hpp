@@ -53,10 +53,6 @@ struct AmbientAmplitude {
 [[nodiscard]] std::vector<AmbientAmplitude> ambient_amplitudes(const std::vector<ConditionResult>& results,
                                                                const IdentificationSettings& config);
 
-/// First sample after the release: where the motion's running RMS over half a second is largest. @param data (n_samples ×
-/// n_channels)
-[[nodiscard]] Eigen::Index release_sample(const Samples& data, double rate_Hz);
-
 /// ERA of the records of kind free_decay, and frequency and damping by amplitude of the modes that it finds.
 /// @param results  conditions identified from ambient records, for the names of modes
 [[nodiscard]] std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& records,

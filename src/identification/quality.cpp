@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
-
 namespace twindeck::identification {
 
 using Eigen::Index;

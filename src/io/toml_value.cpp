@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/error.hpp"
 #include "io/toml_nesting.hpp"
 
 namespace twindeck::io {

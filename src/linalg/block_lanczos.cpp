@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/krylov_basis.hpp"
 
@@ -49,14 +48,15 @@ struct Basis : KrylovBasis {
 
 }  // namespace
 
-BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::function<MatrixXd(int)>& start,
-                                 const BlockLanczosOptions& options) {
-  const Index wanted = options.n_pairs;
+BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::function<MatrixXd(int)>& start, int n_pairs) {
+  constexpr double tolerance = 1e-9;  // residual in the M norm, relative to the eigenvalue of the operator
+  constexpr int max_restarts = 60;
+  const Index wanted = n_pairs;
   const MatrixXd first_block = start(0);
-  const Index width = first_block.cols();
+  const Index n = first_block.rows(), width = first_block.cols();
   // Room for the wanted pairs, as many again to hasten them, and the last block.
-  const Index capacity = std::min(op.size, std::max<Index>(2 * wanted + 2 * width, wanted + 6 * width)) + width;
-  Basis basis(op.size, capacity);
+  const Index capacity = std::min(n, std::max<Index>(2 * wanted + 2 * width, wanted + 6 * width)) + width;
+  Basis basis(n, capacity);
   const auto remainder = [&](MatrixXd w, const MatrixXd& removed) {
     MatrixXd mass_w = op.times_mass(w);
     return orthonormalise(std::move(w), std::move(mass_w), removed);
@@ -77,7 +77,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     next = remainder(std::move(w), common);
 
     MatrixXd coupling_r = next.r;
-    if (next.q.cols() == 0 && basis.size < std::min(op.size, wanted + width)) {
+    if (next.q.cols() == 0 && basis.size < std::min(n, wanted + width)) {
       // An invariant subspace: what lies outside it (further copies of its eigenvalues, say) needs a new start.
       MatrixXd fresh = start(++draws);
       const MatrixXd known = basis.remove_from(fresh, 0);
@@ -92,11 +92,9 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
     const MatrixXd coupling = coupling_r * ritz.s.bottomRows(columns);
     const Index count = std::min(wanted, basis.size);
     Index converged = 0;
-    while (converged < count && coupling.col(converged).norm() <= options.tolerance * std::abs(ritz.values[converged]))
-      ++converged;
-    if (converged == wanted || exhausted || (full && restarts >= options.max_restarts)) {
+    while (converged < count && coupling.col(converged).norm() <= tolerance * std::abs(ritz.values[converged])) ++converged;
+    if (converged == wanted || exhausted || (full && restarts >= max_restarts)) {
       result.converged = static_cast<int>(exhausted ? count : converged);
-      result.values = ritz.values.head(count);
       result.vectors = product(basis.v.leftCols(basis.size), ritz.s.leftCols(count));
       return result;
     }

@@ -7,21 +7,12 @@ namespace twindeck::linalg {
 
 /// An operator A^-1 M that is self-adjoint in the (semi-)inner product of M, given by its products with blocks of vectors.
 struct SelfAdjointOperator {
-  Eigen::Index size = 0;
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> times_mass;  ///< M X
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>
-      from_mass;  ///< A^-1 Y, so that the operator is from_mass(times_mass(X))
-};
-
-struct BlockLanczosOptions {
-  int n_pairs = 1;
-  double tolerance = 1e-9;  ///< residual in the M norm, relative to the eigenvalue of the operator
-  int max_restarts = 60;
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> from_mass;   ///< A^-1 Y: the operator is from_mass(times_mass(X))
 };
 
 struct BlockLanczosResult {
-  Eigen::VectorXd values;   ///< largest eigenvalues of the operator, descending
-  Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal
+  Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal, those of the largest eigenvalues first
   int converged = 0;
   int operations = 0;
 };
@@ -31,7 +22,6 @@ struct BlockLanczosResult {
 /// @param start  start(0) gives the first block (n × width). start(1), start(2), … give further blocks, which are used when the
 ///               basis spans an invariant subspace before enough pairs are found. Linearly dependent columns are dropped.
 [[nodiscard]] BlockLanczosResult block_lanczos(const SelfAdjointOperator& op,
-                                               const std::function<Eigen::MatrixXd(int draw)>& start,
-                                               const BlockLanczosOptions& options);
+                                               const std::function<Eigen::MatrixXd(int draw)>& start, int n_pairs);
 
 }  // namespace twindeck::linalg

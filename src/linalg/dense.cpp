@@ -70,17 +70,16 @@ LeadingEigenpairs some_eigenpairs(Eigen::MatrixXd symmetric, int first, int last
   Eigen::MatrixXd vectors(size, last > 0 ? last - first + 1 : size);
   Eigen::VectorXi support(2 * size);
   const double tolerance = 0.0;
+  const int int_room = 10 * size;  // what DSYEVR asks for
   Eigen::VectorXd work(1);
-  Eigen::VectorXi int_work(1);
-  int found = 0, info = 0, room = -1, int_room = -1;
+  Eigen::VectorXi int_work(int_room);
+  int found = 0, info = 0, room = -1;
   for (const bool ask : {true, false}) {
     dsyevr_("V", last > 0 ? "I" : "V", "L", &size, symmetric.data(), &size, &least, &most, &first, &last, &tolerance, &found,
             values.data(), vectors.data(), &size, support.data(), work.data(), &room, int_work.data(), &int_room, &info);
     if (!ask) break;
     room = static_cast<int>(work[0]);
-    int_room = int_work[0];
     work.resize(room);
-    int_work.resize(int_room);
   }
   TWINDECK_ASSERT(info == 0 && (last == 0 || found == last - first + 1));
   return {values.head(found).reverse(), vectors.leftCols(found).rowwise().reverse()};
@@ -107,9 +106,8 @@ LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
 }
 
 LeadingEigenpairs eigenpairs_above(Eigen::MatrixXd symmetric, double least) {
-  const Eigen::Index size = symmetric.rows();
   const double most = 2.0 * symmetric.norm();  // no eigenvalue is larger than the norm
-  if (!(most > least)) return {Eigen::VectorXd(0), Eigen::MatrixXd(size, 0)};
+  if (!(most > least)) return {Eigen::VectorXd(0), Eigen::MatrixXd(symmetric.rows(), 0)};
   return some_eigenpairs(std::move(symmetric), 0, 0, least, most);
 }
 

@@ -5,8 +5,7 @@
 namespace twindeck::linalg {
 
 /// Dense operations of the system's BLAS and LAPACK (OpenBLAS) on one thread. They are several times faster than Eigen's for
-/// some hundreds of rows, because they choose the processor's instructions at run time. Results do not depend on the number of
-/// threads.
+/// some hundreds of rows, because they choose the processor's instructions at run time.
 
 /// @return a b, or aᵀ b if `transposed`
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,

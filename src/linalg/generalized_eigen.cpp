@@ -12,7 +12,6 @@
 #include "linalg/block_lanczos.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/symmetric_product.hpp"
 
 namespace twindeck::linalg {
 
@@ -58,13 +57,11 @@ BlockLanczosResult condensed(const SymmetricProduct& mass, const std::vector<Ind
 }
 
 BlockLanczosResult by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor) {
-  const SelfAdjointOperator op{mass.size(), [&](const MatrixXd& x) { return mass.times(x); },
+  const SelfAdjointOperator op{[&](const MatrixXd& x) { return mass.times(x); },
                                [&](const MatrixXd& y) { return factor.solve(y); }};
   // One application puts the block into the range of the operator, away from the null space of M.
-  const auto start_block = [&](int draw) { return op.from_mass(mass.times(fixed_block(op.size, kBlock, draw))); };
-  BlockLanczosOptions options;
-  options.n_pairs = n_pairs;
-  BlockLanczosResult found = block_lanczos(op, start_block, options);
+  const auto start_block = [&](int draw) { return op.from_mass(mass.times(fixed_block(mass.size(), kBlock, draw))); };
+  BlockLanczosResult found = block_lanczos(op, start_block, n_pairs);
   found.operations += kBlock;
   return found;
 }

@@ -1,7 +1,6 @@
 #include "matching/mode_following.hpp"
 
 #include "core/error.hpp"
-#include "linalg/symmetric_product.hpp"
 #include "matching/pairing.hpp"
 #include "modal/mac.hpp"
 

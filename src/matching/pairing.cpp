@@ -1,8 +1,6 @@
 #include "matching/pairing.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -36,19 +36,8 @@ std::map<std::array<long, 3>, Index> nodes_by_place(const fe::Model& model) {
   return at;
 }
 
-}  // namespace
-
-SolvedModel solve_modes(dynamics::LoadedModel loaded, int n_modes) {
-  SolvedModel solved;
-  solved.loaded = std::move(loaded);
-  dynamics::ModalSolver solver(solved.loaded.system);
-  solved.modes = solver.solve_available(solved.loaded.theta, n_modes);
-  solved.mass = solver.mass();
-  solved.mass_shapes = solved.mass.selfadjointView<Eigen::Lower>() * solved.modes.shapes;
-  if (!solved.loaded.state.status.converged && solved.modes.status.converged) solved.modes.status = solved.loaded.state.status;
-  return solved;
-}
-
+/// MAC of two models' modes (n_a × n_b): weighted by the mass of `a` where both have the same degrees of freedom; where their
+/// meshes differ, at the translations of the nodes that they have in common (the same coordinates).
 MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
   if (same_dofs(a.loaded.system, b.loaded.system)) {
     // b is normalised with its own mass; divided by its norm in a's, the entries are squared cosines.
@@ -73,6 +62,19 @@ MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
   }
   const MatrixXd common_a = full_a(rows_a, Eigen::all), common_b = full_b(rows_b, Eigen::all);
   return modal::mac(common_a, common_b);
+}
+
+}  // namespace
+
+SolvedModel solve_modes(dynamics::LoadedModel loaded, int n_modes) {
+  SolvedModel solved;
+  solved.loaded = std::move(loaded);
+  dynamics::ModalSolver solver(solved.loaded.system);
+  solved.modes = solver.solve_available(solved.loaded.theta, n_modes);
+  solved.mass = solver.mass();
+  solved.mass_shapes = solved.mass.selfadjointView<Eigen::Lower>() * solved.modes.shapes;
+  if (!solved.loaded.state.status.converged && solved.modes.status.converged) solved.modes.status = solved.loaded.state.status;
+  return solved;
 }
 
 TrackedModes follow(const SolvedModel& reference, const SolvedModel& changed, Index count) {

@@ -26,9 +26,6 @@ struct SolvedModel {
 };
 [[nodiscard]] SolvedModel solve_modes(dynamics::LoadedModel loaded, int n_modes);
 
-/// MAC of two models' modes (n_a × n_b): weighted by the mass of `a` where both have the same degrees of freedom; where their
-/// meshes differ, at the translations of the nodes that they have in common (the same coordinates).
-[[nodiscard]] Eigen::MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b);
 /// Follows the first `count` modes of `reference` into `changed`, one-to-one.
 [[nodiscard]] TrackedModes follow(const SolvedModel& reference, const SolvedModel& changed, Eigen::Index count);
 

@@ -218,7 +218,7 @@ bool is_ansys_deck(const std::filesystem::path& file) {
   return false;
 }
 
-InpModel read_ansys(const std::filesystem::path& path) {
+ImportedModel read_ansys(const std::filesystem::path& path) {
   ansys::Parts parts(path);
   parts.model.source = path.string();
   ansys::read_commands(parts);
@@ -230,7 +230,7 @@ InpModel read_ansys(const std::filesystem::path& path) {
   auto beside = path;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) read_model_toml(beside, parts.model);
-  return {std::move(parts.model), std::move(parts.notes)};
+  return {std::move(parts.model), std::move(parts.notes), {path}};
 }
 
 }  // namespace twindeck::model_io

@@ -20,6 +20,6 @@ namespace twindeck::model_io {
 /// @return the model, and notes on commands that do not enter it
 /// @throws InputError that names file, line and command: an unsupported command, element type, key option or section first of
 /// all
-[[nodiscard]] InpModel read_ansys(const std::filesystem::path& file);
+[[nodiscard]] ImportedModel read_ansys(const std::filesystem::path& file);
 
 }  // namespace twindeck::model_io

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
-#include "model_io/ansys_build.hpp"
 
 /// Springs, masses and supports.
 namespace twindeck::model_io::ansys {

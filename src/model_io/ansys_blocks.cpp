@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "model_io/ansys_mesh.hpp"
-#include "model_io/ansys_parts.hpp"
 #include "model_io/ansys_properties.hpp"
 #include "model_io/inp_cards.hpp"
 
@@ -27,7 +26,7 @@ Columns format_below(Parts& parts, const Command& block, std::size_t least_integ
   Columns columns;
   const std::string text = needed_line(parts, block);
   if (!parse_columns(text, columns) || columns.integers < least_integers) {
-    parts.fail(parts.deck.line(), block.name, fmt::format("'{}' is no format of this block", trim(text)),
+    parts.fail(parts.deck.line(), block.name, fmt::format("'{}' is no format of this block", trimmed(text)),
                "expected so many whole numbers and reals with their widths, for example (3i9,6e21.13e3)");
   }
   return columns;
@@ -45,7 +44,7 @@ double real_cell(Parts& parts, const Command& block, const std::vector<std::stri
 
 /// The line that ends a block of nodes: -1, or N,R5.3,LOC,-1.
 bool ends_nodes(const std::string& text) {
-  const std::string start = upper_case(trim(text).substr(0, 5));
+  const std::string start = upper_case(trimmed(text).substr(0, 5));
   return start.starts_with("-1") || start == "N,R5.";
 }
 
@@ -61,7 +60,7 @@ void read_node_block(Parts& parts, const Command& block) {
     const auto cells = columns.cells(text);
     const long id = parts.cell(block, cells, 0);
     if (id < 1)
-      parts.fail(parts.deck.line(), block.name, fmt::format("'{}' is neither a node nor the end of the block", trim(text)),
+      parts.fail(parts.deck.line(), block.name, fmt::format("'{}' is neither a node nor the end of the block", trimmed(text)),
                  "end the block by -1");
     Node node;
     for (std::size_t i = 0; i < 3; ++i) node.x_m[static_cast<int>(i)] = real_cell(parts, block, cells, columns.integers + i);

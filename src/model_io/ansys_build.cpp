@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -34,14 +33,6 @@ void check_options(const Parts& parts, const TypeDefinition& definition) {
                definition.type->kind == Kind::rigid ? "of MPC184, the rigid beam is read (KEYOPT(1) = 1)"
                                                     : "docs/import_ansys.md lists what is read");
   }
-}
-
-bool same_numbers(const fe::Section& a, const fe::Section& b) {
-  const auto numbers = [](const fe::Section& s) {
-    return std::array{s.area_m2,         s.inertia_y_m4,    s.inertia_z_m4, s.inertia_yz_m4,        s.torsion_m4,
-                      s.shear_area_y_m2, s.shear_area_z_m2, s.thickness_m,  s.bending_inertia_ratio};
-  };
-  return numbers(a) == numbers(b);
 }
 
 }  // namespace
@@ -154,27 +145,11 @@ int Builder::material(const Member& member, long id, bool isotropic) {
   return materials_[id];
 }
 
-int Builder::section(const fe::Section& wanted) {
-  auto& sections = parts.model.sections;
-  fe::Section section = wanted;
-  for (int count = 2;; ++count) {
-    const auto other =
-        std::find_if(sections.begin(), sections.end(), [&](const fe::Section& s) { return s.name == section.name; });
-    if (other == sections.end()) break;
-    if (same_numbers(*other, section)) return static_cast<int>(other - sections.begin());
-    section.name = fmt::format("{}_{}", wanted.name, count);
-  }
-  sections.push_back(section);
-  return static_cast<int>(sections.size()) - 1;
-}
-
 std::string Builder::group(const Member& member, const std::string& property) const {
   for (const Component& component : parts.components) {
     if (!component.of_nodes && component.members.contains(member.id)) return component.name;
   }
-  std::string name = member.type().name;
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name + "_" + property;
+  return lower_case(member.type().name) + "_" + property;
 }
 
 const RealSet& Builder::reals(const Member& member) const {

@@ -45,8 +45,6 @@ class Builder {
   [[nodiscard]] bool has_node(long id) const { return positions_.contains(id); }
   /// Position of a material, made when first asked for. @param isotropic  refuse one whose G does not follow from E and nu
   int material(const Member& member, long id, bool isotropic);
-  /// Position of a section with these numbers: of its name, or of its name and a count.
-  int section(const fe::Section& section);
   /// Component of the element, or its type and `property`: "beam188_section_2".
   [[nodiscard]] std::string group(const Member& member, const std::string& property) const;
   [[nodiscard]] const RealSet& reals(const Member& member) const;

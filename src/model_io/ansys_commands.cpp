@@ -30,12 +30,12 @@ bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 |
 bool to_assignment(const std::string& text, Command& command) {
   const std::size_t equals = find_outside(text, '=', true);
   if (equals == text.size() || equals == 0) return false;
-  const std::string name = trim(text.substr(0, equals));
+  const std::string name = trimmed(text.substr(0, equals));
   const std::size_t plain = static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_name) - name.begin());
   if (plain == 0 || (plain < name.size() && name[plain] != '(')) return false;
   command.key = "=";
   command.name = name;
-  command.fields = {name, trim(text.substr(equals + 1))};
+  command.fields = {name, trimmed(text.substr(equals + 1))};
   return true;
 }
 
@@ -50,7 +50,7 @@ Command to_command(const std::string& text, long line) {
   command.key = upper_case(command.name).substr(0, letters + (marked ? 1 : 0));
   std::size_t start = std::min(text.find_first_not_of(" \t", end), text.size());
   if (start < text.size() && text[start] == ',') ++start;
-  command.text = trim(text.substr(start));
+  command.text = trimmed(text.substr(start));
   command.fields = split_fields(command.text, ',');
   return command;
 }
@@ -66,18 +66,12 @@ std::size_t leading_number(const std::string& text, std::size_t& at) {
 
 }  // namespace
 
-std::string trim(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::vector<std::string> split_fields(const std::string& text, char separator) {
   std::vector<std::string> fields;
   std::size_t start = 0;
   while (true) {
     const std::size_t end = find_outside(text, separator, true, start);
-    fields.push_back(trim(text.substr(start, end - start)));
+    fields.push_back(trimmed(text.substr(start, end - start)));
     if (end == text.size()) break;
     start = end + 1;
   }
@@ -87,15 +81,15 @@ std::vector<std::string> split_fields(const std::string& text, char separator) {
 std::string Command::word(std::size_t i) const { return i < fields.size() ? upper_case(fields[i]) : ""; }
 
 std::vector<Command> split_commands(const std::string& text, long line) {
-  const std::string whole = trim(text);
+  const std::string whole = trimmed(text);
   const std::string head = upper_case(whole.substr(0, 4));
   if (whole.empty() || head == "C***" || head == "/COM" || whole.starts_with('!')) return {};
-  if (head == "/TIT") return {to_command(trim(whole.substr(0, whole.find('!'))), line)};
+  if (head == "/TIT") return {to_command(trimmed(whole.substr(0, whole.find('!'))), line)};
   std::vector<Command> commands;
   const std::string spoken = whole.substr(0, find_outside(whole, '!', false));
   for (std::size_t start = 0; start <= spoken.size();) {
     const std::size_t end = find_outside(spoken, '$', false, start);
-    if (const std::string part = trim(spoken.substr(start, end - start)); !part.empty())
+    if (const std::string part = trimmed(spoken.substr(start, end - start)); !part.empty())
       commands.push_back(to_command(part, line));
     start = end + 1;
   }
@@ -131,7 +125,7 @@ std::vector<std::string> Columns::cells(const std::string& text) const {
   std::size_t at = 0;
   for (std::size_t i = 0; i < integers + reals && at < text.size(); ++i) {
     const std::size_t width = i < integers ? integer_width : real_width;
-    result.push_back(trim(text.substr(at, width)));
+    result.push_back(trimmed(text.substr(at, width)));
     at += width;
   }
   return result;
@@ -139,7 +133,7 @@ std::vector<std::string> Columns::cells(const std::string& text) const {
 
 bool parse_columns(const std::string& text, Columns& columns) {
   columns = {};
-  const std::string format = trim(text);
+  const std::string format = trimmed(text);
   if (format.size() < 3 || format.front() != '(' || format.back() != ')') return false;
   for (const std::string& group : split_fields(format.substr(1, format.size() - 2), ',')) {
     std::size_t at = 0;

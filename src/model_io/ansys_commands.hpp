@@ -45,7 +45,6 @@ class Deck {
 [[nodiscard]] std::vector<Command> split_commands(const std::string& text, long line);
 /// `text` cut at each `separator` outside of quotes and brackets, the parts trimmed.
 [[nodiscard]] std::vector<std::string> split_fields(const std::string& text, char separator);
-[[nodiscard]] std::string trim(const std::string& text);
 
 /// Fortran format of a block, "(3i9,6e21.13e3)": so many whole numbers, then so many reals, in columns.
 struct Columns {

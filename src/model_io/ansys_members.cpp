@@ -4,13 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <vector>
 
 #include "core/error.hpp"
-#include "model_io/ansys_build.hpp"
 #include "model_io/ansys_sections.hpp"
+#include "model_io/inp_profiles.hpp"
 
 /// Beams, bars, shells and solids.
 namespace twindeck::model_io::ansys {
@@ -75,7 +74,7 @@ void add_beam(Builder& builder, const Member& member) {
     const Eigen::Vector3d y = z.cross(axis);
     e.offset_m = {-(cross.node[0] * y + cross.node[1] * z), -(cross.node[0] * y + cross.node[1] * z)};
   }
-  e.section = builder.section(cross.section);
+  e.section = find_or_add_section(builder.parts.model.sections, cross.section);
   e.group = builder.group(member, cross.section.name);
   builder.parts.model.elements.push_back(e);
 }
@@ -84,7 +83,7 @@ void add_bar(Builder& builder, const Member& member) {
   fe::Element e = element_of(builder, member, fe::ElementType::bar, ends_of(member));
   const CrossSection cross = bar_section(builder, member);
   e.material = builder.material(member, member.element.material, false);
-  e.section = builder.section(cross.section);
+  e.section = find_or_add_section(builder.parts.model.sections, cross.section);
   e.group = builder.group(member, cross.section.name);
   builder.parts.model.elements.push_back(e);
 }
@@ -99,7 +98,7 @@ void add_shell(Builder& builder, const Member& member) {
   fe::Element e = element_of(builder, member, fe::ElementType::shell, corners);
   const CrossSection cross = shell_section(builder, member);
   e.material = builder.material(member, cross.material > 0 ? cross.material : member.element.material, true);
-  e.section = builder.section(cross.section);
+  e.section = find_or_add_section(builder.parts.model.sections, cross.section);
   e.group = builder.group(member, cross.section.name);
   builder.parts.model.elements.push_back(e);
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "model_io/ansys_parts.hpp"
 
 /// Nodes and elements, one command each.
 namespace twindeck::model_io::ansys {

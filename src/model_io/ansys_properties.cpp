@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "model_io/ansys_parts.hpp"
 #include "model_io/inp_cards.hpp"
 
 /// Types with their key options, real constants, materials, sections.

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
-#include "model_io/ansys_build.hpp"
 #include "model_io/inp_profiles.hpp"
 
 /// Sections and real constants as cross-sections. ANSYS's element axes are ours: y and z across the beam, IYY = ∫ z² dA is

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "model_io/ansys_parts.hpp"
 
 /// What is selected, and components, as far as supports and groups rest on it.
 namespace twindeck::model_io::ansys {

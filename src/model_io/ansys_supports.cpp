@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "model_io/ansys_parts.hpp"
 
 /// Supports and ties of nodes.
 namespace twindeck::model_io::ansys {

@@ -5,7 +5,6 @@
 
 #include "fe/dynamic_system.hpp"
 #include "io/csv.hpp"
-#include "model_io/export.hpp"
 #include "model_io/matrix_market.hpp"
 #include "model_io/names.hpp"
 

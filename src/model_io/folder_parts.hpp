@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 
@@ -22,6 +21,8 @@ struct NameIndex {
   std::map<std::string, int> materials, sections;
   /// Node position of an id in a cell. @throws InputError if nodes.csv has no such node
   [[nodiscard]] int node(const io::CsvTable& table, std::size_t row, const std::string& column) const;
+  /// Node position and direction 0-5 of "node:direction"; -1 for what is neither.
+  [[nodiscard]] std::pair<int, int> displacement(const std::string& text) const;
 };
 
 /// 1-based line of the first line of `file` that holds `text`, 0 if there is none.

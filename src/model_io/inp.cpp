@@ -157,7 +157,7 @@ void name_points(InpParts& parts) {
 
 }  // namespace
 
-InpModel read_inp(const std::filesystem::path& path) {
+ImportedModel read_inp(const std::filesystem::path& path) {
   const InpFile file = InpFile::read(path);
   InpPlan plan = plan_readings(file);
   refuse_unknown(file, plan);
@@ -191,7 +191,7 @@ InpModel read_inp(const std::filesystem::path& path) {
   auto beside = path;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) read_model_toml(beside, parts.model);
-  return {std::move(parts.model), std::move(parts.notes)};
+  return {std::move(parts.model), std::move(parts.notes), {path}};
 }
 
 }  // namespace twindeck::model_io

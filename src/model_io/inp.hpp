@@ -10,9 +10,11 @@
 /// Exchange with CalculiX and Abaqus: models as `.inp` files.
 namespace twindeck::model_io {
 
-struct InpModel {
-  fe::Model model;
-  std::vector<std::string> notes;  ///< cards that do not enter a model (loads, output requests), for people
+/// A model out of a file of another program.
+struct ImportedModel {
+  fe::Model model;                           ///< SI
+  std::vector<std::string> notes;            ///< what does not enter the model, or was interpreted, a sentence each, for people
+  std::vector<std::filesystem::path> files;  ///< the file and those that it includes
 };
 
 /// Reads an .inp file, in the flavour of CalculiX or Abaqus (parts with any number of instances): nodes, beams (B31 B32 B33,
@@ -24,7 +26,7 @@ struct InpModel {
 /// the TOML file of the same stem beside it, if there is one
 /// ("frame.toml" beside "frame.inp"; its keys are those of model.toml).
 /// @throws InputError that names file, line and card: an unsupported card, parameter or element type first of all
-[[nodiscard]] InpModel read_inp(const std::filesystem::path& file);
+[[nodiscard]] ImportedModel read_inp(const std::filesystem::path& file);
 
 enum class InpFlavour {
   calculix,  ///< beams as B32R, pipes or rectangles in a material of their own (inp_expanded_beam.hpp)

@@ -4,41 +4,23 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "model_io/inp_attachments.hpp"
 #include "model_io/inp_elements.hpp"
 #include "model_io/inp_expanded_beam.hpp"
-#include "model_io/inp_parts.hpp"
 #include "model_io/inp_profiles.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
-bool same_numbers(const fe::Section& a, const fe::Section& b) {
-  const auto numbers = [](const fe::Section& s) {
-    return std::array{s.area_m2,         s.inertia_y_m4,    s.inertia_z_m4, s.inertia_yz_m4,        s.torsion_m4,
-                      s.shear_area_y_m2, s.shear_area_z_m2, s.thickness_m,  s.bending_inertia_ratio};
-  };
-  return numbers(a) == numbers(b);
-}
-
 /// The section of the group's name if it has these numbers, or a new one.
 int add_section(InpParts& parts, const InpCard& card, fe::Section section) {
   const InpSet& set = parts.set(parts.element_sets, card, card.line, card.get("ELSET"));
   const auto first = set.members.empty() ? parts.elements.end() : parts.elements.find(set.members.front());
-  const std::string base = first == parts.elements.end() ? set.name : parts.group_set(card, first->second).name;
-  auto& sections = parts.model.sections;
-  for (int count = 1;; ++count) {
-    section.name = count == 1 ? base : fmt::format("{}_{}", base, count);
-    const auto other =
-        std::find_if(sections.begin(), sections.end(), [&](const fe::Section& s) { return s.name == section.name; });
-    if (other == sections.end()) break;
-    if (same_numbers(*other, section)) return static_cast<int>(other - sections.begin());
-  }
-  sections.push_back(section);
-  return static_cast<int>(sections.size()) - 1;
+  section.name = first == parts.elements.end() ? set.name : parts.group_set(card, first->second).name;
+  return find_or_add_section(parts.model.sections, section);
 }
 
 /// The material that the card names, isotropic or a beam's own (InpParts::second_shear_moduli).
@@ -79,9 +61,8 @@ double above_zero(InpParts& parts, const InpCard& card, const InpLine& line, std
   return value;
 }
 
-void refuse_kind(InpParts& parts, const InpCard& card, const InpElement& element) {
-  parts.file.fail(card, card.line, fmt::format("element {} of its set is a {}", element.id, element.type),
-                  "such an element takes another section card");
+void refuse_kind(const InpParts& parts, const InpCard& card, const InpElement& element) {
+  parts.refuse_kind(card, element, "such an element takes another section card");
 }
 
 fe::Element to_element(InpParts& parts, const InpCard& card, const InpElement& element, fe::ElementType type, int material,
@@ -134,16 +115,13 @@ Eigen::Vector3d first_axis(InpParts& parts, const InpCard& card) {
 
 /// The two shear moduli of an orthotropic beam hold in its own axes, so that *ORIENTATION has to name them.
 void check_orientation(InpParts& parts, const InpCard& card, const fe::Element& e) {
-  const auto found = parts.orientations.find(parts.find_key(parts.orientations, parts.file.required(card, "ORIENTATION")));
-  if (found == parts.orientations.end()) {
-    parts.file.fail(card, card.line, fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")),
-                    "define it by *ORIENTATION");
-  }
+  (void)parts.file.required(card, "ORIENTATION");
+  const InpOrientation axes = inp_axes_of(parts, card);
   const Eigen::Vector3d t = (parts.model.nodes[static_cast<std::size_t>(e.nodes[1])].x_m -
                              parts.model.nodes[static_cast<std::size_t>(e.nodes[0])].x_m)
                                 .normalized();
   constexpr double aligned = 1.0 - 1e-6;  // 0.08 degrees
-  if (std::abs(found->second.row(0).dot(t)) < aligned || std::abs(found->second.row(2).dot(e.orientation)) < aligned) {
+  if (std::abs(axes.row(0).dot(t)) < aligned || std::abs(axes.row(2).dot(e.orientation)) < aligned) {
     parts.file.fail(card, card.line,
                     fmt::format("orientation '{}' is not along the axes of element {}", card.get("ORIENTATION"), e.id),
                     "its x' is the beam's axis and its y' the direction n1");

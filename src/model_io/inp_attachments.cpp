@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "model_io/inp_elements.hpp"
 #include "model_io/inp_joints.hpp"
-#include "model_io/inp_parts.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -28,15 +27,6 @@ bool is_turned(const InpParts& parts) { return parts.scopes[static_cast<std::siz
 [[noreturn]] void refuse_turned(const InpParts& parts, const InpCard& card, long line) {
   parts.file.fail(card, line, "names a direction by its number in an instance that is rotated, which is not read",
                   "write the card at the level of the assembly, or give a spring an ORIENTATION");
-}
-
-/// Degree of freedom 1-6 as 0-5.
-int dof_of(const InpParts& parts, const InpCard& card, const InpLine& line, std::size_t field) {
-  const long dof = parts.file.integer(card, line, field);
-  if (dof < 1 || dof > 6)
-    parts.file.fail(card, line.line, fmt::format("degree of freedom {} is not supported, expected 1 to 6", dof),
-                    "1-3 displacements, 4-6 rotations");
-  return static_cast<int>(dof) - 1;
 }
 
 /// "ENCASTRE" … as fixed degrees of freedom; false for another word.
@@ -73,10 +63,8 @@ void attach_inp_spring(InpParts& parts, const InpCard& card) {
   const bool sure = !is_turned(parts) || card.has("ORIENTATION");
   const auto lines = filled_lines(card);
   for (const InpElement* element : parts.elements_of(card)) {
-    if (inp_kind(element->type) != (dashpot ? InpKind::dashpot : InpKind::spring)) {
-      parts.file.fail(card, card.line, fmt::format("element {} of its set is a {}", element->id, element->type),
-                      "such an element takes another card");
-    }
+    if (inp_kind(element->type) != (dashpot ? InpKind::dashpot : InpKind::spring))
+      parts.refuse_kind(card, *element, "such an element takes another card");
     const bool axial = element->type.back() == 'A';
     const std::size_t value_line = axial ? 0 : 1;
     if (lines.size() <= value_line) {
@@ -103,9 +91,9 @@ void attach_inp_spring(InpParts& parts, const InpCard& card) {
       }
       s.direction.normalize();
     } else {
-      const int dof = dof_of(parts, card, *lines[0], 0);
+      const int dof = parts.file.dof(card, *lines[0], 0);
       if (!sure) refuse_turned(parts, card, lines[0]->line);
-      if (element->nodes.size() > 1 && lines[0]->fields.size() > 1 && dof_of(parts, card, *lines[0], 1) != dof) {
+      if (element->nodes.size() > 1 && lines[0]->fields.size() > 1 && parts.file.dof(card, *lines[0], 1) != dof) {
         parts.file.fail(card, lines[0]->line, "joins two different degrees of freedom, which is not supported",
                         "give the same one for both nodes");
       }
@@ -141,10 +129,7 @@ void attach_inp_mass(InpParts& parts, const InpCard& card) {
   if (mass.mass_kg < 0.0 || mass.inertia_kg_m2.minCoeff() < 0.0)
     parts.file.fail(card, lines[0]->line, "must not be negative", "check the sign");
   for (const InpElement* element : parts.elements_of(card)) {
-    if (element->type != (rotary ? "ROTARYI" : "MASS")) {
-      parts.file.fail(card, card.line, fmt::format("element {} of its set is a {}", element->id, element->type),
-                      "such an element takes another card");
-    }
+    if (element->type != (rotary ? "ROTARYI" : "MASS")) parts.refuse_kind(card, *element, "such an element takes another card");
     mass.group = parts.group_of(card, *element);
     mass.node = parts.node(*element->card, element->line, element->nodes[0]);
     parts.model.masses.push_back(mass);
@@ -160,8 +145,8 @@ void attach_inp_boundary(InpParts& parts, const InpCard& card) {
       parts.file.fail(card, line.line, "has no degree of freedom", "write node or set, first, last degree of freedom");
     std::array<bool, 6> fixed{};
     if (!named_support(line.fields[1], fixed)) {
-      const int first = dof_of(parts, card, line, 1);
-      const int last = line.fields.size() > 2 && !line.fields[2].empty() ? dof_of(parts, card, line, 2) : first;
+      const int first = parts.file.dof(card, line, 1);
+      const int last = line.fields.size() > 2 && !line.fields[2].empty() ? parts.file.dof(card, line, 2) : first;
       if (last < first)
         parts.file.fail(card, line.line,
                         fmt::format("holds degrees of freedom from {} to {}, which are none", first + 1, last + 1),

@@ -13,12 +13,6 @@
 namespace twindeck::model_io {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> fields;
   std::size_t start = 0;
@@ -56,6 +50,17 @@ bool continues_a_card(const std::string& line) { return std::isalpha(static_cast
 std::string upper_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 std::string InpCard::get(const std::string& name, const std::string& fallback) const {
@@ -142,6 +147,14 @@ long InpFile::integer(const InpCard& card, const InpLine& line, std::size_t i) c
     fail(card, line.line, fmt::format("'{}' is no whole number (field {})", line.fields[i], i + 1), "check the data line");
   }
   return static_cast<long>(value);
+}
+
+int InpFile::dof(const InpCard& card, const InpLine& line, std::size_t i) const {
+  const long dof = integer(card, line, i);
+  if (dof < 1 || dof > 6)
+    fail(card, line.line, fmt::format("degree of freedom {} is not supported, expected 1 to 6", dof),
+         "1-3 displacements, 4-6 rotations");
+  return static_cast<int>(dof) - 1;
 }
 
 bool InpFile::is_integer(const std::string& field) {

@@ -9,6 +9,9 @@ namespace twindeck::model_io {
 
 /// Names are compared in upper case.
 [[nodiscard]] std::string upper_case(std::string text);
+[[nodiscard]] std::string lower_case(std::string text);
+/// Without the blanks at both ends, and without the carriage return of another system's line.
+[[nodiscard]] std::string trimmed(const std::string& text);
 
 /// One data line of a card: its comma-separated fields, and where it stands.
 struct InpLine {
@@ -52,6 +55,8 @@ class InpFile {
   [[nodiscard]] double number_or(const InpCard& card, const InpLine& line, std::size_t i, double fallback) const;
   [[nodiscard]] double number(const InpCard& card, const InpLine& line, std::size_t i) const;
   [[nodiscard]] long integer(const InpCard& card, const InpLine& line, std::size_t i) const;
+  /// Degree of freedom 1-6 as 0-5.
+  [[nodiscard]] int dof(const InpCard& card, const InpLine& line, std::size_t i) const;
   /// True if the field is a whole number: node or element rather than the name of a set.
   [[nodiscard]] static bool is_integer(const std::string& field);
 

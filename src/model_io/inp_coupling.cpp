@@ -33,13 +33,6 @@ bool all(const Directions& d, std::size_t first, std::size_t end) {
   return true;
 }
 
-int reference_node(const InpParts& parts, const InpCard& card) {
-  const InpLine named{card.line, {parts.file.required(card, "REF NODE")}};
-  const std::vector<long> nodes = parts.nodes_of(card, named, 0);
-  if (nodes.size() != 1) parts.file.fail(card, card.line, "REF NODE names more than one node", "give one");
-  return parts.node(card, card.line, nodes.front());
-}
-
 /// A slave that follows the reference node in some directions: a link where they are all that it has.
 void follow(InpParts& parts, const InpCard& card, long line, int master, long slave_id, const Directions& tied) {
   const int slave = parts.node(card, line, slave_id);
@@ -94,7 +87,7 @@ void take_mean(InpParts& parts, const InpCard& card, const InpCard& kind, int re
 void attach_inp_coupling(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"CONSTRAINT NAME", "REF NODE", "SURFACE"});
   const InpSurface& surface = parts.surface(card, card.line, parts.file.required(card, "SURFACE"));
-  const int reference = reference_node(parts, card);
+  const int reference = parts.reference_node(card);
   const InpCard* kind = parts.card_after(card);
   if (kind == nullptr || (kind->keyword != "KINEMATIC" && kind->keyword != "DISTRIBUTING"))
     parts.file.fail(card, card.line, "is followed by neither *KINEMATIC nor *DISTRIBUTING", "say how the surface is coupled");
@@ -124,7 +117,7 @@ void attach_inp_coupling(InpParts& parts, const InpCard& card) {
 
 void attach_inp_kinematic_coupling(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"REF NODE"});
-  const int reference = reference_node(parts, card);
+  const int reference = parts.reference_node(card);
   for (const InpLine& line : card.data) {
     Directions chosen{};
     choose_range(parts, card, line, 1, chosen);

@@ -1,6 +1,5 @@
 #include "model_io/inp_expanded_beam.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace twindeck::model_io {

@@ -28,9 +28,7 @@ void attach_inp_joint(InpParts& parts, const InpCard& card) {
                     "give one");
   const std::vector<InpElement*> elements = parts.elements_of(card);
   for (const InpElement* element : elements) {
-    if (inp_kind(element->type) != InpKind::joint)
-      parts.file.fail(card, card.line, fmt::format("element {} of its set is a {}", element->id, element->type),
-                      "*JOINT is for JOINTC");
+    if (inp_kind(element->type) != InpKind::joint) parts.refuse_kind(card, *element, "*JOINT is for JOINTC");
   }
   std::size_t found = 0;
   for (const InpCard* below = parts.card_after(card); below != nullptr && names_no_set(*below);

@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "model_io/inp_elements.hpp"
-#include "model_io/inp_parts.hpp"
 #include "model_io/rigid_arm.hpp"
 
 namespace twindeck::model_io {
@@ -128,11 +127,8 @@ void read_inp_equation(InpParts& parts, const InpCard& card) {
         parts.file.fail(card, equation.line,
                         fmt::format("the equation ends after {} of {} terms", equation.terms.size(), terms), "complete it");
       const InpLine& line = card.data[row];
-      const long node = parts.node_id(card, line, field), dof = parts.file.integer(card, line, field + 1);
-      if (dof < 1 || dof > 6)
-        parts.file.fail(card, line.line, fmt::format("degree of freedom {} is not supported, expected 1 to 6", dof),
-                        "1-3 displacements, 4-6 rotations");
-      equation.terms.push_back({node, static_cast<int>(dof) - 1, parts.file.number(card, line, field + 2)});
+      const long node = parts.node_id(card, line, field);
+      equation.terms.push_back({node, parts.file.dof(card, line, field + 1), parts.file.number(card, line, field + 2)});
       field += 3;
       if (field + 2 >= line.fields.size()) {
         ++row;
@@ -160,11 +156,8 @@ void attach_inp_equations(InpParts& parts) {
 
 void attach_inp_rigid_body(InpParts& parts, const InpCard& card) {
   parts.file.allow(card, {"REF NODE", "NSET", "TIE NSET"});
-  const InpLine reference{card.line, {parts.file.required(card, "REF NODE")}};
-  const std::vector<long> masters = parts.nodes_of(card, reference, 0);
-  if (masters.size() != 1) parts.file.fail(card, card.line, "REF NODE names more than one node", "give one");
   const std::string slaves = card.has("TIE NSET") ? card.get("TIE NSET") : parts.file.required(card, "NSET");
-  const int master = parts.node(card, card.line, masters.front());
+  const int master = parts.reference_node(card);
   for (const long id : parts.set(parts.node_sets, card, card.line, slaves).members) {
     if (const int slave = parts.node(card, card.line, id); slave != master) parts.add_link(master, slave);
   }

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "core/error.hpp"
-#include "model_io/inp_parts.hpp"
 
 namespace twindeck::model_io {
 namespace {

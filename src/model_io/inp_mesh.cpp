@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "model_io/inp_elements.hpp"
-#include "model_io/inp_parts.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -24,6 +23,15 @@ int instance_of(const std::vector<InpScope>& scopes, const std::string& referenc
     if (upper_case(reference).starts_with(prefix)) return static_cast<int>(i);
   }
   return -1;
+}
+
+/// Scope and number of a reference "BEAM-2.17"; of "17" the scope at hand.
+std::pair<int, long> referred(const InpParts& parts, const InpCard& card, const InpLine& line, std::size_t field) {
+  const std::string text = field < line.fields.size() ? line.fields[field] : "";
+  const int instance = instance_of(parts.scopes, text);
+  if (instance < 0) return {parts.scope, parts.file.integer(card, line, field)};
+  const std::size_t prefix = parts.scopes[static_cast<std::size_t>(instance)].name.size() + 1;
+  return {instance, parts.file.integer(card, {line.line, {text.substr(prefix)}}, 0)};
 }
 
 /// Scope of the instance that INSTANCE= names, else the one at hand.
@@ -175,11 +183,7 @@ bool InpParts::is_number(const std::string& field) const {
 }
 
 long InpParts::node_id(const InpCard& card, const InpLine& line, std::size_t field) const {
-  const std::string text = field < line.fields.size() ? line.fields[field] : "";
-  const int instance = instance_of(scopes, text);
-  const int in = instance < 0 ? scope : instance;
-  const InpLine rest{line.line, {instance < 0 ? text : text.substr(scopes[static_cast<std::size_t>(in)].name.size() + 1)}};
-  const long written = instance < 0 ? file.integer(card, line, field) : file.integer(card, rest, 0);
+  const auto [in, written] = referred(*this, card, line, field);
   const long id = written + scopes[static_cast<std::size_t>(in)].node_offset;
   const auto is_of = [&](long node, int where) {
     const auto found = scope_of_node.find(node);
@@ -192,12 +196,7 @@ long InpParts::node_id(const InpCard& card, const InpLine& line, std::size_t fie
 }
 
 long InpParts::element_id(const InpCard& card, const InpLine& line, std::size_t field) const {
-  const int instance = instance_of(scopes, line.fields[field]);
-  const int in = instance < 0 ? scope : instance;
-  const InpLine rest{
-      line.line,
-      {instance < 0 ? line.fields[field] : line.fields[field].substr(scopes[static_cast<std::size_t>(in)].name.size() + 1)}};
-  const long written = instance < 0 ? file.integer(card, line, field) : file.integer(card, rest, 0);
+  const auto [in, written] = referred(*this, card, line, field);
   const long id = written + scopes[static_cast<std::size_t>(in)].element_offset;
   const auto found = elements.find(id);
   if (in > 0 || scopes.size() == 1 || (found != elements.end() && found->second.scope == in)) return id;
@@ -241,6 +240,16 @@ std::vector<long> InpParts::nodes_of(const InpCard& card, const InpLine& line, s
   }
   if (is_number(line.fields[field])) return {node_id(card, line, field)};
   return set(node_sets, card, line.line, line.fields[field]).members;
+}
+
+int InpParts::reference_node(const InpCard& card) const {
+  const std::vector<long> nodes = nodes_of(card, {card.line, {file.required(card, "REF NODE")}}, 0);
+  if (nodes.size() != 1) file.fail(card, card.line, "REF NODE names more than one node", "give one");
+  return node(card, card.line, nodes.front());
+}
+
+void InpParts::refuse_kind(const InpCard& card, const InpElement& element, const std::string& mend) const {
+  file.fail(card, card.line, fmt::format("element {} of its set is a {}", element.id, element.type), mend);
 }
 
 const InpSet& InpParts::group_set(const InpCard& card, const InpElement& element) const {

@@ -108,6 +108,10 @@ struct InpParts {
   [[nodiscard]] const InpSurface& surface(const InpCard& card, long line, const std::string& name) const;
   /// A field that holds the number of a node or the name of a set of nodes.
   [[nodiscard]] std::vector<long> nodes_of(const InpCard& card, const InpLine& line, std::size_t field) const;
+  /// Position of the one node that REF NODE= names. @throws InputError if it names none or several
+  [[nodiscard]] int reference_node(const InpCard& card) const;
+  /// @throws InputError  for an element in the set of a card that is not for its type
+  [[noreturn]] void refuse_kind(const InpCard& card, const InpElement& element, const std::string& mend) const;
   /// Elements are grouped by the set that their *ELEMENT card names, else by that of the section, spring or mass `card`: many
   /// section cards (one a direction n1) may speak of one group. Where several instances have a set of the name, each has a
   /// group, "INSTANCE.NAME".

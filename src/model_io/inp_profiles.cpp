@@ -1,6 +1,9 @@
 #include "model_io/inp_profiles.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -65,7 +68,25 @@ const std::map<std::string, std::size_t>& sizes() {
   return known;
 }
 
+auto numbers_of(const fe::Section& s) {
+  return std::array{s.area_m2,         s.inertia_y_m4,    s.inertia_z_m4, s.inertia_yz_m4,        s.torsion_m4,
+                    s.shear_area_y_m2, s.shear_area_z_m2, s.thickness_m,  s.bending_inertia_ratio};
+}
+
 }  // namespace
+
+int find_or_add_section(std::vector<fe::Section>& sections, fe::Section section) {
+  const std::string wanted = section.name;
+  for (int count = 2;; ++count) {
+    const auto other =
+        std::find_if(sections.begin(), sections.end(), [&](const fe::Section& s) { return s.name == section.name; });
+    if (other == sections.end()) break;
+    if (numbers_of(*other) == numbers_of(section)) return static_cast<int>(other - sections.begin());
+    section.name = fmt::format("{}_{}", wanted, count);
+  }
+  sections.push_back(std::move(section));
+  return static_cast<int>(sections.size()) - 1;
+}
 
 std::size_t profile_size(const std::string& profile) {
   const auto found = sizes().find(profile);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +24,10 @@ namespace twindeck::model_io {
 /// @param problem  set to what is wrong with the dimensions, else left empty
 [[nodiscard]] fe::Section profile_section(const std::string& profile, const std::vector<double>& values, double poisson_ratio,
                                           std::string& problem);
+
+/// Position of the section of this name and these numbers. A section of other numbers under a name that is taken is added under
+/// the name and a count, "deck_2".
+[[nodiscard]] int find_or_add_section(std::vector<fe::Section>& sections, fe::Section section);
 
 /// Saint-Venant torsion constant of a rectangle [m4].
 [[nodiscard]] double rectangle_torsion(double a, double b);

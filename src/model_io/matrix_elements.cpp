@@ -6,7 +6,6 @@
 #include "io/csv.hpp"
 #include "io/path_name.hpp"
 #include "io/toml_value.hpp"
-#include "model_io/folder_parts.hpp"
 #include "model_io/matrix_market.hpp"
 #include "model_io/names.hpp"
 
@@ -41,17 +40,13 @@ fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const N
   element.group = entry.group;
   element.internal = static_cast<int>(entry.internal);
   for (const std::string& text : entry.dofs) {
-    const auto colon = text.find(':');
-    const std::string node = text.substr(0, colon);
-    const int direction = colon == std::string::npos ? -1 : position_of(text.substr(colon + 1), direction_names());
-    const bool number = !node.empty() && node.size() < 18 && node.find_first_not_of("0123456789") == std::string::npos;
-    const auto found = number ? index.nodes.find(std::stol(node)) : index.nodes.end();
-    if (found == index.nodes.end() || direction < 0)
+    const auto [node, direction] = index.displacement(text);
+    if (node < 0 || direction < 0)
       throw at(folder, text, entry.name,
                fmt::format("'{}' is no degree of freedom of a node of nodes.csv, expected \"node:direction\" with {}", text,
                            one_of(direction_names())),
                "write for example \"17:z\"");
-    element.dofs.push_back({found->second, direction});
+    element.dofs.push_back({node, direction});
   }
   if (element.dofs.empty())
     throw at(folder, entry.name, entry.name, "'dofs' is missing or empty", "list the degrees of freedom that it acts on");

@@ -6,13 +6,13 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <vector>
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "io/regular_file.hpp"
+#include "model_io/inp_cards.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -22,11 +22,6 @@ struct Entry {
   double value;
   long line;
 };
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// Reads line by line and knows where it stands.
 class MarketReader {
@@ -125,35 +120,15 @@ linalg::SparseMatrix from_entries(const std::vector<Eigen::Triplet<double, int>>
 }
 
 /// Lower triangle of a general matrix whose numbers must be symmetric.
-std::vector<Eigen::Triplet<double, int>> symmetric_part(const MarketReader& reader, const std::vector<Entry>& entries, int n) {
-  std::map<std::pair<int, int>, double> value;
-  std::vector<double> diagonal(static_cast<std::size_t>(n), 0.0);
-  for (const Entry& e : entries) {
-    value[{e.row, e.column}] = e.value;
-    if (e.row == e.column) diagonal[static_cast<std::size_t>(e.row)] = e.value;
-  }
-  std::vector<Eigen::Triplet<double, int>> lower;
-  for (const auto& [at, a] : value) {
-    const auto [row, column] = at;
-    const auto mirrored = value.find({column, row});
-    const double b = mirrored == value.end() ? 0.0 : mirrored->second;
-    const double scale =
-        std::max({std::abs(a), std::abs(b),
-                  std::sqrt(std::abs(diagonal[static_cast<std::size_t>(row)] * diagonal[static_cast<std::size_t>(column)]))});
-    if (std::abs(a - b) > 1e-9 * scale) {
-      reader.fail(
-          fmt::format("is not symmetric: entry ({0}, {1}) is {2:.9g}, entry ({1}, {0}) is {3:.9g}", row + 1, column + 1, a, b),
-          "stiffness and mass matrices must be symmetric", 0);
-    }
-    if (row >= column) lower.emplace_back(row, column, 0.5 * (a + b));
-    if (row < column && mirrored == value.end()) lower.emplace_back(column, row, 0.5 * a);
-  }
-  return lower;
+linalg::SparseMatrix symmetric_part(const MarketReader& reader, const std::vector<Entry>& entries, int n) {
+  std::map<std::pair<long, long>, double> value;
+  for (const Entry& e : entries) value[{e.row, e.column}] = e.value;
+  return symmetric_lower(value, n, false, [&](const std::pair<long, long>& at, double a, double b) {
+    reader.fail(fmt::format("is not symmetric: entry ({0}, {1}) is {2:.9g}, entry ({1}, {0}) is {3:.9g}", at.first + 1,
+                            at.second + 1, a, b),
+                "stiffness and mass matrices must be symmetric", 0);
+  });
 }
-
-}  // namespace
-
-namespace {
 
 struct Contents {
   int n;
@@ -211,6 +186,28 @@ void refuse_upper_triangle(const MarketReader& reader, const std::vector<Entry>&
 
 }  // namespace
 
+linalg::SparseMatrix symmetric_lower(const std::map<std::pair<long, long>, double>& entries, long n, bool triangle,
+                                     const RefuseUnsymmetric& refuse) {
+  constexpr double most_unsymmetric = 1e-9;  ///< [-]
+  std::vector<double> diagonal(static_cast<std::size_t>(n), 0.0);
+  for (const auto& [at, value] : entries) {
+    if (at.first == at.second) diagonal[static_cast<std::size_t>(at.first)] = value;
+  }
+  std::vector<Eigen::Triplet<double, int>> lower;
+  for (const auto& [at, value] : entries) {
+    const auto mirrored = entries.find({at.second, at.first});
+    const bool alone = triangle || mirrored == entries.end();
+    const double other = triangle ? value : alone ? 0.0 : mirrored->second;
+    const double on_diagonal = diagonal[static_cast<std::size_t>(at.first)] * diagonal[static_cast<std::size_t>(at.second)];
+    const double scale = std::max({std::abs(value), std::abs(other), std::sqrt(std::abs(on_diagonal))});
+    if (std::abs(value - other) > most_unsymmetric * scale) refuse(at, value, other);
+    if (alone || at.first >= at.second)
+      lower.emplace_back(static_cast<int>(std::max(at.first, at.second)), static_cast<int>(std::min(at.first, at.second)),
+                         0.5 * (value + other));
+  }
+  return from_entries(lower, static_cast<int>(n));
+}
+
 MatrixMarketSize matrix_market_size(const std::filesystem::path& file) {
   MarketReader reader(file);
   static_cast<void>(reader.banner());
@@ -222,7 +219,7 @@ linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file) {
   MarketReader reader(file);
   const bool symmetric = reader.banner();
   const auto [n, entries] = read_square(reader);
-  if (!symmetric) return from_entries(symmetric_part(reader, entries, n), n);
+  if (!symmetric) return symmetric_part(reader, entries, n);
   refuse_upper_triangle(reader, entries);
   std::vector<Eigen::Triplet<double, int>> lower;
   for (const Entry& e : entries) lower.emplace_back(e.row, e.column, e.value);
@@ -242,21 +239,6 @@ Eigen::MatrixXd read_square_matrix(const std::filesystem::path& file) {
   return matrix;
 }
 
-void write_square_matrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const std::filesystem::path& file) {
-  TWINDECK_ASSERT(matrix.rows() == matrix.cols());
-  std::string body;
-  long count = 0;
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
-    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-      if (matrix(row, column) == 0.0) continue;
-      fmt::format_to(std::back_inserter(body), "{} {} {:.17g}\n", row + 1, column + 1, matrix(row, column));
-      ++count;
-    }
-  }
-  io::write_file_atomically(
-      file, fmt::format("%%MatrixMarket matrix coordinate real general\n{0} {0} {1}\n", matrix.rows(), count) + body);
-}
-
 namespace {
 
 void write_entries(const linalg::SparseMatrix& matrix, const char* symmetry, const std::filesystem::path& file) {
@@ -274,6 +256,11 @@ void write_entries(const linalg::SparseMatrix& matrix, const char* symmetry, con
 }
 
 }  // namespace
+
+void write_square_matrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const std::filesystem::path& file) {
+  TWINDECK_ASSERT(matrix.rows() == matrix.cols());
+  write_entries(matrix.sparseView(), "general", file);
+}
 
 void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesystem::path& file) {
   TWINDECK_ASSERT(lower.rows() == lower.cols());

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <utility>
 
 #include "linalg/types.hpp"
 
@@ -15,6 +18,14 @@ namespace twindeck::model_io {
 ///         an entry that stands twice, a symmetric file with entries above the diagonal, a general one that is not symmetric,
 ///         a size line that asks for more entries than the file has room for
 [[nodiscard]] linalg::SparseMatrix read_matrix_market(const std::filesystem::path& file);
+
+/// Called for an entry and its mirror that differ: throws.
+using RefuseUnsymmetric = std::function<void(const std::pair<long, long>& at, double value, double mirrored)>;
+/// Lower triangle of a matrix whose numbers are symmetric to 1e-9 as above: the mean of each two entries.
+/// @param entries   by place (from 0)
+/// @param triangle  only one triangle is given, and stands for both
+[[nodiscard]] linalg::SparseMatrix symmetric_lower(const std::map<std::pair<long, long>, double>& entries, long n,
+                                                   bool triangle, const RefuseUnsymmetric& refuse);
 
 /// Rows of the square matrix in a file, and the line that says so: to be compared with what is expected before the matrix is
 /// read, since a matrix of few entries may have any number of rows and takes memory for each.

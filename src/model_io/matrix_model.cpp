@@ -11,7 +11,6 @@
 #include "io/csv.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/matrix_market.hpp"
-#include "model_io/model_folder.hpp"
 #include "model_io/names.hpp"
 #include "model_io/op4.hpp"
 

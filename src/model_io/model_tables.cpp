@@ -5,7 +5,6 @@
 #include <set>
 
 #include "io/csv.hpp"
-#include "model_io/modes_io.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -116,21 +115,6 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
 }
 
 }  // namespace
-
-modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes) {
-  modal::ModeSet all = to_mode_set(model, system, modes);
-  if (model == nullptr) return all;
-  modal::ModeSet kept = all;
-  kept.dofs.clear();
-  std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < all.dofs.size(); ++i) {
-    if (all.dofs[i].direction.front() == 'r') continue;
-    kept.dofs.push_back(all.dofs[i]);
-    rows.push_back(static_cast<Eigen::Index>(i));
-  }
-  kept.shapes = all.shapes(rows, Eigen::all);
-  return kept;
-}
 
 void write_model_tables(const dynamics::LoadedModel& loaded, const PartOf& part_of, const std::filesystem::path& folder) {
   const fe::Model* model = loaded.fe_model();

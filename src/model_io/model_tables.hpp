@@ -4,18 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "dynamics/eigenmodes.hpp"
 #include "dynamics/loaded_model.hpp"
-#include "modal/modes.hpp"
 
-/// Tables about a model and its modes, for people and reports; nothing reads a model from them.
+/// Tables about a model, for people and reports; nothing reads a model from them.
 namespace twindeck::model_io {
-
-/// Modes of a model as they are published: translations x y z at every node of an FE model (rotations are left out: no
-/// sensor measures them and they double the file), every degree of freedom of a matrix model.
-/// @param model  null for a matrix model
-[[nodiscard]] modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system,
-                                             const dynamics::EigenModes& modes);
 
 /// The part of a structure that a group of elements or springs belongs to.
 using PartOf = std::function<std::string(const std::string& group)>;

@@ -2,18 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <deque>
 #include <set>
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
-#include "io/config.hpp"
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/matrix_elements.hpp"
-#include "model_io/model_folder.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -149,19 +146,15 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
 }
 
 fe::Prestress::Condition to_condition(const std::filesystem::path& file, const NameIndex& index, const std::string& text) {
-  const auto colon = text.find(':');
-  const std::string node = text.substr(0, colon);
-  const int dof = colon == std::string::npos ? -1 : position_of(text.substr(colon + 1), direction_names());
-  const bool number = !node.empty() && node.size() < 18 && node.find_first_not_of("0123456789") == std::string::npos;
-  const auto found = number ? index.nodes.find(std::stol(node)) : index.nodes.end();
-  if (found == index.nodes.end() || dof < 0 || dof > 2) {
+  const auto [node, dof] = index.displacement(text);
+  if (node < 0 || dof < 0 || dof > 2) {
     throw key_error(
         file, "\"" + text + "\"", "prestress.conditions",
         fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z",
                     text),
         "write for example \"17:z\"");
   }
-  return {found->second, dof};
+  return {node, dof};
 }
 
 std::string text_list(const std::vector<std::string>& texts) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "fe/model.hpp"
 #include "io/config.hpp"
@@ -14,6 +15,8 @@ namespace twindeck::model_io {
 /// @param add_keys  binds further keys that this file may have (the units of an imported deck)
 void read_model_toml(const std::filesystem::path& file, fe::Model& model,
                      const std::function<void(io::FieldTable&)>& add_keys = {});
+/// Meaning, unit, range and default of each key.
+[[nodiscard]] std::string describe_model_toml();
 void write_model_toml(const fe::Model& model, const std::filesystem::path& folder);
 
 }  // namespace twindeck::model_io

@@ -10,7 +10,6 @@
 #include "io/csv.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "matching/mode_name.hpp"
-#include "model_io/export.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -177,6 +176,21 @@ modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& s
   }
   TWINDECK_ASSERT(set.shapes.rows() == static_cast<Eigen::Index>(set.dofs.size()));
   return set;
+}
+
+modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes) {
+  modal::ModeSet all = to_mode_set(model, system, modes);
+  if (model == nullptr) return all;
+  modal::ModeSet kept = all;
+  kept.dofs.clear();
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < all.dofs.size(); ++i) {
+    if (all.dofs[i].direction.front() == 'r') continue;
+    kept.dofs.push_back(all.dofs[i]);
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  kept.shapes = all.shapes(rows, Eigen::all);
+  return kept;
 }
 
 }  // namespace twindeck::model_io

@@ -26,4 +26,10 @@ void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folde
 [[nodiscard]] modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& system,
                                          const dynamics::EigenModes& modes);
 
+/// Modes of a model as they are published: translations x y z at every node of an FE model (rotations are left out: no
+/// sensor measures them and they double the file), every degree of freedom of a matrix model.
+/// @param model  null for a matrix model
+[[nodiscard]] modal::ModeSet published_modes(const fe::Model* model, const fe::ParametricSystem& system,
+                                             const dynamics::EigenModes& modes);
+
 }  // namespace twindeck::model_io

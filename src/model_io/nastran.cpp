@@ -143,7 +143,7 @@ bool is_nastran_file(const std::filesystem::path& file) {
   return false;
 }
 
-NastranModel read_nastran(const std::filesystem::path& path) {
+ImportedModel read_nastran(const std::filesystem::path& path) {
   const nastran::Deck deck = nastran::Deck::read(path);
   nastran::Parts parts(deck);
   parts.model.source = path.string();

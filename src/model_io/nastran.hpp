@@ -1,19 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
-#include "fe/model.hpp"
+#include "model_io/inp.hpp"
 
 /// Import of Nastran bulk data, the common language of MSC, NX, Simcenter and OptiStruct decks.
 namespace twindeck::model_io {
-
-struct NastranModel {
-  fe::Model model;                           ///< SI
-  std::vector<std::string> notes;            ///< what was read over or interpreted, a sentence each, for people
-  std::vector<std::filesystem::path> files;  ///< the deck and the files that it includes
-};
 
 /// Whether a file is bulk data by its name: .bdf, .nas, .blk, or a .dat that holds a GRID card or BEGIN BULK (other programs
 /// use that ending too).
@@ -28,6 +20,6 @@ struct NastranModel {
 /// that of K6ROT. The property is the group and the section's name ("pbar_7"), "mat1_3" the material's.
 /// @throws InputError  that names file, line and card: for an unknown card, for what a card says and a model cannot hold, for
 ///         units that are not stated
-[[nodiscard]] NastranModel read_nastran(const std::filesystem::path& file);
+[[nodiscard]] ImportedModel read_nastran(const std::filesystem::path& file);
 
 }  // namespace twindeck::model_io

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
 
 #include "model_io/inp_cards.hpp"
 #include "model_io/inp_profiles.hpp"
-#include "model_io/nastran_parts.hpp"
 #include "model_io/nastran_properties.hpp"
 
 /// Sections of CBAR and CBEAM. Nastran's element axes are ours: plane 1 is x-y, so that I1 is our inertia_z, I2 our inertia_y,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -52,6 +53,10 @@ class Deck {
   [[nodiscard]] static bool blank(const Card& card, std::size_t i) { return text(card, i).empty(); }
   [[nodiscard]] double number(const Card& card, std::size_t i) const;
   [[nodiscard]] double number_or(const Card& card, std::size_t i, double fallback) const;
+  /// Three numbers from field `i` on; a blank one is 0.
+  [[nodiscard]] Eigen::Vector3d vector(const Card& card, std::size_t i) const {
+    return {number_or(card, i, 0.0), number_or(card, i + 1, 0.0), number_or(card, i + 2, 0.0)};
+  }
   [[nodiscard]] long integer(const Card& card, std::size_t i) const;
   [[nodiscard]] long integer_or(const Card& card, std::size_t i, long fallback) const;
   /// Number of fields up to the last one that is not blank.

@@ -92,13 +92,6 @@ std::set<long> chosen_multipoint(const Parts& parts) {
   return sets;
 }
 
-int component_at(const Parts& parts, const Card& card, std::size_t i) {
-  const long component = parts.deck.integer(card, i);
-  if (component < 1 || component > 6)
-    parts.deck.fail(card, fmt::format("component {} is none of 1 to 6", component), "1-3 displacements, 4-6 rotations");
-  return static_cast<int>(component) - 1;
-}
-
 /// A1 u1 + A2 u2 + … = 0. Fields: SID G1 C1 A1 G2 C2 A2, then from the second field of each further line.
 void read_equation_card(Parts& parts, const Card& card) {
   const long grid = parts.deck.integer(card, 1);

@@ -7,15 +7,10 @@
 
 #include "model_io/inp_cards.hpp"
 #include "model_io/nastran_beams.hpp"
-#include "model_io/nastran_parts.hpp"
 #include "model_io/nastran_properties.hpp"
 
 namespace twindeck::model_io::nastran {
 namespace {
-
-Eigen::Vector3d vector_at(const Parts& parts, const Card& card, std::size_t i) {
-  return {parts.deck.number_or(card, i, 0.0), parts.deck.number_or(card, i + 1, 0.0), parts.deck.number_or(card, i + 2, 0.0)};
-}
 
 /// Number and nodes of an element; the rest follows by its kind.
 fe::Element start_element(Parts& parts, const Card& card, fe::ElementType type, std::size_t first, std::size_t count) {
@@ -47,13 +42,13 @@ Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
   const std::string first = Deck::text(card, 4);
   if (Deck::is_integer(first) && first != "0" && Deck::blank(card, 5) && Deck::blank(card, 6))
     return parts.place(card, parts.deck.integer(card, 4)) - parts.place(card, a);
-  const Eigen::Vector3d v = vector_at(parts, card, 4);
+  const Eigen::Vector3d v = parts.deck.vector(card, 4);
   return frame == 'B' ? v : Eigen::Vector3d(parts.displacement_axes(card, a).transpose() * v);
 }
 
 /// Offset of an end in basic axes.
 Eigen::Vector3d offset_of(Parts& parts, const Card& card, std::size_t i, long grid, char frame) {
-  const Eigen::Vector3d w = vector_at(parts, card, i);
+  const Eigen::Vector3d w = parts.deck.vector(card, i);
   if (w.isZero(0.0) || frame == 'B') return w;
   return parts.displacement_axes(card, grid).transpose() * w;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model_io/nastran_parts.hpp"
+#include "model_io/inp_cards.hpp"
 #include "model_io/nastran_properties.hpp"
 
 /// Grids and coordinate systems, each resolved when it is first asked for: systems lean on grids and grids on systems.
@@ -16,10 +16,6 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180.0;
 constexpr std::size_t longest_chain = 100;  ///< of systems defined in one another
-
-Eigen::Vector3d three(const Parts& parts, const Card& card, std::size_t i) {
-  return {parts.deck.number_or(card, i, 0.0), parts.deck.number_or(card, i + 1, 0.0), parts.deck.number_or(card, i + 2, 0.0)};
-}
 
 /// Axes from the origin a, a point b on z and a point c in the x-z plane.
 System from_points(const Parts& parts, const Card& card, const std::array<Eigen::Vector3d, 3>& p) {
@@ -133,7 +129,7 @@ const System& Parts::system(const Card& from, long id) {
     for (std::size_t i = 0; i < 3; ++i) points[i] = place(card, first->second[i]);
   } else {
     const System reference = system(card, deck.integer_or(card, 1, 0));
-    for (std::size_t i = 0; i < 3; ++i) points[i] = reference.to_basic(three(*this, card, 2 + 3 * i));
+    for (std::size_t i = 0; i < 3; ++i) points[i] = reference.to_basic(deck.vector(card, 2 + 3 * i));
   }
   resolving.erase(id);
   return systems.emplace(id, from_points(*this, card, points)).first->second;
@@ -149,7 +145,7 @@ Eigen::Vector3d Parts::place(const Card& from, long grid) {
     deck.fail(from, fmt::format("grid {} is not defined", grid), "give it a GRID card, or mend the number");
   }
   const Card& card = *found->second;
-  const Eigen::Vector3d x = system(card, system_number(*this, card, 1)).to_basic(three(*this, card, 2));
+  const Eigen::Vector3d x = system(card, system_number(*this, card, 1)).to_basic(deck.vector(card, 2));
   return places.emplace(grid, x).first->second;
 }
 
@@ -169,9 +165,7 @@ std::vector<long> Parts::grid_list(const Card& card, std::size_t start, bool exa
   std::vector<long> list;
   for (std::size_t i = start; i < Deck::size(card); ++i) {
     if (Deck::blank(card, i)) continue;
-    std::string word = card.fields[i];
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    if (word != "THRU") {
+    if (upper_case(card.fields[i]) != "THRU") {
       list.push_back(deck.integer(card, i));
       continue;
     }
@@ -189,6 +183,13 @@ std::vector<long> Parts::grid_list(const Card& card, std::size_t start, bool exa
     ++i;
   }
   return list;
+}
+
+int component_at(const Parts& parts, const Card& card, std::size_t i) {
+  const long component = parts.deck.integer(card, i);
+  if (component < 1 || component > 6)
+    parts.deck.fail(card, fmt::format("component {} is none of 1 to 6", component), "1-3 displacements, 4-6 rotations");
+  return static_cast<int>(component) - 1;
 }
 
 std::array<bool, 6> components(const Parts& parts, const Card& card, std::size_t i) {

@@ -1,6 +1,7 @@
 #include "model_io/nastran_ignored.hpp"
 
 #include <initializer_list>
+#include <span>
 
 namespace twindeck::model_io::nastran {
 namespace {
@@ -9,6 +10,14 @@ struct Reason {
   const char* reason;
   std::initializer_list<const char*> cards;
 };
+
+std::map<std::string, std::string> by_card(std::span<const Reason> reasons) {
+  std::map<std::string, std::string> result;
+  for (const Reason& reason : reasons) {
+    for (const char* card : reason.cards) result.emplace(card, reason.reason);
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -35,11 +44,7 @@ const std::map<std::string, std::string>& ignored_cards() {
         {"are lists, pictures or settings of the program", {"SET1", "SET3", "PLOTEL", "MDLPRM"}},
         {"are design variables and responses",
          {"DESVAR", "DVPREL1", "DVMREL1", "DRESP1", "DRESP2", "DCONSTR", "DCONADD", "DOPTPRM", "DLINK"}}};
-    std::map<std::string, std::string> result;
-    for (const Reason& reason : reasons) {
-      for (const char* card : reason.cards) result.emplace(card, reason.reason);
-    }
-    return result;
+    return by_card(reasons);
   }();
   return cards;
 }
@@ -61,11 +66,7 @@ const std::map<std::string, std::string>& refused_cards() {
         {"give the whole model as matrices (docs/my_model.md), or the element by DMIG", {"GENEL"}},
         {"give DMIG, which is chosen by K2GG and M2GG", {"DMIJ", "DMIJI", "DMIK", "DMI"}},
         {"modes need a linear joint: CELAS2 or CBUSH", {"CGAP", "CBUSH1D", "BCTABLE", "BCONTACT", "BSURF"}}};
-    std::map<std::string, std::string> result;
-    for (const Reason& reason : reasons) {
-      for (const char* card : reason.cards) result.emplace(card, reason.reason);
-    }
-    return result;
+    return by_card(reasons);
   }();
   return cards;
 }

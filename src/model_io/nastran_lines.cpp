@@ -27,12 +27,6 @@ namespace {
 constexpr std::size_t deepest_include = 20;     ///< files within files; real decks have two or three levels
 constexpr std::size_t most_lines = 20'000'000;  ///< of a deck with all its files, two gigabytes: more is a mistake
 
-std::string stripped(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::string without_comment(const std::string& text) { return text.substr(0, text.find('$')); }
 
 std::string with_tabs_expanded(const std::string& text) {
@@ -51,7 +45,7 @@ bool split_free(const std::string& text, SplitLine& line) {
   std::vector<std::string> parts;
   for (std::size_t start = 0, comma = 0; comma != std::string::npos; start = comma + 1) {
     comma = text.find(',', start);
-    parts.push_back(stripped(text.substr(start, comma == std::string::npos ? comma : comma - start)));
+    parts.push_back(trimmed(text.substr(start, comma == std::string::npos ? comma : comma - start)));
   }
   line.first = parts[0];
   const std::size_t fields = line.first.ends_with('*') || line.first.starts_with('*') ? 4 : 8;
@@ -66,23 +60,23 @@ bool split_free(const std::string& text, SplitLine& line) {
 void split_fixed(const std::string& text, SplitLine& line) {
   std::string columns = with_tabs_expanded(text);
   columns.resize(80, ' ');  // what stands beyond column 80 is no part of the card
-  line.first = stripped(columns.substr(0, 8));
+  line.first = trimmed(columns.substr(0, 8));
   const bool large = line.first.ends_with('*') || line.first.starts_with('*');
   const std::size_t width = large ? 16 : 8;
-  for (std::size_t at = 8; at < 72; at += width) line.data.push_back(stripped(columns.substr(at, width)));
-  line.last = stripped(columns.substr(72, 8));
+  for (std::size_t at = 8; at < 72; at += width) line.data.push_back(trimmed(columns.substr(at, width)));
+  line.last = trimmed(columns.substr(72, 8));
 }
 
 std::string continuation_name(const std::string& field) {
-  return upper_case(stripped(
-      field.substr(field.find_first_not_of("+*") == std::string::npos ? field.size() : field.find_first_not_of("+*"))));
+  return upper_case(
+      trimmed(field.substr(field.find_first_not_of("+*") == std::string::npos ? field.size() : field.find_first_not_of("+*"))));
 }
 
 /// "SPC = 3" as "SPC" and "3"; "SUBCASE 1" as it is, with an empty value.
 std::pair<std::string, std::string> key_and_value(const std::string& text) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos) return {upper_case(stripped(text)), ""};
-  return {upper_case(stripped(text.substr(0, equals))), stripped(text.substr(equals + 1))};
+  if (equals == std::string::npos) return {upper_case(trimmed(text)), ""};
+  return {upper_case(trimmed(text.substr(0, equals))), trimmed(text.substr(equals + 1))};
 }
 
 }  // namespace
@@ -107,7 +101,7 @@ struct DeckReader {
     RawLine line{file, 0, ""};
     while (std::getline(stream, line.text)) {
       ++line.line;
-      const std::string bare = stripped(without_comment(line.text));
+      const std::string bare = trimmed(without_comment(line.text));
       if (bare.empty()) continue;
       if (lines.size() >= most_lines) fail(line, "", "the deck has more than 20 million lines", "check its INCLUDE lines");
       if (!upper_case(bare.substr(0, 8)).starts_with("INCLUDE") || bare.find('=') != std::string::npos) {
@@ -115,19 +109,19 @@ struct DeckReader {
         continue;
       }
       const RawLine at = line;
-      std::string name = stripped(bare.substr(7));
+      std::string name = trimmed(bare.substr(7));
       const char quote = name.empty() ? ' ' : name.front();
       if (quote == '\'' || quote == '"') {
         // A long path may go on over several lines, up to the closing quote.
         while (name.find(quote, 1) == std::string::npos && std::getline(stream, line.text)) {
           ++line.line;
-          name += stripped(line.text);
+          name += trimmed(line.text);
         }
         const auto close = name.find(quote, 1);
         if (close == std::string::npos) fail(at, "INCLUDE", "the quote of the file's name is not closed", "close it");
         name = name.substr(1, close - 1);
       }
-      include(at, path, stripped(name));
+      include(at, path, trimmed(name));
     }
     open.pop_back();
   }
@@ -147,8 +141,8 @@ struct DeckReader {
 
   /// Executive and case control: only what changes the structure is looked at. @return  the first line of the bulk data
   std::size_t read_control() {
-    const auto begins = [](const RawLine& line) { return upper_case(stripped(line.text).substr(0, 5)) == "BEGIN"; };
-    const auto named = [](const RawLine& line, const char* word) { return upper_case(stripped(line.text)) == word; };
+    const auto begins = [](const RawLine& line) { return upper_case(trimmed(line.text).substr(0, 5)) == "BEGIN"; };
+    const auto named = [](const RawLine& line, const char* word) { return upper_case(trimmed(line.text)) == word; };
     const auto bulk = std::find_if(lines.begin(), lines.end(), begins);
     const auto cend = std::find_if(lines.begin(), lines.end(), [&](const RawLine& line) { return named(line, "CEND"); });
     if (bulk == lines.end()) {
@@ -157,7 +151,7 @@ struct DeckReader {
     }
     deck.case_.present = true;
     for (auto line = cend < bulk ? cend + 1 : lines.begin(); line != bulk; ++line) read_case_line(*line);
-    std::string rest = upper_case(stripped(bulk->text).substr(5));
+    std::string rest = upper_case(trimmed(bulk->text).substr(5));
     rest.erase(std::remove(rest.begin(), rest.end(), ' '), rest.end());
     if (rest != "BULK")
       fail(*bulk, "BEGIN", "starts a section of its own (a superelement), which is not read", "write one model");
@@ -195,11 +189,11 @@ struct DeckReader {
     std::string announced;
     for (std::size_t i = start; i < lines.size(); ++i) {
       const RawLine& raw = lines[i];
-      if (upper_case(stripped(raw.text).substr(0, 7)) == "ENDDATA") return;
+      if (upper_case(trimmed(raw.text).substr(0, 7)) == "ENDDATA") return;
       SplitLine line;
       if (raw.text.find(',') == std::string::npos)
         split_fixed(raw.text, line);
-      else if (!split_free(stripped(raw.text), line))
+      else if (!split_free(trimmed(raw.text), line))
         fail(raw, line.first, "has more than ten fields on one line", "let the card go on in a line that begins with a comma");
       if (line.first.starts_with('='))
         fail(raw, line.first, "repeats the card above, which is not read", "write every card out");
@@ -214,7 +208,7 @@ struct DeckReader {
 
   void start_card(const RawLine& raw, SplitLine& line) {
     Card card;
-    card.name = upper_case(stripped(line.first.substr(0, line.first.find('*'))));
+    card.name = upper_case(trimmed(line.first.substr(0, line.first.find('*'))));
     card.file = raw.file;
     card.line = raw.line;
     card.fields = std::move(line.data);

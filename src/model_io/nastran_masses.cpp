@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "fe/beam_frame.hpp"
-#include "model_io/nastran_parts.hpp"
+#include "model_io/nastran_properties.hpp"
 #include "model_io/nastran_springs.hpp"
 
 namespace twindeck::model_io::nastran {
@@ -51,8 +51,7 @@ Eigen::Matrix<double, n, n> symmetric(const Parts& parts, const Card& card, std:
 /// CONM2: a mass off its grid, with inertia about its own centre.
 MassMatrix offset_mass(Parts& parts, const Card& card) {
   const double mass = parts.deck.number_or(card, 3, 0.0);
-  Eigen::Vector3d arm(parts.deck.number_or(card, 4, 0.0), parts.deck.number_or(card, 5, 0.0),
-                      parts.deck.number_or(card, 6, 0.0));
+  Eigen::Vector3d arm = parts.deck.vector(card, 4);
   Eigen::Matrix3d inertia = symmetric<3>(parts, card, 8);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) inertia(i, j) *= i == j ? 1.0 : -1.0;  // the card has the products as integrals, without sign
@@ -105,13 +104,12 @@ void read_scalar_mass(Parts& parts, const Card& card) {
   if (mass < 0.0) deck.fail(card, "the mass is negative", "check the sign");
   if (!Deck::blank(card, 4) && Deck::text(card, 4) != "0")
     deck.fail(card, "is a mass between two grids, which is not read", "give a mass to ground at one grid");
-  const long grid = deck.integer(card, 2), component = deck.integer(card, 3);
-  if (component < 1 || component > 6)
-    deck.fail(card, fmt::format("component {} is none of 1 to 6", component), "1-3 displacements, 4-6 rotations");
+  const long grid = deck.integer(card, 2);
+  const int component = component_at(parts, card, 3);
   const Eigen::Matrix3d axes = parts.displacement_axes(card, grid);
   MassMatrix& m = parts.added_mass.try_emplace(parts.node(card, grid), MassMatrix::Zero()).first->second;
-  const Eigen::Vector3d direction = axes.row((component - 1) % 3).transpose();
-  const Eigen::Index at = component > 3 ? 3 : 0;
+  const Eigen::Vector3d direction = axes.row(component % 3).transpose();
+  const Eigen::Index at = component > 2 ? 3 : 0;
   m.block<3, 3>(at, at) += mass * direction * direction.transpose();
 }
 

@@ -4,20 +4,11 @@
 
 #include <algorithm>
 
-#include "model_io/nastran_parts.hpp"
+#include "model_io/inp_cards.hpp"
 
 namespace twindeck::model_io::nastran {
-namespace {
 
-std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " or ")); }
-
-}  // namespace
-
-std::string property_name(const Card& property) {
-  std::string name = property.name + "_" + Deck::text(property, 0);
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
+std::string property_name(const Card& property) { return lower_case(property.name + "_" + Deck::text(property, 0)); }
 
 const Card& Parts::property(const Card& element, long id, const std::vector<std::string>& kinds) const {
   if (const auto found = properties.find(id); found != properties.end()) {
@@ -25,7 +16,7 @@ const Card& Parts::property(const Card& element, long id, const std::vector<std:
       if (std::find(kinds.begin(), kinds.end(), card->name) != kinds.end()) return *card;
     }
   }
-  deck.fail(element, fmt::format("property {} is no {} of this deck", id, joined(kinds)),
+  deck.fail(element, fmt::format("property {} is no {} of this deck", id, fmt::join(kinds, " or ")),
             "give the property, or mend its number");
 }
 

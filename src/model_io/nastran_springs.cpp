@@ -8,7 +8,6 @@
 #include "fe/beam_frame.hpp"
 #include "model_io/inp_cards.hpp"
 #include "model_io/names.hpp"
-#include "model_io/nastran_parts.hpp"
 #include "model_io/nastran_properties.hpp"
 
 namespace twindeck::model_io::nastran {
@@ -28,10 +27,8 @@ ScalarEnd scalar_end(Parts& parts, const Card& card, std::size_t i) {
   if (Deck::blank(card, i) || Deck::text(card, i) == "0") return {};
   const long grid = parts.deck.integer(card, i);
   const Eigen::Matrix3d axes = parts.displacement_axes(card, grid);
-  const long component = parts.deck.integer(card, i + 1);
-  if (component < 1 || component > 6)
-    parts.deck.fail(card, fmt::format("component {} is none of 1 to 6", component), "1-3 displacements, 4-6 rotations");
-  return {parts.node(card, grid), axes.row((component - 1) % 3).transpose(), component > 3};
+  const int component = component_at(parts, card, i + 1);
+  return {parts.node(card, grid), axes.row(component % 3).transpose(), component > 2};
 }
 
 /// Unit vector over the twelve displacements of two nodes.
@@ -70,7 +67,7 @@ Eigen::Matrix3d bush_axes(Parts& parts, const Card& card, bool apart, bool axial
   if (!apart) parts.deck.fail(card, "has no system CID, and its grids do not lie apart", "give CID (0: the basic axes)");
   Eigen::Matrix3d axes;
   const Eigen::Vector3d x = (parts.place(card, parts.deck.integer(card, 3)) - parts.place(card, a)).normalized();
-  Eigen::Vector3d v(parts.deck.number_or(card, 4, 0.0), parts.deck.number_or(card, 5, 0.0), parts.deck.number_or(card, 6, 0.0));
+  Eigen::Vector3d v = parts.deck.vector(card, 4);
   if (Deck::is_integer(Deck::text(card, 4)) && Deck::blank(card, 5) && Deck::blank(card, 6) && Deck::text(card, 4) != "0")
     v = parts.place(card, parts.deck.integer(card, 4)) - parts.place(card, a);
   else

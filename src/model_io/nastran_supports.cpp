@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "core/error.hpp"
 #include "model_io/nastran_constraints.hpp"
-#include "model_io/nastran_parts.hpp"
 #include "model_io/nastran_properties.hpp"
 
 /// Supports and rigid links.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "model_io/folder_parts.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "model_io/folder_parts.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {

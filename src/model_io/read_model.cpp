@@ -1,12 +1,11 @@
 #include "model_io/read_model.hpp"
 
-#include <algorithm>
 #include <fstream>
 
 #include "core/error.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
-#include "model_io/model_folder.hpp"
+#include "model_io/matrix_model.hpp"
 #include "model_io/model_toml.hpp"
 #include "model_io/read_attachments.hpp"
 #include "model_io/read_elements.hpp"

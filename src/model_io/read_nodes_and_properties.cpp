@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "model_io/folder_parts.hpp"
+#include "model_io/inp_cards.hpp"
+#include "model_io/names.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -52,6 +53,14 @@ int NameIndex::node(const io::CsvTable& table, std::size_t row, const std::strin
                                                         nodes.rbegin()->first);
   table.fail(row, column, fmt::format("node {} is not in nodes.csv ({})", id, range),
              "add the node there or refer to one that is there");
+}
+
+std::pair<int, int> NameIndex::displacement(const std::string& text) const {
+  const auto colon = text.find(':');
+  const std::string node = text.substr(0, colon);
+  const auto found = InpFile::is_integer(node) ? nodes.find(std::stol(node)) : nodes.end();
+  return {found == nodes.end() ? -1 : found->second,
+          colon == std::string::npos ? -1 : position_of(text.substr(colon + 1), direction_names())};
 }
 
 void read_nodes(const std::filesystem::path& folder, fe::Model& model, NameIndex& index) {

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
-#include "model_io/export.hpp"
 #include "model_io/names.hpp"
 
 /// VTK XML unstructured grid in ASCII ("VTK File Formats", chapter 19 of the VTK User's Guide): opens in ParaView as it is, and

@@ -7,10 +7,9 @@
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "io/toml_value.hpp"
-#include "model_io/export.hpp"
+#include "model_io/export_matrices.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/matrix_market.hpp"
-#include "model_io/model_folder.hpp"
 
 namespace twindeck::model_io {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "io/csv.hpp"
 #include "model_io/folder_parts.hpp"
-#include "model_io/model_folder.hpp"
 #include "model_io/model_toml.hpp"
 #include "model_io/names.hpp"
 

@@ -215,6 +215,21 @@ ParameterDefinition read_parameter(DefinitionFile& file, const std::string& path
           file.number(path + ".bound", "", {0.0, 0.99})};
 }
 
+/// Names of all stays: NE1 ... , SE1 ..., NW..., SW..., BN, BS.
+std::vector<std::string> stay_names(const BridgeDefinition& definition) {
+  std::vector<std::string> out;
+  for (const DeckDefinition& deck : definition.decks) {
+    for (const std::string& prefix : {deck.stay.prefix_north, deck.stay.prefix_south}) {
+      for (int i = 1; i <= deck.stay.count; ++i) {
+        out.push_back(prefix + std::to_string(i));
+      }
+    }
+  }
+  out.push_back("BN");
+  out.push_back("BS");
+  return out;
+}
+
 void read_site_pulls(DefinitionFile& file, BridgeDefinition& out) {
   const std::vector<std::string> stays = stay_names(out);
   for (const std::string& name : file.names_below("site_pull")) {
@@ -233,20 +248,6 @@ void read_site_pulls(DefinitionFile& file, BridgeDefinition& out) {
 }
 
 }  // namespace
-
-std::vector<std::string> stay_names(const BridgeDefinition& definition) {
-  std::vector<std::string> out;
-  for (const DeckDefinition& deck : definition.decks) {
-    for (const std::string& prefix : {deck.stay.prefix_north, deck.stay.prefix_south}) {
-      for (int i = 1; i <= deck.stay.count; ++i) {
-        out.push_back(prefix + std::to_string(i));
-      }
-    }
-  }
-  out.push_back("BN");
-  out.push_back("BS");
-  return out;
-}
 
 void offer_optional_keys(DefinitionFile& file) {
   for (const std::string deck : {"foot", "cycle"}) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -126,8 +125,5 @@ void offer_optional_keys(DefinitionFile& file);
 /// Reads the definition as it stands after the overrides applied to `file`.
 /// @throws InputError naming file, line and key for a missing or unknown key, a value out of range, an unknown name
 [[nodiscard]] BridgeDefinition read_definition(DefinitionFile file);
-
-/// Names of all stays: NE1 ... , SE1 ..., NW..., SW..., BN, BS.
-[[nodiscard]] std::vector<std::string> stay_names(const BridgeDefinition& definition);
 
 }  // namespace twindeck::ponte

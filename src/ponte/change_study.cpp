@@ -1,9 +1,7 @@
 #include "ponte/change_study.hpp"
 
-#include <cmath>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"

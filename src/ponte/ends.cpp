@@ -1,7 +1,6 @@
 #include "ponte/ends.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "ponte/deck_axis.hpp"
 

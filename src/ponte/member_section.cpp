@@ -29,16 +29,8 @@ void check_wall(DefinitionFile& file, const std::string& path, double width_m, d
   }
 }
 
-}  // namespace
-
-fe::Section tube_section(const std::string& name, double diameter_m, double wall_m) {
-  return round_section(name, diameter_m, diameter_m - 2 * wall_m, 0.5);
-}
-
-fe::Section solid_circle_section(const std::string& name, double diameter_m) {
-  return round_section(name, diameter_m, 0.0, 0.9);
-}
-
+/// Square hollow section of sharp corners: A = b² - (b-2t)², I = (b⁴ - (b-2t)⁴)/12, J = t (b-t)³ (Bredt), shear areas A/2 (two
+/// of four walls).
 fe::Section square_hollow_section(const std::string& name, double side_m, double wall_m) {
   const double inner = side_m - 2 * wall_m;
   fe::Section out;
@@ -48,6 +40,16 @@ fe::Section square_hollow_section(const std::string& name, double side_m, double
   out.torsion_m4 = wall_m * std::pow(side_m - wall_m, 3);
   out.shear_area_y_m2 = out.shear_area_z_m2 = 0.5 * out.area_m2;
   return out;
+}
+
+}  // namespace
+
+fe::Section tube_section(const std::string& name, double diameter_m, double wall_m) {
+  return round_section(name, diameter_m, diameter_m - 2 * wall_m, 0.5);
+}
+
+fe::Section solid_circle_section(const std::string& name, double diameter_m) {
+  return round_section(name, diameter_m, 0.0, 0.9);
 }
 
 fe::Section rectangle_section(const std::string& name, double depth_m, double width_m) {

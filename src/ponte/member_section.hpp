@@ -10,9 +10,6 @@ class DefinitionFile;
 
 /// Circular tube: A = pi/4 (D² - d²), I = pi/64 (D⁴ - d⁴), J = 2 I, shear areas A/2 (thin tube, Cowper 1966).
 [[nodiscard]] fe::Section tube_section(const std::string& name, double diameter_m, double wall_m);
-/// Square hollow section of sharp corners: A = b² - (b-2t)², I = (b⁴ - (b-2t)⁴)/12, J = t (b-t)³ (Bredt), shear areas A/2 (two
-/// of four walls).
-[[nodiscard]] fe::Section square_hollow_section(const std::string& name, double side_m, double wall_m);
 /// Solid circle; shear areas 0.9 A.
 [[nodiscard]] fe::Section solid_circle_section(const std::string& name, double diameter_m);
 /// Solid rectangle; `depth` along local z, `width` along local y; torsion b t³ (1/3 - 0.21 t/b (1 - t⁴/(12 b⁴))) for b >= t

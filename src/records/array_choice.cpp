@@ -1,5 +1,7 @@
 #include "records/array_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -95,6 +97,23 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::stri
   return choice;
 }
 
+void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& choice, RecordInfo& info) {
+  const NamedArray& first = arrays[choice.data.front()];
+  const bool matrix = choice.data.size() == 1;
+  const Index channels = matrix ? first.shorter() : std::ssize(choice.data);
+  info.names_channels = info.has_header = !matrix;
+  for (const std::size_t at : choice.left_out)
+    info.notes.push_back(fmt::format("'{}' has as many samples, left out", arrays[at].name));
+  for (Index c = 0; c < channels; ++c) {
+    ChannelInfo channel;
+    channel.samples = first.longer();
+    channel.position = c + 1;
+    channel.name =
+        channels > 1 && matrix ? "column " + std::to_string(c + 1) : arrays[choice.data[static_cast<std::size_t>(c)]].name;
+    info.channels.push_back(channel);
+  }
+}
+
 double rate_of(const std::string& name, double value) {
   if (!(value > 0.0) || !std::isfinite(value)) return 0.0;
   const std::string text = bare(name);
@@ -112,6 +131,23 @@ double rate_of_times(const Eigen::VectorXd& times) {
   }
   const double rate = 1.0 / step, round = std::round(rate * 1000.0) / 1000.0;
   return std::abs(round / rate - 1.0) < 1e-6 ? round : rate;
+}
+
+void take_times(const std::string& name, const Eigen::VectorXd& times, RecordInfo& info) {
+  info.rate_Hz = rate_of_times(times);
+  info.rate_source = "'" + name + "'";
+  if (info.rate_Hz == 0.0) info.notes.push_back(info.rate_source + " does not run evenly");
+}
+
+void take_scalar(const std::string& name, double value, RecordInfo& info) {
+  const double rate = rate_of(name, value);
+  if (rate <= 0.0) return;
+  if (info.rate_Hz == 0.0) {
+    info.rate_Hz = rate;
+    info.rate_source = "'" + name + "'";
+  } else if (std::abs(rate / info.rate_Hz - 1.0) > 0.01) {
+    info.notes.push_back(fmt::format("'{}' says {} Hz, {} {} Hz", name, rate, info.rate_source, info.rate_Hz));
+  }
 }
 
 }  // namespace twindeck::records

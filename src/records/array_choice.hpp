@@ -30,9 +30,16 @@ struct ArrayChoice {
 /// @throws InputError  if no array has sixteen values or more
 [[nodiscard]] ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::string& file);
 
+/// The channels of the chosen arrays, and notes on further matrices.
+void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& choice, RecordInfo& info);
+
 /// Rate that a scalar of this name and value says; 0 for none: fs, rate, sampling frequency …, dt, ts …
 [[nodiscard]] double rate_of(const std::string& name, double value);
 /// Rate of a vector of times; 0 if it does not run evenly.
 [[nodiscard]] double rate_of_times(const Eigen::VectorXd& times);
+/// Enters the rate of a vector of times, or notes that it does not run evenly.
+void take_times(const std::string& name, const Eigen::VectorXd& times, RecordInfo& info);
+/// Enters the rate that a scalar says, or notes that it contradicts the one that is known.
+void take_scalar(const std::string& name, double value, RecordInfo& info);
 
 }  // namespace twindeck::records

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "core/error.hpp"
 #include "io/toml_value.hpp"
 
 namespace twindeck::records {

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "records/recorded_unit.hpp"
 
-#include <algorithm>
 #include <array>
 #include <map>
 
@@ -139,11 +138,6 @@ std::vector<std::string> units_of(const std::string& quantity) {
 double si_factor(const std::string& unit) {
   const auto known = recorded_unit(unit);
   return known ? known->si_factor : 0.0;
-}
-
-std::string quantity_of(const std::string& unit) {
-  const auto known = recorded_unit(unit);
-  return known ? known->quantity : "";
 }
 
 }  // namespace twindeck::records

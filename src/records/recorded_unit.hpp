@@ -21,7 +21,5 @@ struct RecordedUnit {
 
 /// Factor from a unit of acceleration, velocity, displacement or force to SI; 0 if the unit is unknown.
 [[nodiscard]] double si_factor(const std::string& unit);
-/// Quantity of a unit: "acceleration", "velocity", "displacement", "force", or "" if the unit has none or is unknown.
-[[nodiscard]] std::string quantity_of(const std::string& unit);
 
 }  // namespace twindeck::records

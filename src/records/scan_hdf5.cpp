@@ -4,13 +4,11 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <functional>
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
-#include "records/record.hpp"
 #include "records/survives.hpp"
 #include "records/text_cells.hpp"
 
@@ -199,26 +197,15 @@ std::vector<std::string> texts_of(hid_t file, const std::string& name) {
   return texts;
 }
 
-void read_rate(const std::function<Eigen::MatrixXd(std::size_t)>& whole, const ArrayChoice& choice, Found& found,
+void read_rate(const std::function<Eigen::MatrixXd(std::size_t)>& whole, const ArrayChoice& choice, const Found& found,
                RecordInfo& info) {
   if (choice.time >= 0) {
     const auto at = static_cast<std::size_t>(choice.time);
-    info.rate_Hz = rate_of_times(whole(at).reshaped());
-    info.rate_source = "'" + found.arrays[at].name + "'";
-    if (info.rate_Hz == 0.0) info.notes.push_back(info.rate_source + " does not run evenly");
+    take_times(found.arrays[at].name, whole(at).reshaped(), info);
   }
+  for (const auto& [name, value] : found.attributes) take_scalar(name, value, info);
   for (const std::size_t at : choice.scalars) {
-    if (found.problems[at].empty()) found.attributes.emplace_back(found.arrays[at].name, whole(at)(0, 0));
-  }
-  for (const auto& [name, value] : found.attributes) {
-    const double rate = rate_of(name, value);
-    if (rate <= 0.0) continue;
-    if (info.rate_Hz == 0.0) {
-      info.rate_Hz = rate;
-      info.rate_source = "'" + name + "'";
-    } else if (std::abs(rate / info.rate_Hz - 1.0) > 0.01) {
-      info.notes.push_back(fmt::format("'{}' says {} Hz, {} {} Hz", name, rate, info.rate_source, info.rate_Hz));
-    }
+    if (found.problems[at].empty()) take_scalar(found.arrays[at].name, whole(at)(0, 0), info);
   }
 }
 
@@ -239,18 +226,9 @@ RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
   const auto [rows, columns] = found.matlab ? std::pair(first.columns, first.rows) : std::pair(first.rows, first.columns);
   info.format = matrix ? fmt::format("{}, {} '{}' {} x {}", kind, item, called(first.name, found.matlab), rows, columns)
                        : fmt::format("{}, {} {}", kind, channels, found.matlab ? "vectors" : "datasets");
-  info.names_channels = info.has_header = !matrix;
-  for (const std::size_t at : choice.left_out)
-    info.notes.push_back(fmt::format("'{}' has as many samples, left out", found.arrays[at].name));
+  list_channels(found.arrays, choice, info);
   if (matrix && columns > rows) info.notes.emplace_back("channels run along the rows");
-  for (Index c = 0; c < channels; ++c) {
-    ChannelInfo channel;
-    channel.samples = first.longer();
-    channel.position = c + 1;
-    channel.name = channels > 1 && matrix ? "column " + std::to_string(c + 1)
-                                          : called(found.arrays[choice.data[static_cast<std::size_t>(c)]].name, found.matlab);
-    info.channels.push_back(channel);
-  }
+  for (ChannelInfo& channel : info.channels) channel.name = called(channel.name, found.matlab);
   return info;
 }
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
 #include "records/mat_file.hpp"
-#include "records/record.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -43,21 +41,9 @@ void visit_matrix(const MatFile& mat, const MatArray& array, bool transposed, co
 void read_rate(const MatFile& mat, const ArrayChoice& choice, RecordInfo& info) {
   if (choice.time >= 0) {
     const MatArray& times = mat.arrays[static_cast<std::size_t>(choice.time)];
-    info.rate_Hz = rate_of_times(values_of(mat, times));
-    info.rate_source = "'" + times.shape.name + "'";
-    if (info.rate_Hz == 0.0) info.notes.push_back(info.rate_source + " does not run evenly");
+    take_times(times.shape.name, values_of(mat, times), info);
   }
-  for (const std::size_t at : choice.scalars) {
-    const std::string& name = mat.arrays[at].shape.name;
-    const double rate = rate_of(name, values_of(mat, mat.arrays[at])[0]);
-    if (rate <= 0.0) continue;
-    if (info.rate_Hz > 0.0 && std::abs(rate / info.rate_Hz - 1.0) > 0.01) {
-      info.notes.push_back(fmt::format("'{}' says {} Hz, the times {} Hz", name, rate, info.rate_Hz));
-    } else if (info.rate_Hz == 0.0) {
-      info.rate_Hz = rate;
-      info.rate_source = "'" + name + "'";
-    }
-  }
+  for (const std::size_t at : choice.scalars) take_scalar(mat.arrays[at].shape.name, values_of(mat, mat.arrays[at])[0], info);
 }
 
 }  // namespace
@@ -75,18 +61,9 @@ RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
   info.format =
       fmt::format("MAT {}, ", mat.version) +
       (matrix ? fmt::format("array '{}' {} x {}", first.name, first.rows, first.columns) : fmt::format("{} vectors", channels));
-  info.names_channels = info.has_header = !matrix;
-  for (const std::size_t at : choice.left_out)
-    info.notes.push_back(fmt::format("'{}' has as many samples, left out", shapes[at].name));
+  list_channels(shapes, choice, info);
   if (choice.transposed) info.notes.push_back("channels run along the rows");
-  for (Index c = 0; c < channels; ++c) {
-    ChannelInfo channel;
-    channel.samples = first.longer();
-    channel.position = c + 1;
-    channel.name =
-        channels > 1 && matrix ? "column " + std::to_string(c + 1) : shapes[choice.data[static_cast<std::size_t>(c)]].name;
-    info.channels.push_back(channel);
-  }
+
   if (matrix) {
     visit_matrix(mat, mat.arrays[choice.data.front()], choice.transposed, visit);
   } else {

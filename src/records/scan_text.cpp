@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "records/record.hpp"
 #include "records/text_cells.hpp"
 #include "records/text_layout.hpp"
 #include "records/time_stamp.hpp"

@@ -1,7 +1,6 @@
 #include "records/time_stamp.hpp"
 
 #include <cmath>
-#include <string>
 
 namespace twindeck::records {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
-#include "records/universal.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;

@@ -44,7 +44,6 @@ class StepContext : public Reporter {
   /// seconds).
   void progress(const std::string& what, double done, double total) const override;
 
-  std::vector<std::filesystem::path> inputs_;
   std::map<std::string, std::string> input_hashes_;  ///< path as given -> SHA-256 when it was registered
   std::vector<std::string> warnings_;
   std::vector<std::string> corrections_;  ///< of --correct, in words

@@ -3,13 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/parallel.hpp"
+#include "dynamics/free_structure.hpp"
+#include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/krylov_basis.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
-#include "sensitivity/modal_forces.hpp"
 
 namespace twindeck::sensitivity {
 
@@ -23,6 +22,46 @@ using linalg::subtract_product;
 
 constexpr double kAdjointTolerance = 1e-7;  ///< of an adjoint vector's residual, in the M norm
 constexpr int kMostBlocks = 100;            ///< far above what sensors of a structure need (six to twelve)
+
+/// Effect of a parameter on the modes: right-hand sides of Nelson's equations, and their solution in the span of the modes.
+struct ModalForces {
+  MatrixXd force;  ///< (n × n_modes)  -(dK - lambda_i dM) phi_i; the term of dlambda_i lies along M phi_i
+  MatrixXd along;  ///< (n_modes × n_modes) part of dphi_i along phi_j: phi_j' force_i / (lambda_j - lambda_i); inside a
+                   ///< cluster and for j = i what the normalisation fixes, -1/2 phi_j' dM phi_i
+};
+
+/// @param cluster_gap  relative difference of eigenvalues that are taken as equal
+ModalForces modal_forces(const fe::ParametricSystem& system, const VectorXd& theta, const dynamics::EigenModes& modes,
+                         int parameter, double cluster_gap) {
+  const MatrixXd& phi = modes.shapes;
+  const VectorXd& lambda = modes.eigenvalue;
+  const MatrixXd d_mass_phi = system.mass_derivative_times(theta, parameter, phi);
+  ModalForces out;
+  out.force = -system.stiffness_derivative_times(theta, parameter, phi);
+  out.force.noalias() += d_mass_phi * lambda.asDiagonal();
+  const MatrixXd modal_force = product(phi, out.force, true), modal_mass = product(phi, d_mass_phi, true);
+  out.along.resize(phi.cols(), phi.cols());
+  for (Index i = 0; i < phi.cols(); ++i) {
+    for (Index j = 0; j < phi.cols(); ++j) {
+      const double gap = lambda[j] - lambda[i];
+      const bool together = i == j || std::abs(gap) <= cluster_gap * std::max(std::abs(lambda[i]), std::abs(lambda[j]));
+      out.along(j, i) = together ? -0.5 * modal_mass(j, i) : modal_force(j, i) / gap;
+    }
+  }
+  return out;
+}
+
+/// Factorises K(theta) - shift M, the shift 0 or, for a structure that is free as a rigid body, a small negative number.
+/// @param stiffness  in: K; out: K - shift M @return the shift [rad²/s²]
+double factorize_shifted(linalg::SparseMatrix& stiffness, const linalg::SparseMatrix& mass, linalg::Cholesky& factor) {
+  if (factor.factorize(stiffness).converged) return 0.0;
+  const double shift = dynamics::free_structure_shift(stiffness, mass);
+  stiffness = stiffness - shift * mass;
+  stiffness.makeCompressed();
+  const Status status = factor.factorize(stiffness);
+  TWINDECK_ASSERT(status.converged);  // the modes were solved for with this very matrix
+  return shift;
+}
 
 /// Adjoint vectors of all modes in one basis: y_i = Y0 + V Z_i.
 struct Adjoint {

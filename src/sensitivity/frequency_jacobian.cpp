@@ -1,12 +1,10 @@
 #include "sensitivity/frequency_jacobian.hpp"
 
 #include <Eigen/Dense>
-#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
 
 namespace twindeck::sensitivity {
 

@@ -9,7 +9,7 @@
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "matching/mode_following.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
 
 namespace twindeck::sensitivity {
 namespace {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
-#include <algorithm>
-#include <limits>
 
 namespace twindeck::sensitivity {
 namespace {

@@ -1,7 +1,6 @@
 #include "sensors/score.hpp"
 
 #include <Eigen/QR>
-#include <cmath>
 #include <limits>
 
 #include "core/error.hpp"

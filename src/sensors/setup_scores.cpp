@@ -1,8 +1,6 @@
 #include "sensors/setup_scores.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 

@@ -3,7 +3,6 @@
 #include <fftw3.h>
 
 #include <algorithm>
-#include <complex>
 #include <mutex>
 
 #include "core/error.hpp"

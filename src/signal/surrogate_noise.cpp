@@ -1,6 +1,5 @@
 #include "signal/surrogate_noise.hpp"
 
-#include <cmath>
 #include <complex>
 #include <numbers>
 

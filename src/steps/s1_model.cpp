@@ -5,7 +5,10 @@
 #include "dynamics/model_check.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "model_io/any_model_folder.hpp"
-#include "model_io/export.hpp"
+#include "model_io/export_matrices.hpp"
+#include "model_io/model_tables.hpp"
+#include "model_io/modes_io.hpp"
+#include "model_io/vtu.hpp"
 #include "ponte/generator.hpp"
 #include "runner/run_step.hpp"
 #include "runner/study.hpp"
@@ -30,8 +33,7 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
   dynamics::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
   dynamics::warn_of_unit_slips(context, loaded, modes.frequency_Hz, {});
 
-  // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, and the model as a folder of data for any
-  // other step.
+  // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, the model as a folder for any other step.
   model_io::write_modes(model_io::published_modes(model, loaded.system, modes), context.out);
   if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
   model_io::write_model_tables(loaded, is_bridge ? model_io::PartOf(ponte::part_of) : model_io::PartOf(), context.out);

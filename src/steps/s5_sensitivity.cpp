@@ -1,5 +1,4 @@
 /// Step 5 (paper section 4.2, Eq. 6): sensitivity of the modes to the parameters, and which of these the measurement can tell.
-#include <fmt/format.h>
 
 #include "dynamics/unit_slips.hpp"
 #include "runner/run_step.hpp"

@@ -1,7 +1,7 @@
 /// Step 6 (paper section 4.2, Tables 8 to 10): parameters updated within their bounds to the measured frequencies.
 #include "dynamics/unit_slips.hpp"
 #include "model_io/any_model_folder.hpp"
-#include "model_io/export.hpp"
+#include "model_io/modes_io.hpp"
 #include "steps/measured/comparison_tables.hpp"
 #include "steps/measured/measured_input.hpp"
 #include "steps/updating/inputs.hpp"

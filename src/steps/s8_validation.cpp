@@ -1,9 +1,53 @@
 /// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21): turbulent wind, accelerations with dampers, hybrid deployment.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "buffeting/bridge_in_wind.hpp"
+#include "buffeting/simulated_runs.hpp"
+#include "buffeting/time_checks.hpp"
 #include "runner/run_step.hpp"
-#include "steps/validation/validation.hpp"
+#include "steps/validation/inputs.hpp"
+#include "steps/validation/outputs.hpp"
+#include "steps/validation/statements.hpp"
+
+using namespace twindeck;
+
+namespace {
+
+Status run(const steps::ValidationConfig& config, const steps::ValidationInputs& read, runner::StepContext& context) {
+  // 1. The bridge, reduced, and the turbulence.
+  const wind::TurbulenceSet& set = read.turbulence;
+  const buffeting::BridgeInWind bridge =
+      buffeting::prepare_bridge_in_wind(config, read.aerodynamics, read.model, read.sections);
+  if (!bridge.loaded.state.status.converged) return bridge.loaded.state.status;
+  if (!bridge.model.modes.status.converged) return bridge.model.modes.status;
+  context.say(fmt::format("{} coordinates for {} degrees of freedom, {} aerodynamic nodes, {} dampers",
+                          bridge.reduced.structure.size(), bridge.loaded.system.size(), bridge.model.strips.size(),
+                          bridge.reduced.dampers));
+
+  // 2. Events one after the other, seeds in parallel.
+  std::vector<buffeting::RunResult> results;
+  std::vector<buffeting::FieldCheck> checks;
+  for (const buffeting::WindEvent& event : config.events) {
+    buffeting::SimulatedEvent simulated = buffeting::simulate_event(bridge, set, config, event, context.seed, context);
+    for (buffeting::RunResult& result : simulated.runs) results.push_back(std::move(result));
+    checks.insert(checks.end(), simulated.checks.begin(), simulated.checks.end());
+  }
+
+  // 3. Tables.
+  steps::write_rms(results, bridge, read.measured, config, context.out);
+  steps::write_statements(results, bridge, read.measured, context.out);
+  steps::write_comfort(results, bridge, config, context.out);
+  steps::write_wind_check(checks, context.out);
+  steps::write_hybrid(bridge, context.out);
+  steps::write_time_checks(buffeting::check_time_integration(bridge, set, config, context.seed), context.out);
+  return {};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  using namespace twindeck;
   steps::ValidationConfig config;
   runner::Step step;
   step.token = "s8_validation";
@@ -14,6 +58,8 @@ int main(int argc, char** argv) {
                    "--set turbulence_set='\"EN 0\"'"};
   step.fields = config.fields();
   step.configured_inputs = {"model", "campaign"};
-  step.read = [&config](runner::StepContext& context) { return steps::read_validation(context, config); };
+  step.read = [&config](runner::StepContext& context) -> runner::Computation {
+    return [&config, &context, read = steps::read_validation_inputs(config, context)] { return run(config, read, context); };
+  };
   return runner::run_step(argc, argv, std::move(step));
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -30,8 +29,10 @@ Eigen::MatrixXd white(Index samples, Index channels, double deviation, std::uint
   return noise;
 }
 
-}  // namespace
-
+/// Block Hankel matrix of free responses  H = [ Y_0 … Y_{q-1} ; Y_1 … Y_q ; … ],  Y_k the outputs (n_outputs × n_decays) at
+/// sample k.
+/// @param decays  free responses (n_samples × n_outputs) that start at the release, all of one length
+/// @param block_rows  p; the columns use the remaining samples, at most `block_columns`
 Eigen::MatrixXd block_hankel(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, Index block_columns) {
   TWINDECK_ASSERT(!decays.empty());
   const Index l = decays.front().cols(), n = static_cast<Index>(decays.size()),
@@ -46,6 +47,8 @@ Eigen::MatrixXd block_hankel(const std::vector<Eigen::MatrixXd>& decays, Index b
   }
   return hankel;
 }
+
+}  // namespace
 
 FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, const std::vector<int>& orders, double rate_Hz,
               std::uint64_t seed, int n_draws, const std::vector<Eigen::MatrixXd>& quiet) {

@@ -9,13 +9,6 @@
 
 namespace twindeck::sysid {
 
-/// Block Hankel matrix of free responses  H = [ Y_0 … Y_{q-1} ; Y_1 … Y_q ; … ],  Y_k the outputs (n_outputs × n_decays) at
-/// sample k.
-/// @param decays  free responses (n_samples × n_outputs) that start at the release, all of one length
-/// @param block_rows  p; the columns use the remaining samples, at most `block_columns`
-[[nodiscard]] Eigen::MatrixXd block_hankel(const std::vector<Eigen::MatrixXd>& decays, Eigen::Index block_rows,
-                                           Eigen::Index block_columns);
-
 struct FreeDecay {
   Observability observability;
   ShiftModels models;

@@ -223,6 +223,24 @@ void add_deviations(Identification& result, const Observability& observability, 
   add_order_scatter(result);
 }
 
+/// Drops the modes that are lines: no further from one than its poles scatter, or two standard deviations, and with a damping
+/// ratio that does not differ from what taking a line out leaves by more than two standard deviations.
+void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule) {
+  constexpr double kFew = 2.0;  // standard deviations that chance explains
+  std::vector<bool> stays(result.modes.size(), true);
+  for (std::size_t m = 0; m < stays.size(); ++m) {
+    const Cluster& mode = result.modes[m];
+    const bool known = m < result.deviations.size();
+    const double damping = known ? kFew * result.deviations[m].damping_ratio : 0.0;
+    const double spread = rule.largest_spread * mode.frequency_Hz;
+    const double reach = std::max(spread, known ? kFew * result.deviations[m].frequency_Hz : 0.0);
+    if (mode.damping_ratio >= rule.largest_leftover + std::max(damping, rule.largest_damping)) continue;
+    stays[m] = std::none_of(lines.begin(), lines.end(),
+                            [&](const PeriodicLine& line) { return std::abs(line.frequency_Hz - mode.frequency_Hz) < reach; });
+  }
+  keep_modes(result, stays);
+}
+
 }  // namespace
 
 void mark_periodic(Identification& result, const std::vector<Samples>& records, double rate_Hz, const PeriodicRule& rule,
@@ -238,22 +256,6 @@ void mark_periodic(Identification& result, const std::vector<Samples>& records, 
   std::sort(result.periodic.begin(), result.periodic.end(),
             [](const PeriodicLine& p, const PeriodicLine& q) { return p.frequency_Hz < q.frequency_Hz; });
   drop_lines(result, result.periodic, rule);
-}
-
-void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule) {
-  constexpr double kFew = 2.0;  // standard deviations that chance explains
-  std::vector<bool> stays(result.modes.size(), true);
-  for (std::size_t m = 0; m < stays.size(); ++m) {
-    const Cluster& mode = result.modes[m];
-    const bool known = m < result.deviations.size();
-    const double damping = known ? kFew * result.deviations[m].damping_ratio : 0.0;
-    const double spread = rule.largest_spread * mode.frequency_Hz;
-    const double reach = std::max(spread, known ? kFew * result.deviations[m].frequency_Hz : 0.0);
-    if (mode.damping_ratio >= rule.largest_leftover + std::max(damping, rule.largest_damping)) continue;
-    stays[m] = std::none_of(lines.begin(), lines.end(),
-                            [&](const PeriodicLine& line) { return std::abs(line.frequency_Hz - mode.frequency_Hz) < reach; });
-  }
-  keep_modes(result, stays);
 }
 
 void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule) {

@@ -79,15 +79,11 @@ struct Identification {
                                              const std::vector<Eigen::MatrixXd>& quiet = {});
 
 /// Tells lines of periodic forces from modes: `periodic` keeps the candidates that the records show to be lines. Modes at such
-/// a frequency are dropped, see drop_lines.
+/// a frequency that are damped no more than taking the line out leaves are dropped.
 /// @param records  those identified (n_samples × n_outputs), channels scaled alike
 /// @param known  lines that are no longer in these records; they stay in `periodic`
 void mark_periodic(Identification& result, const std::vector<Samples>& records, double rate_Hz, const PeriodicRule& rule,
                    const std::vector<PeriodicLine>& known = {});
-
-/// Drops the modes that are lines: no further from one than its poles scatter, or two standard deviations, and with a damping
-/// ratio that does not differ from what taking a line out leaves by more than two standard deviations.
-void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule);
 
 /// In each setup, drops the modes that are lines of another one: a machine that one setup shows runs in the next one too.
 void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule);

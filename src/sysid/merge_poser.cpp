@@ -11,7 +11,6 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "sysid/merging.hpp"
 
 namespace twindeck::sysid {
 

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
 #include "sysid/leading_svd.hpp"
-#include "sysid/merging.hpp"
 #include "sysid/ssi_cov.hpp"
 
 namespace twindeck::sysid {

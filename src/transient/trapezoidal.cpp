@@ -1,7 +1,6 @@
 #include "transient/trapezoidal.hpp"
 
 #include <Eigen/Dense>
-#include <cmath>
 
 #include "core/error.hpp"
 

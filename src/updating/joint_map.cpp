@@ -1,7 +1,6 @@
 #include "updating/joint_map.hpp"
 
 #include <Eigen/Dense>
-#include <cmath>
 
 #include "linalg/dense.hpp"
 

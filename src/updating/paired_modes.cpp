@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/error.hpp"
 
 namespace twindeck::updating {
@@ -47,8 +44,7 @@ std::vector<FrequencyTarget> frequency_targets(const matching::Measured& measure
   for (const matching::ModePair& pair : pairing.pairs) {
     targets.push_back(
         {measured.labels[static_cast<std::size_t>(pair.experimental)] + "-" + matching::numerical_label(pair.numerical),
-         static_cast<int>(pair.numerical), measured.modes.frequency_Hz(pair.experimental),
-         measured.modes.frequency_std_Hz(pair.experimental)});
+         static_cast<int>(pair.numerical), measured.modes.frequency_Hz(pair.experimental)});
   }
   return targets;
 }

@@ -7,7 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/symmetric_product.hpp"
+#include "linalg/types.hpp"
 
 namespace twindeck::updating {
 

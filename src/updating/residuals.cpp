@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/channel_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
 
 namespace twindeck::updating {
 

@@ -1,13 +1,11 @@
 #include "updating/structure_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
-#include "linalg/symmetric_product.hpp"
+#include "linalg/types.hpp"
 #include "updating/bounded_quadratic.hpp"
 #include "updating/optimality.hpp"
 

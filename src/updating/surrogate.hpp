@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
 
 #include "updating/reduced_system.hpp"
 #include "updating/residuals.hpp"

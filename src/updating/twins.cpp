@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
 #include "updating/posterior.hpp"
 
 namespace twindeck::updating {

@@ -11,7 +11,6 @@
 #include "core/parallel.hpp"
 #include "updating/leave_one_out.hpp"
 #include "updating/multi_start.hpp"
-#include "updating/optimality.hpp"
 #include "updating/residuals.hpp"
 #include "updating/search.hpp"
 
@@ -188,7 +187,6 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   definition.follower = std::make_shared<const matching::ModeFollower>(solver.mass(), reference);
   result.frequency_before_Hz.resize(static_cast<Eigen::Index>(targets.size()));
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    result.mode_before.push_back(targets[i].reference_mode);
     result.frequency_before_Hz(static_cast<Eigen::Index>(i)) = reference.frequency_Hz(targets[i].reference_mode);
   }
 

@@ -18,7 +18,6 @@ struct FrequencyTarget {
   std::string label;       ///< "7X-8N"
   int reference_mode = 0;  ///< 0-based position in the modes of the start model
   double measured_Hz = 0.0;
-  double std_Hz = 0.0;
   bool fitted = true;  ///< false: tracked and reported, but not fitted
 };
 
@@ -96,7 +95,7 @@ struct UpdatingResult {
   std::vector<int> optima;                                  ///< starts that represent distinct optima, best first
   std::vector<int> on_bound;                                ///< (n_active) -1 lower, +1 upper, 0 inside
   Eigen::VectorXd frequency_before_Hz, frequency_after_Hz;  ///< (n_targets) of the followed modes
-  std::vector<int> mode_before, mode_after;                 ///< (n_targets) positions
+  std::vector<int> mode_after;                              ///< (n_targets) positions
   Eigen::VectorXd followed_mac;                             ///< (n_targets) MAC of the followed mode with the start model's
   std::vector<IterationRecord> history;
   SmoothCheck smooth;

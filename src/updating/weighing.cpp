@@ -1,10 +1,7 @@
 #include "updating/weighing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/error.hpp"
 #include "matching/shapes_at_sensors.hpp"

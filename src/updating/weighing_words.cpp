@@ -44,6 +44,80 @@ void say_parameters(Reporter& reporter, const Weighed& weighed, const Posterior&
                                  name_of(weighed, k), posterior.correlation(j, k)));
 }
 
+/// Parameters that the rows cannot tell apart, at the initial values or at the optimum, named in sentences.
+std::vector<std::string> twin_sentences(const Weighed& weighed) {
+  std::vector<std::string> sentences;
+  const auto at_optimum = sets_at(weighed, weighed.result.at_optimum.jacobian);
+  const auto at_start = sets_at(weighed, weighed.result.at_start.jacobian);
+  const auto add = [&](const std::vector<std::string>& names, const char* where) {
+    sentences.push_back(
+        fmt::format("what is weighed cannot tell {} apart {}: what one does another does as well, so that "
+                    "blame may fall on the wrong one. Update one of them, or measure where they differ",
+                    fmt::join(names, ", "), where));
+  };
+  for (const auto& names : at_optimum) add(names, "at the optimum");
+  for (const auto& names : at_start)
+    if (std::find(at_optimum.begin(), at_optimum.end(), names) == at_optimum.end()) add(names, "at the initial values");
+  return sentences;
+}
+
+/// Directions that the rows hardly limit. @param several  those of several parameters, else those of one
+std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior& posterior, bool several) {
+  std::vector<std::string> sentences;
+  for (const FlatDirection& flat : posterior.flat) {
+    std::vector<std::string> parts;
+    for (Index j = 0; j < flat.step.size(); ++j)
+      if (std::abs(flat.step[j]) >= named_component * posterior.prior_std[j])
+        parts.push_back(fmt::format("{} by {:+.3g}", name_of(weighed, j), flat.step[j]));
+    if ((parts.size() > 1) != several) continue;
+    sentences.push_back(fmt::format(
+        "flat direction: moving {}{} changes what is weighed by {:.2g} standard deviations only; {}", fmt::join(parts, " and "),
+        several ? " together" : "", flat.change,
+        several ? "the measurement does not say how they share it" : "its bounds say more of it than the measurement"));
+  }
+  return sentences;
+}
+
+/// Other optima that the rows cannot rule out.
+std::vector<std::string> rival_sentences(const Weighed& weighed) {
+  const UpdatingResult& result = weighed.result;
+  std::vector<std::string> sentences;
+  const double least = 2.0 * result.starts.at(static_cast<std::size_t>(result.best)).cost;
+  for (const int k : result.optima) {
+    const StartResult& start = result.starts.at(static_cast<std::size_t>(k));
+    if (k == result.starts.at(static_cast<std::size_t>(result.best)).optimum || 2.0 * start.cost > least + as_good) continue;
+    std::vector<std::string> values;
+    for (Index j = 0; j < start.theta.size(); ++j)
+      values.push_back(fmt::format("{} {:.4g}", name_of(weighed, j), start.theta[j]));
+    sentences.push_back(fmt::format("another optimum is as good (chi² {:.4g} against {:.4g}): {}", 2.0 * start.cost, least,
+                                    fmt::join(values, ", ")));
+  }
+  return sentences;
+}
+
+/// Empty where the differences are as large as the covariance says; else how large, and which channel makes most of them.
+std::string misfit_sentence(const Weighed& weighed, const Posterior& posterior) {
+  if (posterior.chi_squared_score() < doubtful_score) return "";
+  std::map<std::string, double> by_channel;
+  double sum = 0.0;
+  for (const WeighedRow& row : weighed_row_list(weighed)) {
+    by_channel[row.channel] += row.difference_std() * row.difference_std();
+    sum += row.difference_std() * row.difference_std();
+  }
+  const auto worst =
+      std::max_element(by_channel.begin(), by_channel.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::string sentence = fmt::format(
+      "chi² is {:.4g} with {} degrees of freedom: model and measurement differ {:.2g} times as much as the covariance says, "
+      "and "
+      "standard deviations count that much more (std_with_misfit)",
+      posterior.chi_squared, posterior.degrees, posterior.misfit());
+  if (worst->second < most_of_misfit * sum) return sentence;
+  const std::string share = fmt::format(". {:.0f} % of the squared differences ", 100.0 * worst->second / sum);
+  if (worst->first.empty()) return sentence + share + "are the frequencies'";
+  return sentence + share + "are channel " + worst->first +
+         "'s: it may be reversed, exchanged or mis-scaled (s9_diagnosis finds out, --correct puts it right)";
+}
+
 }  // namespace
 
 std::vector<WeighedRow> weighed_row_list(const Weighed& weighed) {
@@ -67,76 +141,6 @@ std::vector<WeighedRow> weighed_row_list(const Weighed& weighed) {
     row.value = shape.value;
   }
   return list;
-}
-
-std::vector<std::string> twin_sentences(const Weighed& weighed) {
-  std::vector<std::string> sentences;
-  const auto at_optimum = sets_at(weighed, weighed.result.at_optimum.jacobian);
-  const auto at_start = sets_at(weighed, weighed.result.at_start.jacobian);
-  const auto add = [&](const std::vector<std::string>& names, const char* where) {
-    sentences.push_back(
-        fmt::format("what is weighed cannot tell {} apart {}: what one does another does as well, so that "
-                    "blame may fall on the wrong one. Update one of them, or measure where they differ",
-                    fmt::join(names, ", "), where));
-  };
-  for (const auto& names : at_optimum) add(names, "at the optimum");
-  for (const auto& names : at_start)
-    if (std::find(at_optimum.begin(), at_optimum.end(), names) == at_optimum.end()) add(names, "at the initial values");
-  return sentences;
-}
-
-std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior& posterior, bool several) {
-  std::vector<std::string> sentences;
-  for (const FlatDirection& flat : posterior.flat) {
-    std::vector<std::string> parts;
-    for (Index j = 0; j < flat.step.size(); ++j)
-      if (std::abs(flat.step[j]) >= named_component * posterior.prior_std[j])
-        parts.push_back(fmt::format("{} by {:+.3g}", name_of(weighed, j), flat.step[j]));
-    if ((parts.size() > 1) != several) continue;
-    sentences.push_back(fmt::format(
-        "flat direction: moving {}{} changes what is weighed by {:.2g} standard deviations only; {}", fmt::join(parts, " and "),
-        several ? " together" : "", flat.change,
-        several ? "the measurement does not say how they share it" : "its bounds say more of it than the measurement"));
-  }
-  return sentences;
-}
-
-std::vector<std::string> rival_sentences(const Weighed& weighed) {
-  const UpdatingResult& result = weighed.result;
-  std::vector<std::string> sentences;
-  const double least = 2.0 * result.starts.at(static_cast<std::size_t>(result.best)).cost;
-  for (const int k : result.optima) {
-    const StartResult& start = result.starts.at(static_cast<std::size_t>(k));
-    if (k == result.starts.at(static_cast<std::size_t>(result.best)).optimum || 2.0 * start.cost > least + as_good) continue;
-    std::vector<std::string> values;
-    for (Index j = 0; j < start.theta.size(); ++j)
-      values.push_back(fmt::format("{} {:.4g}", name_of(weighed, j), start.theta[j]));
-    sentences.push_back(fmt::format("another optimum is as good (chi² {:.4g} against {:.4g}): {}", 2.0 * start.cost, least,
-                                    fmt::join(values, ", ")));
-  }
-  return sentences;
-}
-
-std::string misfit_sentence(const Weighed& weighed, const Posterior& posterior) {
-  if (posterior.chi_squared_score() < doubtful_score) return "";
-  std::map<std::string, double> by_channel;
-  double sum = 0.0;
-  for (const WeighedRow& row : weighed_row_list(weighed)) {
-    by_channel[row.channel] += row.difference_std() * row.difference_std();
-    sum += row.difference_std() * row.difference_std();
-  }
-  const auto worst =
-      std::max_element(by_channel.begin(), by_channel.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  std::string sentence = fmt::format(
-      "chi² is {:.4g} with {} degrees of freedom: model and measurement differ {:.2g} times as much as the covariance says, "
-      "and "
-      "standard deviations count that much more (std_with_misfit)",
-      posterior.chi_squared, posterior.degrees, posterior.misfit());
-  if (worst->second < most_of_misfit * sum) return sentence;
-  const std::string share = fmt::format(". {:.0f} % of the squared differences ", 100.0 * worst->second / sum);
-  if (worst->first.empty()) return sentence + share + "are the frequencies'";
-  return sentence + share + "are channel " + worst->first +
-         "'s: it may be reversed, exchanged or mis-scaled (s9_diagnosis finds out, --correct puts it right)";
 }
 
 void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& posterior) {

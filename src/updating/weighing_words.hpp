@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,16 +20,8 @@ struct WeighedRow {
 };
 [[nodiscard]] std::vector<WeighedRow> weighed_row_list(const Weighed& weighed);
 
-/// Parameters that the rows cannot tell apart, at the initial values or at the optimum, named in sentences.
-[[nodiscard]] std::vector<std::string> twin_sentences(const Weighed& weighed);
-/// Directions that the rows hardly limit. @param several  those of several parameters, else those of one
-[[nodiscard]] std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior& posterior, bool several);
-/// Other optima that the rows cannot rule out.
-[[nodiscard]] std::vector<std::string> rival_sentences(const Weighed& weighed);
-/// Empty where the differences are as large as the covariance says; else how large, and which channel makes most of them.
-[[nodiscard]] std::string misfit_sentence(const Weighed& weighed, const Posterior& posterior);
-
-/// All of these, as lines and warnings.
+/// Agreement, deviations, parameters that the rows cannot tell apart, directions that they hardly limit and other optima that
+/// they cannot rule out, as lines and warnings.
 void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& posterior);
 
 }  // namespace twindeck::updating

@@ -1,7 +1,5 @@
 #include "virtual_bridge/simulated_records.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

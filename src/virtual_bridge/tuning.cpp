@@ -7,8 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sensitivity/eigen_sensitivity.hpp"
-#include "virtual_bridge/virtual_bridge.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
 
 namespace twindeck::virtual_bridge {
 using Eigen::Index;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "buffeting/loads.hpp"
 #include "wind/simulation.hpp"

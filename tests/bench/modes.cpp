@@ -20,10 +20,11 @@
 #include "linalg/dense.hpp"
 #include "linalg/generalized_eigen.hpp"
 #include "linalg/one_thread.hpp"
-#include "linalg/symmetric_product.hpp"
+#include "linalg/types.hpp"
 #include "model_io/matrix_market.hpp"
 #include "ponte/generator.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/channel_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
 
 namespace {
 
@@ -119,31 +120,8 @@ void print_channel_jacobian(const fe::ParametricSystem& system, const Eigen::Vec
   constexpr Eigen::Index n_channels = 16;
   Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(system.size(), n_channels);
   for (Eigen::Index c = 0; c < n_channels; ++c) channels((2 * c + 1) * system.size() / (2 * n_channels), c) = 1.0;
-  std::vector<Eigen::MatrixXd> measured;
   std::printf("channel_jacobian_s %.6f\n",
-              seconds([&] { measured = sensitivity::channel_shape_derivatives(system, theta, modes, channels); }));
-  double apart = 0.0;
-  const sensitivity::ShapeSensitivity whole(system, theta, modes);
-  for (int p = 0; p < std::ssize(measured); ++p) {
-    const Eigen::MatrixXd& found = measured[static_cast<std::size_t>(p)];
-    const Eigen::MatrixXd expected = channels.transpose() * whole.derivative(p);
-    for (Eigen::Index i = 0; i < kModes; ++i)
-      apart = std::max(apart, (found.col(i) - expected.col(i)).norm() / std::max(1e-300, expected.col(i).norm()));
-  }
-  std::printf("channel_jacobian_deviation %.3e\n", apart);
-}
-
-void print_shape_jacobian(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, const dynamics::EigenModes& modes) {
-  const auto shape_jacobian = [&] {
-    const auto all = sensitivity::ShapeSensitivity(system, theta, modes).derivatives();
-    if (std::ssize(all) != theta.size()) std::printf("shape_jacobian_is_missing 1\n");
-  };
-  std::printf("shape_jacobian_s %.6f\n", seconds(shape_jacobian));
-  set_thread_count(2);
-  const auto begin = std::chrono::steady_clock::now();
-  shape_jacobian();
-  std::printf("shape_jacobian_two_threads_s %.6f\n",
-              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+              seconds([&] { (void)sensitivity::channel_shape_derivatives(system, theta, modes, channels); }));
 }
 
 int bridge(const std::string& file) {
@@ -161,7 +139,6 @@ int bridge(const std::string& file) {
   if (!print_solves(solver, theta, modes)) return 1;
   print_frequency_jacobian(system, solver, theta, modes);
   print_channel_jacobian(system, theta, modes);
-  print_shape_jacobian(system, theta, modes);
   return 0;
 }
 

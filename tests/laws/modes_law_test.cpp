@@ -7,7 +7,7 @@
 #include "inertia.hpp"
 #include "linalg/generalized_eigen.hpp"
 #include "random_system.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
 
 /// Properties that modes and their derivatives have whatever the structure; each holds over random systems, small (solved
 /// densely) and large (by Lanczos).

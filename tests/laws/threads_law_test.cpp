@@ -6,7 +6,8 @@
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "prototype_bridge.hpp"
-#include "sensitivity/eigen_sensitivity.hpp"
+#include "sensitivity/channel_sensitivity.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
 
 namespace {
 

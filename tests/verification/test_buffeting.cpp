@@ -7,11 +7,11 @@
 #include <numbers>
 #include <string>
 
-#include "aero/analytic_derivatives.hpp"
 #include "buffeting/interval.hpp"
 #include "buffeting/loads.hpp"
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"
+#include "known_derivatives.hpp"
 #include "verification_table.hpp"
 #include "wind/spectrum.hpp"
 

@@ -9,10 +9,10 @@
 #include <array>
 #include <memory>
 
-#include "aero/analytic_derivatives.hpp"
 #include "aero/derivative_table.hpp"
 #include "aero_io/aero_data.hpp"
 #include "io/csv.hpp"
+#include "known_derivatives.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
 

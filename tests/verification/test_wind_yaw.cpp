@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "aero/analytic_derivatives.hpp"
 #include "aero/derivative_table.hpp"
 #include "aero_io/aero_data.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "known_derivatives.hpp"
 #include "test_places.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"

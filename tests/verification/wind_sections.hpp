@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "aero/stability.hpp"
+#include "aero/critical_speed.hpp"
+#include "aero/follow_mode.hpp"
 #include "test_places.hpp"
 
 /// Systems in wind that the verification cases share.

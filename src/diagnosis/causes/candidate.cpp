@@ -11,11 +11,6 @@
 
 namespace twindeck::diagnosis {
 
-namespace {
-
-using Eigen::Index;
-
-/// A condition's value of a key as a number, if it is known.
 std::optional<double> number_of(const Condition& condition, const std::string& key) {
   if (key == "amplitude_m") return condition.amplitude_m;
   if (key == "temperature_C") return condition.temperature_C;
@@ -25,6 +20,10 @@ std::optional<double> number_of(const Condition& condition, const std::string& k
   if (key == "dampers" && condition.dampers_on) return *condition.dampers_on ? 1.0 : 0.0;
   return std::nullopt;
 }
+
+namespace {
+
+using Eigen::Index;
 
 /// Why these data can't see a family; empty if they can.
 std::string unmet(const Needs& needs, const FeatureSet& features) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,9 @@ struct Instantiated {
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
                                        const FeatureSet& features);
+
+/// A condition's value of a key as a number, if it is known.
+[[nodiscard]] std::optional<double> number_of(const Condition& condition, const std::string& key);
 
 /// The same cause somewhere else: `like` with the bounds and starts that its family has at other places of the model.
 /// @param places  of the kind that the family acts on

@@ -1,7 +1,6 @@
 #include "diagnosis/features/features.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
 /// Room diagnosis/inference: odds, verdict and gain. It takes residuals, columns of unknowns and signatures as plain matrices

@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
-#include "core/error.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/beam_frame.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <complex>
-#include <utility>
 #include <vector>
 
 #include "diagnosis/reduction/attachment_stiffness.hpp"

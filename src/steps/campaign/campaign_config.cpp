@@ -1,7 +1,5 @@
 #include "steps/campaign/campaign_config.hpp"
 
-#include <algorithm>
-
 #include "aero/yaw_rule.hpp"
 #include "core/error.hpp"
 #include "io/limits.hpp"

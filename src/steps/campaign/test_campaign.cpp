@@ -3,17 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 
+#include "aero_io/turbulence_sets.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "io/csv.hpp"
 #include "io/npy.hpp"
 #include "steps/campaign/campaign_files.hpp"
-#include "steps/campaign/wind_inputs.hpp"
 #include "steps/layout/layout_files.hpp"
+#include "steps/wind/aerodynamics_config.hpp"
+#include "steps/wind/deck_files.hpp"
 #include "virtual_bridge/simulated_records.hpp"
 #include "virtual_bridge/stay_records.hpp"
 #include "virtual_bridge/tuning.hpp"
@@ -55,6 +56,19 @@ struct CampaignInputs {
   VectorXd theta;                                   ///< corrected parameters
   std::optional<virtual_bridge::VirtualWind> wind;  ///< where a record is of a wind event
 };
+
+/// What wind events of the virtual bridge rest on: the configuration of step 7 that the settings name, its decks, turbulence.
+virtual_bridge::VirtualWind read_virtual_wind(runner::StepContext& context, const virtual_bridge::CampaignSettings& settings) {
+  virtual_bridge::VirtualWind out;
+  AerodynamicsConfig config;
+  io::FieldTable fields = config.fields();
+  fields.load(context.input(settings.wind_aerodynamics));
+  fields.require();
+  out.aerodynamics = config;
+  out.data = read_deck_aerodynamics(out.aerodynamics, context);
+  out.turbulence = aero_io::read_turbulence_set(context.input(settings.wind_turbulence_file), settings.wind_turbulence_set);
+  return out;
+}
 
 /// Names in the settings that the layout and the bridge must have.
 void refuse_unknown_names(const virtual_bridge::CampaignSettings& settings, const CampaignInputs& read) {

@@ -9,7 +9,8 @@
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/load_cases.hpp"
-#include "model_io/model_folder.hpp"
+#include "model_io/write_matrix_model.hpp"
+#include "model_io/write_model.hpp"
 
 namespace twindeck::steps {
 

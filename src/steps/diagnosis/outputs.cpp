@@ -1,7 +1,5 @@
 #include "steps/diagnosis/outputs.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>

@@ -17,7 +17,6 @@
 #include "matching/shapes_at_sensors.hpp"
 #include "runner/shipped_files.hpp"
 #include "runner/study.hpp"
-#include "steps/measured/measured_input.hpp"
 
 namespace twindeck::steps {
 

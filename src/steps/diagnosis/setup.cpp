@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "core/error.hpp"

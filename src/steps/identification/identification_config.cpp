@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/error.hpp"
 #include "io/limits.hpp"
 #include "steps/shared/order_range.hpp"

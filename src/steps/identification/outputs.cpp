@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <set>
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "steps/identification/decay_tables.hpp"
 #include "steps/identification/exports.hpp"
-#include "steps/identification/quality_table.hpp"
 #include "steps/identification/stay_tables.hpp"
 
 namespace twindeck::steps {
@@ -146,7 +143,15 @@ void write_channels(const records::Campaign& campaign, const identification::Con
   csv.save(file);
 }
 
-}  // namespace
+void write_quality(const std::vector<identification::ChannelQuality>& rows, const std::filesystem::path& file) {
+  io::CsvWriter csv({"setup", "record", "channel", "samples", "missing", "longest_gap", "clipped", "mean", "rms", "drift_rms",
+                     "dead", "lag_s", "lag_std_s"});
+  for (const identification::ChannelQuality& q : rows) {
+    csv.row({q.setup, q.record, q.channel, q.samples, q.missing, q.longest_gap, q.clipped, q.mean, q.rms, q.drift,
+             q.dead ? 1 : 0, q.lag_s, q.lag_std_s});
+  }
+  csv.save(file);
+}
 
 void write_condition(const records::Campaign& campaign, const identification::ConditionResult& result, const fs::path& folder) {
   fs::create_directories(folder);
@@ -198,6 +203,8 @@ void write_features(const records::Campaign& campaign, const std::vector<identif
   quality.insert(quality.end(), more_quality.begin(), more_quality.end());
   write_quality(quality, folder / "quality.csv");
 }
+
+}  // namespace
 
 void write_identification(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
                           const std::vector<identification::DecayResult>& decays,

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "matching/mode_name.hpp"
-#include "model_io/export.hpp"
+#include "model_io/modes_io.hpp"
 #include "runner/study.hpp"
 
 namespace twindeck::steps {
@@ -17,6 +17,10 @@ std::vector<runner::Flag> measured_flags() {
            "file of corrections of single channels, as s9_diagnosis writes it (corrections.toml), made before anything else"}};
 }
 
+namespace {
+
+/// What `--correct FILE` asks for, registered as an input and written into the manifest. Empty without the option.
+/// @throws InputError  see read_corrections; a missing file
 std::vector<records::Correction> asked_corrections(runner::StepContext& context) {
   const std::optional<std::string> file = context.flag("correct");
   if (!file) return {};
@@ -27,6 +31,8 @@ std::vector<records::Correction> asked_corrections(runner::StepContext& context)
   for (const records::Correction& correction : corrections) context.corrections_.push_back(words_of(correction));
   return corrections;
 }
+
+}  // namespace
 
 records::MeasuredChoice asked_choice(runner::StepContext& context, const std::string& condition) {
   records::MeasuredChoice choice;

@@ -18,13 +18,9 @@ namespace twindeck::steps {
 /// `--condition NAME`, `--state NAME` and `--correct FILE`: the options of every step that reads measured modes or features.
 [[nodiscard]] std::vector<runner::Flag> measured_flags();
 
-/// What `--correct FILE` asks for, registered as an input and written into the manifest. Empty without the option.
-/// @throws InputError  see read_corrections; a missing file
-[[nodiscard]] std::vector<records::Correction> asked_corrections(runner::StepContext& context);
-
 /// Reads these options.
 /// @param condition  of the step's configuration: used if neither --condition nor --state is given
-/// @throws InputError  see asked_corrections; an empty name
+/// @throws InputError  an empty name, a missing file; see read_corrections
 [[nodiscard]] records::MeasuredChoice asked_choice(runner::StepContext& context, const std::string& condition = "");
 
 /// Reads modes.csv, and shapes.csv and channels.csv if they exist, from a folder (`--modes DIR`).

@@ -8,15 +8,15 @@
 
 #include "core/error.hpp"
 #include "dynamics/unit_slips.hpp"
+#include "io/csv.hpp"
 #include "matching/comparison.hpp"
 #include "matching/solved_model.hpp"
 #include "model_io/any_model_folder.hpp"
-#include "model_io/export.hpp"
+#include "model_io/modes_io.hpp"
 #include "ponte/change_study.hpp"
 #include "runner/study.hpp"
 #include "steps/measured/comparison_tables.hpp"
 #include "steps/measured/measured_input.hpp"
-#include "steps/refinement/change_table.hpp"
 #include "steps/shared/model_source.hpp"
 
 namespace twindeck::steps {
@@ -31,8 +31,7 @@ io::FieldTable RefinementConfig::fields() {
              "published assignment, measured-numerical (\"7X-8N\"), used where no shape was measured; empty: by order")
       .text("condition", condition,
             "condition of the measured features, unless --condition or --state says another; empty: the only one, or where "
-            "dampers were "
-            "switched the only one without")
+            "dampers were switched the only one without")
       .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairs by MAC below it are none; the modes stay unpaired")
       .number("least_paired", least_paired, "", {0.0, 1.0},
               "by MAC: share of the measured modes that must have a partner, else the step refuses")
@@ -106,6 +105,25 @@ matching::PairingAccount compare_with_measurement(runner::StepContext& context, 
                             after.method, matching::pairing_words(account)));
   }
   return account;
+}
+
+/// changes.csv: `change,paper_item,meaning,mode,frequency_before_Hz,frequency_alone_Hz,effect_alone_pct,effect_cumulative_pct,
+/// mac_alone,mac_cumulative`. Effects are relative to the preliminary model; cumulative: this change and all before it.
+/// mac_cumulative is the one with the state before.
+void write_changes(const ponte::ChangeStudy& study, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"change", "paper_item", "meaning", "mode", "frequency_before_Hz", "frequency_alone_Hz", "effect_alone_pct",
+                     "effect_cumulative_pct", "mac_alone", "mac_cumulative"});
+  const auto known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); };
+  for (const ponte::ChangeEffect& effect : study.effects) {
+    for (Eigen::Index i = 0; i < study.before_Hz.size(); ++i) {
+      const double before = study.before_Hz[i], alone = effect.alone.frequency_Hz[i];
+      csv.row({effect.change.name, effect.change.paper_item, effect.change.meaning, static_cast<long>(i + 1), before,
+               known(alone), known(100.0 * (alone / before - 1.0)),
+               known(100.0 * (effect.cumulative.frequency_Hz[i] / before - 1.0)), known(effect.alone.mac[i]),
+               known(effect.cumulative.mac[i])});
+    }
+  }
+  csv.save(folder / "changes.csv");
 }
 
 Status run_refinement(runner::StepContext& context, const RefinementConfig& config, const RefinementInputs& read) {

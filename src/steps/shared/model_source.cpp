@@ -15,39 +15,23 @@ namespace twindeck::steps {
 
 namespace {
 
-/// Mass, centre and inertia: a lost part, a wrong density or unit shows there first.
-dynamics::ReadModel with_mass_said(const runner::StepContext& context, const std::filesystem::path& file,
-                                   dynamics::ReadModel read) {
-  context.say(fe::mass_words(fe::mass_properties(*read.fe_model())));
-  if (const std::string printed = model_io::printed_mass(file); !printed.empty())
-    context.say("beside it, in the deck's units: " + printed);
-  return read;
-}
-
-/// Reads an .inp file of CalculiX or Abaqus, or a deck of ANSYS, and reports what it cannot use, with the mass of the whole.
-dynamics::ReadModel import_inp(runner::StepContext& context, const std::filesystem::path& file) {
+/// Reads a file of CalculiX, Abaqus, ANSYS or Nastran, registers it with the files that belong to it, and reports what it
+/// cannot use, and the mass, centre and inertia of the whole: a lost part, a wrong density or unit shows there first.
+dynamics::ReadModel import_file(runner::StepContext& context, const std::filesystem::path& file) {
   context.input(file);
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
-  model_io::InpModel imported = model_io::is_ansys_deck(file) ? model_io::read_ansys(file) : model_io::read_inp(file);
-  for (const std::string& note : imported.notes) context.say(note);
-  return with_mass_said(context, file, dynamics::valid_model(std::move(imported.model)));
-}
-
-/// Reads a Nastran deck, registers the files that it includes, and reports what it cannot use.
-dynamics::ReadModel import_nastran(runner::StepContext& context, const std::filesystem::path& file) {
-  auto beside = file;
-  beside.replace_extension(".toml");
-  if (std::filesystem::exists(beside)) context.input(beside);
-  model_io::NastranModel imported = model_io::read_nastran(file);
+  model_io::ImportedModel imported = model_io::is_nastran_file(file) ? model_io::read_nastran(file)
+                                     : model_io::is_ansys_deck(file) ? model_io::read_ansys(file)
+                                                                     : model_io::read_inp(file);
   for (const std::filesystem::path& read : imported.files) context.input(read);
   for (const std::string& note : imported.notes) context.say(note);
-  return with_mass_said(context, file, dynamics::valid_model(std::move(imported.model)));
-}
-
-dynamics::ReadModel import_file(runner::StepContext& context, const std::filesystem::path& file) {
-  return model_io::is_nastran_file(file) ? import_nastran(context, file) : import_inp(context, file);
+  dynamics::ReadModel model = dynamics::valid_model(std::move(imported.model));
+  context.say(fe::mass_words(fe::mass_properties(*model.fe_model())));
+  if (const std::string printed = model_io::printed_mass(file); !printed.empty())
+    context.say("beside it, in the deck's units: " + printed);
+  return model;
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ std::vector<std::string> selected_by_sensitivity(runner::StepContext& context) {
 
 bool has_range(const fe::Parameter& parameter) { return parameter.lower < parameter.upper; }
 
-}  // namespace
-
+/// Positions of the parameters to update: as listed, as s5_sensitivity selected them, or all that have a range.
+/// @throws InputError  for a name that is no parameter, is listed twice or has no range
 std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics::ReadModel& model,
                                    runner::StepContext& context) {
   const std::vector<fe::Parameter>& parameters = model.parameters();
@@ -72,6 +72,9 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics:
   return active;
 }
 
+/// Values of the updated parameters in somebody else's result: `parameter,unit,final_value`, in units of its own; a parameter
+/// that it does not name stays at its initial value. Empty where none is given.
+/// @throws InputError  for a name that is not updated, or a unit of another kind
 std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, const std::vector<fe::Parameter>& parameters,
                                               const std::vector<int>& active, runner::StepContext& context) {
   if (config.published_values.empty()) return {};
@@ -97,6 +100,8 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
   }
   return {values};
 }
+
+}  // namespace
 
 UpdatingInputs read_updating(const UpdatingConfig& config, runner::StepContext& context) {
   UpdatingInputs read;

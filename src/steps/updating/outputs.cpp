@@ -45,8 +45,6 @@ int optimum_number(const updating::UpdatingResult& result, const updating::Start
   return at == result.optima.end() ? 0 : static_cast<int>(at - result.optima.begin()) + 1;
 }
 
-}  // namespace
-
 void write_parameters(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                       const updating::UpdatingResult& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "unit", "initial_value", "final_value", "change_pct", "lower", "upper", "bound"});
@@ -172,6 +170,8 @@ void write_updating_summary(const std::vector<matching::ComparisonRow>& comparis
   }
   csv.save(file);
 }
+
+}  // namespace
 
 void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                     const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,

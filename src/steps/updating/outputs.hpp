@@ -10,46 +10,27 @@
 
 namespace twindeck::steps {
 
-/// `parameters.csv`: parameter,unit,initial_value,final_value,change_pct,lower,upper,bound (lower|upper|none), one row an
-/// updated parameter; change_pct is empty where the initial value is 0.
-void write_parameters(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                      const updating::UpdatingResult& result, const std::filesystem::path& file);
-
-/// `smooth_bounds.csv`: parameter,unit,final_value,smooth_bounds_value,difference_of_range: the best start's problem solved
-/// again without projection (updating/smooth_bounds.hpp). No file where no start converged.
-void write_smooth_bounds(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                         const updating::UpdatingResult& result, const std::filesystem::path& file);
-
-/// `history.csv`: start,outer,iteration,cost,projected_gradient,step_norm,trust_radius and the normalised parameters, one row
-/// an accepted step.
-void write_history(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                   const updating::UpdatingResult& result, const std::filesystem::path& file);
-
-/// `starts.csv`: start,cost,projected_gradient_relative,iterations,converged,optimum,message and the final normalised
-/// parameters. `optimum` numbers the distinct optima from 1, best first; empty for a start that did not converge.
-void write_starts(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                  const updating::UpdatingResult& result, const std::filesystem::path& file);
-
-/// `costs.csv`: point,cost: what the initial values (`start`), another updating's values (`published`, where they are given)
-/// and the best start's end (`optimum`) cost in this model, each in balance.
-void write_costs(const updating::UpdatingResult& result, const std::filesystem::path& file);
-
-/// `leave_one_out.csv`: experimental_mode,numerical_mode,measured_Hz,before_Hz,fitted_Hz,predicted_Hz,error_before_pct,
-/// error_fitted_pct,error_predicted_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without
-/// updating, fitted with all pairs, and predicted by an update to the other pairs. No file where no pair was left out.
-/// @param comparison  rows of the stages `before` and `after`, `pairs` of each, in the order of the targets
-void write_leave_one_out(const std::vector<matching::ComparisonRow>& comparison, std::size_t pairs,
-                         const updating::UpdatingResult& result, const std::filesystem::path& file);
-
-/// `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over the
-/// measured modes `common` (those that an earlier table compares too), so that means are over like and like; of left-out
-/// pairs, where there are any; cost and
-/// optimality of the best start, and its cost by a smooth map of the bounds; numbers of starts, of distinct optima, of
-/// parameters on a bound.
-void write_updating_summary(const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
-                            const updating::UpdatingResult& result, const std::filesystem::path& file);
-
-/// All of these tables. @param comparison  rows of the stages `before` and `after`, in the order of the targets
+/// Writes
+///  - `parameters.csv`: parameter,unit,initial_value,final_value,change_pct,lower,upper,bound (lower|upper|none), one row an
+///    updated parameter; change_pct is empty where the initial value is 0
+///  - `smooth_bounds.csv`: parameter,unit,final_value,smooth_bounds_value,difference_of_range: the best start's problem solved
+///    again without projection (updating/smooth_bounds.hpp); no file where no start converged
+///  - `history.csv`: start,outer,iteration,cost,projected_gradient,step_norm,trust_radius and the normalised parameters, one
+///  row
+///    an accepted step
+///  - `starts.csv`: start,cost,projected_gradient_relative,iterations,converged,optimum,message and the final normalised
+///    parameters; `optimum` numbers the distinct optima from 1, best first; empty for a start that did not converge
+///  - `costs.csv`: point,cost: what the initial values (`start`), another updating's values (`published`, where they are given)
+///    and the best start's end (`optimum`) cost in this model, each in balance
+///  - `leave_one_out.csv`: experimental_mode,numerical_mode,measured_Hz,before_Hz,fitted_Hz,predicted_Hz,error_before_pct,
+///    error_fitted_pct,error_predicted_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without updating,
+///    fitted with all pairs, and predicted by an update to the other pairs; no file where no pair was left out
+///  - `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over
+///    the measured modes `common` (those that an earlier table compares too), so that means are over like and like; of left-out
+///    pairs, where there are any; cost and optimality of the best start, and its cost by a smooth map of the bounds; numbers of
+///    starts, of distinct optima, of parameters on a bound
+///  - the comparison (comparison_tables.hpp)
+/// @param comparison  rows of the stages `before` and `after`, in the order of the targets
 void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                     const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                     const updating::UpdatingResult& result, const std::filesystem::path& folder);

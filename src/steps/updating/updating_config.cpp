@@ -36,8 +36,7 @@ io::FieldTable UpdatingConfig::fields() {
              "measured modes (\"7X\") of a second mean error, over pairs that an earlier table has too")
       .text("condition", condition,
             "condition of the measured features, unless --condition or --state says another; empty: the only one, or where "
-            "dampers were "
-            "switched the only one without")
+            "dampers were switched the only one without")
       .number("trust_radius", trust_radius, "", io::positive(), "initial trust radius of the dogleg, in normalised parameters")
       .integer("starts", starts, {1.0, 1000.0}, "searches: from the initial values, and from seeded points inside the bounds")
       .integer("n_modes", n_modes, {1.0, 200.0}, "modes solved for, among which the paired ones are followed")

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "buffeting/bridge_in_wind.hpp"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "io/csv.hpp"
 #include "steps/validation/outputs.hpp"

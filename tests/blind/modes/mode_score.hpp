@@ -6,7 +6,7 @@
 
 #include "blind/modes/random_records.hpp"
 #include "sysid/identify.hpp"
-#include "sysid/merging.hpp"
+#include "sysid/merge_poser.hpp"
 
 namespace twindeck::blind::modes {
 

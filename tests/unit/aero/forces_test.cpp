@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "aero/aeroelastic_system.hpp"
-#include "aero/analytic_derivatives.hpp"
+#include "known_derivatives.hpp"
 
 namespace {
 

@@ -10,6 +10,7 @@
 
 #include "aero/analytic_derivatives.hpp"
 #include "aero/derivative_table.hpp"
+#include "known_derivatives.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "aero/analytic_derivatives.hpp"
 #include "buffeting/loads.hpp"
+#include "known_derivatives.hpp"
 
 namespace twindeck::buffeting {
 namespace {

@@ -15,7 +15,7 @@ namespace twindeck::model_io::test {
 inline const std::string si_units = "[units]\nlength = \"m\"\nforce = \"N\"\n";
 
 /// Reads a deck of the test's own; `units` is the TOML file beside it.
-inline NastranModel import_deck(const TestFolder& folder, const std::string& deck, const std::string& units = si_units) {
+inline ImportedModel import_deck(const TestFolder& folder, const std::string& deck, const std::string& units = si_units) {
   folder.write("deck.bdf", deck);
   folder.write("deck.toml", units);
   return read_nastran(folder.path() / "deck.bdf");

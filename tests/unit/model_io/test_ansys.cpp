@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 constexpr double within_beams = 0.01, within_shells = 0.02;  // [-] asked of the import
 
-InpModel ansys_model(const std::string& deck) {
+ImportedModel ansys_model(const std::string& deck) {
   const TestFolder folder;
   folder.write("deck.cdb", deck);
   return read_ansys(folder.path() / "deck.cdb");
@@ -78,7 +78,7 @@ TEST(AnsysDeck, RealConstantsOfBeamsStandInTheirOrder) {
   expect_near_part(deck_frequencies_Hz(cantilever("BEAM4", constants + "90\nRMORE,,1E-5\n"), 1)[0], cantilever_Hz(weak, area),
                    0.002);
   // BEAM3 lies in X-Y, and needs no support against the rest.
-  const InpModel plane = ansys_model(cantilever("BEAM3", fmt::format("R,1,0.02,{},0.2\n", strong), "", "UZ"));
+  const ImportedModel plane = ansys_model(cantilever("BEAM3", fmt::format("R,1,0.02,{},0.2\n", strong), "", "UZ"));
   expect_near_part(ansys_frequencies_Hz(plane.model, 1)[0], cantilever_Hz(strong, area), 0.002);
 }
 

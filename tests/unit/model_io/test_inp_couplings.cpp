@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-InpModel deck_model(const std::string& deck) {
+ImportedModel deck_model(const std::string& deck) {
   const TestFolder folder;
   folder.write("deck.inp", deck);
   return read_inp(folder.path() / "deck.inp");
@@ -64,7 +64,7 @@ std::string square(const std::string& rest) {
 TEST(InpCouplings, DistributingIsTheMean) {
   // The top's u_z is the mean + 0.5 (u of the right - u of the left)/2 = (1/8, 3/8, 3/8, 1/8) u, its u_x the height times the
   // slope, and so on: M = I + 4 Sᵀ S over the corners, S of displacements of the top by those of the corners.
-  const InpModel read =
+  const ImportedModel read =
       deck_model(square("*COUPLING, REF NODE=9, SURFACE=FACE, CONSTRAINT NAME=C\n*DISTRIBUTING, WEIGHTING METHOD=UNIFORM\n"));
   Eigen::Matrix<double, 3, 4> s;
   s.row(0) << 0.25, -0.25, -0.25, 0.25;  // theta_y = -du_z/dx; u_x = theta_y times the height of 1 m

@@ -22,7 +22,7 @@ std::string two_arms(const std::string& second, const std::string& rest) {
          second + "*END INSTANCE\n" + rest + "*END ASSEMBLY\n" + steel_card;
 }
 
-InpModel read_text(const std::string& deck) {
+ImportedModel read_text(const std::string& deck) {
   const TestFolder folder;
   folder.write("deck.inp", deck);
   return read_inp(folder.path() / "deck.inp");
@@ -36,9 +36,9 @@ const fe::Node& node_at(const fe::Model& model, long id) {
 
 TEST(InpInstances, AreMovedThenTurnedAndKeepTheirSetsApart) {
   // Moved by (0, 5, 0), then a quarter turn about a line along z through (0, 5, 0): x points along y, y against x.
-  const InpModel read = read_text(two_arms("0., 5., 0.\n0., 5., 0., 0., 5., 1., 90.\n",
-                                           "*NSET, NSET=FEET, INSTANCE=LEFT\n1\n*NSET, NSET=FEET, INSTANCE=RIGHT\n1\n"
-                                           "*BOUNDARY\nFEET, 1, 6\n"));
+  const ImportedModel read = read_text(two_arms("0., 5., 0.\n0., 5., 0., 0., 5., 1., 90.\n",
+                                                "*NSET, NSET=FEET, INSTANCE=LEFT\n1\n*NSET, NSET=FEET, INSTANCE=RIGHT\n1\n"
+                                                "*BOUNDARY\nFEET, 1, 6\n"));
   const fe::Model& m = read.model;
   ASSERT_EQ(m.nodes.size(), 6U);
   EXPECT_EQ(node_at(m, 3).x_m, Eigen::Vector3d(2.0, 0.0, 0.0));
@@ -100,7 +100,7 @@ TEST(InpSteps, SupportsAreThoseOfTheStepWithTheModes) {
       "*STEP\n*STATIC\n*BOUNDARY\n1, 1, 3\n*END STEP\n*STEP\n*FREQUENCY\n3\n{}*END STEP\n"
       "*STEP\n*STEADY STATE DYNAMICS\n1, 2\n*BOUNDARY\n1, 1, 6\n*END STEP\n";
   const auto held = [&](const std::string& here) {
-    const InpModel read = read_text(model + fmt::format(fmt::runtime(steps), here));
+    const ImportedModel read = read_text(model + fmt::format(fmt::runtime(steps), here));
     EXPECT_EQ(read.model.nodes.size(), 2U);  // node 9 belongs to nothing
     const std::string notes = fmt::format("{}", fmt::join(read.notes, "\n"));
     EXPECT_NE(notes.find("behind the step with *FREQUENCY, are left out"), std::string::npos) << notes;
@@ -170,7 +170,7 @@ TEST(InpTies, MatchingMeshesAreOneMesh) {
 
 TEST(InpTies, OtherMeshesAcrossAGapStillMoveAsOneBody) {
   for (const double gap : {0.0, 0.02}) {
-    const InpModel read = read_text(tied(block_part("ONE", 2, 2, 2), block_part("TWO", 2, 3, 3), gap));
+    const ImportedModel read = read_text(tied(block_part("ONE", 2, 2, 2), block_part("TWO", 2, 3, 3), gap));
     const std::vector<double> f = frequencies(read.model, 7);
     for (std::size_t i = 0; i < 6; ++i) EXPECT_LT(f[i], 1e-4 * f[6]) << "gap " << gap << ", mode " << i + 1;
     EXPECT_GT(f[6], 100.0);

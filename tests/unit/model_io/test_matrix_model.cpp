@@ -1,9 +1,11 @@
 /// Oracle: matrices written down by hand. Two masses between two walls, three springs:
 ///   K = [k1 + k2, -k2; -k2, k2 + k3],  M = diag(m1, m2),  with k2 = 1000 theta_a the first parameter and m2 = theta_b the
 ///   second.
-#include "model_io/export.hpp"
+#include "model_io/export_matrices.hpp"
 #include "model_io/matrix_market.hpp"
-#include "model_io/model_folder.hpp"
+#include "model_io/matrix_model.hpp"
+#include "model_io/read_model.hpp"
+#include "model_io/write_matrix_model.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test {

@@ -2,7 +2,8 @@
 /// name.
 #include <vector>
 
-#include "model_io/model_folder.hpp"
+#include "model_io/read_model.hpp"
+#include "model_io/write_model.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test {

@@ -2,7 +2,7 @@
 /// refusals.
 #include <cmath>
 
-#include "model_io/export.hpp"
+#include "model_io/modes_io.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test {

@@ -53,7 +53,7 @@ double euler_Hz(double inertia_m4) {
 }
 
 void expect_cantilever(const TestFolder& folder, FieldFormat format) {
-  const NastranModel imported = import_deck(folder, cantilever_deck(format));
+  const ImportedModel imported = import_deck(folder, cantilever_deck(format));
   const fe::Model& model = imported.model;
   EXPECT_EQ(model.title, "cantilever");
   ASSERT_EQ(model.nodes.size(), 21U);
@@ -107,10 +107,10 @@ TEST(Nastran, NumbersAsNastranWritesThem) {
   EXPECT_DOUBLE_EQ(mass("2.E-1"), 0.2);
   EXPECT_NE(message_of([&] { (void)mass("1.0x"); }).find("'1.0x'"), std::string::npos);
   // Eight columns a field, whatever runs together; a tab goes to the next multiple of eight; a comment ends the line.
-  const NastranModel run_together = import_deck(folder,
-                                                "GRID\t1\t\t0.0\t0.0\t0.0 $ origin\nGRID    2               "
-                                                "10.000001.0000002.000000\nCONROD  1       1       2       3       0.5\n"
-                                                "MAT1           32.0000+93.0000+8\nSPC1,1,123456,1\n");
+  const ImportedModel run_together = import_deck(folder,
+                                                 "GRID\t1\t\t0.0\t0.0\t0.0 $ origin\nGRID    2               "
+                                                 "10.000001.0000002.000000\nCONROD  1       1       2       3       0.5\n"
+                                                 "MAT1           32.0000+93.0000+8\nSPC1,1,123456,1\n");
   EXPECT_TRUE(run_together.model.nodes.at(1).x_m.isApprox(Eigen::Vector3d(10.0, 1.0, 2.0), 1e-15));
   EXPECT_DOUBLE_EQ(run_together.model.materials.at(0).shear_modulus_Pa, 3e8);
 }
@@ -118,11 +118,11 @@ TEST(Nastran, NumbersAsNastranWritesThem) {
 TEST(Nastran, MixedFieldsAndContinuations) {
   const TestFolder folder;
   // A large first line, a small continuation; and a free card that goes on behind a comma.
-  const NastranModel m = import_deck(folder, oscillator_cards +
-                                                 "CONM2*                 9               1                             2.0\n"
-                                                 "*\n"
-                                                 "+           1.25             2.5                     4.0\n"
-                                                 "PARAM,COUPMASS,1\nCONM2,10,1,,3.0,,,,,+A\n+A,1.0,,1.0,,,1.0\n");
+  const ImportedModel m = import_deck(folder, oscillator_cards +
+                                                  "CONM2*                 9               1                             2.0\n"
+                                                  "*\n"
+                                                  "+           1.25             2.5                     4.0\n"
+                                                  "PARAM,COUPMASS,1\nCONM2,10,1,,3.0,,,,,+A\n+A,1.0,,1.0,,,1.0\n");
   ASSERT_EQ(m.model.masses.size(), 2U);
   EXPECT_TRUE(m.model.masses[0].inertia_kg_m2.isApprox(Eigen::Vector3d(1.25, 2.5, 4.0), 1e-15));
   EXPECT_TRUE(m.model.masses[1].inertia_kg_m2.isOnes(1e-15));
@@ -131,7 +131,7 @@ TEST(Nastran, MixedFieldsAndContinuations) {
 TEST(Nastran, OscillatorInPoundsAndInches) {
   const TestFolder folder;
   const double k = 50.0, weight = 38.6088, g = 386.088;  // lbf/in, lbf, in/s2
-  const NastranModel m =
+  const ImportedModel m =
       import_deck(folder, oscillator_cards + fmt::format("PARAM,WTMASS,{}\nCONM2,9,1,,{}\n", 1.0 / g, weight),
                   "[units]\nlength = \"in\"\nforce = \"lbf\"\n");
   EXPECT_NEAR(frequencies(m.model, 1).at(0), std::sqrt(k * g / weight) / (2.0 * pi), 1e-9);
@@ -142,7 +142,7 @@ TEST(Nastran, OscillatorInPoundsAndInches) {
 TEST(Nastran, CoordinateSystems) {
   const TestFolder folder;
   // System 1 has its origin at (1, 2, 3), z along global x and x along global y.
-  const NastranModel m =
+  const ImportedModel m =
       import_deck(folder,
                   "CORD2R,1,0,1.,2.,3.,2.,2.,3.\n,1.,3.,3.\n"
                   "CORD2C,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
@@ -163,7 +163,7 @@ TEST(Nastran, SupportsInTheGridsOwnAxes) {
   const TestFolder folder;
   const std::string rods = "GRID,1,,0.,0.,0.,1\nGRID,2,,1.,0.,0.\nCONROD,1,1,2,1,1.\nMAT1,1,1.+9,,.3\n";
   const std::string turned = "CORD2R,1,0,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\n";  // its x is global y, y is z, z is x
-  const NastranModel m = import_deck(folder, rods + turned + "SPC1,1,34,1\n");
+  const ImportedModel m = import_deck(folder, rods + turned + "SPC1,1,34,1\n");
   EXPECT_EQ(m.model.supports.at(0).fixed, (std::array{true, false, false, false, true, false}));
   const std::string skew = "CORD2R,1,0,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\n";
   EXPECT_EQ(import_deck(folder, rods + skew + "SPC1,1,123,1\n").model.supports.at(0).fixed,
@@ -198,7 +198,7 @@ TEST(Nastran, IncludedFiles) {
   folder.write("parts/grids.inc", "GRID,1,,0.,0.,0.\nINCLUDE 'more.inc'\n");
   folder.write("parts/more.inc", "GRID,2,,1.,0.,0.\n");
   const std::string rest = "CONROD,1,1,2,1,1.\nMAT1,1,1.+9,,.3\n";
-  const NastranModel m = import_deck(folder, "BEGIN BULK\ninclude 'parts/\n  grids.inc'\n" + rest);
+  const ImportedModel m = import_deck(folder, "BEGIN BULK\ninclude 'parts/\n  grids.inc'\n" + rest);
   EXPECT_EQ(m.model.nodes.size(), 2U);
   EXPECT_EQ(m.files.size(), 3U);
   EXPECT_NE(message_of([&] { (void)import_deck(folder, rest + "INCLUDE 'gone.inc'\n"); }).find("deck.bdf:3"),

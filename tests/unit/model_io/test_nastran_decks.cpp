@@ -26,8 +26,8 @@ class NastranDecks : public ::testing::Test {
     return elsewhere != nullptr ? fs::path(elsewhere) / "nastran"
                                 : fs::path(TWINDECK_SOURCE_DIR) / ".." / "shared" / "data" / "fe_decks" / "nastran";
   }
-  NastranModel import_shared(const std::string& name, const std::string& file, const std::string& length,
-                             const std::string& force, const std::string& further = "") {
+  ImportedModel import_shared(const std::string& name, const std::string& file, const std::string& length,
+                              const std::string& force, const std::string& further = "") {
     for (const auto& entry : fs::directory_iterator(source() / name)) {
       fs::copy_file(entry.path(), folder.path() / entry.path().filename(), fs::copy_options::overwrite_existing);
     }
@@ -47,12 +47,12 @@ TEST_F(NastranDecks, TenBarTruss) {
   // The deck asks for coupled masses. Nastran's are 5/12 and 1/12 of a rod's mass along it and halves across it, which the
   // printed numbers have to six digits; the consistent matrix of the literature, 1/3 and 1/6 in every direction, makes one rod
   // a bay up to 9.3 % stiffer. Oracle of that matrix: the same ten rods assembled apart, in the plane, to nine digits.
-  const NastranModel m = import_shared("ten_bar_truss", "modes.dat", "in", "lbf");
+  const ImportedModel m = import_shared("ten_bar_truss", "modes.dat", "in", "lbf");
   expect_each("ten_bar_truss consistent", frequencies(m.model, 8),
               {9.17729274, 27.31056899, 29.78209841, 53.86039175, 61.05764787, 68.34696106, 69.93670446, 82.09925879}, 1e-8, "",
               "assembled apart");
   // Lumped, as the TOML file may say, the first three are Nastran's within 1 % and all within 4.5 %.
-  const NastranModel lumped = import_shared("ten_bar_truss", "modes.dat", "in", "lbf", "[formulation]\nlumped_mass = true\n");
+  const ImportedModel lumped = import_shared("ten_bar_truss", "modes.dat", "in", "lbf", "[formulation]\nlumped_mass = true\n");
   const std::vector<double> f = frequencies(lumped.model, 8);
   const std::vector<double> printed = {8.949501, 26.95656, 27.25022, 49.93071, 56.88473, 62.99655, 65.08352, 77.12846};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(f.at(i) / printed[i], 1.0, 0.01);
@@ -62,18 +62,18 @@ TEST_F(NastranDecks, TenBarTruss) {
 
 TEST_F(NastranDecks, SpringsAndMasses) {
   // The floating grid of the deck has no stiffness at all; its zero is left out with its only direction.
-  const NastranModel m = import_shared("spring_mass_mpc", "actuator_tf_modeling.bdf", "m", "N");
+  const ImportedModel m = import_shared("spring_mass_mpc", "actuator_tf_modeling.bdf", "m", "N");
   expect_each("actuator_tf_modeling.bdf", frequencies(m.model, 2), {0.07957747, 0.2756644}, 1e-6);
 }
 
 TEST_F(NastranDecks, LadderOfBeamsBarsAndRods) {
-  const NastranModel m = import_shared("ladder_beam_bar_rod", "noReduction-000.dat", "in", "lbf");
+  const ImportedModel m = import_shared("ladder_beam_bar_rod", "noReduction-000.dat", "in", "lbf");
   expect_each("noReduction-000.dat", frequencies(m.model, 10),
               {0.1987976, 0.3974492, 0.7054771, 0.8603456, 1.717969, 1.980850, 2.199863, 3.712462, 4.380781, 4.407542}, 0.01);
 }
 
 TEST_F(NastranDecks, BarsWithTipMass) {
-  const NastranModel m = import_shared("bar_beam_tip_mass", "beam_modes.dat", "in", "lbf");
+  const ImportedModel m = import_shared("bar_beam_tip_mass", "beam_modes.dat", "in", "lbf");
   std::vector<double> f = frequencies(m.model, 8);
   // Nastran's CBAR has no inertia of twist, ours has: the shaft's first mode is not the printed 3554.923 Hz but
   // beta tan(beta) = shaft's inertia over the tip's, f = beta/(2 pi L) sqrt(G/rho).
@@ -90,7 +90,7 @@ TEST_F(NastranDecks, BarsWithTipMass) {
 }
 
 TEST_F(NastranDecks, PlateOnABushedBeam) {
-  const NastranModel m = import_shared("bar_bush_plate_beam", "random_test.bdf", "in", "lbf");
+  const ImportedModel m = import_shared("bar_bush_plate_beam", "random_test.bdf", "in", "lbf");
   std::vector<double> f = frequencies(m.model, 10);
   EXPECT_LT(f.at(0), 20.0);  // the deck asks for 20 to 2000 Hz only, so that this one is not printed
   f.erase(f.begin());
@@ -98,7 +98,7 @@ TEST_F(NastranDecks, PlateOnABushedBeam) {
 }
 
 TEST_F(NastranDecks, WingOfBarsAndRigidMasses) {
-  const NastranModel m = import_shared("bah_plane_bars_rigid_masses", "bah_plane.bdf", "m", "N");
+  const ImportedModel m = import_shared("bah_plane_bars_rigid_masses", "bah_plane.bdf", "m", "N");
   expect_each("bah_plane.bdf", frequencies(m.model, 8), {0.0, 0.0, 2.454016, 3.753996, 8.702604, 9.002153, 14.50673, 22.15915},
               0.01);
 }

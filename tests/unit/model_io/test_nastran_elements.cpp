@@ -136,7 +136,7 @@ TEST(NastranElements, RodsTwistWhereSomethingHoldsTheirEnds) {
   ASSERT_EQ(held.springs.size(), 1U);
   EXPECT_DOUBLE_EQ(held.springs[0].stiffness, 8e10 * 1e-6);
   EXPECT_NEAR(frequencies(held, 1).at(0) / oscillator_Hz(8e4, 3.0), 1.0, 1e-3);  // the bar's half inertia is 8e-4 of it
-  const NastranModel free = import_deck(folder, two_grids + rod + "CONROD,7,1,2,1,.5,,,39.\n");
+  const ImportedModel free = import_deck(folder, two_grids + rod + "CONROD,7,1,2,1,.5,,,39.\n");
   EXPECT_TRUE(free.model.springs.empty());
   EXPECT_EQ(free.model.elements.at(1).group, "conrod_7");
   EXPECT_DOUBLE_EQ(free.model.materials.at(1).density_kg_m3, 7878.0);
@@ -290,7 +290,7 @@ TEST(NastranElements, EveryRefusalNamesItsLine) {
 
 TEST(NastranElements, WhatIsPassedOverIsSaid) {
   const TestFolder folder;
-  const NastranModel m =
+  const ImportedModel m =
       import_deck(folder, two_grids + "CONROD,1,1,2,1,1.\nGRID,7,,9.,9.,9.\nFORCE,1,2,,5.,1.,0.,0.\nFORCE,1,2,,5.,0.,1.,0.\n");
   const std::string notes = fmt::format("{}", fmt::join(m.notes, "\n"));
   EXPECT_NE(notes.find("FORCE cards (2, first in line 7 of deck.bdf) are left out: they are loads"), std::string::npos)

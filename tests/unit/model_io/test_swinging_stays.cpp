@@ -4,7 +4,8 @@
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "fe/swinging_stays.hpp"
-#include "model_io/model_folder.hpp"
+#include "model_io/read_model.hpp"
+#include "model_io/write_model.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io {

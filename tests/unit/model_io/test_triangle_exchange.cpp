@@ -2,7 +2,8 @@
 /// the four names of such an element), and messages that name line and column.
 #include "fe/assembly.hpp"
 #include "model_io/inp.hpp"
-#include "model_io/model_folder.hpp"
+#include "model_io/read_model.hpp"
+#include "model_io/write_model.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test {

@@ -2,7 +2,7 @@
 /// header promises (longest vector 1). Tags must close in the order in which they were opened.
 #include <sstream>
 
-#include "model_io/export.hpp"
+#include "model_io/vtu.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test {

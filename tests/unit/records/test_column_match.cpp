@@ -86,15 +86,15 @@ TEST(ColumnMatch, ANameTwiceOrInALineOfAnotherWidthIsRefused) {
 
 TEST(RecordedUnit, KnowsTheSpellingsOfLoggers) {
   for (const char* unit : {"m/s^2", "m/s2", "m/s\xC2\xB2", "[m/s**2]", "M/S/S", "m s-2"}) {
-    EXPECT_EQ(quantity_of(unit), "acceleration") << unit;
+    EXPECT_EQ(recorded_unit(unit).value().quantity, "acceleration") << unit;
     EXPECT_EQ(si_factor(unit), 1.0) << unit;
   }
   EXPECT_NEAR(si_factor("g"), 9.80665, 0.0);
   EXPECT_NEAR(si_factor("mg"), 9.80665e-3, 1e-15);
   EXPECT_NEAR(si_factor("Gal"), 0.01, 0.0);
   EXPECT_NEAR(si_factor("\xC2\xB5m"), 1e-6, 1e-20);
-  EXPECT_EQ(quantity_of("mm/s"), "velocity");
-  EXPECT_EQ(quantity_of("kN"), "force");
+  EXPECT_EQ(recorded_unit("mm/s").value().quantity, "velocity");
+  EXPECT_EQ(recorded_unit("kN").value().quantity, "force");
   for (const char* unit : {"V", "mV", "counts", "digits"}) {
     ASSERT_TRUE(recorded_unit(unit).has_value()) << unit;
     EXPECT_EQ(si_factor(unit), 0.0);
@@ -104,7 +104,7 @@ TEST(RecordedUnit, KnowsTheSpellingsOfLoggers) {
     EXPECT_FALSE(recorded_unit(unit).has_value()) << unit.substr(0, 20);
   }
   for (const char* quantity : {"acceleration", "velocity", "displacement", "force"}) {
-    for (const std::string& unit : units_of(quantity)) EXPECT_EQ(quantity_of(unit), quantity) << unit;
+    for (const std::string& unit : units_of(quantity)) EXPECT_EQ(recorded_unit(unit).value().quantity, quantity) << unit;
   }
 }
 

@@ -56,7 +56,7 @@ TEST(TextRecord, TabsUnitsInNamesAndRateInTheHeader) {
   expect_samples(record, 40, 3);
   EXPECT_NEAR(record.info.rate_Hz, 200.0, 1e-9);
   EXPECT_EQ(record.info.channels[2].name, "A3");
-  EXPECT_EQ(quantity_of(record.info.channels[2].unit), "velocity");
+  EXPECT_EQ(recorded_unit(record.info.channels[2].unit).value().quantity, "velocity");
 }
 
 TEST(TextRecord, DayAndMonthExchangedOnSomeDays) {

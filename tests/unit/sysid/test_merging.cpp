@@ -5,7 +5,8 @@
 #include "core/error.hpp"
 #include "modal/mac.hpp"
 #include "signal/condition.hpp"
-#include "sysid/merging.hpp"
+#include "sysid/merge_poser.hpp"
+#include "sysid/merge_preger.hpp"
 
 namespace twindeck::sysid {
 namespace {

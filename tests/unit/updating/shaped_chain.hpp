@@ -44,7 +44,7 @@ inline ShapedMeasurement measure_chain(const fe::ParametricSystem& system, const
   std::vector<double> variance;
   for (int i = 0; i < n_modes; ++i) {
     const double std = frequency_std * frequency(i);
-    out.targets.push_back({std::to_string(i + 1), i, frequency(i) + error(std), std});
+    out.targets.push_back({std::to_string(i + 1), i, frequency(i) + error(std)});
     out.rows.span.push_back({i});
     variance.push_back(std * std);
   }

@@ -24,7 +24,7 @@ SmallSystem chain() {
 
 std::vector<FrequencyTarget> targets(const Eigen::VectorXd& frequency_Hz) {
   std::vector<FrequencyTarget> out;
-  for (int i = 0; i < frequency_Hz.size(); ++i) out.push_back({std::to_string(i + 1), i, frequency_Hz(i), 0.0});
+  for (int i = 0; i < frequency_Hz.size(); ++i) out.push_back({std::to_string(i + 1), i, frequency_Hz(i)});
   return out;
 }
 

@@ -40,7 +40,7 @@ UpdatingResult run(Eigen::Index surrogate_from_size, const Eigen::VectorXd& trut
   const fe::ParametricSystem start = in_balance(chain(0.0).initial());
   const Eigen::VectorXd measured = dense_frequencies(in_balance(truth), truth);
   std::vector<FrequencyTarget> targets;
-  for (int i = 0; i < 10; ++i) targets.push_back({std::to_string(i + 1), i, measured(i), 0.0});
+  for (int i = 0; i < 10; ++i) targets.push_back({std::to_string(i + 1), i, measured(i)});
   UpdatingOptions options;
   options.starts = 4;
   options.n_modes = 13;

@@ -16,7 +16,7 @@ namespace {
 std::vector<FrequencyTarget> targets_of(const Eigen::VectorXd& frequency_Hz, const std::vector<int>& reference_mode) {
   std::vector<FrequencyTarget> targets;
   for (std::size_t i = 0; i < reference_mode.size(); ++i) {
-    targets.push_back({std::to_string(i + 1), reference_mode[i], frequency_Hz(static_cast<Eigen::Index>(i)), 0.0});
+    targets.push_back({std::to_string(i + 1), reference_mode[i], frequency_Hz(static_cast<Eigen::Index>(i))});
   }
   return targets;
 }
@@ -180,8 +180,8 @@ TEST(Update, RefusesWhatCannotBeUpdated) {
     }
     return "";
   };
-  EXPECT_NE(message({0}, {{"1X-1N", 0, 0.2, 0.0}}).find("fixed"), std::string::npos);
-  EXPECT_NE(message({}, {{"1X-1N", 0, 0.2, 0.0}}).find("no parameter"), std::string::npos);
+  EXPECT_NE(message({0}, {{"1X-1N", 0, 0.2}}).find("fixed"), std::string::npos);
+  EXPECT_NE(message({}, {{"1X-1N", 0, 0.2}}).find("no parameter"), std::string::npos);
   EXPECT_NE(message({0}, {}).find("no frequency"), std::string::npos);
 }
 

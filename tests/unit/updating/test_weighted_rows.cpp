@@ -110,7 +110,7 @@ struct OddChain {
     small.mass(Eigen::MatrixXd::Identity(n, n)).mass(variable.asDiagonal().toDenseMatrix(), m);
     system = std::make_shared<const fe::ParametricSystem>(small.system());
     OddRows odd(n);
-    definition.targets = {{"1", 0, odd.frequency(0), 0.0}, {"2", 2, odd.frequency(1), 0.0}};
+    definition.targets = {{"1", 0, odd.frequency(0)}, {"2", 2, odd.frequency(1)}};
     definition.active = {b, a, m};
     definition.initial = system->initial();
     definition.scale = Eigen::Vector3d(2.0, 1.0, 1.0);
