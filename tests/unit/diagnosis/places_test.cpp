@@ -22,8 +22,8 @@ TEST(Places, OfAMatrixModelAreItsGroupsAndNodes) {
   EXPECT_DOUBLE_EQ(chain.places().total_mass_kg, 6.0 * Chain::kMass);
   // The groups are all there is of the stiffness, the nodes all there is of the mass.
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6, 6), m = k;
-  for (const auto& place : sets.at("groups")) k += Eigen::MatrixXd(place.stiffness);
-  for (const auto& place : sets.at("nodes")) m += Eigen::MatrixXd(place.mass);
+  for (const auto& place : sets.at("groups")) k += Eigen::MatrixXd(place.stiffness.whole());
+  for (const auto& place : sets.at("nodes")) m += Eigen::MatrixXd(place.mass.whole());
   EXPECT_LT((k - chain.stiffness(chain.as_modelled())).norm(), 1e-6);
   EXPECT_LT((m - Chain::kMass * Eigen::MatrixXd::Identity(6, 6)).norm(), 1e-9);
 }
@@ -83,8 +83,9 @@ TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
   term.coefficient.base = -0.5;
   const int* outer = system.pattern.outerIndexPtr();
   const int* inner = system.pattern.innerIndexPtr();
-  for (int c = 0; c < stay.stiffness.outerSize(); ++c)
-    for (diagnosis::Symmetric::InnerIterator entry(stay.stiffness, c); entry; ++entry) {
+  const diagnosis::Symmetric stay_stiffness = stay.stiffness.whole();
+  for (int c = 0; c < stay_stiffness.outerSize(); ++c)
+    for (diagnosis::Symmetric::InnerIterator entry(stay_stiffness, c); entry; ++entry) {
       if (entry.row() < entry.col()) continue;
       const int* at = std::lower_bound(inner + outer[c], inner + outer[c + 1], static_cast<int>(entry.row()));
       ASSERT_TRUE(at != inner + outer[c + 1] && *at == entry.row());
