@@ -125,11 +125,10 @@ MatrixXd ReducedMatrix::part(const std::vector<int>& columns) const {
 
 void ReducedMatrix::add_image(double amount, const MatrixXd& motion, MatrixXd& force) const {
   const std::vector<int>& dofs = s_.dofs();
-  for (Index k = 0; k < motion.cols(); ++k)
-    for (int j = 0; j < s_.block().outerSize(); ++j) {
-      const double u = amount * motion(dofs[static_cast<std::size_t>(j)], k);
-      for (Symmetric::InnerIterator e(s_.block(), j); e; ++e)
-        force(dofs[static_cast<std::size_t>(e.row())], k) += e.value() * u;
+  for (int j = 0; j < s_.block().outerSize(); ++j)
+    for (Symmetric::InnerIterator e(s_.block(), j); e; ++e) {
+      const int from = dofs[static_cast<std::size_t>(j)], to = dofs[static_cast<std::size_t>(e.row())];
+      for (Index k = 0; k < motion.cols(); ++k) force(to, k) += e.value() * (amount * motion(from, k));
     }
 }
 

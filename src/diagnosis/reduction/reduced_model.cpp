@@ -200,6 +200,7 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
         place.mass.follow_basis();
         place.directions.follow_basis();
       });
+  const bool many = owners.size() > ReducedBasis::kKept;  // then they are computed again and again
   for (std::size_t begin = 0, end = 0; begin < owners.size(); begin = end) {
     int columns = 0;
     while (end < owners.size() && (end == begin || columns + owners[end].count <= kHeld)) columns += owners[end++].count;
@@ -208,9 +209,14 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
     std::vector<ReducedBasis::Block> blocks(end - begin);
     parallel_for(blocks.size(), [&](std::size_t i) {
       const Owner& owner = owners[begin + i];
-      blocks[i].again = [statics = kept_->statics, place = *owner.place, count = owner.count] {
-        return statics->own_vectors(place, count);
-      };
+      if (many)
+        blocks[i].again = [statics = kept_->statics, compute = kept_->statics->recipe(*owner.place, owner.count)] {
+          return compute();
+        };
+      else
+        blocks[i].again = [statics = kept_->statics, place = *owner.place, count = owner.count] {
+          return statics->own_vectors(place, count);
+        };
       blocks[i].vectors = std::make_shared<const MatrixXd>(blocks[i].again());
     });
     const std::vector<std::vector<int>> own = kept_->basis->append(blocks);

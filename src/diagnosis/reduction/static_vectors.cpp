@@ -27,7 +27,8 @@ class CommonBasis {
 
   /// The columns of `block`, orthonormalised against the basis and against each other; what is nearly in them already is
   /// dropped.
-  [[nodiscard]] MatrixXd orthonormal(const MatrixXd& block) const {
+  /// @param turn  columns that the block is made with, if asked for: become those of the result
+  [[nodiscard]] MatrixXd orthonormal(const MatrixXd& block, MatrixXd* turn = nullptr) const {
     constexpr double tolerance = 1e-6;
     const Eigen::VectorXd before = block.cwiseProduct(stiffness_ * block).colwise().sum().cwiseMax(0.0).cwiseSqrt();
     const MatrixXd rest = beyond(block);
@@ -35,16 +36,22 @@ class CommonBasis {
     Index size = 0;
     for (Index c = 0; c < block.cols(); ++c) {
       if (!(before[c] > 0.0)) continue;
-      Eigen::VectorXd v = rest.col(c);
+      Eigen::VectorXd v = rest.col(c), made = turn != nullptr ? Eigen::VectorXd(turn->col(c)) : Eigen::VectorXd();
       for (int pass = 0; pass < 2; ++pass)
-        for (Index k = 0; k < size; ++k) v -= kept.col(k) * images.col(k).dot(v);
+        for (Index k = 0; k < size; ++k) {
+          const double along = images.col(k).dot(v);
+          v -= kept.col(k) * along;
+          if (turn != nullptr) made -= turn->col(k) * along;
+        }
       const Eigen::VectorXd image = stiffness_ * v;
       const double norm = std::sqrt(std::max(v.dot(image), 0.0));
       if (norm < tolerance * before[c]) continue;
       kept.col(size) = v / norm;
+      if (turn != nullptr) turn->col(size) = made / norm;
       images.col(size) = image / norm;
       ++size;
     }
+    if (turn != nullptr) turn->conservativeResize(Eigen::NoChange, size);
     return kept.leftCols(size);
   }
   void append(const MatrixXd& block) {
@@ -58,6 +65,7 @@ class CommonBasis {
   /// Vectors and what loads hold them: K vectors = loads.
   struct Held {
     MatrixXd vectors, loads;
+    MatrixXd turn = {};  ///< that made them of the columns of a block, where they are fewer
   };
   /// The strongest directions of a block in K beyond the basis, at most `count`, and none of less energy than `least`.
   [[nodiscard]] Held strongest(Held block, int count, double least = 0.0) const {
@@ -72,7 +80,7 @@ class CommonBasis {
     const linalg::LeadingEigenpairs leading = linalg::leading_eigenpairs(0.5 * (gram + gram.transpose()), count);
     const Index kept = (leading.values.array() >= std::max(least, kRounding * leading.values[0])).count();
     const MatrixXd turn = leading.vectors.leftCols(kept);
-    return {linalg::product(block.vectors, turn), linalg::product(block.loads, turn)};
+    return {linalg::product(block.vectors, turn), linalg::product(block.loads, turn), turn};
   }
   [[nodiscard]] const MatrixXd& vectors() const { return vectors_; }
 
@@ -213,24 +221,58 @@ MatrixXd StaticVectors::responses(const Eigen::SparseMatrix<double>& directions,
   return basis_->strongest(parts.size() == 1 ? std::move(parts.front()) : side_by_side(parts), count).vectors;
 }
 
-MatrixXd StaticVectors::own_vectors(const Place& place, int count) const {
-  if (count == 0) return {};
-  const auto strongest = [&](const MatrixXd& load) { return basis_->strongest({factor_.solve(load), load}, count).vectors; };
-  MatrixXd own;
-  if (place.directions.size() > 0)
-    own = responses(place.directions, count);
-  else if (place.stiffness.size() > 0)
-    own = strongest(place.stiffness * low_);
+MatrixXd StaticVectors::loads_at(const Place& place) const {
+  if (place.directions.size() > 0) return place.directions;
+  MatrixXd load;
+  if (place.stiffness.size() > 0)
+    load = place.stiffness * low_;
   else if (place.mass.size() > 0)
-    own = strongest(place.mass * low_);
-  else
-    return {};
-  if (answers_.cols() > 0 && place.directions.size() == 0 && place.stiffness.size() > 0) {
-    const MatrixXd further = strongest(place.stiffness * answers_);
-    own.conservativeResize(Eigen::NoChange, own.cols() + further.cols());
-    own.rightCols(further.cols()) = further;
+    load = place.mass * low_;
+  if (answers_.cols() == 0 || place.stiffness.size() == 0) return load;
+  load.conservativeResize(Eigen::NoChange, load.cols() + answers_.cols());
+  load.rightCols(answers_.cols()) = place.stiffness * answers_;
+  return load;
+}
+
+MatrixXd StaticVectors::own_vectors(const Place& place, int count, MatrixXd* turn) const {
+  if (count == 0) return {};
+  if (place.directions.cols() > kForcesAtOnce) return basis_->orthonormal(responses(place.directions, count));
+  const MatrixXd load = loads_at(place);
+  if (load.size() == 0) return {};
+  const Index answered = place.directions.size() == 0 && place.stiffness.size() > 0 ? answers_.cols() : 0;
+  MatrixXd own(load.rows(), 0), turns(load.cols(), 0);
+  for (const auto& [first, columns] : {std::pair{Index{0}, load.cols() - answered}, {load.cols() - answered, answered}}) {
+    if (columns == 0) continue;
+    const MatrixXd part = load.middleCols(first, columns);
+    const CommonBasis::Held found = basis_->strongest({factor_.solve(part), part}, count);
+    const Index before = own.cols(), kept = found.vectors.cols();
+    own.conservativeResize(Eigen::NoChange, before + kept);
+    own.rightCols(kept) = found.vectors;
+    turns.conservativeResizeLike(MatrixXd::Zero(load.cols(), before + kept));
+    turns.block(first, before, columns, kept) = found.turn.size() > 0 ? found.turn : MatrixXd::Identity(columns, kept);
   }
-  return basis_->orthonormal(own);
+  own = basis_->orthonormal(own, turn != nullptr ? &turns : nullptr);
+  if (turn != nullptr) *turn = turns;
+  return own;
+}
+
+std::function<MatrixXd()> StaticVectors::recipe(const Place& place, int count) const {
+  if (count == 0 || place.directions.cols() > kForcesAtOnce) return [this, place, count] { return own_vectors(place, count); };
+  MatrixXd turn;
+  if (own_vectors(place, count, &turn).cols() == 0) return [] { return MatrixXd(); };
+  const MatrixXd forces = loads_at(place) * turn;
+  std::vector<int> dofs;
+  for (Index i = 0; i < forces.rows(); ++i)
+    if (!forces.row(i).isZero(0.0)) dofs.push_back(static_cast<int>(i));
+  MatrixXd at_dofs = forces(dofs, Eigen::all);
+  MatrixXd part = common()(dofs, Eigen::all).transpose() * at_dofs;  // V' K (K^-1 f)
+  return [this, dofs = std::move(dofs), at_dofs = std::move(at_dofs), part = std::move(part)] {
+    MatrixXd force = MatrixXd::Zero(stiffness_.rows(), at_dofs.cols());
+    force(dofs, Eigen::all) = at_dofs;
+    MatrixXd own = factor_.solve(force);
+    linalg::subtract_product(common(), part, own);
+    return own;
+  };
 }
 
 double StaticVectors::drive_stiffness(const Eigen::SparseMatrix<double>& directions) const {

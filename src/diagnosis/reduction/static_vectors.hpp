@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Sparse>
+#include <functional>
 #include <memory>
 
 #include "diagnosis/reduction/reduction_options.hpp"
@@ -28,13 +29,18 @@ class StaticVectors {
                    const ReductionOptions& options);
   [[nodiscard]] const Eigen::MatrixXd& common() const;  ///< (n × c) orthonormal in K
   /// What stands for causes at a place, beside the common vectors: K^-1 b for a force direction, K^-1 (dK Phi) for a factor.
-  [[nodiscard]] Eigen::MatrixXd own_vectors(const Place& place, int count) const;
+  /// @param turn  becomes what makes them of `loads_at`, K^-1 loads turn beyond the common vectors
+  [[nodiscard]] Eigen::MatrixXd own_vectors(const Place& place, int count, Eigen::MatrixXd* turn = nullptr) const;
+  /// Computes the same vectors, to rounding, from few forces at the place. It borrows from this.
+  [[nodiscard]] std::function<Eigen::MatrixXd()> recipe(const Place& place, int count) const;
   /// Force of all unit forces of a place over the displacements that they make along themselves.
   [[nodiscard]] double drive_stiffness(const Eigen::SparseMatrix<double>& directions) const;
   /// K where the basis was made, shifted where the structure is free.
   [[nodiscard]] const Symmetric& stiffness() const { return stiffness_; }
 
  private:
+  /// Forces whose responses stand for causes at a place (n × any).
+  [[nodiscard]] Eigen::MatrixXd loads_at(const Place& place) const;
   /// The strongest responses to the unit forces of a place.
   [[nodiscard]] Eigen::MatrixXd responses(const Eigen::SparseMatrix<double>& directions, int count) const;
 

@@ -77,6 +77,16 @@ TEST(ReducedMatrix, ImagesOfMotionAreTheWholesProducts) {
   EXPECT_LT((sum - expected).norm(), 1e-12 * expected.norm());
 }
 
+TEST(ReducedBasis, KeepsFewGroupsAndComputesOthersAgain) {
+  const auto v = projection_basis();
+  const MatrixXd first = *v->vectors(0);
+  const auto groups = v->groups().size();
+  v->append(std::vector<diagnosis::ReducedBasis::Block>(diagnosis::ReducedBasis::kKept, block(1)));
+  EXPECT_EQ(v->groups().size(), groups + diagnosis::ReducedBasis::kKept);
+  EXPECT_EQ(*v->vectors(0), first);
+  EXPECT_EQ(v->own(kSomeColumns).rightCols(2), first);
+}
+
 TEST(ReducedMatrix, FollowsABasisThatHasGrown) {
   const auto v = projection_basis();
   const diagnosis::Symmetric s = row_of_springs(0, kDofs - 1);
