@@ -233,6 +233,7 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
       place.directions.keep(group);
     }
     const MatrixXd v = beside(blocks);
+    if (v.cols() == 0) continue;  // the common ones hold what these places do
     sensors.conservativeResize(Eigen::NoChange, size() + v.cols());
     sensors.rightCols(v.cols()) = structure.sensors(v);
     if (!load_tests.empty()) append_coordinates(load_tests, projected(structure.load_tests, v));

@@ -193,6 +193,15 @@ TEST(Halves, AddUpToTheZone) {
   }
 }
 
+TEST(ReducedModel, ExtendedByAPlaceWithoutVectorsStaysAsItIs) {
+  const Chain chain(long_chain());
+  diagnosis::ReducedModel grown(chain.structure(), chain.places(), {});
+  const Eigen::Index before = grown.size();
+  grown.extend(chain.structure(), "bare", {{"bare", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}}});
+  EXPECT_EQ(grown.size(), before);
+  EXPECT_TRUE(grown.place("bare", "bare")->columns.empty());
+}
+
 TEST(ReducedModel, ExtendedByAPlaceIsTheOneThatWasMadeWithIt) {
   const Chain chain(long_chain());
   diagnosis::Places with = chain.places();
