@@ -29,13 +29,14 @@ void add_part(MatrixXd& to, double amount, const ReducedMatrix& part, const std:
   to.topLeftCorner(std::ssize(columns), std::ssize(columns)) += amount * part.part(columns);
 }
 /// A place's entries are among the structure's: a hundred sums of whole sparse matrices would take seconds.
-void add_part(Symmetric& to, double amount, const Symmetric& part, const std::vector<int>&) {
-  for (int c = 0; c < part.outerSize(); ++c)
-    for (Symmetric::InnerIterator e(part, c); e; ++e) to.coeffRef(e.row(), e.col()) += amount * e.value();
+void add_part(Symmetric& to, double amount, const CompactMatrix& part, const std::vector<int>&) {
+  const auto dof = [&](Index i) { return part.dofs()[static_cast<std::size_t>(i)]; };
+  for (int c = 0; c < part.block().outerSize(); ++c)
+    for (Symmetric::InnerIterator e(part.block(), c); e; ++e) to.coeffRef(dof(e.row()), dof(e.col())) += amount * e.value();
 }
 
 VectorXd unit_force(const ReducedPlace& place, Index d, const std::vector<int>& columns) {
-  return place.directions.col(d)(columns);
+  return place.directions.part(d, columns);
 }
 VectorXd unit_force(const Place& place, Index d, const std::vector<int>&) { return VectorXd(place.directions.col(d)); }
 

@@ -36,7 +36,10 @@ class SpringScreen {
   [[nodiscard]] bool empty() const { return along_.size() == 0; }
   /// Motion of each mode along each direction of a place (k × n_modes).
   [[nodiscard]] MatrixXd motion(const ReducedPlace& place) const {
-    return place.directions.transpose() * found_.coordinates.leftCols(modes_);
+    MatrixXd out(place.directions.cols(), modes_);
+    for (Index d = 0; d < out.rows(); ++d)
+      out.row(d) = place.directions.part(d, found_.columns).transpose() * found_.coordinates.leftCols(modes_);
+    return out;
   }
   /// Products of the modes, summed over the springs. @param q (n_springs × n_modes)
   [[nodiscard]] VectorXd products(const MatrixXd& q) const {

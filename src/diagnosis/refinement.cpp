@@ -138,7 +138,7 @@ const Refinement::Entries& Refinement::round(const std::vector<const Scored*>& c
   if (further.empty()) return out;
   const std::string set = "between " + std::to_string(sets_);
   places_.sets.erase(set);  // its names have kept halves apart; the model does not know it yet
-  model_.extend(structure_, places_, set, further);
+  model_.extend(structure_, set, further);
   places_.sets[set] = std::move(further);
   for (const Laid& here : laid) {
     const Candidate& centre = *here.centre->candidate;

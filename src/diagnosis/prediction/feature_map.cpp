@@ -280,19 +280,19 @@ Eigen::MatrixXd own_columns(const std::vector<FeatureMap::Base::Part>& parts, co
   const ReducedBasis& basis = parts.front().second->basis();
   const Index n = std::ssize(columns), c = basis.common();
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n - c);
-  Eigen::MatrixXd motion, force;  // of all parts of few degrees of freedom together: they are projected once
+  Eigen::MatrixXd own, force;  // of all parts of few degrees of freedom together: they are projected once
   for (const auto& [amount, matrix] : parts) {
     if (!matrix->is_local()) {
       matrix->add_own(amount, columns, total);
       continue;
     }
-    if (motion.size() == 0) {
-      motion = basis.own(columns);
-      force = Eigen::MatrixXd::Zero(motion.rows(), motion.cols());
+    if (own.size() == 0) {
+      own = basis.own(columns);
+      force = Eigen::MatrixXd::Zero(own.rows(), own.cols());
     }
-    matrix->add_image(amount, motion, force);
+    matrix->add_image(amount, own, force);
   }
-  if (force.size() > 0) total += basis.projected(columns, force);
+  if (force.size() > 0) total += basis.projected(own, force);
   return total;
 }
 

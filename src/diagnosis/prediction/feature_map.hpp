@@ -62,7 +62,8 @@ struct Prediction {
 /// Undamped modes of the model as the channels see them, and which of them each measured mode is paired with.
 struct FormModes {
   ModelModes modes;
-  Eigen::MatrixXd coordinates;     ///< (r × n_modes) the modes in the reduced model's coordinates
+  std::vector<int> columns;        ///< the reduced model's coordinates that the modes move in
+  Eigen::MatrixXd coordinates;     ///< (n_columns × n_modes) the modes in them
   std::vector<PairedMode> paired;  ///< (n_measured_modes), empty if the model predicts none of these rows
 };
 

@@ -30,8 +30,8 @@ FormModes Predictor::form_modes() {
     out.modes.omega_rad_s[j] = std::sqrt(std::max(all.eigenvalue(j), 0.0));
     shapes.col(j) /= std::sqrt(all.mu[j]);
   }
-  out.coordinates = MatrixXd::Zero(map_.model().size(), count);
-  out.coordinates(first.columns, Eigen::all) = shapes.topRows(n);
+  out.columns = first.columns;
+  out.coordinates = shapes.topRows(n);
   out.modes.shapes = channel_factor_.asDiagonal() * channel_rows(first.columns) * shapes.topRows(n);
   // Alike in the coordinates that every state has. Shapes are mass-normalised with everything that moves in them, so that an
   // oscillator's own mode, in which the structure hardly does, is like none of the structure's.

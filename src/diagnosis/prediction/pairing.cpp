@@ -88,7 +88,7 @@ VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedStat
 VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
   // Modes of the model as it stands move in the common coordinates alone.
   const Index common = map_.model().common;
-  const VectorXd reference = map_.model().mode_coordinates.col(position).head(common);
+  const VectorXd reference = map_.model().mode_coordinates.col(position);
   const VectorXd mass_reference = matrices(state.columns).second.leftCols(common) * reference;
   const double norm = reference.dot(mass_reference.head(common));
   const MatrixXd re = state.modes.shapes.real(), im = state.modes.shapes.imag();

@@ -475,7 +475,7 @@ std::map<std::string, VectorXd> Predictor::node_motion() {
       for (Index m = 0; m < modes; ++m) {
         SolvedState& state = solved(map_.modes_[static_cast<std::size_t>(m)].condition);
         const VectorXcd phi = state.modes.shapes.col(prediction.paired[static_cast<std::size_t>(m)]);
-        values[m] = std::abs(sliced(node.directions.col(d), state.columns, phi.size()).cast<Complex>().dot(phi));
+        values[m] = std::abs(sliced(node.directions, d, state.columns, phi.size()).cast<Complex>().dot(phi));
       }
       largest = largest.cwiseMax(values);
       motion[name] = values;

@@ -94,7 +94,7 @@ class Predictor {
   [[nodiscard]] std::vector<double> circumstances(const Condition& condition, const Acting& acting) const;
   [[nodiscard]] SolvedState& solved(int condition);
   [[nodiscard]] static Eigen::MatrixXd sliced(const ReducedMatrix& full, const std::vector<int>& columns, Eigen::Index size);
-  [[nodiscard]] static Eigen::VectorXd sliced(const Eigen::Ref<const Eigen::VectorXd>& full, const std::vector<int>& columns,
+  [[nodiscard]] static Eigen::VectorXd sliced(const ReducedDirections& full, Eigen::Index d, const std::vector<int>& columns,
                                               Eigen::Index size);
   [[nodiscard]] const StateStore::Changes& changes(const SolvedState& state) const;
   /// Stiffness and mass without causes, in some of the reduced model's coordinates.

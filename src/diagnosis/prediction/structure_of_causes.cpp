@@ -43,7 +43,7 @@ void grow(StructureState& state) {
 std::vector<Index> directions_of(const ReducedPlace& place, const ActionSpec& action) {
   const auto named = action.text.find("direction");
   const bool vertical = named != action.text.end() && named->second == "vertical";
-  if (vertical && place.directions.cols() == 3 && place.directions.col(2).squaredNorm() > 0.0) return {2};
+  if (vertical && place.directions.cols() == 3 && !place.directions.is_zero(2)) return {2};
   std::vector<Index> all(static_cast<std::size_t>(place.directions.cols()));
   std::iota(all.begin(), all.end(), Index{0});
   return all;
@@ -62,8 +62,8 @@ void move_support(const ReducedPlace& support, double position, const std::vecto
   own.conservativeResizeLike(MatrixXd::Zero(n, n));
   state.stiffness -= own;
   for (Index d = 0; d < per_node; ++d) {
-    VectorXd b =
-        ((1.0 - t) * support.directions.col(i * per_node + d) + t * support.directions.col((i + 1) * per_node + d))(columns);
+    VectorXd b = (1.0 - t) * support.directions.part(i * per_node + d, columns) +
+                 t * support.directions.part((i + 1) * per_node + d, columns);
     b.conservativeResizeLike(VectorXd::Zero(n));
     state.stiffness += number("k_" + std::to_string(d)) * b * b.transpose();
   }
@@ -82,8 +82,8 @@ MatrixXd Predictor::sliced(const ReducedMatrix& full, const std::vector<int>& co
   return part;
 }
 
-VectorXd Predictor::sliced(const Eigen::Ref<const VectorXd>& full, const std::vector<int>& columns, Index size) {
-  VectorXd part = full(columns);
+VectorXd Predictor::sliced(const ReducedDirections& full, Index d, const std::vector<int>& columns, Index size) {
+  VectorXd part = full.part(d, columns);
   if (size > part.size()) part.conservativeResizeLike(VectorXd::Zero(size));
   return part;
 }
@@ -112,7 +112,7 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
     };
     if (!condition.dampers_on.value_or(number("always_on") != 0.0)) continue;
     double c = number("damping"), k = number("stiffness"), threshold = number("friction");
-    VectorXd direction = damper.directions.col(0);
+    std::pair<const ReducedDirections*, Index> direction = {&damper.directions, 0};
     bool series = number("series") != 0.0, absent = false, sliding = threshold > 0.0;
     for (const Cause& cause : causes_) {
       if (!cause.candidate->acts_in(condition)) continue;
@@ -122,7 +122,7 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
       for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
         const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
         if (action.kind == "damper.absent") absent = true;
-        if (action.kind == "damper.move") direction = places.back()->directions.col(here - places.begin());
+        if (action.kind == "damper.move") direction = {&places.back()->directions, here - places.begin()};
         if (action.kind == "damper.damping") c *= value("factor");
         if (action.kind == "damper.series") {
           k = value("stiffness");
@@ -136,7 +136,7 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
       }
     }
     if (absent) continue;
-    const VectorXd b = sliced(direction, columns_, n);
+    const VectorXd b = sliced(*direction.first, direction.second, columns_, n);
     if (sliding) {
       state.attachments.push_back({Attachment::Kind::jenkins, b, k, c, threshold});
     } else if (series && k > 0.0) {
@@ -179,7 +179,7 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
     move_support(place, value("position"), columns_, state);
   } else if (kind == "mass.add") {
     for (Index d = 0; d < place.directions.cols(); ++d) {
-      const VectorXd b = sliced(place.directions.col(d), columns_, n);
+      const VectorXd b = sliced(place.directions, d, columns_, n);
       state.mass += value("mass") * b * b.transpose();
     }
   } else if (kind == "mass.per_count") {
@@ -199,7 +199,7 @@ void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& actio
   const ReducedPlace& place = *candidate.places[0];
   const Index n = state.stiffness.rows();
   const auto add = [&](const VectorXd& b) { state.stiffness += stiffness * b * b.transpose(); };
-  const auto own = [&](const ReducedPlace& at, Index d) { return sliced(at.directions.col(d), columns_, n); };
+  const auto own = [&](const ReducedPlace& at, Index d) { return sliced(at.directions, d, columns_, n); };
   if (candidate.places.size() != 2) {
     for (const Index d : directions_of(place, action)) add(own(place, d));
     return;
@@ -221,7 +221,7 @@ void Predictor::apply_body(const ReducedPlace& place, bool string, double m, dou
   for (Index d = 0; d < place.directions.cols(); ++d) {
     grow(state);
     const Index k = state.stiffness.rows() - 1;
-    const VectorXd b = sliced(place.directions.col(d), columns_, k + 1);
+    const VectorXd b = sliced(place.directions, d, columns_, k + 1);
     if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
       state.mass += m / 3.0 * b * b.transpose();
       state.mass(k, k) += 0.5 * m;
@@ -251,8 +251,7 @@ StructureState Predictor::build_state(const Condition& condition) const {
     const auto& channels = map_.features().channels;
     const auto at = std::find(channels.begin(), channels.end(), condition.amplitude_channel);
     if (at != channels.end()) {
-      state.amplitude_row =
-          sliced(VectorXd(map_.model().sensors.row(4 * (at - channels.begin())).transpose()), columns_, n).transpose();
+      state.amplitude_row = map_.model().sensors.row(4 * (at - channels.begin()))(columns_);
       state.amplitude_m = *condition.amplitude_m;
     }
   }
@@ -425,7 +424,7 @@ const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
 
 MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x) const {
   const auto count = std::ssize(changes), n = std::ssize(columns);
-  MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols()), motion;
+  MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols()), own, motion;
   for (Index p = 0; p < x.cols(); ++p) {
     if (x.col(p).isZero(0.0)) continue;
     for (Index j = 0; j < count; ++j) {
@@ -433,8 +432,11 @@ MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<Mat
       auto here = out.col(p * count + j);
       if (change.dense.size() > 0) here = change.dense * x.col(p);
       if (change.local == nullptr) continue;
-      if (motion.size() == 0) motion = change.local->basis().motion(columns, x.topRows(n));
-      change.local->add_product(change.amount, columns, motion.col(p), here.head(n));
+      if (motion.size() == 0) {
+        own = change.local->basis().own(columns);
+        motion = change.local->basis().motion(own, x.topRows(n));
+      }
+      change.local->add_product(change.amount, own, motion.col(p), here.head(n));
     }
   }
   return out;

@@ -75,7 +75,7 @@ double Predictor::wind_weight(const Condition& condition, const SolvedState& sol
       const double shelter = node.x_m.allFinite() && node.x_m.head<2>().dot(along) > 0.0 ? lee : 1.0;
       std::array<std::complex<double>, 3> u{};
       for (int k = 0; k < 3; ++k) {
-        const Eigen::VectorXd b = sliced(node.directions.col(k), solved.columns, phi.size());
+        const Eigen::VectorXd b = sliced(node.directions, k, solved.columns, phi.size());
         u[static_cast<std::size_t>(k)] = b.cast<Complex>().dot(phi);
       }
       d2 += shelter * std::norm(along.x() * u[0] + along.y() * u[1]);

@@ -378,7 +378,8 @@ void ElementPlaces::add_groups(Places& places) const {
     Place place{"group:" + name, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
     if (!group.mass.entries.empty()) place.mass = free(group.mass);
     const bool known = std::any_of(of_parameters.begin(), of_parameters.end(), [&](const Place& other) {
-      return other.id == place.id || (other.stiffness.nonZeros() > 0 && alike(other.stiffness, place.stiffness));
+      return other.id == place.id ||
+             (other.stiffness.nonZeros() > 0 && alike(other.stiffness.whole(), place.stiffness.whole()));
     });
     if (!known && place.stiffness.nonZeros() > 0) set.push_back(std::move(place));
   }

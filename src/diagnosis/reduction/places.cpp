@@ -118,8 +118,9 @@ std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& 
     Triplets masses;  // what sits on the node, for its scatter
     for (const int dof : dofs)
       if (diagonal[dof] > 0.0) masses.emplace_back(dof, dof, diagonal[dof]);
-    place.mass.resize(system.size(), system.size());
-    place.mass.setFromTriplets(masses.begin(), masses.end());
+    Symmetric mass(system.size(), system.size());
+    mass.setFromTriplets(masses.begin(), masses.end());
+    place.mass = mass;
     places.push_back(std::move(place));
   }
   return places;
@@ -179,12 +180,9 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
                        places);
     elements.fill_global(global);
     Place stays{"global", kNowhere, {}, {}, {}, {}, {}};
-    for (const Place& stay : places.sets["stays"]) {
-      if (stays.stiffness.size() == 0)
-        stays.stiffness = stay.stiffness;
-      else
-        stays.stiffness += stay.stiffness;
-    }
+    for (const Place& stay : places.sets["stays"])
+      stays.stiffness =
+          stays.stiffness.size() == 0 ? stay.stiffness : Symmetric(stays.stiffness.whole() + stay.stiffness.whole());
     if (stays.stiffness.size() > 0) places.sets["all_stays"] = {std::move(stays)};
   }
   if (places.total_mass_kg > 0.0) global.attributes["total_mass"] = places.total_mass_kg;

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/reduction/reduced_directions.hpp"
 #include "diagnosis/reduction/reduced_matrix.hpp"
+#include "diagnosis/reduction/reduction_options.hpp"
 #include "diagnosis/reduction/structure.hpp"
 
 namespace twindeck::diagnosis {
@@ -17,7 +19,7 @@ struct ReducedPlace {
   Eigen::Vector3d x_m;
   std::vector<int> columns;       ///< basis vectors for causes at this location, beside the common ones
   ReducedMatrix stiffness, mass;  ///< (r × r), size 0 if the location has none
-  Eigen::MatrixXd directions;     ///< (r × k) unit forces
+  ReducedDirections directions;   ///< unit forces
   std::map<std::string, double> attributes;
 };
 
@@ -26,17 +28,6 @@ struct ReducedPlace {
 /// @param reduced_at  (n_parameters) values at which the basis was made
 [[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
                                      const Eigen::VectorXd& value);
-
-struct ReductionOptions {
-  int modes = 30;                 ///< number of modes of the unchanged structure in the basis
-  int parameter_vectors = 10;     ///< most corrections for changed parameters and element scatter; the strongest are kept
-  double least_correction = 0.0;  ///< a correction below this part of every mode's omega² is left out
-  double element_change = 0.0;    ///< relative change of a group of elements by element scatter; 0: no corrections
-  int corrected_modes = 8;        ///< number of lowest modes whose static responses to a change at a location are used
-  int vectors_per_place = 3;      ///< most vectors of a location: the strongest directions of these responses
-  int vectors_per_move = 8;       ///< most vectors of a support that may stand elsewhere on its line
-  int full_below = 60;            ///< a structure with at most this number of dofs is not reduced
-};
 
 /// The structure, projected once onto a small basis. Thousands of changed structures can then be solved:
 ///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by
@@ -63,25 +54,27 @@ class ReducedModel {
   int common = 0;           ///< basis vectors that every solve uses: 0 … common-1
   double total_mass_kg = 0.0;
   Eigen::VectorXd frequency_Hz;      ///< of the modes of the unchanged full model
-  Eigen::MatrixXd mode_coordinates;  ///< (r × n_modes) the same modes in the basis
+  Eigen::MatrixXd mode_coordinates;  ///< (common × n_modes) the same modes in the common vectors, which hold them
   LoadTests load_tests;              ///< in the basis, which gives their displacements exactly at `theta`
 
   /// Adds further locations as a new set, with their static responses as further basis vectors. Earlier coordinates keep their
   /// numbers and meaning, so predictions without the further locations do not change.
-  /// @param structure, places  the same as in the constructor
-  /// @param set                a name that `sets` does not have
-  void extend(const Structure& structure, const Places& places, const std::string& set, const std::vector<Place>& further);
+  /// @param structure  the same as in the constructor
+  /// @param set        a name that `sets` does not have
+  void extend(const Structure& structure, const std::string& set, const std::vector<Place>& further);
 
   [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
   /// The location called `id` in any set; null if there is none.
   [[nodiscard]] const ReducedPlace* place(const std::string& set, const std::string& id) const;
 
  private:
-  using OwnColumns = std::map<std::string, std::vector<std::vector<int>>>;  ///< of each place of each set
-  /// Terms and places in the coordinates of the basis.
-  void project(const fe::ParametricSystem& system, const Places& places, const OwnColumns& own);
+  /// Terms and places in the coordinates of the common vectors.
+  void project(const fe::ParametricSystem& system, const Places& places);
+  /// Vectors of places, as many as can be held at once after each other, and everything in their coordinates.
+  struct Owner;
+  void add_vectors(const Structure& structure, const std::vector<Owner>& owners);
 
-  struct Kept;                  ///< input of `extend`: the basis in full coordinates, the factor of K
+  struct Kept;                  ///< input of `extend`: the basis, what vectors of places come from
   std::shared_ptr<Kept> kept_;  ///< a model that has copies cannot be extended
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/features/load_tests.hpp"
+#include "diagnosis/reduction/compact_matrix.hpp"
 #include "fe/assembly.hpp"
 #include "fe/model.hpp"
 #include "fe/parametric_system.hpp"
@@ -35,14 +36,11 @@ struct Structure {
   std::string source;
 };
 
-/// A symmetric matrix on the free dofs, both triangles; no entries where there is nothing.
-using Symmetric = Eigen::SparseMatrix<double>;
-
 /// A place where a cause can sit, with what is there, over the free dofs.
 struct Place {
   std::string id;                            ///< "element:17", "node:4", "stay:NE5", "damper:C1", "group:E_s" …
   Eigen::Vector3d x_m;                       ///< NaN where unknown
-  Symmetric stiffness, mass;                 ///< what a factor scales; size 0 where it has none
+  CompactMatrix stiffness, mass;             ///< what a factor scales; size 0 where it has none
   Eigen::SparseMatrix<double> directions;    ///< (n × k) unit forces: x y z of a node, a damper's line; size 0 where none
   std::map<std::string, double> attributes;  ///< numbers for a catalogue's expressions: "damping", "stiffness", "k_drive" …
   std::vector<int> elements;                 ///< positions of the elements that belong to it

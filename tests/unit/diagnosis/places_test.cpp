@@ -1,11 +1,13 @@
 // Places and the reduced model. Oracles: parts add up to the whole; a reduced structure that is not reduced has the full one's
 // modes; the bridge's changed frequencies by a full solve.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <numeric>
 
 #include "chain.hpp"
 #include "diagnosis/reduction/diagnosed_model.hpp"
+#include "diagnosis/reduction/static_vectors.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "ponte/generator.hpp"
 #include "test_places.hpp"
@@ -22,8 +24,8 @@ TEST(Places, OfAMatrixModelAreItsGroupsAndNodes) {
   EXPECT_DOUBLE_EQ(chain.places().total_mass_kg, 6.0 * Chain::kMass);
   // The groups are all there is of the stiffness, the nodes all there is of the mass.
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6, 6), m = k;
-  for (const auto& place : sets.at("groups")) k += Eigen::MatrixXd(place.stiffness);
-  for (const auto& place : sets.at("nodes")) m += Eigen::MatrixXd(place.mass);
+  for (const auto& place : sets.at("groups")) k += Eigen::MatrixXd(place.stiffness.whole());
+  for (const auto& place : sets.at("nodes")) m += Eigen::MatrixXd(place.mass.whole());
   EXPECT_LT((k - chain.stiffness(chain.as_modelled())).norm(), 1e-6);
   EXPECT_LT((m - Chain::kMass * Eigen::MatrixXd::Identity(6, 6)).norm(), 1e-9);
 }
@@ -42,6 +44,40 @@ TEST(ReducedModel, DriveStiffnessIsThatOfAUnitForce) {
     EXPECT_NEAR(
         nodes[static_cast<std::size_t>(i)].attributes.at("k_drive") / (Chain::kSpring * (1.0 / (i + 1) + 1.0 / (6 - i))), 1.0,
         1e-9);
+}
+
+TEST(ReducedModel, HoldsNoMatrixOfDofsTimesPlaces) {
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // A chain has a place a mass. Twice the masses must take about twice the memory; if all vectors of places were kept, they
+  // would take four times as much.
+  const auto held = [] {
+    const struct mallinfo2 now = mallinfo2();
+    return static_cast<double>(now.uordblks) + static_cast<double>(now.hblkhd);
+  };
+  const auto bytes = [&](int masses) {
+    const Chain chain({.masses = masses, .channels = {0, 1, 2}, .modes = 4});
+    const double before = held();
+    const diagnosis::ReducedModel reduced(chain.structure(), chain.places(), {.modes = 8, .parameter_vectors = 2});
+    EXPECT_GT(reduced.size(), 2 * masses);
+    return held() - before;
+  };
+  const double few = bytes(600), many = bytes(1200);
+  EXPECT_LT(many, 2.6 * few) << few << " bytes for 600 masses";
+#endif
+}
+
+TEST(StaticVectors, OfAPlaceComeAgainFromItsForces) {
+  const Chain chain({.masses = 80, .channels = {0, 40}, .modes = 4});
+  dynamics::ModalSolver solver(*chain.structure().system);
+  diagnosis::StaticVectors statics;
+  statics.factorize(chain.structure());
+  statics.make_common(chain.structure(), chain.places(), solver.solve(chain.structure().theta, 8), {.parameter_vectors = 2});
+  for (const char* set : {"groups", "nodes"})
+    for (const auto& place : chain.places().sets.at(set)) {
+      const Eigen::MatrixXd own = statics.own_vectors(place, 3), again = statics.recipe(place, 3)();
+      ASSERT_EQ(again.cols(), own.cols()) << place.id;
+      EXPECT_LT((again - own).norm(), 1e-9 * own.norm()) << place.id;
+    }
 }
 
 TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
@@ -83,8 +119,9 @@ TEST(ReducedModel, OfTheBridgeHasTheFullModelsModesAndFollowsAChange) {
   term.coefficient.base = -0.5;
   const int* outer = system.pattern.outerIndexPtr();
   const int* inner = system.pattern.innerIndexPtr();
-  for (int c = 0; c < stay.stiffness.outerSize(); ++c)
-    for (diagnosis::Symmetric::InnerIterator entry(stay.stiffness, c); entry; ++entry) {
+  const diagnosis::Symmetric stay_stiffness = stay.stiffness.whole();
+  for (int c = 0; c < stay_stiffness.outerSize(); ++c)
+    for (diagnosis::Symmetric::InnerIterator entry(stay_stiffness, c); entry; ++entry) {
       if (entry.row() < entry.col()) continue;
       const int* at = std::lower_bound(inner + outer[c], inner + outer[c + 1], static_cast<int>(entry.row()));
       ASSERT_TRUE(at != inner + outer[c + 1] && *at == entry.row());

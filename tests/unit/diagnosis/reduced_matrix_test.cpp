@@ -11,10 +11,21 @@ using Eigen::VectorXd;
 
 constexpr int kDofs = 30, kCommonVectors = 6;
 
+diagnosis::ReducedBasis::Block block(int count) {
+  const MatrixXd vectors = MatrixXd::Random(kDofs, count);
+  return {std::make_shared<const MatrixXd>(vectors), [vectors] { return vectors; }};
+}
+
 /// A basis of six common vectors and three groups of two, three and one.
 std::shared_ptr<diagnosis::ReducedBasis> projection_basis() {
   auto out = std::make_shared<diagnosis::ReducedBasis>(MatrixXd::Random(kDofs, kCommonVectors));
-  out->append({MatrixXd::Random(kDofs, 2), MatrixXd(kDofs, 0), MatrixXd::Random(kDofs, 3), MatrixXd::Random(kDofs, 1)});
+  out->append({block(2), block(0), block(3), block(1)});
+  return out;
+}
+
+MatrixXd vectors(const diagnosis::ReducedBasis& basis, const std::vector<int>& columns) {
+  MatrixXd out(kDofs, std::ssize(columns));
+  out << basis.common_vectors(), basis.own(columns);
   return out;
 }
 
@@ -32,7 +43,7 @@ diagnosis::Symmetric row_of_springs(int first, int last) {
 const std::vector<int> kSomeColumns = {0, 1, 2, 3, 4, 5, 8, 9, 10, 6, 7};  // the common ones, the second group, the first
 
 MatrixXd whole_product(const diagnosis::ReducedBasis& basis, const diagnosis::Symmetric& s, const std::vector<int>& columns) {
-  const MatrixXd v = basis.vectors(Eigen::all, columns);
+  const MatrixXd v = vectors(basis, columns);
   return v.transpose() * (s * v);
 }
 
@@ -54,22 +65,33 @@ TEST(ReducedMatrix, ImagesOfMotionAreTheWholesProducts) {
   const diagnosis::Symmetric s = row_of_springs(12, 14);
   const diagnosis::ReducedMatrix matrix(s, v, true);
   const VectorXd x = VectorXd::Random(std::ssize(kSomeColumns));
-  const MatrixXd motion = v->motion(kSomeColumns, x);
-  EXPECT_LT((motion - v->vectors(Eigen::all, kSomeColumns) * x).norm(), 1e-12 * motion.norm());
+  const MatrixXd own = v->own(kSomeColumns);
+  const MatrixXd motion = v->motion(own, x);
+  EXPECT_LT((motion - vectors(*v, kSomeColumns) * x).norm(), 1e-12 * motion.norm());
   const VectorXd expected = 2.5 * (whole_product(*v, s, kSomeColumns) * x);
   MatrixXd force = MatrixXd::Zero(kDofs, 1);
   matrix.add_image(2.5, motion, force);
-  EXPECT_LT((v->projected(kSomeColumns, force) - expected).norm(), 1e-12 * expected.norm());
+  EXPECT_LT((v->projected(own, force) - expected).norm(), 1e-12 * expected.norm());
   VectorXd sum = VectorXd::Zero(x.size());
-  matrix.add_product(2.5, kSomeColumns, motion.col(0), sum);
+  matrix.add_product(2.5, own, motion.col(0), sum);
   EXPECT_LT((sum - expected).norm(), 1e-12 * expected.norm());
+}
+
+TEST(ReducedBasis, KeepsFewGroupsAndComputesOthersAgain) {
+  const auto v = projection_basis();
+  const MatrixXd first = *v->vectors(0);
+  const auto groups = v->groups().size();
+  v->append(std::vector<diagnosis::ReducedBasis::Block>(diagnosis::ReducedBasis::kKept, block(1)));
+  EXPECT_EQ(v->groups().size(), groups + diagnosis::ReducedBasis::kKept);
+  EXPECT_EQ(*v->vectors(0), first);
+  EXPECT_EQ(v->own(kSomeColumns).rightCols(2), first);
 }
 
 TEST(ReducedMatrix, FollowsABasisThatHasGrown) {
   const auto v = projection_basis();
   const diagnosis::Symmetric s = row_of_springs(0, kDofs - 1);
   diagnosis::ReducedMatrix matrix(s, v, true);
-  const std::vector<std::vector<int>> further = v->append({MatrixXd::Random(kDofs, 2)});
+  const std::vector<std::vector<int>> further = v->append({block(2)});
   matrix.follow_basis();
   std::vector<int> columns = kSomeColumns;
   columns.insert(columns.end(), further[0].begin(), further[0].end());

@@ -185,12 +185,21 @@ TEST(Halves, AddUpToTheZone) {
     const diagnosis::Place& whole = places.sets.at(set).front();
     const std::vector<diagnosis::Place> halves = diagnosis::halves_of(structure, places, whole);
     ASSERT_EQ(halves.size(), 2u) << whole.id;
-    const Eigen::MatrixXd sum = Eigen::MatrixXd(halves[0].stiffness) + Eigen::MatrixXd(halves[1].stiffness);
-    EXPECT_LT((sum - Eigen::MatrixXd(whole.stiffness)).norm(), 1e-9 * sum.norm()) << whole.id;
+    const Eigen::MatrixXd sum = Eigen::MatrixXd(halves[0].stiffness.whole()) + Eigen::MatrixXd(halves[1].stiffness.whole());
+    EXPECT_LT((sum - Eigen::MatrixXd(whole.stiffness.whole())).norm(), 1e-9 * sum.norm()) << whole.id;
     EXPECT_NE(halves[0].id, halves[1].id);
     EXPECT_NE(halves[0].id, whole.id);
     EXPECT_GT(std::abs(halves[0].x_m.x() - halves[1].x_m.x()), 1.0);
   }
+}
+
+TEST(ReducedModel, ExtendedByAPlaceWithoutVectorsStaysAsItIs) {
+  const Chain chain(long_chain());
+  diagnosis::ReducedModel grown(chain.structure(), chain.places(), {});
+  const Eigen::Index before = grown.size();
+  grown.extend(chain.structure(), "bare", {{"bare", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}}});
+  EXPECT_EQ(grown.size(), before);
+  EXPECT_TRUE(grown.place("bare", "bare")->columns.empty());
 }
 
 TEST(ReducedModel, ExtendedByAPlaceIsTheOneThatWasMadeWithIt) {
@@ -204,7 +213,7 @@ TEST(ReducedModel, ExtendedByAPlaceIsTheOneThatWasMadeWithIt) {
   const auto families = catalogue({"mass", "stiffness"});
   const diagnosis::FeatureMap map(grown, features, {});
   const auto before = map.predict(map.base(VectorXd::Zero(std::ssize(map.nuisances()))), {}, true);
-  grown.extend(chain.structure(), chain.places(), "beside", {further});
+  grown.extend(chain.structure(), "beside", {further});
   ASSERT_EQ(grown.size(), at_once.size());
   const diagnosis::FeatureMap other(at_once, features, {});
   const VectorXd x = VectorXd::Constant(std::ssize(map.nuisances()), 0.3);

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace twindeck::diagnosis {
+
+/// The vectors V that a structure is projected to: c common ones first, then groups of vectors that stand for causes at one
+/// location each. A vector is as long as the structure has degrees of freedom. Those of the last groups that were used are
+/// kept, others are computed again, to the same bits, when they are asked for. Safe for several threads.
+class ReducedBasis {
+ public:
+  struct Group {
+    Eigen::Index first = 0, count = 0;  ///< of the columns of V
+  };
+  /// Vectors of a location (n × any).
+  struct Block {
+    std::shared_ptr<const Eigen::MatrixXd> vectors;
+    std::function<Eigen::MatrixXd()> again;  ///< computes them
+  };
+  static constexpr std::size_t kKept = 512;  ///< groups of vectors that are kept
+
+  explicit ReducedBasis(Eigen::MatrixXd common);
+  [[nodiscard]] Eigen::Index common() const { return common_rows_.rows(); }
+  [[nodiscard]] Eigen::Index size() const { return std::ssize(group_of_); }
+  [[nodiscard]] const Eigen::MatrixXd& common_vectors() const { return common_vectors_; }  ///< (n × c)
+  /// Their transpose (c × n): what is read of a degree of freedom lies together.
+  [[nodiscard]] const Eigen::MatrixXd& common_rows() const { return common_rows_; }
+  [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
+  /// Position in `groups` of a column behind the common ones, and the column in its group.
+  [[nodiscard]] std::pair<int, Eigen::Index> place_of(int column) const;
+  /// Appends blocks, a group each; empty ones are left out. @return the columns of each block
+  std::vector<std::vector<int>> append(const std::vector<Block>& blocks);
+  [[nodiscard]] std::shared_ptr<const Eigen::MatrixXd> vectors(int group) const;  ///< (n × count)
+  /// The vectors behind the common ones among some columns (n × n_own).
+  [[nodiscard]] Eigen::MatrixXd own(const std::vector<int>& columns) const;
+  /// V_c x of some columns (n × m). @param own  of these columns @param x (n_columns × m)
+  [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& own, const Eigen::MatrixXd& x) const;
+  /// V_c' f (n_columns × m). @param own  of these columns @param force (n × m)
+  [[nodiscard]] Eigen::MatrixXd projected(const Eigen::MatrixXd& own, const Eigen::MatrixXd& force) const;
+
+ private:
+  void keep(int group, std::shared_ptr<const Eigen::MatrixXd> vectors) const;  ///< under the mutex
+
+  Eigen::MatrixXd common_vectors_, common_rows_;
+  std::vector<Group> groups_;
+  std::vector<int> group_of_;                            ///< (r) position in `groups`, -1 for a common vector
+  std::vector<std::function<Eigen::MatrixXd()>> again_;  ///< by group
+  mutable std::mutex mutex_;
+  mutable std::vector<std::shared_ptr<const Eigen::MatrixXd>> kept_;  ///< by group; null where they have gone
+  mutable std::deque<int> order_;                                     ///< of the groups that are kept, the oldest first
+};
+
+}  // namespace twindeck::diagnosis
