@@ -221,9 +221,7 @@ fs::path StepContext::input(const fs::path& asked) {
                      "run the step that writes it, or point to your own data (--help)");
   }
   io::check_against_manifest(path);
-  const auto register_file = [&](const fs::path& file) {
-    input_hashes_.emplace(file.generic_string(), io::sha256(file));
-  };
+  const auto register_file = [&](const fs::path& file) { input_hashes_.emplace(file.generic_string(), io::sha256(file)); };
   if (!fs::is_directory(path)) {
     register_file(path);
     return path;
