@@ -44,6 +44,13 @@ std::vector<int> columns_of(const diagnosis::ReducedModel& model, const std::vec
   return columns;
 }
 
+/// The unit forces of a location (n_columns × k).
+MatrixXd forces_of(const ReducedPlace& place, const std::vector<int>& columns) {
+  MatrixXd forces(std::ssize(columns), place.directions.cols());
+  for (Index d = 0; d < forces.cols(); ++d) forces.col(d) = place.directions.part(d, columns);
+  return forces;
+}
+
 void apply(const Cause& cause, const Condition& condition, State& state) {
   for (const diagnosis::ActionSpec& action : cause.candidate->hypothesis->actions) {
     if (cause.candidate->places.empty()) continue;
@@ -52,16 +59,18 @@ void apply(const Cause& cause, const Condition& condition, State& state) {
     const auto own = [&](const diagnosis::ReducedMatrix& full) { return full.part(state.columns); };
     if (action.kind == "scale.stiffness") state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
     if (action.kind == "scale.mass") state.mass += (value("factor") - 1.0) * own(place.mass);
-    if (action.kind == "mass.add")
-      state.mass += value("mass") * MatrixXd(place.directions(state.columns, Eigen::all) *
-                                             place.directions(state.columns, Eigen::all).transpose());
+    if (action.kind == "mass.add") {
+      const MatrixXd b = forces_of(place, state.columns);
+      state.mass += value("mass") * b * b.transpose();
+    }
     if (action.kind == "field.stiffness" && condition.temperature_C)
       state.stiffness += value("rate") * (*condition.temperature_C - value("reference")) * own(place.stiffness);
     if (action.kind == "step.stiffness" && condition.temperature_C && *condition.temperature_C < value("below"))
       state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
     if (action.kind == "element.spring" && cause.candidate->places.size() == 2) {
       const ReducedPlace& other = *cause.candidate->places[1];
-      const VectorXd b = VectorXd((place.directions - other.directions) * (other.x_m - place.x_m).normalized())(state.columns);
+      const VectorXd b =
+          (forces_of(place, state.columns) - forces_of(other, state.columns)) * (other.x_m - place.x_m).normalized();
       state.stiffness += value("stiffness") * b * b.transpose();
     }
   }
@@ -87,7 +96,7 @@ void add_damper(const ReducedPlace& damper, const std::vector<Cause>& causes, St
       if (action.kind == "damper.friction") one.friction_N = value("threshold");
     }
   }
-  const VectorXd b = damper.directions.col(0)(state.columns);
+  const VectorXd b = damper.directions.part(0, state.columns);
   if (!series) {  // spring and dashpot side by side, on a mount that does not give way
     state.stiffness += one.stiffness_N_m * b * b.transpose();
     one.stiffness_N_m = kRigidMount;
