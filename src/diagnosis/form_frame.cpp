@@ -129,7 +129,8 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
   const MatrixXd own = form.frequency(rows, Eigen::all);
   const double share = many.cols() > 0 ? kManySmall : 0.0;
   out.frequency.resize(std::ssize(rows), own.cols() + many.cols());
-  out.frequency << std::sqrt(1.0 - share) * own, std::sqrt(share) * many;
+  out.frequency.leftCols(own.cols()) = std::sqrt(1.0 - share) * own;
+  if (many.cols() > 0) out.frequency.rightCols(many.cols()) = std::sqrt(share) * many;
   out.shape = form.shape(rows, Eigen::all);
   out.kinks = form.kinks(rows, Eigen::all);
   std::vector<int> condition;

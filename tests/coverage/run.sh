@@ -1,5 +1,6 @@
 #!/bin/sh
-# make coverage: builds with g++'s counters, runs the unit tests, the laws and the verification, counts lines and branches with gcovr.
+# make coverage: builds with g++'s counters, runs the unit tests, the laws, the verification, the tests of the steps that use the rooms of numerics and
+# the smoke chain, and counts lines and branches with gcovr.
 # Without optimisation (preset `coverage`): g++ merges branches even with -O1 and -Og, before it counts them, so that lines that no test reaches
 # are not listed at all.
 #   build-coverage/coverage.json   by file; coverage.md: by room of src, the table that the run of CI shows
@@ -16,14 +17,29 @@ command -v gcovr >/dev/null 2>&1 || {
 cmake --preset coverage >build-coverage.log 2>&1 || { cat build-coverage.log; exit 1; }
 rm -f build-coverage.log
 tests=${*:-$(tr ';' ' ' <build-coverage/unit_tests.txt) test_verification test_laws}
+# What reads a model and calls several rooms one after the other is tested where it is used: through the executables.
+steps=
+[ $# -gt 0 ] || steps="aerodynamics validation campaign refinement pairing updating shapes_in_updating load_tests"
 # shellcheck disable=SC2086  # the list is meant to be split
-cmake --build build-coverage -j "$jobs" --target $tests
+cmake --build build-coverage -j "$jobs" --target $tests ${steps:+executables}
 find build-coverage -name '*.gcda' -delete  # counts of earlier runs
 failed=
 for name in $tests; do
   (cd build-coverage && "bin/$name" --gtest_brief=1) || failed="$failed $name"
 done
-gcovr --root . --filter src/ --exclude-throw-branches --exclude-unreachable-branches --json-summary build-coverage/coverage.json build-coverage
+for name in $steps; do
+  TWINDECK_BIN="$PWD/build-coverage/bin" /usr/bin/python3 -m unittest "tests/steps/test_$name.py" || failed="$failed $name"
+done
+if [ -n "$steps" ]; then
+  results=build-coverage/smoke
+  rm -rf "$results"
+  # shellcheck disable=SC2013  # names are words
+  for step in $(sed -n '/^steps *=/,/\]/p' workflows/smoke/study.toml | grep -o 's[0-9]_[a-z]*'); do
+    "build-coverage/bin/$step" --study workflows/smoke --results "$results" --out "$results/$step" --threads 2 --quiet || failed="$failed $step"
+  done
+fi
+# Threads count a line at the same time, so that a branch may have a negative count, which gcovr does not read.
+gcovr --root . --filter src/ --exclude-throw-branches --exclude-unreachable-branches --gcov-ignore-parse-errors --json-summary build-coverage/coverage.json build-coverage
 /usr/bin/python3 tests/coverage/rooms.py build-coverage/coverage.json >build-coverage/coverage.md
 cat build-coverage/coverage.md
 [ -z "$failed" ] || { echo "coverage: failed:$failed" >&2; exit 1; }
