@@ -174,7 +174,7 @@ fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFu
 sanitize: ## unit tests, broken inputs and the smoke chain under address, undefined-behaviour and thread sanitizers (ONLY=address or thread)
 	@tests/sanitize/run.sh $(JOBS) $(ONLY)
 
-coverage: deps ## lines and branches that unit tests, laws and verification reach, by room (build-coverage/coverage.md; needs gcovr)
+coverage: deps ## lines and branches that the tests of the rooms, laws, verification, steps and the smoke chain reach, by room (build-coverage/coverage.md; needs gcovr)
 	@tests/coverage/run.sh $(JOBS) $(ONLY)
 
 mutants: N = 40
