@@ -61,20 +61,18 @@ Matrix solved_by(Gesv gesv, Matrix a, Matrix b) {
   return b;
 }
 
-/// Ascending eigenpairs by DSYEVR: "A" all; "I" first … last (from 1); "V" those of values from `least` to `most`.
-/// @return LAPACK's info
-int eigenpairs(const char* range, Eigen::MatrixXd symmetric, int first, int last, double least, double most,
-               LeadingEigenpairs& pairs) {
+/// Ascending eigenpairs by DSYEVR: "A" all; "I" the last `n`; "V" those of values from `least` to `most`. @return LAPACK's info
+int eigenpairs(const char* range, Eigen::MatrixXd symmetric, Index n, double least, double most, LeadingEigenpairs& pairs) {
   use_one_thread();
-  const int size = as_int(symmetric.rows()), int_room = 10 * size;  // what DSYEVR asks for
   TWINDECK_ASSERT(symmetric.rows() == symmetric.cols());
-  pairs = {Eigen::VectorXd(size), Eigen::MatrixXd(size, *range == 'I' ? last - first + 1 : size)};
+  const int size = as_int(symmetric.rows()), first = size - as_int(n) + 1, int_room = 10 * size;  // what DSYEVR asks for
+  pairs = {Eigen::VectorXd(size), Eigen::MatrixXd(size, *range == 'I' ? n : size)};
   Eigen::VectorXi support(2 * size), int_work(int_room);
   Eigen::VectorXd work(1);
   const double tolerance = 0.0;
   int found = 0, info = 0, room = -1;
   for (const bool ask : {true, false}) {
-    dsyevr_("V", range, "L", &size, symmetric.data(), &size, &least, &most, &first, &last, &tolerance, &found,
+    dsyevr_("V", range, "L", &size, symmetric.data(), &size, &least, &most, &first, &size, &tolerance, &found,
             pairs.values.data(), pairs.vectors.data(), &size, support.data(), work.data(), &room, int_work.data(), &int_room,
             &info);
     if (!ask) break;
@@ -85,17 +83,16 @@ int eigenpairs(const char* range, Eigen::MatrixXd symmetric, int first, int last
   return info;
 }
 
-/// Eigenpairs first … last, descending, or those of values from `least` to `most` where `last` is 0.
-LeadingEigenpairs some_eigenpairs(const Eigen::MatrixXd& symmetric, int first, int last, double least, double most) {
+/// The `n` largest eigenpairs, descending, or those of values from `least` to `most` where n is 0.
+LeadingEigenpairs some_eigenpairs(const Eigen::MatrixXd& symmetric, Index n, double least, double most) {
   LeadingEigenpairs pairs;
-  int info = eigenpairs(last > 0 ? "I" : "V", symmetric, first, last, least, most, pairs);
+  int info = eigenpairs(n > 0 ? "I" : "V", symmetric, n, least, most, pairs);
   if (info > 0) {  // a part comes from inverse iteration, which may fail on close eigenvalues; all come another way (MRRR)
-    info = eigenpairs("A", symmetric, 0, 0, 0.0, 0.0, pairs);
-    const Index skip = last > 0 ? first - 1 : (pairs.values.array() <= least).count();
-    const Index count = last > 0 ? last - first + 1 : pairs.values.size() - skip;
-    pairs = {pairs.values.segment(skip, count).eval(), pairs.vectors.middleCols(skip, count).eval()};
+    info = eigenpairs("A", symmetric, 0, 0.0, 0.0, pairs);
+    const Index count = n > 0 ? n : (pairs.values.array() > least).count();
+    pairs = {pairs.values.tail(count).eval(), pairs.vectors.rightCols(count).eval()};
   }
-  TWINDECK_ASSERT(info == 0 && (last == 0 || pairs.values.size() == last - first + 1));
+  TWINDECK_ASSERT(info == 0 && (n == 0 || pairs.values.size() == n));
   return {pairs.values.reverse(), pairs.vectors.rowwise().reverse()};
 }
 
@@ -115,14 +112,13 @@ void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::R
 
 LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Index n) {
   TWINDECK_ASSERT(n >= 1 && n <= symmetric.rows());
-  const int size = as_int(symmetric.rows());
-  return some_eigenpairs(symmetric, size - as_int(n) + 1, size, 0.0, 0.0);
+  return some_eigenpairs(symmetric, n, 0.0, 0.0);
 }
 
 LeadingEigenpairs eigenpairs_above(Eigen::MatrixXd symmetric, double least) {
   const double most = 2.0 * symmetric.norm();  // no eigenvalue is larger than the norm
   if (!(most > least)) return {Eigen::VectorXd(0), Eigen::MatrixXd(symmetric.rows(), 0)};
-  return some_eigenpairs(symmetric, 0, 0, least, most);
+  return some_eigenpairs(symmetric, 0, least, most);
 }
 
 ThinSvd thin_svd(Eigen::MatrixXd a) {
