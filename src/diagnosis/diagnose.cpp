@@ -240,7 +240,7 @@ class ForwardSteps {
     return tempered(scored, ratio_) > out_.threshold && !faint_tuned(scored);
   }
 
-  /// They do not lead; they stay rivals.
+  /// Faint tuned entries do not lead. They stay rivals.
   void put_faint_tuned_last() {
     std::stable_partition(ranking_.begin(), ranking_.end(), [this](const Scored& scored) { return !faint_tuned(scored); });
   }
