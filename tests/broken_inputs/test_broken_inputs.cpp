@@ -11,6 +11,7 @@
 #include "broken_inputs/judgement.hpp"
 #include "broken_inputs/worker.hpp"
 #include "io/manifest.hpp"
+#include "test_places.hpp"
 
 namespace twindeck::broken {
 

@@ -16,30 +16,33 @@ command -v gcovr >/dev/null 2>&1 || {
 }
 cmake --preset coverage >build-coverage.log 2>&1 || { cat build-coverage.log; exit 1; }
 rm -f build-coverage.log
-tests=${*:-$(tr ';' ' ' <build-coverage/unit_tests.txt) test_verification test_laws}
+# The highest rooms, whose tests take longest, come first.
+tests=${*:-test_verification $(tr ';' '\n' <build-coverage/unit_tests.txt | tac) test_laws}
 # What reads a model and calls several rooms one after the other is tested where it is used: through the executables.
 steps=
 [ $# -gt 0 ] || steps="aerodynamics validation campaign refinement pairing updating shapes_in_updating load_tests"
 # shellcheck disable=SC2086  # the list is meant to be split
 cmake --build build-coverage -j "$jobs" --target $tests ${steps:+executables}
 find build-coverage -name '*.gcda' -delete  # counts of earlier runs
-failed=
-for name in $tests; do
-  (cd build-coverage && "bin/$name" --gtest_brief=1) || failed="$failed $name"
-done
-for name in $steps; do
-  TWINDECK_BIN="$PWD/build-coverage/bin" /usr/bin/python3 -m unittest "tests/steps/test_$name.py" || failed="$failed $name"
-done
+failures=build-coverage/failures.txt
+: >"$failures"
+# JOBS tests at a time, each with one thread.
+export TWINDECK_BIN="$PWD/build-coverage/bin" OMP_NUM_THREADS=1
+# shellcheck disable=SC2086  # the lists are meant to be split
+printf '%s\n' $tests $steps |
+  xargs -P "$jobs" -I NAME sh -c '
+    if [ -x "build-coverage/bin/NAME" ]; then (cd build-coverage && "bin/NAME" --gtest_brief=1); else /usr/bin/python3 -m unittest "tests/steps/test_NAME.py"; fi ||
+      echo NAME >>build-coverage/failures.txt'
 if [ -n "$steps" ]; then
   results=build-coverage/smoke
   rm -rf "$results"
   # shellcheck disable=SC2013  # names are words
   for step in $(sed -n '/^steps *=/,/\]/p' workflows/smoke/study.toml | grep -o 's[0-9]_[a-z]*'); do
-    "build-coverage/bin/$step" --study workflows/smoke --results "$results" --out "$results/$step" --threads 2 --quiet || failed="$failed $step"
+    "build-coverage/bin/$step" --study workflows/smoke --results "$results" --out "$results/$step" --threads "$jobs" --quiet || echo "$step" >>"$failures"
   done
 fi
 # Threads count a line at the same time, so that a branch may have a negative count, which gcovr does not read.
 gcovr --root . --filter src/ --exclude-throw-branches --exclude-unreachable-branches --gcov-ignore-parse-errors --json-summary build-coverage/coverage.json build-coverage
 /usr/bin/python3 tests/coverage/rooms.py build-coverage/coverage.json >build-coverage/coverage.md
 cat build-coverage/coverage.md
-[ -z "$failed" ] || { echo "coverage: failed:$failed" >&2; exit 1; }
+[ ! -s "$failures" ] || { echo "coverage: failed:" $(cat "$failures") >&2; exit 1; }
