@@ -3,7 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <stdexcept>
 
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 /// Oracle: number of eigenvalues of K x = lambda M x below `value`, the negative pivots of K - value M = L D L' (Sylvester's
 /// law of inertia). It proves that no mode was missed. @param stiffness, mass  lower triangles

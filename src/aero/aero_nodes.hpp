@@ -6,7 +6,7 @@
 
 #include "aero/strip.hpp"
 #include "fe/model.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::aero {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "linalg/cholesky.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::dynamics {
 

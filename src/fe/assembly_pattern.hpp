@@ -5,7 +5,7 @@
 #include "fe/assembly_elements.hpp"
 #include "fe/dof_map.hpp"
 #include "fe/parametric_system.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::fe {
 

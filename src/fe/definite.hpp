@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fe/parametric_system.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 /// Checks of K and M. A structure has finite K and M (below 1e40), a positive semidefinite M, and a positive definite K (for a
 /// free structure semidefinite). With other matrices a modal solver gives wrong modes or none.

@@ -4,7 +4,7 @@
 
 #include "fe/model.hpp"
 #include "fe/parametric_system.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::fe {
 

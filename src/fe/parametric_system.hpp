@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fe/model.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::fe {
 

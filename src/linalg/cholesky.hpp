@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::linalg {
 

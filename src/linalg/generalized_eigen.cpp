@@ -37,12 +37,11 @@ MatrixXd fixed_block(Index rows, Index columns, int draw) {
 
 /// Pairs of the operator, not yet purified, by exact condensation to the few dofs with mass: G = E' A^-1 E = C C', then C' M C
 /// z = mu z, x = A^-1 E M C z.
-BlockLanczosResult condensed(const SymmetricProduct& mass, const std::vector<Index>& dofs, int n_pairs,
-                             const Cholesky& factor) {
+BlockLanczosResult condensed(const SparseMatrix& mass, const std::vector<Index>& dofs, int n_pairs, const Cholesky& factor) {
   const auto m = static_cast<Index>(dofs.size());
-  MatrixXd unit = MatrixXd::Zero(mass.size(), m);
+  MatrixXd unit = MatrixXd::Zero(mass.rows(), m);
   for (Index j = 0; j < m; ++j) unit(dofs[static_cast<std::size_t>(j)], j) = 1.0;
-  const MatrixXd flexibility = factor.solve(unit), small_mass = mass.times(unit)(dofs, Eigen::all);
+  const MatrixXd flexibility = factor.solve(unit), small_mass = symmetric_product(mass, unit)(dofs, Eigen::all);
   MatrixXd small_flexibility = flexibility(dofs, Eigen::all);
   small_flexibility = 0.5 * (small_flexibility + small_flexibility.transpose()).eval();
   const MatrixXd c = small_flexibility.llt().matrixL();
@@ -56,11 +55,13 @@ BlockLanczosResult condensed(const SymmetricProduct& mass, const std::vector<Ind
   return out;
 }
 
-BlockLanczosResult by_lanczos(const SymmetricProduct& mass, int n_pairs, const Cholesky& factor) {
-  const SelfAdjointOperator op{[&](const MatrixXd& x) { return mass.times(x); },
+BlockLanczosResult by_lanczos(const SparseMatrix& mass, int n_pairs, const Cholesky& factor) {
+  const SelfAdjointOperator op{[&](const MatrixXd& x) { return symmetric_product(mass, x); },
                                [&](const MatrixXd& y) { return factor.solve(y); }};
   // One application puts the block into the range of the operator, away from the null space of M.
-  const auto start_block = [&](int draw) { return op.from_mass(mass.times(fixed_block(mass.size(), kBlock, draw))); };
+  const auto start_block = [&](int draw) {
+    return op.from_mass(symmetric_product(mass, fixed_block(mass.rows(), kBlock, draw)));
+  };
   BlockLanczosResult found = block_lanczos(op, start_block, n_pairs);
   found.operations += kBlock;
   return found;
@@ -82,10 +83,10 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
   out.status = factor.factorize(a_lower);
   if (!out.status.converged) return out;
 
-  const SymmetricProduct mass_matrix(mass);
+  const SparseMatrix mass_matrix = without_zeros(mass);
   const VectorXd own_mass = mass.diagonal();
   std::vector<Index> massive;
-  for (Index i = 0; i < own_mass.size(); ++i)
+  for (Index i = 0; i < own_mass.rows(); ++i)
     if (own_mass[i] != 0.0) massive.push_back(i);
   if (massive.empty()) {
     out.status = {false, "no degree of freedom carries mass, so that there are no modes"};
@@ -96,9 +97,9 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
       few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor);
 
   // Purification, then Rayleigh and Ritz on the purified block y = A^-1 M x: y'Ay = y'Mx and y'My give lambda - sigma.
-  const MatrixXd mass_x = mass_matrix.times(found.vectors);
+  const MatrixXd mass_x = symmetric_product(mass_matrix, found.vectors);
   const MatrixXd y = factor.solve(mass_x);
-  const MatrixXd mass_y = mass_matrix.times(y);
+  const MatrixXd mass_y = symmetric_product(mass_matrix, y);
   const MatrixXd a = product(y, mass_x, true), b = product(y, mass_y, true);
   out.operations = found.operations + static_cast<int>(found.vectors.cols());
   if (found.vectors.cols() > 0) {

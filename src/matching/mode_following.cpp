@@ -7,11 +7,11 @@
 namespace twindeck::matching {
 
 ModeFollower::ModeFollower(const linalg::SparseMatrix& mass_lower, const dynamics::EigenModes& reference)
-    : mass_(mass_lower), mass_reference_(mass_.selfadjointView<Eigen::Lower>() * reference.shapes) {}
+    : mass_(mass_lower), mass_reference_(linalg::symmetric_product(mass_, reference.shapes)) {}
 
 FollowedModes ModeFollower::follow(const Eigen::Ref<const Eigen::MatrixXd>& shapes) const {
   TWINDECK_ASSERT(shapes.rows() == mass_.rows());
-  const Eigen::MatrixXd mass_shapes = linalg::SymmetricProduct(mass_).times(shapes);
+  const Eigen::MatrixXd mass_shapes = linalg::symmetric_product(mass_, shapes);
   Eigen::MatrixXd scaled = shapes;
   for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
     const double generalised_mass = shapes.col(j).dot(mass_shapes.col(j));

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/eigenmodes.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::matching {
 

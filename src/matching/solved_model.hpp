@@ -5,7 +5,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/loaded_model.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 /// Modes of one model, followed by shape into another: after an as-built change, or on another mesh.
 namespace twindeck::matching {

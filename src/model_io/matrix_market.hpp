@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::model_io {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::model_io {
 

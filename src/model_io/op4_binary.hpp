@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 /// Inside of the library: binary files of OUTPUT4.
 ///

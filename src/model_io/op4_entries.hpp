@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 /// Inside of the library: the entries of an OUTPUT4 file, formatted or binary.
 namespace twindeck::model_io {

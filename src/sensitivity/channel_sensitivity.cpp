@@ -19,6 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using linalg::product;
 using linalg::subtract_product;
+using linalg::symmetric_product;
 
 constexpr double kAdjointTolerance = 1e-7;  ///< of an adjoint vector's residual, in the M norm
 constexpr int kMostBlocks = 100;            ///< far above what sensors of a structure need (six to twelve)
@@ -88,9 +89,9 @@ class AdjointSpace {
   AdjointSpace(const fe::ParametricSystem& system, const VectorXd& theta, const dynamics::EigenModes& modes)
       : AdjointSpace(system.stiffness(theta), system.mass(theta), modes) {}
   AdjointSpace(linalg::SparseMatrix stiffness, const linalg::SparseMatrix& mass, const dynamics::EigenModes& modes)
-      : modes_(modes), mass_(mass) {
+      : modes_(modes), mass_(linalg::without_zeros(mass)) {
     shift_ = factorize_shifted(stiffness, mass, factor_);
-    mass_shapes_ = mass_.times(modes.shapes);
+    mass_shapes_ = symmetric_product(mass_, modes.shapes);
   }
 
   Adjoint solve(const Eigen::Ref<const MatrixXd>& channels) {
@@ -98,12 +99,12 @@ class AdjointSpace {
     MatrixXd outside = channels;
     subtract_product(mass_shapes_, product(modes_.shapes, channels, true), outside);
     out.statics = from_mass(outside);
-    const MatrixXd mass_statics = mass_.times(out.statics);
+    const MatrixXd mass_statics = symmetric_product(mass_, out.statics);
     const VectorXd size = out.statics.cwiseProduct(mass_statics).colwise().sum().cwiseAbs().cwiseSqrt();
 
     linalg::KrylovBasis basis(channels.rows(), 8 * channels.cols());
     MatrixXd w = from_mass(mass_statics), h(0, 0);
-    linalg::OrthonormalBlock next = linalg::orthonormalise(w, mass_.times(w), MatrixXd::Zero(1, w.cols()));
+    linalg::OrthonormalBlock next = linalg::orthonormalise(w, symmetric_product(mass_, w), MatrixXd::Zero(1, w.cols()));
     const MatrixXd start = next.r;
     Index before = 0;  // first column of the block before the last
     for (int block = 0; block < kMostBlocks && next.q.cols() > 0; ++block) {
@@ -115,7 +116,7 @@ class AdjointSpace {
       h.conservativeResize(basis.size, basis.size);
       h.rightCols(columns) = common;
       h.bottomRows(columns) = common.transpose();
-      MatrixXd mass_w = mass_.times(w);
+      MatrixXd mass_w = symmetric_product(mass_, w);
       next = linalg::orthonormalise(std::move(w), std::move(mass_w), common);
       if (solve_small(h, start, next.r, size, out.z)) break;
     }
@@ -150,7 +151,7 @@ class AdjointSpace {
   }
 
   const dynamics::EigenModes& modes_;
-  linalg::SymmetricProduct mass_;
+  linalg::SparseMatrix mass_;  // lower triangle, without stored zeros
   linalg::Cholesky factor_;
   double shift_ = 0.0;
   MatrixXd mass_shapes_;

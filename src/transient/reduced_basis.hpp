@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "linalg/cholesky.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::transient {
 

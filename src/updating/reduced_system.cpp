@@ -7,7 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::updating {
 
@@ -40,7 +40,7 @@ MatrixXd project(const linalg::SparseMatrix& pattern, const std::vector<int>& co
   linalg::SparseMatrix small(std::ssize(rows), std::ssize(rows));
   small.setFromTriplets(entries.begin(), entries.end());
   const MatrixXd part = basis(rows, Eigen::all);
-  const MatrixXd projected = linalg::product(part, linalg::SymmetricProduct(small).times(part), true);
+  const MatrixXd projected = linalg::product(part, linalg::symmetric_product(small, part), true);
   return 0.5 * (projected + projected.transpose());
 }
 
@@ -143,10 +143,10 @@ MatrixXd ReducedSystem::shape_derivatives(const Eigen::VectorXd& theta, int para
 }
 
 MatrixXd orthonormal_basis(const MatrixXd& vectors, const linalg::SparseMatrix& mass_lower, double loss) {
-  const linalg::SymmetricProduct mass(mass_lower);
+  const linalg::SparseMatrix mass = linalg::without_zeros(mass_lower);
   MatrixXd basis = vectors;
   for (int pass = 0; pass < 2; ++pass) {  // the second one takes away what rounding left of the first
-    MatrixXd gram = linalg::product(basis, mass.times(basis), true);
+    MatrixXd gram = linalg::product(basis, linalg::symmetric_product(mass, basis), true);
     gram = 0.5 * (gram + gram.transpose()).eval();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
     const double floor = pass == 0 ? loss * loss * eig.eigenvalues().maxCoeff() : 0.0;

@@ -5,7 +5,7 @@
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/structure.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 #include "updating/bounded_quadratic.hpp"
 #include "updating/optimality.hpp"
 
@@ -22,7 +22,7 @@ constexpr double kRangeStep =
 constexpr int kModesBeyond = 3;  ///< modes solved beyond the last known one, so that the solver has converged on that
 
 VectorXd quadratic_forms(const linalg::SparseMatrix& lower, const MatrixXd& shapes) {
-  return shapes.cwiseProduct(linalg::SymmetricProduct(lower).times(shapes)).colwise().sum();
+  return shapes.cwiseProduct(linalg::symmetric_product(lower, shapes)).colwise().sum();
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/generalized_eigen.hpp"
 #include "linalg/one_thread.hpp"
-#include "linalg/types.hpp"
+#include "linalg/sparse.hpp"
 #include "model_io/matrix_market.hpp"
 #include "ponte/generator.hpp"
 #include "sensitivity/channel_sensitivity.hpp"
@@ -38,9 +38,8 @@ double residual(const linalg::SparseMatrix& stiffness, const linalg::SparseMatri
                 const Eigen::MatrixXd& shapes) {
   linalg::Cholesky factor;
   if (!factor.factorize(stiffness).converged) return -1.0;
-  const linalg::SymmetricProduct product(mass);
-  const Eigen::MatrixXd r = factor.solve(product.times(shapes)) - shapes * lambda.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd norm = r.cwiseProduct(product.times(r)).colwise().sum().cwiseAbs().cwiseSqrt();
+  const Eigen::MatrixXd r = factor.solve(linalg::symmetric_product(mass, shapes)) - shapes * lambda.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd norm = r.cwiseProduct(linalg::symmetric_product(mass, r)).colwise().sum().cwiseAbs().cwiseSqrt();
   return norm.cwiseProduct(lambda).maxCoeff();
 }
 

@@ -45,4 +45,4 @@ fi
 gcovr --root . --filter src/ --exclude-throw-branches --exclude-unreachable-branches --gcov-ignore-parse-errors --json-summary build-coverage/coverage.json build-coverage
 /usr/bin/python3 tests/coverage/rooms.py build-coverage/coverage.json >build-coverage/coverage.md
 cat build-coverage/coverage.md
-[ ! -s "$failures" ] || { echo "coverage: failed:" $(cat "$failures") >&2; exit 1; }
+[ ! -s "$failures" ] || { echo "coverage: failed: $(tr "\n" " " <"$failures")" >&2; exit 1; }

@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "../unit/fe/test_assembly_models.hpp"
+#include "../unit/fe/assembly_models.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "linalg/cholesky.hpp"

@@ -133,8 +133,9 @@ void add_pairs_of_nodes(const Hypothesis& h, const std::vector<ReducedPlace>& no
       const double distance = (nodes[i].x_m - nodes[j].x_m).norm();
       others.emplace_back(std::isfinite(distance) ? distance : static_cast<double>(j - i), j);
     }
-    std::sort(others.begin(), others.end());
-    for (std::size_t k = 0; k < others.size() && (nodes.size() <= 9 || k < 4); ++k) {
+    const std::size_t taken = nodes.size() <= 9 ? others.size() : std::min<std::size_t>(4, others.size());
+    std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(taken), others.end());
+    for (std::size_t k = 0; k < taken; ++k) {
       const ReducedPlace& other = nodes[others[k].second];
       add(h, "nodes:" + nodes[i].id.substr(5) + "," + other.id.substr(5), found).places = {&nodes[i], &other};
     }

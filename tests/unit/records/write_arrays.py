@@ -1,4 +1,4 @@
-"""Writes the samples of test_same_samples.cpp as SciPy writes MAT files, and as h5py writes HDF5 where it is installed.
+"""Writes the samples of same_samples_test.cpp as SciPy writes MAT files, and as h5py writes HDF5 where it is installed.
 
     write_arrays.py FOLDER
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Sparse>
+
+namespace twindeck::linalg {
+
+/// Column-major sparse matrix with int indices (what CHOLMOD takes). A symmetric matrix holds both triangles unless its comment
+/// says "lower triangle".
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+/// A X of a symmetric matrix.  @param lower  lower triangle of A (n × n) @param x (n × m) @return (n × m)
+[[nodiscard]] inline Eigen::MatrixXd symmetric_product(const SparseMatrix& lower, const Eigen::Ref<const Eigen::MatrixXd>& x) {
+  return lower.selfadjointView<Eigen::Lower>() * x;
+}
+
+/// The matrix without stored zeros, for many products: on the common pattern of stiffness and mass most entries of the mass are
+/// zero.
+[[nodiscard]] inline SparseMatrix without_zeros(SparseMatrix matrix) {
+  matrix.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+  return matrix;
+}
+
+}  // namespace twindeck::linalg

@@ -1,0 +1,37 @@
+/// Oracles: printed tables of Student's t (Abramowitz and Stegun, table 26.10), the closed form of one degree of freedom.
+#include "buffeting/interval.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "buffeting/response.hpp"
+#include "core/error.hpp"
+
+namespace twindeck::buffeting {
+namespace {
+
+TEST(Interval, QuantilesAreThoseOfTheTables) {
+  EXPECT_NEAR(student_quantile(1, 0.975), std::tan(0.475 * 3.14159265358979323846), 1e-9);
+  EXPECT_NEAR(student_quantile(2, 0.975), 4.303, 5e-4);
+  EXPECT_NEAR(student_quantile(5, 0.95), 2.015, 5e-4);
+  EXPECT_NEAR(student_quantile(19, 0.975), 2.093, 5e-4);
+  EXPECT_NEAR(student_quantile(120, 0.995), 2.617, 5e-4);
+}
+
+TEST(Interval, IsWorkedByHand) {
+  const Interval found = confidence_interval(Eigen::Vector3d(1.0, 2.0, 3.0), 0.95);
+  EXPECT_DOUBLE_EQ(found.mean, 2.0);
+  EXPECT_DOUBLE_EQ(found.deviation, 1.0);
+  EXPECT_NEAR(found.high - found.mean, 4.302653 / std::sqrt(3.0), 1e-5);
+  EXPECT_THROW((void)confidence_interval(Eigen::VectorXd::Ones(1), 0.95), InputError);
+}
+
+TEST(RootMeanSquares, AreAboutTheMean) {
+  Eigen::MatrixXd history(4, 2);
+  history << 1.0, 5.0, -1.0, 5.0, 1.0, 5.0, -1.0, 5.0;
+  EXPECT_NEAR((root_mean_squares(history) - Eigen::Vector2d(1.0, 0.0)).norm(), 0.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace twindeck::buffeting
