@@ -7,7 +7,7 @@
 namespace twindeck::aero {
 namespace {
 
-constexpr double relative_bracket = 1e-10;
+constexpr double no_growth = 1e-12;  ///< [-] damping ratio: rounding of an eigenvalue
 
 // z² of each strip, whatever the phase.
 std::vector<double> vertical_square(const AeroelasticSystem& system, const ComplexMode& motion) {
@@ -32,16 +32,23 @@ double heave_damping(const AeroelasticSystem& system, const std::vector<double>&
 }  // namespace
 
 std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, const Branch& branch) {
-  for (std::size_t i = 1; i < branch.points.size(); ++i) {
-    const bool falls = branch.points[i - 1].damping_ratio() > 0.0 && branch.points[i].damping_ratio() <= 0.0;
-    if (!falls) continue;
-    double low = branch.speed_m_s[i - 1], high = branch.speed_m_s[i];
-    ComplexMode at_low = branch.points[i - 1], at_high = branch.points[i];
+  if (branch.points.empty()) return std::nullopt;
+  if (branch.still_air.damping_ratio() <= no_growth &&
+      branch.points[0].damping_ratio() < -no_growth)  // from the first speed on
+    return CriticalPoint{
+        branch.mode,      branch.speed_m_s[0], branch.points[0].frequency_Hz(), branch.still_air.frequency_Hz(),
+        branch.points[0], branch.speed_m_s[0]};
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const ComplexMode& before = i == 0 ? branch.still_air : branch.points[i - 1];
+    if (!(before.damping_ratio() > 0.0 && branch.points[i].damping_ratio() <= 0.0)) continue;
+    double low = i == 0 ? 0.0 : branch.speed_m_s[i - 1], high = branch.speed_m_s[i];
+    ComplexMode at_low = before, at_high = branch.points[i];
     // Illinois rule: false position that halves the weight of an end that stays.
     double f_low = at_low.lambda.real(), f_high = at_high.lambda.real();
     for (int k = 0; k < 200 && high - low > relative_bracket * high && f_high != 0.0; ++k) {
-      const double guess = k % 3 == 2 ? 0.5 * (low + high) : low - f_low * (high - low) / (f_high - f_low);
-      const std::optional<ComplexMode> middle = mode_at(system, at_low, low, guess);
+      double guess = k % 3 == 2 ? 0.5 * (low + high) : low - f_low * (high - low) / (f_high - f_low);
+      std::optional<ComplexMode> middle = mode_at(system, at_low, low, guess);
+      if (!middle) middle = mode_at(system, at_low, low, guess = 0.5 * (low + high));
       if (!middle) break;
       if (middle->lambda.real() < 0.0) {
         low = guess;
@@ -55,7 +62,12 @@ std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, con
         f_low *= 0.5;
       }
     }
-    return CriticalPoint{branch.mode, high, at_high.frequency_Hz(), branch.still_air_frequency_Hz, at_high};
+    return CriticalPoint{branch.mode,
+                         high,
+                         at_high.frequency_Hz(),
+                         branch.still_air.frequency_Hz(),
+                         at_high,
+                         at_high.lambda.real() == 0.0 ? 0.0 : high - low};
   }
   return std::nullopt;
 }

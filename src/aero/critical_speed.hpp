@@ -13,8 +13,12 @@ struct CriticalPoint {
   double speed_m_s = 0.0, frequency_Hz = 0.0;
   double still_air_frequency_Hz = 0.0;
   ComplexMode motion;
+  double bracket_m_s = 0.0;  ///< the damping may be lost so much below `speed_m_s`
 };
-/// First sign change along a branch, refined until the bracket is below 1e-10 of the speed. Empty if damping stays positive.
+/// [-] of the speed, to which a critical speed is refined.
+inline constexpr double relative_bracket = 1e-10;
+/// First loss of damping along a branch, from still air on, refined to `relative_bracket` where the mode can be followed. A
+/// mode without damping in still air that grows at the first speed is unstable from there on. Empty if damping stays positive.
 [[nodiscard]] std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, const Branch& branch);
 
 /// Data that explain a critical speed (by yaw rule): location of the vertical motion of the mode, growth of its lift damping.

@@ -84,7 +84,7 @@ DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
   for (int i = 0; i < 18; ++i) {
     const DerivativeCurve& curve = curves_[static_cast<std::size_t>(i)];
     const std::vector<double>& axis = curve.v_over_omegaB;
-    if ((v < axis.front() && below_ == OutOfRange::refuse) || (v > axis.back() && above_ == OutOfRange::refuse)) {
+    if ((!(v >= axis.front()) && below_ == OutOfRange::refuse) || (!(v <= axis.back()) && above_ == OutOfRange::refuse)) {
       throw InputError(
           {source_, 0, name_of(convention_, i)},
           fmt::format("covers V/(omega B) from {:.6g} to {:.6g} (V/(f B) {:.6g} to {:.6g}), {:.6g} is needed", axis.front(),

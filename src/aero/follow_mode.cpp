@@ -15,6 +15,7 @@ constexpr int max_iterations = 200;
 constexpr double tolerance = 1e-12;  // of |λ|: the last Newton step
 constexpr double least_mac = 0.5;    // below it another mode was found
 constexpr int most_halvings = 7;
+constexpr double no_inverse = 1e100;        // of the inverse on a unit vector: beyond it squares overflow
 constexpr double least_oscillation = 0.02;  // Im λ over |λ|: a mode with less no longer oscillates for any purpose of ours
 
 // D(λ) and dD/dλ with the self-excited forces of one frequency.
@@ -54,8 +55,13 @@ std::optional<ComplexMode> iterate(const AeroelasticSystem& system, const Comple
     if (!(lambda.imag() > least_oscillation * std::abs(lambda))) return std::nullopt;
     const Dynamic d = dynamic_matrix(structure, damping, system.self_excited(speed, lambda.imag()), lambda);
     const Eigen::VectorXcd x = d.value.partialPivLu().solve(d.slope * v);
+    if (!x.allFinite() ||
+        x.cwiseAbs().maxCoeff() > no_inverse) {  // λ is an eigenvalue to its last digit, where the matrix has no inverse
+      lambda += 0.1 * tolerance * std::abs(lambda);
+      continue;
+    }
     const Complex along = normal.dot(x);
-    if (!x.allFinite() || std::abs(along) == 0.0) return std::nullopt;
+    if (std::abs(along) == 0.0) return std::nullopt;
     const Complex step = 1.0 / along;
     lambda -= step;
     v = x / along;
@@ -123,7 +129,7 @@ Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air
                    const std::vector<double>& speed_m_s) {
   Branch branch;
   branch.mode = mode;
-  branch.still_air_frequency_Hz = still_air.frequency_Hz();
+  branch.still_air = still_air;
   ComplexMode last = still_air;
   double last_speed = 0.0;
   for (const double speed : speed_m_s) {

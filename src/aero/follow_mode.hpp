@@ -23,8 +23,8 @@ struct ComplexMode {
 
 /// One mode, tracked over the wind speed.
 struct Branch {
-  int mode = 0;  ///< position among still_air_modes, from 1
-  double still_air_frequency_Hz = 0.0;
+  int mode = 0;           ///< position among still_air_modes, from 1
+  ComplexMode still_air;  ///< the mode without wind, before the first of `points`
   std::vector<double> speed_m_s;
   std::vector<ComplexMode> points;
   Status status;  ///< not converged: where the mode was lost (it stopped oscillating, for instance)

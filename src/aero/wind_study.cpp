@@ -1,5 +1,7 @@
 #include "aero/wind_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +22,7 @@ struct Instability {
 };
 Instability first_instability(const WindSettings& config, const AeroelasticSystem& system) {
   Instability lowest;
+  const auto tell = [&](const std::string& line) { lowest.lost += (lowest.lost.empty() ? "" : "; ") + line; };
   int mode = 0;
   for (const ComplexMode& start : aero::still_air_modes(system.structure())) {
     if (++mode > config.followed_modes) break;
@@ -27,7 +30,10 @@ Instability first_instability(const WindSettings& config, const AeroelasticSyste
     const Branch branch = aero::follow_mode(system, start, mode, speeds_up_to(config, limit));
     const auto found = aero::critical_point(system, branch);
     if (found && (!lowest.point || found->speed_m_s < lowest.point->speed_m_s)) lowest.point = found;
-    if (!branch.status.converged && !found) lowest.lost += (lowest.lost.empty() ? "" : "; ") + branch.status.message;
+    if (found && found->bracket_m_s > 2.0 * relative_bracket * found->speed_m_s)
+      tell(fmt::format("mode {} loses its damping at {:.6g} m/s or up to {:.6g} m/s below", mode, found->speed_m_s,
+                       found->bracket_m_s));
+    if (!branch.status.converged && !found) tell(branch.status.message);
   }
   return lowest;
 }
