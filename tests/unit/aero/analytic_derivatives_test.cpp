@@ -36,8 +36,7 @@ TEST(QuasiSteady, DerivativesAreThoseOfTheRelativeWind) {
   EXPECT_TRUE(d.stiffness.leftCols<2>().isZero(0.0));
 }
 
-// A rotation at alpha-dot moves the point at the arm by mu B: it acts as a heave velocity of mu B alpha-dot, of each force its
-// own.
+// A rotational rate acts as a heave velocity at the arm mu B. Each force has an arm of its own.
 TEST(QuasiSteady, ARotationalRateActsByItsArm) {
   const aero::DerivativeBlock d = aero::QuasiSteady(aero::Polar::linear(every_coefficient), {-0.1, 0.2, 0.3}).at(0.0, 2.0);
   EXPECT_NEAR(d.damping(0, 2), -0.1 * d.damping(0, 1), 1e-15);

@@ -25,7 +25,7 @@ aero::DeckAerodynamics one_deck(double h1 = -2.0) {
   return {aero::Polar::linear({0.2, -0.1, 0.03, 0.4, -3.0, 0.5}), BeamDeck::heave_table(h1)};
 }
 
-// Level h scales self-excited forces of the tables and leaves the polar; quasi-steady it scales the slope of lift.
+// A level scales the self-excited forces of tables and leaves their polar. Quasi-steady, it scales the slope of lift.
 TEST(SectionsOf, TheLevelScalesWhatItsSetSays) {
   aero::WindSettings settings = BeamDeck().settings();
   settings.decks[0].arm_lift = 0.3;
@@ -67,7 +67,8 @@ TEST(PrepareWindModel, ModesAtTheStripsAreThoseOfTheBeam) {
     for (int i = 0; i < 8; ++i) {
       const double shape =
           std::sin(j * std::numbers::pi * deck.strip_x(i) / deck.length) * std::sqrt(2.0 / (deck.mass() * deck.length));
-      EXPECT_NEAR(std::abs(model.motions[static_cast<std::size_t>(i)](2, j - 1)), std::abs(shape), 1e-4 * 5.8e-3) << i;
+      EXPECT_NEAR(std::abs(model.motions[static_cast<std::size_t>(i)](2, j - 1)), std::abs(shape), 1e-4 * 5.8e-3)
+          << i;  // of the amplitude
     }
   }
   for (int i = 0; i < 8; ++i) {

@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 constexpr long kStatisticsSeeds = 4;
 constexpr double kStatisticsDuration_s = 150.0;
 
-/// Five points 4 m apart across a wind of 15 m/s. Gusts with a memory of 40 m/15 m/s.
+/// Five points 4 m apart across a wind of 15 m/s, with gusts of 20 m length.
 wind::Simulator simulator_of(wind::Component component, double sigma = 1.0) {
   wind::FieldDefinition field;
   field.component = component;

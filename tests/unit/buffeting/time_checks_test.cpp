@@ -13,7 +13,7 @@ namespace {
 
 using tests::GustyBeam;
 
-// Two points and no full model: two checks. The mode at 1.1 Hz is felt to (7.1/64)²/12 = 0.1 %, gusts up to 4 Hz little more.
+// Two points and no full model: two checks. The period of the mode at 1.1 Hz errs by (7.1/64)²/12 = 0.1 %.
 TEST(TimeChecks, HalfTheStepGivesTheSameRms) {
   const GustyBeam beam;
   const std::vector<TimeCheck> found = check_time_integration(beam.bridge(), beam.set, beam.config, 7);
@@ -28,8 +28,7 @@ TEST(TimeChecks, HalfTheStepGivesTheSameRms) {
   }
 }
 
-// A step that is too wide is seen: at 1/8 s the period errs by (7.1/8)²/12 = 6.6 %, and the resonance moves out of the gusts it
-// met.
+// At 1/8 s the period errs by (7.1/8)²/12 = 6.6 %: the resonance meets other gusts than at half the step.
 TEST(TimeChecks, AStepThatIsTooWideIsSeen) {
   GustyBeam beam;
   beam.config.step_s = 1.0 / 8;
