@@ -183,4 +183,55 @@ TEST(DenHartog, IsTheCriticalSpeedOfQuasiSteadyDerivatives) {
   EXPECT_NEAR(found->speed_m_s / expected, 1.0, 1e-9);
 }
 
+// The bracket is refined to 1e-10 of the speed whatever the speed at which it starts.
+TEST(CriticalPoint, GallopingIsFoundWhateverTheDamping) {
+  aero::Derivatives18 zasso{};
+  zasso[0] = -2.0;
+  double worst = 0.0;
+  int many = 0;
+  for (int i = 1; i <= 400; ++i) {
+    const double xi = 1e-4 * i, m = 1500;
+    const auto system = wind_test::section_model(wind_test::structure({0.7}, xi), 4.5, 1.25,
+                                                 std::make_shared<aero::ConstantZasso>(zasso), {{0, 1 / std::sqrt(m), 0}});
+    const double expected = 4 * m * 2 * std::acos(-1.0) * 0.7 * xi / (1.25 * 4.5 * 2);
+    const auto start = aero::still_air_modes(system.structure()).front();
+    const auto found =
+        aero::critical_point(system, aero::follow_mode(system, start, 1, wind_test::speeds(0.1, 1.1 * expected + 1, 1)));
+    const double error = found ? std::abs(found->speed_m_s / expected - 1) : 9;
+    many += error > 1e-9;
+    worst = std::max(worst, error);
+  }
+  EXPECT_EQ(many, 0);
+  EXPECT_LT(worst, 1e-9);
+}
+
+// A first speed beyond the critical one: damping is lost between still air and it.
+TEST(CriticalPoint, IsFoundBelowTheFirstSpeed) {
+  aero::Derivatives18 zasso{};
+  zasso[0] = -2.0;
+  const auto system = wind_test::section_model(wind_test::structure({0.7}, 0.005), 4.5, 1.25,
+                                               std::make_shared<aero::ConstantZasso>(zasso), {{0, 1 / std::sqrt(1500.0), 0}});
+  const double expected = 4 * 1500.0 * 2 * std::acos(-1.0) * 0.7 * 0.005 / (1.25 * 4.5 * 2);
+  const auto start = aero::still_air_modes(system.structure()).front();
+  const auto found = aero::critical_point(system, aero::follow_mode(system, start, 1, {20.0, 40.0}));
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(found->speed_m_s / expected, 1.0, 1e-9);
+}
+
+// Oracle: without structural damping any lift that falls with heave is unstable: from the first speed that is asked for, and it
+// may be lost anywhere below. A section that the wind does not touch stays as it is.
+TEST(CriticalPoint, AModeWithoutDampingIsUnstableFromTheFirstSpeedOn) {
+  for (const double h1 : {-2.0, 0.0}) {
+    aero::Derivatives18 zasso{};
+    zasso[0] = h1;
+    const auto system = wind_test::section_model(wind_test::structure({0.7}, 0.0), 4.5, 1.25,
+                                                 std::make_shared<aero::ConstantZasso>(zasso), {{0, 1 / std::sqrt(1500.0), 0}});
+    const auto found = aero::critical_point(system, first_branch(system, {20.0, 40.0}));
+    ASSERT_EQ(found.has_value(), h1 < 0.0);
+    if (!found) continue;
+    EXPECT_EQ(found->speed_m_s, 20.0);
+    EXPECT_EQ(found->bracket_m_s, 20.0);
+  }
+}
+
 }  // namespace

@@ -146,4 +146,16 @@ TEST(FollowMode, AModeThatStopsOscillatingIsAStatusOfNoConvergence) {
   EXPECT_FALSE(aero::mode_at(system, start, 0.0, 1.1 * last).has_value());
 }
 
+// A mode that the wind does not touch stays as it is. Its λ is exact, so the matrix of the iteration has no inverse.
+TEST(FollowMode, AModeThatTheWindDoesNotTouchIsFollowed) {
+  aero::ReducedStructure s;
+  s.omega_rad_s = Eigen::VectorXd::Constant(1, 2.0);
+  s.damping_ratio = Eigen::VectorXd::Zero(1);
+  const auto system = wind_test::section_model(s, 4.5, 1.25, std::make_shared<aero::ConstantZasso>(aero::Derivatives18{}),
+                                               {{0, 1 / std::sqrt(1500.0), 0}});
+  const aero::Branch branch = aero::follow_mode(system, {{0.0, 2.0}, Eigen::VectorXcd::Ones(1)}, 1, {1.0, 2.0});
+  ASSERT_TRUE(branch.status.converged) << branch.status.message;
+  EXPECT_LT(std::abs(branch.points.back().lambda - Root(0.0, 2.0)), 1e-12);
+}
+
 }  // namespace
