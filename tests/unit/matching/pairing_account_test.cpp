@@ -161,11 +161,11 @@ TEST(CommonFactor, GoesByShapeAlone) {
     return common_factor(measured_frequencies(VectorXd::LinSpaced(mac.cols(), 1.0, static_cast<double>(mac.cols()))), pairing,
                          computed);
   };
-  MatrixXd exchanged(3, 3);  // rows are computed modes: the first is measured mode 3, the third is 1
-  exchanged << 0, 0, 0.95, 0, 0.95, 0, 0.95, 0, 0;
-  EXPECT_TRUE(with_mac(exchanged, Eigen::Vector3d(6.0, 4.0, 2.0)).has_value());
+  MatrixXd exchanged(3, 3);  // rows are computed modes, which are the measured modes 2, 3 and 1
+  exchanged << 0, 0.95, 0, 0, 0, 0.95, 0.95, 0, 0;
+  EXPECT_TRUE(with_mac(exchanged, Eigen::Vector3d(4.0, 6.0, 2.0)).has_value());
   EXPECT_EQ(with_mac(exchanged, Eigen::Vector3d(2.0, 4.0, 6.0)), std::nullopt);
-  EXPECT_EQ(with_mac(0.94 * exchanged, Eigen::Vector3d(6.0, 4.0, 2.0)), std::nullopt);  // MAC 0.893
+  EXPECT_EQ(with_mac(0.94 * exchanged, Eigen::Vector3d(4.0, 6.0, 2.0)), std::nullopt);  // MAC 0.893
   EXPECT_EQ(with_mac(MatrixXd::Identity(2, 2), Eigen::Vector2d(2.0, 4.0)), std::nullopt);
   EXPECT_TRUE(with_mac(MatrixXd::Identity(3, 6), Eigen::Vector3d(2.0, 4.0, 6.0)).has_value());
   EXPECT_EQ(with_mac(MatrixXd::Identity(3, 7), Eigen::Vector3d(2.0, 4.0, 6.0)), std::nullopt);

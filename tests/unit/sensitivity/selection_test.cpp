@@ -47,6 +47,15 @@ TEST(SelectParameters, HoldsAtItsThreshold) {
   EXPECT_NEAR(none[0].remaining, 3.0, 1e-14);
 }
 
+// Oracle: hand calculation. Beside (10, 0) and (0, 1.5) nothing is left of (1.1, 1) and (-1, -1.1). The angle says which of the
+// kept ones does the same, whatever its length and sign: the first for the one, the second for the other.
+TEST(SelectParameters, NamesTheNearestByAngle) {
+  const MatrixXd scaled = (MatrixXd(2, 4) << 10.0, 0.0, 1.1, -1.0, 0.0, 1.5, 1.0, -1.1).finished();
+  const std::vector<SelectedParameter> fate = select_parameters(scaled, {"a", "b", "c", "d"}, 1.3);
+  EXPECT_TRUE(says_why(fate[2], "most like a")) << fate[2].reason;
+  EXPECT_TRUE(says_why(fate[3], "most like b")) << fate[3].reason;
+}
+
 MatrixXd rough_matrix(Index rows, Index columns) {
   MatrixXd a(rows, columns);
   for (Index i = 0; i < a.size(); ++i) a(i) = std::sin(1.0 + static_cast<double>(i * i)) * static_cast<double>(1 + i % 3);

@@ -73,21 +73,25 @@ TEST(BlindTest, KeepsTheOrdersOfFramesApart) {
   EXPECT_EQ(orders, (std::set<int>{6, 8, 10, 1006, 1008, 1010, 2006, 2008, 2010, 3006, 3008, 3010}));
 }
 
-// Oracle: closed form. The loads give the modes a density of 1 (N²/kg)/Hz in the mean, and a single mode just that. Well above
-// its 0.5 Hz the acceleration is the load over the mass, so that channel c shows phi_c². With 399 half-overlapping segments a
-// value scatters by sqrt(11/(9 · 399)) = 6 %, the mean of 72 values by some 1 %; the band is four deviations and 2 (f0/f)²,
-// below 1.4 %, of the resonance.
+// Oracle: closed form. Independent loads of density d² at all candidates give the modal forces d² Phi'Phi; d² = n/|Phi|² makes
+// their mean 1 (N²/kg)/Hz. Well above the modes acceleration is force over mass, so that channel c shows d² phi_c Phi'Phi
+// phi_c' (phi_c² for a single mode). With 399 half-overlapping segments a value scatters by sqrt(11/(9 · 399)) = 6 %, the mean
+// of 72 values by some 1 %; the band is four deviations and 2 (f0/f)², below 1.4 %, of the resonances.
 TEST(BlindTest, HasTheDensityOfItsLoads) {
-  const Eigen::Vector3d shape(0.5, -2.0, 1.0);
-  const BlindTestResult result = blind_test(short_test(), VectorXd::Constant(1, 0.5), {of_rows("all", {0, 1, 2})}, shape, 5);
-  const VectorXd& f = result.psd_frequency_Hz;
-  ASSERT_EQ(f.size(), 129);
-  EXPECT_NEAR(f[1], 0.125, 1e-12);
-  EXPECT_NEAR(f[128], 16.0, 1e-12);
-  ASSERT_EQ(result.psd_m2_s3.size(), 1U);
-  for (Index c = 0; c < 3; ++c) {
-    const double high = result.psd_m2_s3[0].col(c).segment(48, 72).mean();  // 6 to 15 Hz
-    EXPECT_NEAR(high / (shape[c] * shape[c]), 1.0, 0.06) << c;
+  const MatrixXd two = (MatrixXd(3, 2) << 0.5, 1.0, -2.0, 0.3, 1.0, 0.8).finished();
+  for (const MatrixXd& phi : {MatrixXd(two.leftCols(1)), two}) {
+    const VectorXd below = VectorXd::LinSpaced(phi.cols(), 0.4, 0.5);
+    const BlindTestResult result = blind_test(short_test(), below, {of_rows("all", {0, 1, 2})}, phi, 5);
+    const VectorXd& f = result.psd_frequency_Hz;
+    ASSERT_EQ(f.size(), 129);
+    EXPECT_NEAR(f[1], 0.125, 1e-12);
+    EXPECT_NEAR(f[128], 16.0, 1e-12);
+    ASSERT_EQ(result.psd_m2_s3.size(), 1U);
+    const MatrixXd forces = static_cast<double>(phi.cols()) / phi.squaredNorm() * phi.transpose() * phi;
+    for (Index c = 0; c < 3; ++c) {
+      const double high = result.psd_m2_s3[0].col(c).segment(48, 72).mean();  // 6 to 15 Hz
+      EXPECT_NEAR(high / phi.row(c).dot(phi.row(c) * forces), 1.0, 0.06) << phi.cols() << " modes, channel " << c;
+    }
   }
 }
 
