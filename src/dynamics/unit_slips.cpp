@@ -215,12 +215,13 @@ std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, con
     double ratio;
     const char* words;
   };
-  const std::array<Likely, 6> known = {{{2.0 * std::numbers::pi, "are the measured ones in rad/s?"},
-                                        {60.0, "are the measured ones cycles per minute?"},
-                                        {1000.0, "are the measured ones in mHz, or is a modulus of the model in MPa?"},
-                                        {1e-3, "are the measured ones in kHz, or are masses of the model in milligrams?"},
-                                        {std::sqrt(1000.0), "is the model's stiffness in kN/m, or its mass in grams?"},
-                                        {std::sqrt(1e-3), "is the model's mass in tonnes, or its stiffness in N/mm?"}}};
+  const std::array<Likely, 6> known = {
+      {{2.0 * std::numbers::pi, "are the measured ones in rad/s?"},
+       {60.0, "are the measured ones cycles per minute?"},
+       {1000.0, "are the measured ones in mHz, or is a modulus of the model in MPa or its mass in milligrams?"},
+       {1e-3, "are the measured ones in kHz?"},
+       {std::sqrt(1000.0), "is the model's stiffness in kN/m or N/mm, or its mass in grams?"},
+       {std::sqrt(1e-3), "is the model's mass in tonnes?"}}};
   std::string guess = "check the units of both";
   for (const Likely& likely : known)
     if (std::abs(std::log(ratio / likely.ratio)) < std::log(1.3)) guess = likely.words;

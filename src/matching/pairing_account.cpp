@@ -31,14 +31,15 @@ struct Slip {
 
 std::string guess_of(double ratio) {
   const double thousand = std::sqrt(1000.0), gravity = std::sqrt(9.80665);
-  const std::array<Slip, 8> slips = {{{1.0 / thousand, "is the model's stiffness in kN/m, or its mass in grams?"},
-                                      {thousand, "is the model's mass in tonnes, or its stiffness in N/mm?"},
-                                      {1e-3, "is a modulus of the model in MPa, or are the measured frequencies in mHz?"},
-                                      {1e3, "are masses of the model in milligrams, or the measured frequencies in kHz?"},
-                                      {1.0 / gravity, "is a weight in newtons given as a mass in kilograms?"},
-                                      {gravity, "is a mass divided by g once too often?"},
-                                      {1.0 / (2.0 * std::numbers::pi), "are the measured frequencies in rad/s?"},
-                                      {1.0 / 60.0, "are the measured frequencies in cycles per minute?"}}};
+  const std::array<Slip, 8> slips = {
+      {{1.0 / thousand, "is the model's stiffness in kN/m or N/mm, or its mass in grams?"},
+       {thousand, "is the model's mass in tonnes?"},
+       {1e-3, "is a modulus of the model in MPa, its mass in milligrams, or are the measured frequencies in mHz?"},
+       {1e3, "are the measured frequencies in kHz?"},
+       {1.0 / gravity, "is a weight in newtons given as a mass in kilograms?"},
+       {gravity, "is a mass divided by g once too often?"},
+       {1.0 / (2.0 * std::numbers::pi), "are the measured frequencies in rad/s?"},
+       {1.0 / 60.0, "are the measured frequencies in cycles per minute?"}}};
   for (const Slip& slip : slips)
     if (std::abs(std::log(ratio / slip.computed_over_measured)) < std::log(known_factor_within)) return slip.words;
   return fmt::format("look for a unit or a mass; stiffness over mass is {:.3g} times what was measured", ratio * ratio);

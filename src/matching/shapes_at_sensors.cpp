@@ -57,7 +57,8 @@ std::string mend_of_position(const ModelPoints& points, const Eigen::Vector3d& x
       return (node - factor * x_m).norm() <= tolerance_m * std::max(1.0, factor);
     });
   };
-  if (x_m.norm() > tolerance_m && meets_a_node(1e-3))
+  // A node at the origin would meet any position that is small enough.
+  if (1e-3 * x_m.norm() > tolerance_m && meets_a_node(1e-3))
     return "in mm it would lie on a node: give x_m, y_m, z_m of channels.csv in m";
   if (x_m.norm() > tolerance_m && meets_a_node(1e3)) return "the model seems to be in mm: give x_m, y_m, z_m of nodes.csv in m";
   return "check x_m, y_m, z_m in channels.csv and the axes of the model, or raise `sensor_tolerance`";

@@ -36,6 +36,14 @@ std::map<std::array<long, 3>, Index> nodes_by_place(const fe::Model& model) {
   return at;
 }
 
+/// Modes that move at some of the rows, by more than rounding.
+std::vector<Index> moving_modes(const MatrixXd& shapes, const std::vector<Index>& rows) {
+  std::vector<Index> moving;
+  for (Index j = 0; j < shapes.cols(); ++j)
+    if (shapes(rows, j).norm() > 1e-9 * shapes.col(j).cwiseAbs().maxCoeff()) moving.push_back(j);
+  return moving;
+}
+
 /// MAC of two models' modes (n_a × n_b): weighted by the mass of `a` where both have the same degrees of freedom; where their
 /// meshes differ, at the translations of the nodes that they have in common (the same coordinates).
 MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
@@ -60,8 +68,16 @@ MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
       rows_b.push_back(6 * at->second + d);
     }
   }
-  const MatrixXd common_a = full_a(rows_a, Eigen::all), common_b = full_b(rows_b, Eigen::all);
-  return modal::mac(common_a, common_b);
+  if (rows_a.empty()) {
+    throw InputError({b.loaded.source, 0, ""}, "has no node where " + a.loaded.source + " has one",
+                     "compare models in the same coordinates");
+  }
+  // A mode that only turns there (torsion of a line of beams) has no MAC: what is left of its translations is rounding.
+  const std::vector<Index> moving_a = moving_modes(full_a, rows_a), moving_b = moving_modes(full_b, rows_b);
+  MatrixXd mac = MatrixXd::Zero(full_a.cols(), full_b.cols());
+  const MatrixXd common_a = full_a(rows_a, moving_a), common_b = full_b(rows_b, moving_b);
+  mac(moving_a, moving_b) = modal::mac(common_a, common_b);
+  return mac;
 }
 
 }  // namespace

@@ -43,28 +43,41 @@ Places places_of(const std::vector<LayoutPoint>& points) {
   return places;
 }
 
-/// A setup of the same family: each place of each deck goes to another that has the lines that are wanted, no two to one.
+using DeckPlace = std::pair<std::string, double>;           // deck and s
+using Wanted = std::vector<std::pair<std::string, Index>>;  // (line, 0 vertical or 1 radial)
+
+/// A setup of the same family: each place of each deck goes to another that has the lines that are wanted, no two to one. Where
+/// places drawn before leave none to a later one, all are drawn anew.
 std::vector<Index> moved(const ScoredSetup& setup, const std::vector<LayoutPoint>& points, const Places& places, Draw& draw) {
-  std::map<std::pair<std::string, double>, std::vector<std::pair<std::string, Index>>>
-      by_place;  // -> (line, 0 vertical or 1 radial)
+  std::map<DeckPlace, Wanted> by_place;
   for (const Index row : setup.rows) {
     const LayoutPoint& point = points[static_cast<std::size_t>(row / 2)];
     by_place[{deck_of(point.line), point.s_m}].emplace_back(point.line, row % 2);
   }
   std::vector<Index> rows;
-  std::set<std::pair<std::string, double>> taken;
-  for (const auto& [place, channels] : by_place) {
+  std::set<DeckPlace> taken;
+  const auto fits = [&](const DeckPlace& target, const Wanted& channels) {
+    const auto& lines = places.at.at(target);
+    return !taken.contains(target) &&
+           std::all_of(channels.begin(), channels.end(), [&](const auto& c) { return lines.contains(c.first); });
+  };
+  for (auto at = by_place.begin(); at != by_place.end();) {
+    const auto& [place, channels] = *at;
     const std::vector<double>& choices = places.s_m.at(place.first);
-    while (true) {
-      const std::pair<std::string, double> target(place.first,
-                                                  choices[static_cast<std::size_t>(draw.below(std::ssize(choices)))]);
-      const auto& lines = places.at.at(target);
-      const bool has_all =
-          std::all_of(channels.begin(), channels.end(), [&](const auto& c) { return lines.contains(c.first); });
-      if (!has_all || !taken.insert(target).second) continue;
-      for (const auto& [line, direction] : channels) rows.push_back(2 * static_cast<Index>(lines.at(line)) + direction);
-      break;
+    if (std::none_of(choices.begin(), choices.end(), [&](double s) { return fits({place.first, s}, channels); })) {
+      rows.clear();
+      taken.clear();
+      at = by_place.begin();
+      continue;
     }
+    DeckPlace target;
+    do {
+      target = {place.first, choices[static_cast<std::size_t>(draw.below(std::ssize(choices)))]};
+    } while (!fits(target, channels));
+    taken.insert(target);
+    for (const auto& [line, direction] : channels)
+      rows.push_back(2 * static_cast<Index>(places.at.at(target).at(line)) + direction);
+    ++at;
   }
   return rows;
 }

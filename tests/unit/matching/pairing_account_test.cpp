@@ -115,6 +115,8 @@ TEST(CommonFactor, NamesTheSlip) {
   const double g = 9.80665, two_pi = 2.0 * std::numbers::pi;
   for (const Slip& slip :
        {Slip{1e-3, 1, 1, "stiffness in kN/m"},               // 1 kN/m is written as 1, and is 1000 N/m
+        Slip{1e-3, 1, 1, "or N/mm"},                         // 1 N/mm is 1000 N/m
+        Slip{1, 1e6, 1, "mass in milligrams"},               // 1 kg is written as 1e6
         Slip{1, 1e3, 1, "mass in grams"},                    // 1 kg is written as 1000
         Slip{1, 1e-3, 1, "mass in tonnes"},                  // 1000 kg are written as 1
         Slip{1e-6, 1, 1, "modulus of the model in MPa"},     // 1e6 Pa are written as 1

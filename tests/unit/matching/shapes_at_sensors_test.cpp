@@ -154,6 +154,18 @@ TEST(RefuseUnplacedChannels, GuessesTheUnit) {
   EXPECT_TRUE(says(refusal({4.0, 10.0, 0.02}, 0.05, 1000.0), "the model seems to be in mm"));
 }
 
+// Oracle: by construction. (4, 0.3, 0.4) m is no slip of units, although 4 mm lie near a node at the origin.
+TEST(RefuseUnplacedChannels, SuspectsNoUnitNearTheOrigin) {
+  Measured measured;
+  add_channel(measured, "a1", "p", Vector3d(4.0, 0.3, 0.4), Vector3d::UnitZ());
+  try {
+    refuse_unplaced_channels(measured, dynamics::valid_model(cantilever()), 0.1);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(says(error.what(), "sensor_tolerance"));
+  }
+}
+
 // Oracle: the header. Points that no name and no position places, and a direction that says nothing, are refused.
 TEST(RefuseUnplacedChannels, NamesWhatIsMissing) {
   const dynamics::ReadModel model = dynamics::valid_model(cantilever());

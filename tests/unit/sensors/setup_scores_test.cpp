@@ -147,6 +147,18 @@ TEST(ScoreSetups, MovesPlacesToDifferentOnes) {
   EXPECT_NEAR(setup.better_drawn_pct, 500.0 / 6.0, 7.5);
 }
 
+// Oracle: enumeration. Of two places only the second has both lines, so that a setup of all three points has no other candidate
+// than itself. Half of the draws put the first place there and have to begin anew.
+TEST(ScoreSetups, FindsAPlaceForAll) {
+  const std::vector<LayoutPoint> points = {{"I1", "foot_inner", 1.0}, {"I2", "foot_inner", 2.0}, {"O2", "foot_outer", 2.0}};
+  const std::vector<LayoutChannel> setups = {given("A", "a1", "I1", "vertical"), given("A", "a2", "I2", "vertical"),
+                                             given("A", "a3", "O2", "vertical")};
+  const ScoredSetup setup =
+      score_setups(small_settings(), points, candidate_channels(points), setups, rough_shapes(6), 11).front();
+  EXPECT_NEAR(setup.best_drawn, setup.score, 1e-14);
+  EXPECT_NEAR(setup.median_drawn, setup.score, 1e-14);
+}
+
 // Oracle: the definitions. DC1, DC2, … are the lowest of the free draws in this order, each of so many different channels.
 TEST(ScoreSetups, KeepsTheLowestFreeDraws) {
   const MatrixXd phi = rough_shapes(14);
