@@ -1,6 +1,5 @@
 #!/bin/sh
-# make coverage: builds with g++'s counters, runs the unit tests, the laws, the verification, the tests of the steps that use the rooms of numerics and
-# the smoke chain, and counts lines and branches with gcovr.
+# make coverage: builds with g++'s counters, runs the unit tests, the laws, the verification and the smoke chain, and counts lines and branches with gcovr.
 # Without optimisation (preset `coverage`): g++ merges branches even with -O1 and -Og, before it counts them, so that lines that no test reaches
 # are not listed at all.
 #   build-coverage/coverage.json   by file; coverage.md: by room of src, the table that the run of CI shows
@@ -18,29 +17,21 @@ cmake --preset coverage >build-coverage.log 2>&1 || { cat build-coverage.log; ex
 rm -f build-coverage.log
 # The highest rooms, whose tests take longest, come first.
 tests=${*:-test_verification $(tr ';' '\n' <build-coverage/unit_tests.txt | tac) test_laws}
-# What reads a model and calls several rooms one after the other is tested where it is used: through the executables.
-steps=
-[ $# -gt 0 ] || steps="aerodynamics validation campaign refinement pairing updating shapes_in_updating load_tests"
-# shellcheck disable=SC2086  # the list is meant to be split
-cmake --build build-coverage -j "$jobs" --target $tests ${steps:+executables}
+steps=$([ $# -gt 0 ] || sed -n '/^steps *=/,/\]/p' workflows/smoke/study.toml | grep -o 's[0-9]_[a-z]*')
+# shellcheck disable=SC2086  # the lists are meant to be split
+cmake --build build-coverage -j "$jobs" --target $tests $steps
 find build-coverage -name '*.gcda' -delete  # counts of earlier runs
 failures=build-coverage/failures.txt
 : >"$failures"
 # JOBS tests at a time, each with one thread.
-export TWINDECK_BIN="$PWD/build-coverage/bin" OMP_NUM_THREADS=1
-# shellcheck disable=SC2086  # the lists are meant to be split
-printf '%s\n' $tests $steps |
-  xargs -P "$jobs" -I NAME sh -c '
-    if [ -x "build-coverage/bin/NAME" ]; then (cd build-coverage && "bin/NAME" --gtest_brief=1); else /usr/bin/python3 -m unittest "tests/steps/test_NAME.py"; fi ||
-      echo NAME >>build-coverage/failures.txt'
-if [ -n "$steps" ]; then
-  results=build-coverage/smoke
-  rm -rf "$results"
-  # shellcheck disable=SC2013  # names are words
-  for step in $(sed -n '/^steps *=/,/\]/p' workflows/smoke/study.toml | grep -o 's[0-9]_[a-z]*'); do
-    "build-coverage/bin/$step" --study workflows/smoke --results "$results" --out "$results/$step" --threads "$jobs" --quiet || echo "$step" >>"$failures"
-  done
-fi
+export OMP_NUM_THREADS=1
+# shellcheck disable=SC2086
+printf '%s\n' $tests | xargs -P "$jobs" -I NAME sh -c 'cd build-coverage && bin/NAME --gtest_brief=1 || echo NAME >>failures.txt'
+results=build-coverage/smoke
+rm -rf "$results"
+for step in $steps; do
+  "build-coverage/bin/$step" --study workflows/smoke --results "$results" --out "$results/$step" --threads "$jobs" --quiet || echo "$step" >>"$failures"
+done
 # Threads count a line at the same time, so that a branch may have a negative count, which gcovr does not read.
 gcovr --root . --filter src/ --exclude-throw-branches --exclude-unreachable-branches --gcov-ignore-parse-errors --json-summary build-coverage/coverage.json build-coverage
 /usr/bin/python3 tests/coverage/rooms.py build-coverage/coverage.json >build-coverage/coverage.md
