@@ -1,0 +1,132 @@
+// Oracles: invariances of the MAC and its value by hand; modes whose shapes say plainly which they are.
+#include <gtest/gtest.h>
+
+#include "diagnosis/prediction/predictor.hpp"
+#include "hand_made.hpp"
+
+namespace twindeck::tests {
+namespace {
+
+using diagnosis::likeness;
+using diagnosis::RowType;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using Complex = std::complex<double>;
+
+TEST(Likeness, IsTheSquareOfTheCosine) {
+  MatrixXcd shapes(2, 3);
+  shapes << 1.0, 0.0, 1.0, 0.0, 2.0, 1.0;
+  const VectorXd mac = likeness(shapes, Eigen::Vector2cd(Complex(std::sqrt(3.0)), Complex(1.0)));  // at 30 degrees
+  EXPECT_NEAR(mac[0], 0.75, 1e-15);
+  EXPECT_NEAR(mac[1], 0.25, 1e-15);
+  EXPECT_NEAR(mac[2], std::pow(std::cos(15.0 / 180.0 * std::numbers::pi), 2), 1e-15);
+}
+
+TEST(Likeness, DoesNotDependOnComplexScales) {
+  MatrixXcd shapes(3, 2);
+  shapes << Complex(1, 0.2), Complex(0, 1), Complex(-0.5, 0.1), Complex(2, 0), Complex(0.3, -0.4), Complex(1, 1);
+  const VectorXcd measured = shapes.col(0) + 0.3 * shapes.col(1);
+  const VectorXd mac = likeness(shapes, measured), turned = likeness(Complex(-2.0, 3.0) * shapes, Complex(0.1, 0.7) * measured);
+  EXPECT_LT((mac - turned).norm(), 1e-14);
+  EXPECT_NEAR(likeness(shapes, Complex(0.0, 5.0) * shapes.col(1))[1], 1.0, 1e-14);
+}
+
+TEST(Likeness, OfNothingIsNone) {
+  EXPECT_EQ(likeness(MatrixXcd(3, 0), VectorXcd::Ones(3)).size(), 0);
+  EXPECT_EQ(likeness(MatrixXcd::Ones(3, 1), VectorXcd::Zero(3))[0], 0.0);
+  EXPECT_EQ(likeness(MatrixXcd::Zero(3, 1), VectorXcd::Ones(3))[0], 0.0);
+}
+
+/// Five equal masses in a row; shape i is sin(i j pi / 6).
+class FiveMasses {
+ public:
+  FiveMasses() : model(nodes_in_a_row(5), springs_in_a_row(VectorXd::Constant(6, 2e6)), 1000.0 * MatrixXd::Identity(5, 5)) {}
+  static double hertz(int i) {
+    return 2.0 * std::sqrt(2000.0) * std::sin(i * std::numbers::pi / 12.0) / (2.0 * std::numbers::pi);
+  }
+  static double shape(int i, int channel) { return std::sin(i * (channel + 1) * std::numbers::pi / 6.0); }
+  /// A measured mode with the shape of mode i, where there is one (0: none).
+  void measure(const std::string& label, double frequency, int i) {
+    model.add_row(RowType::frequency, label, -1, frequency, 0.01 * frequency);
+    for (int c = 0; c < 5 && i > 0; ++c) model.add_row(RowType::shape, label, c, shape(i, c), 0.02);
+  }
+  [[nodiscard]] std::vector<int> paired(const std::vector<diagnosis::Cause>& causes = {}) const {
+    return model.predict(causes).paired;
+  }
+  Predicted model;
+};
+
+TEST(Pair, ByFrequencyEachIsItself) {
+  FiveMasses five;
+  for (const int i : {3, 1, 5}) five.measure(std::to_string(i), 1.02 * FiveMasses::hertz(i), 0);
+  EXPECT_EQ(five.paired(), (std::vector<int>{2, 0, 4}));
+}
+
+TEST(Pair, ShapesDecideAgainstNearerFrequencies) {
+  // Both frequencies lie between those of modes 4 and 5, each nearer to the other's mode.
+  FiveMasses five;
+  const double middle = std::sqrt(FiveMasses::hertz(4) * FiveMasses::hertz(5));
+  five.measure("a", 1.01 * middle, 4);
+  five.measure("b", 0.99 * middle, 5);
+  EXPECT_EQ(five.paired(), (std::vector<int>{3, 4}));
+  EXPECT_GT(five.model.predict().mac[0], 0.999999);
+}
+
+TEST(Pair, IsOneToOne) {
+  // Two measured modes are nearest to mode 2; the one that is nearer gets it.
+  FiveMasses five;
+  five.measure("a", 1.001 * FiveMasses::hertz(2), 0);
+  five.measure("b", 1.1 * FiveMasses::hertz(2), 0);
+  EXPECT_EQ(five.paired(), (std::vector<int>{1, 2}));
+}
+
+TEST(Pair, MoreMeasuredModesThanComputedOnesAreNoPrediction) {
+  FiveMasses five;
+  for (int i = 0; i < 6; ++i) five.measure(std::to_string(i), 1.0 + i, 0);
+  EXPECT_FALSE(five.model.predict().valid);
+}
+
+TEST(Pair, AShapeOfTheSameNameInAnotherConditionTells) {
+  FiveMasses five;
+  const double middle = std::sqrt(FiveMasses::hertz(4) * FiveMasses::hertz(5));
+  five.measure("a", FiveMasses::hertz(5), 5);
+  five.measure("b", FiveMasses::hertz(4), 4);
+  five.model.add_condition("crowd").people = 1.0;  // another state of the solver, the same structure
+  five.measure("a", 0.999 * middle, 0);
+  five.measure("b", 1.001 * middle, 0);
+  EXPECT_EQ(five.paired(), (std::vector<int>{4, 3, 4, 3}));
+}
+
+TEST(Pair, ABoundNameIsTheModelsMode) {
+  // Without a shape the frequencies decide, unless the names are bound to modes of the model.
+  FiveMasses five;
+  const double middle = std::sqrt(FiveMasses::hertz(4) * FiveMasses::hertz(5));
+  five.measure("a", 0.999 * middle, 0);
+  five.measure("b", 1.001 * middle, 0);
+  diagnosis::FeatureMap map = five.model.map();
+  const auto base = map.base(VectorXd::Zero(std::ssize(map.nuisances())));
+  EXPECT_EQ(map.predict(base, {}, false).paired, (std::vector<int>{3, 4}));
+  map.bind_modes({{"a", 4}, {"b", 3}});
+  EXPECT_EQ(map.predict(base, {}, false).paired, (std::vector<int>{4, 3}));
+}
+
+TEST(Pair, ExchangedNamesHaveEachOthersShapes) {
+  // Frequencies are right; the shapes of modes 2 and 3 stand under each other's names. The cause says so.
+  FiveMasses five;
+  for (const int i : {1, 2, 3}) five.measure(std::to_string(i), FiveMasses::hertz(i), i == 2 ? 3 : i == 3 ? 2 : 1);
+  HandMade exchange("modes.exchange", {});
+  exchange.candidate.mode = "2";
+  const auto p = five.model.predict({exchange.cause()});
+  EXPECT_EQ(p.paired, (std::vector<int>{0, 1, 2}));
+  for (Index r = 0; r < p.g.size(); ++r) {
+    const auto& row = five.model.features.rows[static_cast<std::size_t>(r)];
+    const double expected = row.type == RowType::frequency ? std::log(row.value) : row.value;
+    EXPECT_NEAR(p.g[r], expected, 1e-9) << r;
+  }
+}
+
+}  // namespace
+}  // namespace twindeck::tests
