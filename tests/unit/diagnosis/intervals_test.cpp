@@ -1,0 +1,98 @@
+// Oracle: noise floors, on which the logarithm of a factor acts linearly, so that its law is normal. The level of the other m
+// channels has a variance of s²/m; a channel with the factor has a variance of s² (1 + 1/m).
+#include "diagnosis/intervals.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/diagnosis/prediction/hand_made.hpp"
+
+namespace twindeck::tests {
+namespace {
+
+using diagnosis::EffectParameter;
+using diagnosis::RowType;
+using Eigen::VectorXd;
+
+constexpr int kOthers = 4;
+constexpr double kStd = 0.1, kNinetyFive = 1.6449;
+// Ends are interpolated between 25 points of ±4 deviations: to 0.03 deviations.
+constexpr double kInterpolated = 0.03;
+
+/// Floors of five channels. The factor on the first may have any value between e^low and e^high.
+class Floors {
+ public:
+  Floors(double ln_factor, double spread, double low, double high)
+      : model_(nodes_in_a_row(1 + kOthers), springs_in_a_row(VectorXd::Constant(2 + kOthers, 2e6)),
+               1000.0 * Eigen::MatrixXd::Identity(1 + kOthers, 1 + kOthers)) {
+    for (int c = 0; c <= kOthers; ++c) {
+      const double ln = c == 0 ? ln_factor : (c % 2 ? spread : -spread);
+      model_.add_row(RowType::psd_floor, "", c, std::exp(ln), kStd * std::exp(ln));
+    }
+    hypothesis_.id = "floor";
+    hypothesis_.unknowns.push_back({"ratio", "-", {std::exp(low), "", 0}, {std::exp(high), "", 0}, true, {}});
+    hypothesis_.actions.push_back({"channel.floor", {}, {{"factor", {1.0, "$ratio", 0}}}, 0});
+    candidate_.hypothesis = &hypothesis_;
+    candidate_.location = "channel:c0";
+    candidate_.channels = {0};
+    candidate_.log = {true};
+    candidate_.low = VectorXd::Constant(1, low);
+    candidate_.high = VectorXd::Constant(1, high);
+    candidate_.starts = {VectorXd::Constant(1, 0.5 * (low + high))};
+  }
+  [[nodiscard]] EffectParameter interval() const {
+    const diagnosis::FeatureMap map = model_.map();
+    const std::vector<std::unique_ptr<diagnosis::Candidate>> none;
+    const diagnosis::Inference inference(map, none);
+    const auto fit = inference.fit({{&candidate_, candidate_.starts[0]}}, {});
+    const auto found = effect_parameters(inference, fit, 0);
+    EXPECT_EQ(found.size(), 1U);
+    return found.at(0);
+  }
+
+ private:
+  Predicted model_;
+  diagnosis::Hypothesis hypothesis_;
+  diagnosis::Candidate candidate_;
+};
+
+TEST(EffectParameters, OfALinearEffectAreThoseOfTheNormalLaw) {
+  const EffectParameter found = Floors(1.1, 0.0, -5.0, 5.0).interval();
+  const double deviation = kStd * std::sqrt(1.0 + 1.0 / kOthers);
+  EXPECT_EQ(found.name, "ratio");
+  EXPECT_NEAR(std::log(found.value), 1.1, 0.01 * deviation);  // priors hundreds of deviations wide
+  EXPECT_NEAR(std::log(found.low), 1.1 - kNinetyFive * deviation, kInterpolated * deviation);
+  EXPECT_NEAR(std::log(found.high), 1.1 + kNinetyFive * deviation, kInterpolated * deviation);
+  EXPECT_FALSE(found.at_low_bound || found.at_high_bound);
+}
+
+TEST(EffectParameters, AreWidenedByTheMisfit) {
+  // The others lie ±3 s about their level: chi² = 36 on five rows widens by sqrt(7.2).
+  const EffectParameter found = Floors(1.1, 3.0 * kStd, -5.0, 5.0).interval();
+  const double deviation = std::sqrt(36.0 / 5.0) * kStd * std::sqrt(1.0 + 1.0 / kOthers);
+  EXPECT_NEAR(std::log(found.low), 1.1 - kNinetyFive * deviation, kInterpolated * deviation);
+  EXPECT_NEAR(std::log(found.high), 1.1 + kNinetyFive * deviation, kInterpolated * deviation);
+}
+
+TEST(EffectParameters, AnEndThatTheDataDoNotSeeIsThePriors) {
+  // The upper bound lies within a deviation of the best value.
+  const EffectParameter found = Floors(1.1, 0.0, -2.0, 1.15).interval();
+  EXPECT_TRUE(found.at_high_bound);
+  EXPECT_FALSE(found.at_low_bound);
+  EXPECT_NEAR(found.high, std::exp(1.15), 1e-12);
+  EXPECT_LT(std::log(found.low), 1.1 - kStd);
+}
+
+TEST(EffectParameters, OfACauseWithoutUnknownsAreNone) {
+  Predicted model(nodes_in_a_row(2), springs_in_a_row(VectorXd::Constant(3, 2e6)), 1000.0 * Eigen::MatrixXd::Identity(2, 2));
+  for (int c = 0; c < 2; ++c) model.add_row(RowType::psd_floor, "", c, 1.0, 0.1);
+  HandMade sign("channel.sign", {});
+  const diagnosis::FeatureMap map = model.map();
+  const std::vector<std::unique_ptr<diagnosis::Candidate>> none;
+  const diagnosis::Inference inference(map, none);
+  diagnosis::Fit fit;
+  fit.causes = {sign.on_channels({0}).cause()};
+  EXPECT_TRUE(effect_parameters(inference, fit, 0).empty());
+}
+
+}  // namespace
+}  // namespace twindeck::tests
