@@ -15,8 +15,9 @@ using Eigen::VectorXd;
 
 constexpr int kOthers = 4;
 constexpr double kStd = 0.1, kNinetyFive = 1.6449;
-// Ends are interpolated between 25 points of ±4 deviations: to 0.03 deviations.
-constexpr double kInterpolated = 0.03;
+// The width is interpolated between 25 points of ±4 deviations: to 0.03 deviations. The fit ends where chi² would fall by less
+// than 0.02, within sqrt(0.02) deviations of the best value.
+constexpr double kInterpolated = 0.03, kEndOfTheFit = 0.142;
 
 /// Floors of five channels. The factor on the first may have any value between e^low and e^high.
 class Floors {
@@ -55,22 +56,24 @@ class Floors {
   diagnosis::Candidate candidate_;
 };
 
+void expect_interval(const EffectParameter& found, double centre, double deviation) {
+  const double low = std::log(found.low), high = std::log(found.high);
+  EXPECT_NEAR(std::log(found.value), centre, kEndOfTheFit * deviation);
+  EXPECT_NEAR(0.5 * (low + high), centre, kEndOfTheFit * deviation);
+  EXPECT_NEAR(0.5 * (high - low), kNinetyFive * deviation, kInterpolated * deviation);
+  EXPECT_FALSE(found.at_low_bound || found.at_high_bound);
+}
+
 TEST(EffectParameters, OfALinearEffectAreThoseOfTheNormalLaw) {
   const EffectParameter found = Floors(1.1, 0.0, -5.0, 5.0).interval();
-  const double deviation = kStd * std::sqrt(1.0 + 1.0 / kOthers);
   EXPECT_EQ(found.name, "ratio");
-  EXPECT_NEAR(std::log(found.value), 1.1, 0.01 * deviation);  // priors hundreds of deviations wide
-  EXPECT_NEAR(std::log(found.low), 1.1 - kNinetyFive * deviation, kInterpolated * deviation);
-  EXPECT_NEAR(std::log(found.high), 1.1 + kNinetyFive * deviation, kInterpolated * deviation);
-  EXPECT_FALSE(found.at_low_bound || found.at_high_bound);
+  expect_interval(found, 1.1, kStd * std::sqrt(1.0 + 1.0 / kOthers));
 }
 
 TEST(EffectParameters, AreWidenedByTheMisfit) {
   // The others lie ±3 s about their level: chi² = 36 on five rows widens by sqrt(7.2).
   const EffectParameter found = Floors(1.1, 3.0 * kStd, -5.0, 5.0).interval();
-  const double deviation = std::sqrt(36.0 / 5.0) * kStd * std::sqrt(1.0 + 1.0 / kOthers);
-  EXPECT_NEAR(std::log(found.low), 1.1 - kNinetyFive * deviation, kInterpolated * deviation);
-  EXPECT_NEAR(std::log(found.high), 1.1 + kNinetyFive * deviation, kInterpolated * deviation);
+  expect_interval(found, 1.1, std::sqrt(36.0 / 5.0) * kStd * std::sqrt(1.0 + 1.0 / kOthers));
 }
 
 TEST(EffectParameters, AnEndThatTheDataDoNotSeeIsThePriors) {

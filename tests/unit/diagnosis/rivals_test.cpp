@@ -13,7 +13,7 @@ using diagnosis::Hypothesis;
 using diagnosis::Scored;
 using Eigen::VectorXd;
 
-constexpr double kQuantile = 1.6449, kDigits = 1e-4;  // of the normal law at 95 %, to its digits
+constexpr double kQuantile = 1.645, kDigits = 1e-3;  // of the normal law at 95 %, to its digits
 
 struct Entry {
   Entry(const std::string& name, bool log, double low, double high, double value, double deviation) {
