@@ -128,5 +128,18 @@ TEST(Pair, ExchangedNamesHaveEachOthersShapes) {
   }
 }
 
+TEST(Pair, ExchangedNamesArePairedByEachOthersShapes) {
+  // Frequencies say little: the shape of mode 4 stands under "a", that of mode 5 under "b". If the names were exchanged, "a" is
+  // mode 5.
+  FiveMasses five;
+  const double middle = std::sqrt(FiveMasses::hertz(4) * FiveMasses::hertz(5));
+  five.measure("a", 0.999 * middle, 4);
+  five.measure("b", 1.001 * middle, 5);
+  HandMade exchange("modes.exchange", {});
+  exchange.candidate.mode = "a";
+  EXPECT_EQ(five.paired(), (std::vector<int>{3, 4}));
+  EXPECT_EQ(five.paired({exchange.cause()}), (std::vector<int>{4, 3}));
+}
+
 }  // namespace
 }  // namespace twindeck::tests
