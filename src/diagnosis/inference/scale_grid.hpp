@@ -20,7 +20,7 @@ struct ScaleGrid {
   std::vector<ScalePoint> points;            ///< every combination but kappa's; priors sum to one
 };
 
-/// The grid of the method: tau_f 0.05 to 8 %, tau_s 0.2 to 10 % with half-t priors of three degrees of freedom and scale 1 %,
+/// The grid of the method: tau_f 0.05 to 8 %, tau_s 0.2 to 30 % with half-t priors of three degrees of freedom and scale 1 %,
 /// scatter 1 and 2.5 times as stated with weights 0.7 and 0.3; kappa 0.05 to 20 %.
 [[nodiscard]] ScaleGrid scale_grid();
 

@@ -30,7 +30,7 @@ struct Predictor::SolvedLoadTest {
   std::vector<GroundState> ground;
   const SolvedState* state = nullptr;
   VectorXd answer, q;         ///< in the state's columns, then its own degrees of freedom; in all of the reduced model's
-  MatrixXd slopes, relative;  ///< d answer (size × unknowns); d ln(factor of a ground) (n_grounds × unknowns)
+  MatrixXd slopes, relative;  ///< d answer (size × unknowns); d factor of a ground (n_grounds × unknowns)
 };
 
 bool Predictor::ground_of(const Condition& condition, int c, std::vector<GroundState>& ground) const {
@@ -39,18 +39,20 @@ bool Predictor::ground_of(const Condition& condition, int c, std::vector<GroundS
   bool moved_away = false;
   for (std::size_t g = 0; g < ground.size(); ++g) {
     const Ground& support = tests.grounds[g];
+    double change = 0.0;
     if (support.parameter >= 0 && map_.model().theta[support.parameter] != 0.0)
       ground[g].factor = base_.theta[support.parameter] / map_.model().theta[support.parameter];
     for (const Cause& cause : causes_) {
       const Candidate& candidate = *cause.candidate;
       if (candidate.location != support.support || !candidate.acts_in(condition)) continue;
       for (const ActionSpec& action : candidate.hypothesis->actions) {
-        if (candidate.hypothesis->set == "supports") ground[g].factor += stiffness_change(cause, action, condition);
+        if (candidate.hypothesis->set == "supports") change += stiffness_change(cause, action, condition);
         if (action.kind == "support.settle") ground[g].settled_m += candidate.value(action.number.at("rise"), cause.a);
         if (action.kind == "support.move")
           moved_away = moved_away || support_is_gauged(map_.features(), tests, c, static_cast<int>(g));
       }
     }
+    ground[g].factor *= 1.0 + change;  // of what the parameter has made of it
   }
   return !moved_away;
 }
@@ -66,8 +68,8 @@ MatrixXd Predictor::load_slopes(SolvedLoadTest& test) {
     const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(j)];
     if (v.kind != Nuisance::Kind::parameter) continue;
     for (std::size_t g = 0; g < test.ground.size(); ++g) {
-      if (tests.grounds[g].parameter != v.index || !(map_.model().theta[v.index] != 0.0)) continue;
-      const double slope = v.deviation / map_.model().theta[v.index];
+      if (tests.grounds[g].parameter != v.index || map_.model().theta[v.index] == 0.0 || base_.theta[v.index] == 0.0) continue;
+      const double slope = v.deviation * test.ground[g].factor / base_.theta[v.index];
       test.relative(static_cast<Index>(g), j) = slope;
       const VectorXd held = tests.grounds[g].moved.col(test.load_case) + test.ground[g].settled_m * tests.grounds[g].settle;
       loads.col(j).head(n) += slope * held(state.columns);
@@ -75,7 +77,7 @@ MatrixXd Predictor::load_slopes(SolvedLoadTest& test) {
   }
   if (with_jacobian_) {  // without it the base's store is read by several threads, and `changes` may write to it
     const auto& change = changes(state);
-    const MatrixXd held = times(state.columns, change.stiffness, test.answer);
+    const MatrixXd held = changed(state, false, test.answer);
     for (std::size_t k = 0; k < change.position.size(); ++k) loads.col(change.position[k]) -= held.col(static_cast<Index>(k));
   }
   return loads;

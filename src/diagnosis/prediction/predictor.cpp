@@ -15,8 +15,6 @@ using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double kUsualDamping_pct = 0.5;       ///< structural, of a mode that was not measured: steel decks have 0.3 to 0.8
-constexpr double kLeastDamping_pct = 0.02;      ///< of a mode under white excitation, whose variance grows as 1 / damping
 constexpr double kLeastDampingPart = 1e-3;      ///< [-] of the structural damping: causes cannot take away all of it
 constexpr double kLeastFrequencyFactor = 0.05;  ///< [-] that an amplitude can leave of a frequency: its logarithm stays finite
 constexpr double kNearlyVertical = 0.9;  ///< [-] vertical part of a channel's direction from which "beside" is taken from x
@@ -235,6 +233,14 @@ Predictor::AddedToMode Predictor::added_to(const MeasuredMode& measured, const S
   return added;
 }
 
+double Predictor::damping_slope_pct(Complex s, Complex ds) {
+  return 100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * (ds / s).real());
+}
+
+bool Predictor::is_damping_of(const Nuisance& v, const std::string& damping_name) const {
+  return v.kind == Nuisance::Kind::mode_damping && map_.damping_modes_[static_cast<std::size_t>(v.index)] == damping_name;
+}
+
 void Predictor::differentiate_mode(const MeasuredMode& measured, SolvedState& state, Index mode,
                                    const std::string& damping_name, double own_pct, double total_pct) {
   const Complex s = state.modes.s[mode];
@@ -244,14 +250,12 @@ void Predictor::differentiate_mode(const MeasuredMode& measured, SolvedState& st
     const Complex ds = d.s[static_cast<Index>(j)];
     const double relative = (ds / s).real();
     if (measured.frequency >= 0) out_.jacobian(measured.frequency, position_of[j]) = relative;
-    if (measured.damping >= 0)
-      out_.jacobian(measured.damping, position_of[j]) =
-          100.0 * (-ds.real() / std::abs(s) + s.real() / std::abs(s) * relative) / total_pct;
+    if (measured.damping >= 0) out_.jacobian(measured.damping, position_of[j]) = damping_slope_pct(s, ds) / total_pct;
   }
   if (measured.damping >= 0) {
     for (std::size_t j = 0; j < map_.nuisances_.size(); ++j) {
       const Nuisance& v = map_.nuisances_[j];
-      if (v.kind == Nuisance::Kind::mode_damping && map_.damping_modes_[static_cast<std::size_t>(v.index)] == damping_name)
+      if (is_damping_of(v, damping_name))
         out_.jacobian(measured.damping, static_cast<Index>(j)) = v.deviation * own_pct / total_pct;
     }
   }
@@ -294,96 +298,6 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
   if (measured.real_rows.empty()) return;
   const int shape_of = mode_of_shape(measured, position);
   if (shape_of >= 0) predict_shape(measured, state, shape_of);
-}
-
-Index Predictor::level_of(int c, bool floor) const {
-  for (std::size_t j = 0; j < map_.nuisances_.size(); ++j)
-    if (map_.nuisances_[j].kind == Nuisance::Kind::level && map_.nuisances_[j].index == 2 * c + (floor ? 1 : 0))
-      return static_cast<Index>(j);
-  return -1;
-}
-
-std::vector<double> Predictor::excitation_weights(int c, const SolvedState& state) const {
-  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
-  std::vector<double> weight;
-  for (Index i = 0; i < state.modes.s.size(); ++i) {  // white excitation: variance of acceleration of a mode ~ omega / zeta
-    std::string label;
-    for (std::size_t m = 0; m < map_.modes_.size(); ++m)
-      if (out_.paired[m] == i && of_condition_.contains(map_.modes_[m].condition) &&
-          of_condition_.at(map_.modes_[m].condition) == &state && map_.same_state(map_.modes_[m].condition, c))
-        label = map_.modes_[m].label;
-    double zeta_pct =
-        (label.empty() ? kUsualDamping_pct : structural_damping(map_.damping_name(label, c))) + 100.0 * state.modes.damping(i);
-    each_action("wind.damping", condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-      zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
-    });
-    weight.push_back(std::abs(state.modes.s[i]) / std::max(zeta_pct, kLeastDamping_pct) *
-                     wind_weight(condition, state, i, label));
-  }
-  return weight;
-}
-
-void Predictor::predict_floor(std::size_t r) {
-  const Row& row = map_.features().rows[r];
-  const auto at = static_cast<Index>(r);
-  const Index j = level_of(row.condition, true);
-  const Nuisance& level = map_.nuisances_[static_cast<std::size_t>(j)];
-  double g = level.deviation * base_.x[j];
-  each_action("channel.floor", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-    if (candidate.channels[0] == row.channel) g += std::log(candidate.value(action.number.at("factor"), a));
-  });
-  each_action("channel.gain", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-    if (candidate.channels[0] == row.channel) g += 2.0 * std::log(candidate.value(action.number.at("factor"), a));
-  });
-  out_.g[at] = g;
-  if (with_jacobian_) out_.jacobian(at, j) = level.deviation;
-}
-
-void Predictor::predict_rms(std::size_t r, SolvedState& state, const std::vector<double>& weight) {
-  const Row& row = map_.features().rows[r];
-  const auto at = static_cast<Index>(r);
-  double variance = 0.0;
-  VectorXd slope = VectorXd::Zero(with_jacobian_ ? static_cast<Index>(map_.nuisances_.size()) : 0);
-  for (Index i = 0; i < state.modes.s.size(); ++i) {
-    const Complex h = motion(state)(row.channel, i);
-    variance += weight[static_cast<std::size_t>(i)] * std::norm(h);
-    if (!with_jacobian_) continue;
-    const ModeDerivative& d = derivative(state, i);
-    const auto& position_of = changes(state).position;
-    const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows(state.columns).row(row.channel);
-    const Eigen::RowVectorXcd dh = sensor.cast<Complex>() * d.shapes.topRows(sensor.size());
-    for (std::size_t j = 0; j < position_of.size(); ++j) {
-      const auto k = static_cast<Index>(j);
-      slope[position_of[j]] += weight[static_cast<std::size_t>(i)] *
-                               (2.0 * (std::conj(h) * dh[k]).real() + std::norm(h) * (d.s[k] / state.modes.s[i]).real());
-    }
-  }
-  double gain = 1.0;
-  each_action("channel.limit", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-    if (candidate.channels[0] == row.channel) gain *= candidate.value(action.number.at("factor"), a);
-  });
-  const Index j = level_of(row.condition, false);
-  const Nuisance& level = map_.nuisances_[static_cast<std::size_t>(j)];
-  out_.g[at] = 0.5 * std::log(std::max(variance, 1e-300)) + std::log(gain) + level.deviation * base_.x[j];
-  if (!with_jacobian_) return;
-  out_.jacobian.row(at) = slope.transpose() / (2.0 * std::max(variance, 1e-300));
-  out_.jacobian(at, j) = level.deviation;
-  for (std::size_t k = 0; k < map_.nuisances_.size(); ++k)
-    if (map_.nuisances_[k].kind == Nuisance::Kind::gain && map_.nuisances_[k].index == row.channel)
-      out_.jacobian(at, static_cast<Index>(k)) = map_.nuisances_[k].deviation;
-}
-
-void Predictor::predict_load(int c) {
-  const auto& rows = map_.features().rows;
-  const bool records =
-      std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.condition == c && row.type == RowType::rms; });
-  SolvedState* state = records ? &solved(c) : nullptr;
-  const std::vector<double> weight = records ? excitation_weights(c, *state) : std::vector<double>{};
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (rows[r].condition != c) continue;
-    if (rows[r].type == RowType::psd_floor) predict_floor(r);
-    if (rows[r].type == RowType::rms) predict_rms(r, *state, weight);
-  }
 }
 
 void Predictor::predict_stays() {

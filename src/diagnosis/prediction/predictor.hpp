@@ -20,7 +20,17 @@ struct SolvedState {
   StructureState state;
   StateModes modes;
   std::map<Eigen::Index, ModeDerivative> derivatives;
+  /// A part of the state that a cause scales and that a parameter has scaled before.
+  struct Followed {
+    int parameter = 0;
+    double amount = 0.0;  ///< of the part, per unit of the parameter
+    const ReducedMatrix* part = nullptr;
+    bool mass = false;
+  };
+  std::vector<Followed> followed;
 };
+
+inline constexpr double kUsualDamping_pct = 0.5;  ///< structural, of a mode that was not measured: steel decks have 0.3 to 0.8
 
 /// What an unknown does to a matrix of a state, per unit: dense in its coordinates, or `amount` times a projected one of few
 /// degrees of freedom.
@@ -84,6 +94,9 @@ class Predictor {
   [[nodiscard]] double stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   [[nodiscard]] StructureState build_state(const Condition& condition) const;
   void apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const;
+  /// Notes that a part of the state that is being built goes with a parameter. @param change  [-] of the part where the model
+  /// stands
+  void follow(const ReducedPlace& place, double change, bool mass) const;
   void apply_spring(const Candidate& candidate, const ActionSpec& action, double stiffness, StructureState& state) const;
   /// An oscillator or, as a string, a cable of this mass and circular frequency, with degrees of freedom of its own.
   void apply_body(const ReducedPlace& place, bool string, double mass_kg, double omega_rad_s, StructureState& state) const;
@@ -100,6 +113,9 @@ class Predictor {
   /// Stiffness and mass without causes, in some of the reduced model's coordinates.
   [[nodiscard]] const std::pair<Eigen::MatrixXd, Eigen::MatrixXd>& matrices(const std::vector<int>& columns) const;
   [[nodiscard]] const ModeDerivative& derivative(SolvedState& solved, Eigen::Index mode);
+  /// Changes of a state's stiffness or mass times each column of x, those that causes share with a parameter included
+  /// (size × n_columns n_changes).
+  [[nodiscard]] Eigen::MatrixXd changed(const SolvedState& state, bool mass, const Eigen::MatrixXd& x) const;
   /// Changes of a matrix times each column of x (size × n_columns): (size × n_columns n_changes), column by column of x.
   [[nodiscard]] Eigen::MatrixXd times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes,
                                       const Eigen::MatrixXd& x) const;
@@ -122,6 +138,10 @@ class Predictor {
     double frequency = 0.0, damping_pct = 0.0;  ///< to ln f; to the damping ratio
   };
   [[nodiscard]] AddedToMode added_to(const MeasuredMode& measured, const SolvedState& state, Eigen::Index mode) const;
+  /// Change of -100 Re s / |s| with s.
+  [[nodiscard]] static double damping_slope_pct(Complex s, Complex ds);
+  /// Whether a nuisance is the structural damping of this name.
+  [[nodiscard]] bool is_damping_of(const Nuisance& v, const std::string& damping_name) const;
   void differentiate_mode(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const std::string& damping_name,
                           double own_pct, double total_pct);
   /// The model mode whose shape stands under this measured one: its pair, or another's where shapes were exchanged.
@@ -131,12 +151,16 @@ class Predictor {
   void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode);
   void differentiate_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const ScaledShape& shape);
 
-  // records and cables
+  // records (record_rows.cpp) and cables
   void predict_load(int condition);
   void predict_floor(std::size_t row);
-  void predict_rms(std::size_t row, SolvedState& state, const std::vector<double>& weight);
-  /// Variance of each mode's motion under the excitation, up to a common factor (n_modes).
-  [[nodiscard]] std::vector<double> excitation_weights(int condition, const SolvedState& state) const;
+  /// Variance of a mode's motion under the excitation, up to a common factor.
+  struct ExcitedMode {
+    double weight = 1.0;
+    Eigen::VectorXd slope;  ///< (n_nuisances) of ln weight; empty without a Jacobian
+  };
+  [[nodiscard]] ExcitedMode excited_mode(int condition, SolvedState& state, Eigen::Index mode);
+  void predict_rms(std::size_t row, SolvedState& state, const std::vector<ExcitedMode>& excited);
   [[nodiscard]] Eigen::Index level_of(int condition, bool floor) const;  ///< among the nuisances, -1 without one
   void predict_stays();
 
@@ -169,16 +193,21 @@ class Predictor {
         if (action.kind == kind) use(*cause.candidate, cause.a, action);
     }
   }
-  /// Weight of a mode in a record's variance under wind, beyond white excitation (wind_load.cpp).
-  [[nodiscard]] double wind_weight(const Condition& condition, const SolvedState& state, Eigen::Index mode,
-                                   const std::string& label) const;
+  /// A mode in a record's variance under wind, beyond white excitation (wind_load.cpp).
+  struct WindNumbers;
+  [[nodiscard]] WindNumbers wind_numbers(const Condition& condition, const std::string& label) const;
+  struct MotionInWind;
+  [[nodiscard]] MotionInWind motion_in_wind(const Eigen::Vector2d& along, double lee, SolvedState& state, Eigen::Index mode);
+  [[nodiscard]] ExcitedMode wind_load(const Condition& condition, SolvedState& state, Eigen::Index mode,
+                                      const std::string& label);
   [[nodiscard]] double structural_damping(const std::string& label) const;  ///< in per cent
 
   const FeatureMap& map_;
   const FeatureMap::Base& base_;
   const std::vector<Cause>& causes_;
   bool with_jacobian_;
-  mutable std::vector<int> columns_;  // of the state that is being built
+  mutable std::vector<int> columns_;                     // of the state that is being built
+  mutable std::vector<SolvedState::Followed> followed_;  // likewise
   /// Rows of the sensors that a channel shows, as causes turn and exchange them, with their weights.
   std::vector<std::vector<std::pair<Eigen::Index, double>>> channel_views_;
   Eigen::VectorXd channel_factor_, channel_delay_s_;

@@ -152,8 +152,7 @@ double Predictor::stiffness_change(const Cause& cause, const ActionSpec& action,
   const Candidate& candidate = *cause.candidate;
   const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
   const std::string& kind = action.kind;
-  if (kind == "scale.stiffness")
-    return (value("factor") - 1.0) * parameter_ratio(candidate.places[0]->attributes, map_.model().theta, base_.theta);
+  if (kind == "scale.stiffness") return value("factor") - 1.0;
   const double v = variable(action, condition);
   if (kind == "field.stiffness") return std::isfinite(v) ? value("rate") * (v - value("reference")) : 0.0;
   // The hyperbola of soils (Hardin and Drnevich, J. Soil Mech. Found. Div. ASCE 98 SM7, 1972).
@@ -170,11 +169,13 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
   const Index n = state.stiffness.rows();
   const std::string& kind = action.kind;
+  const double ratio = parameter_ratio(place.attributes, map_.model().theta, base_.theta);
   if (const double change = stiffness_change(cause, action, condition); change != 0.0) {
-    state.stiffness += change * sliced(place.stiffness, columns_, n);
+    state.stiffness += change * ratio * sliced(place.stiffness, columns_, n);
+    follow(place, change, false);
   } else if (kind == "scale.mass") {
-    state.mass += (value("factor") - 1.0) * parameter_ratio(place.attributes, map_.model().theta, base_.theta) *
-                  sliced(place.mass, columns_, n);
+    state.mass += (value("factor") - 1.0) * ratio * sliced(place.mass, columns_, n);
+    follow(place, value("factor") - 1.0, true);
   } else if (kind == "support.move") {
     move_support(place, value("position"), columns_, state);
   } else if (kind == "mass.add") {
@@ -192,6 +193,14 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   } else if (kind == "element.oscillator" || kind == "element.string") {
     apply_body(place, kind == "element.string", value("mass"), 2.0 * std::numbers::pi * value("frequency"), state);
   }
+}
+
+void Predictor::follow(const ReducedPlace& place, double change, bool mass) const {
+  const auto parameter = place.attributes.find("parameter");
+  if (parameter == place.attributes.end()) return;
+  const int p = static_cast<int>(parameter->second);
+  const double reduced_at = map_.model().theta[p];
+  if (reduced_at != 0.0) followed_.push_back({p, change / reduced_at, mass ? &place.mass : &place.stiffness, mass});
 }
 
 void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& action, double stiffness,
@@ -328,7 +337,9 @@ SolvedState& Predictor::solved(int c) {
   if (!entry) {
     entry = std::make_shared<SolvedState>();
     columns_ = entry->columns = acting.columns;
+    followed_.clear();
     entry->state = build_state(condition);
+    entry->followed = followed_;
     // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
     const bool kept = acting.causes.empty() || with_jacobian_ || base_.keeps;
     // Damped modes follow from those without the last cause.
@@ -410,7 +421,7 @@ const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
   const std::complex<double> square = solved.modes.s[mode] * solved.modes.s[mode];
   MatrixXd parts(phi.size(), 2);  // real, imaginary
   parts << phi.real(), phi.imag();
-  const MatrixXd stiffness = times(solved.columns, change.stiffness, parts), mass = times(solved.columns, change.mass, parts);
+  const MatrixXd stiffness = changed(solved, false, parts), mass = changed(solved, true, parts);
   const auto changes = std::ssize(change.position);
   Eigen::MatrixXcd force(phi.size(), changes);
   force.real() = -stiffness.leftCols(changes);
@@ -419,7 +430,25 @@ const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
   inertia.real() = mass.leftCols(changes);
   inertia.imag() = mass.rightCols(changes);
   force -= square * inertia;
-  return solved.derivatives.emplace(mode, differentiate(solved.state, solved.modes, mode, force)).first->second;
+  ModeDerivative found = differentiate(solved.state, solved.modes, mode, force);
+  found.along = along_the_shape(solved.state, solved.modes, mode, found.s, inertia);
+  return solved.derivatives.emplace(mode, std::move(found)).first->second;
+}
+
+MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd& x) const {
+  const StateStore::Changes& change = changes(state);
+  MatrixXd out = times(state.columns, mass ? change.mass : change.stiffness, x);
+  const auto count = std::ssize(change.position);
+  for (const SolvedState::Followed& followed : state.followed) {
+    if (followed.mass != mass) continue;
+    const MatrixXd part = sliced(*followed.part, state.columns, x.rows()) * x;
+    for (Index j = 0; j < count; ++j) {
+      const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(change.position[static_cast<std::size_t>(j)])];
+      if (v.kind != Nuisance::Kind::parameter || v.index != followed.parameter) continue;
+      for (Index p = 0; p < x.cols(); ++p) out.col(p * count + j) += v.deviation * followed.amount * part.col(p);
+    }
+  }
+  return out;
 }
 
 MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x) const {

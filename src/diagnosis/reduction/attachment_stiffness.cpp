@@ -40,4 +40,10 @@ std::pair<std::complex<double>, std::complex<double>> dynamic_stiffness(const At
   return {0.0, 0.0};
 }
 
+std::complex<double> second_derivative(const Attachment& a, std::complex<double> s) {
+  if (a.kind != Attachment::Kind::maxwell) return 0.0;
+  const std::complex<double> below = a.stiffness + a.damping * s;
+  return -2.0 * std::pow(a.stiffness * a.damping, 2) / (below * below * below);
+}
+
 }  // namespace twindeck::diagnosis

@@ -30,4 +30,7 @@ struct Attachment {
                                                                                       std::complex<double> s,
                                                                                       double amplitude_m);
 
+/// d²d/ds² of an attachment [N s²/m]: of a Maxwell element -2 k² c²/(k + c s)³, of others none.
+[[nodiscard]] std::complex<double> second_derivative(const Attachment& a, std::complex<double> s);
+
 }  // namespace twindeck::diagnosis

@@ -46,4 +46,19 @@ ModeDerivative differentiate(const StructureState& state, const StateModes& mode
   return out;
 }
 
+VectorXcd along_the_shape(const StructureState& state, const StateModes& modes, Index mode, const VectorXcd& ds,
+                          const MatrixXcd& inertia) {
+  const VectorXcd phi = modes.shapes.col(mode);
+  const VectorXcd own = inertia.transpose() * phi;  // phi' dM phi
+  if (!state.damped()) return -0.5 * own;
+  // 2 phi' T' dphi + phi' (T'' ds + 2 s dM) phi = 2 ds, with dphi = along phi
+  const Complex s = modes.s[mode];
+  Complex bend = 2.0 * (phi.transpose() * (state.mass * phi))(0);  // phi' T'' phi
+  for (const Attachment& a : state.attachments) {
+    const Complex stroke = a.direction.cast<Complex>().dot(phi);
+    bend += second_derivative(a, s) * stroke * stroke;
+  }
+  return ((2.0 - bend) * ds - 2.0 * s * own) / (4.0 * s);
+}
+
 }  // namespace twindeck::diagnosis

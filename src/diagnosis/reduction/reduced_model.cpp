@@ -177,7 +177,9 @@ void ReducedModel::project(const fe::ParametricSystem& system, const Places& pla
   };
   reduce_terms(system.stiffness_terms, stiffness);
   reduce_terms(system.mass_terms, mass);
-  for (const auto& [set, list] : places.sets) {
+  for (const auto& entry : places.sets) {  // clang's lambdas capture no structured binding
+    const std::string& set = entry.first;
+    const std::vector<Place>& list = entry.second;
     if (list.empty()) continue;
     std::vector<ReducedPlace>& reduced_set = sets[set];
     reduced_set.resize(list.size());

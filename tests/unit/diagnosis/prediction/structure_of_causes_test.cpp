@@ -122,8 +122,7 @@ TEST(CausesOfStiffness, AFactorScalesWhatTheParameterHasMadeOfItsPart) {
   EXPECT_LT((p.g - VectorXd(hertz.array().log())).cwiseAbs().maxCoeff(), kSameFrequency);
 }
 
-// Differs today: the change is that of the part as the model stands. Who mends it can take DISABLED_ away.
-TEST(CausesOfStiffness, DISABLED_AFieldScalesWhatTheParameterHasMadeOfItsPart) {
+TEST(CausesOfStiffness, AFieldScalesWhatTheParameterHasMadeOfItsPart) {
   // The same factor of 0.6 by 20 degrees at -0.02 per degree.
   FourMasses four;
   four.condition().temperature_C = 30.0;
