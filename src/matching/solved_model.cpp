@@ -94,6 +94,7 @@ SolvedModel solve_modes(dynamics::LoadedModel loaded, int n_modes) {
 }
 
 TrackedModes follow(const SolvedModel& reference, const SolvedModel& changed, Index count) {
+  TWINDECK_ASSERT(count <= reference.modes.frequency_Hz.size());
   const MatrixXd likeness = mac_between(reference, changed);
   // Every mode of the reference takes part in the assignment, so that a partner is not given to one and claimed by another.
   const std::vector<int> position = matching::follow_modes(likeness);

@@ -26,7 +26,7 @@ struct SolvedModel {
 };
 [[nodiscard]] SolvedModel solve_modes(dynamics::LoadedModel loaded, int n_modes);
 
-/// Follows the first `count` modes of `reference` into `changed`, one-to-one.
+/// Follows the first `count` modes of `reference` (it has as many) into `changed`, one-to-one.
 [[nodiscard]] TrackedModes follow(const SolvedModel& reference, const SolvedModel& changed, Eigen::Index count);
 
 }  // namespace twindeck::matching

@@ -4,6 +4,8 @@
 
 #include <Eigen/SVD>
 
+#include "core/error.hpp"
+
 namespace twindeck::sensitivity {
 namespace {
 
@@ -23,6 +25,7 @@ int most_alike(const Eigen::MatrixXd& a, const std::vector<SelectedParameter>& f
 
 std::vector<SelectedParameter> select_parameters(const Eigen::MatrixXd& scaled, const std::vector<std::string>& names,
                                                  double threshold) {
+  TWINDECK_ASSERT(scaled.allFinite());
   const Eigen::Index n = scaled.cols();
   std::vector<SelectedParameter> fate(static_cast<std::size_t>(n));
   Eigen::MatrixXd left = scaled;

@@ -1,5 +1,6 @@
 #include "steps/model/mesh_convergence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -23,8 +24,9 @@ void write_mesh_convergence(const runner::Study& study, const std::string& varia
   io::CsvWriter csv({"mesh", "degrees_of_freedom", "mode", "frequency_Hz", "change_pct", "mac"});
   const auto known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); };
   const auto write = [&](const std::string& mesh, const matching::SolvedModel& model) {
-    const matching::TrackedModes followed = follow(own, model, n_modes);
-    for (int i = 0; i < n_modes; ++i) {
+    const Eigen::Index count = std::min<Eigen::Index>(n_modes, own.modes.frequency_Hz.size());  // a small model may have fewer
+    const matching::TrackedModes followed = follow(own, model, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
       csv.row({mesh, static_cast<long>(model.loaded.system.size()), static_cast<long>(i + 1), known(followed.frequency_Hz[i]),
                known(100.0 * (followed.frequency_Hz[i] / own.modes.frequency_Hz[i] - 1.0)), known(followed.mac[i])});
     }
