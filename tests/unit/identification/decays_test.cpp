@@ -56,7 +56,17 @@ TEST(PartnerOf, FrequencyAndShapeMustBothAgree) {
   EXPECT_TRUE(mac_with(0.9001, 0.5).has_value());
   EXPECT_FALSE(mac_with(1.1001, 0.5).has_value());
   EXPECT_FALSE(mac_with(0.8999, 0.5).has_value());
+  EXPECT_TRUE(mac_with(1.0, 1.0 / 3.0 + 1e-6).has_value());
   EXPECT_FALSE(mac_with(1.0, 1.0 / 3.0 - 1e-6).has_value());
+}
+
+// A complex factor of a shape does not count; its conjugate is another shape: |1 - 1|²/4 = 0.
+TEST(PartnerOf, AComplexShapeIsNotItsConjugate) {
+  const std::complex<double> i(0.0, 1.0);
+  const ConditionResult ambient = condition_of({{1.0, {1.0, i, 0.0}}});
+  const auto channels = named_channels({"a", "b"});
+  EXPECT_TRUE(partner_of(mode_of(1.0, Eigen::Vector2cd(i, -1.0)), channels, &ambient).has_value());
+  EXPECT_FALSE(partner_of(mode_of(1.0, Eigen::Vector2cd(1.0, -i)), channels, &ambient).has_value());
 }
 
 // A channel that the condition does not know (NaN) does not count, and a mode without a common one is no partner.
