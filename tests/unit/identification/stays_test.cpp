@@ -74,7 +74,7 @@ TEST(IdentifyStays, ATautStringHasItsSpacingAndForce) {
   EXPECT_NEAR(stay.fit.tension_per_mass.value, std::pow(2.0 * 50.0 * stay.fit.c_Hz.value, 2), 1e-6);
 }
 
-// Without a length the setup names the stay and the fit is that of 1 m; a wider level widens the interval: 2.576/1.960.
+// Without a length the setup names the stay and T/m is that of 1 m; c does not hang on the length.
 TEST(IdentifyStays, WithoutALengthTheFitIsOfOneMetre) {
   IdentificationSettings config;
   const auto stays = identify_stays({string_record(1.0, 4)}, config);
@@ -83,10 +83,22 @@ TEST(IdentifyStays, WithoutALengthTheFitIsOfOneMetre) {
   EXPECT_EQ(stays[0].length_m, 0.0);
   const double c = stays[0].fit.c_Hz.value;
   EXPECT_NEAR(stays[0].fit.tension_per_mass.value, 4.0 * c * c, 1e-9);
-  config.stay_level = 0.99;
-  const auto wide = identify_stays({string_record(1.0, 4)}, config);
-  const auto width = [](const StayResult& stay) { return stay.fit.c_Hz.high - stay.fit.c_Hz.low; };
-  EXPECT_NEAR(width(wide.at(0)) / width(stays[0]), 2.5758 / 1.9600, 1e-3);
+  config.stays = {{"acc", 50.0}};
+  EXPECT_NEAR(identify_stays({string_record(1.0, 4)}, config).at(0).fit.c_Hz.value, c, 1e-12);
+}
+
+// 95 % are 1.959964 deviations to either side, 99 % are 2.575829 (tables of the normal law).
+TEST(IdentifyStays, TheLevelIsTwoSided) {
+  IdentificationSettings config;
+  config.stays = {{"record 7", 50.0}};
+  for (const auto& [level, quantile] : {std::pair{0.95, 1.959964}, std::pair{0.99, 2.575829}}) {
+    config.stay_level = level;
+    const StayResult stay = identify_stays({string_record(1.0, 4)}, config).at(0);
+    std::vector<sysid::Harmonic> harmonics;
+    for (const StayResult::Mode& mode : stay.modes)
+      harmonics.push_back({mode.harmonic, mode.frequency_Hz, mode.frequency_std_Hz});
+    EXPECT_NEAR(stay.fit.c_Hz.high, sysid::fit_stay(harmonics, 50.0, quantile).c_Hz.high, 1e-8) << level;
+  }
 }
 
 // Two harmonics are asked for at most; and one harmonic alone is no fit.
