@@ -67,8 +67,10 @@ std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records, 
     }
     result.fitted = harmonics.size() >= 2 && harmonics.back().number >= 2;
     if (result.fitted) {
+      sysid::StayModel model;
+      model.known_length = result.length_m > 0.0;
       result.fit =
-          sysid::fit_stay(harmonics, result.length_m > 0.0 ? result.length_m : 1.0, two_sided_quantile(config.stay_level));
+          sysid::fit_stay(harmonics, model.known_length ? result.length_m : 1.0, two_sided_quantile(config.stay_level), model);
     }
     stays.push_back(std::move(result));
   }

@@ -205,34 +205,46 @@ std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, 
   return factors;
 }
 
+/// Weight of an entry of a setup's shape times `size`.
+double entry_weight(const ModeDeviation& deviation, Index at, double size) {
+  return 1.0 / std::max(size * size * entry_variance(deviation, at), 1e-12);
+}
+
 void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candidate>& members,
                   const std::vector<std::complex<double>>& factors, Index n_channels, MergedMode& merged) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(n_channels);
+  Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(n_channels);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(n_channels), real = weight, imag = weight;
   for (std::size_t k = 0; k < members.size(); ++k) {
     if (factors[k] == 0.0) continue;
     const SetupModes& setup = setups[members[k].setup];
-    const Cluster& mode = setup.modes[members[k].mode];
-    const ModeDeviation& deviation = setup.deviations[members[k].mode];
-    const double size = std::abs(factors[k]), c = factors[k].real() / std::max(size, 1e-300),
-                 s = factors[k].imag() / std::max(size, 1e-300);
     for (std::size_t i = 0; i < setup.channels.size(); ++i) {
       const auto at = static_cast<Index>(i), channel = setup.channels[i];
-      const double w = 1.0 / std::max(size * size * entry_variance(deviation, at), 1e-12);
-      sum[channel] += w * factors[k] * mode.shape[at];
+      const double w = entry_weight(setup.deviations[members[k].mode], at, std::abs(factors[k]));
+      shape[channel] += w * factors[k] * setup.modes[members[k].mode].shape[at];
       weight[channel] += w;
+    }
+  }
+  for (Index i = 0; i < n_channels; ++i) {
+    if (weight[i] > 0.0) shape[i] /= weight[i];
+  }
+  const double norm = std::max(shape.norm(), 1e-300);
+  merged.shape = normalised_shape(shape);
+  // The deviations turn with the shape: by the setup's factor, and by the phase that the normalised shape has been given.
+  const double turn = std::arg(shape.dot(merged.shape));
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    if (factors[k] == 0.0) continue;
+    const SetupModes& setup = setups[members[k].setup];
+    const ModeDeviation& deviation = setup.deviations[members[k].mode];
+    const double size = std::abs(factors[k]), angle = std::arg(factors[k]) + turn, c = std::cos(angle), s = std::sin(angle);
+    for (std::size_t i = 0; i < setup.channels.size(); ++i) {
+      const auto at = static_cast<Index>(i), channel = setup.channels[i];
+      const double w = entry_weight(deviation, at, size);
       const double vr = std::pow(size * deviation.shape_real[at], 2), vi = std::pow(size * deviation.shape_imag[at], 2);
       real[channel] += w * w * (c * c * vr + s * s * vi);
       imag[channel] += w * w * (s * s * vr + c * c * vi);
     }
   }
-  Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(n_channels);
-  for (Index i = 0; i < n_channels; ++i) {
-    if (weight[i] > 0.0) shape[i] = sum[i] / weight[i];
-  }
-  const double norm = std::max(shape.norm(), 1e-300);
-  merged.shape = normalised_shape(shape);
   merged.deviation.shape_real = (real.cwiseSqrt().array() / weight.array().max(1e-300) / norm).matrix();
   merged.deviation.shape_imag = (imag.cwiseSqrt().array() / weight.array().max(1e-300) / norm).matrix();
   for (Index i = 0; i < n_channels; ++i) {

@@ -126,14 +126,14 @@ Bounded symmetric(double value, double half) { return {value, value - half, valu
 
 namespace {
 
-StayFit fit_straightened(const std::vector<Harmonic>& harmonics, double length_m, double quantile, bool with_bending) {
+StayFit fit_straightened(const std::vector<Harmonic>& harmonics, double length_m, double quantile, const StayModel& model) {
   StayFit fit;
   fit.harmonics = static_cast<int>(harmonics.size());
   const FittedString line = taut_string(harmonics);
   fit.residual = line.residual;
   double c = line.c, c_deviation = line.deviation;
   const auto above = std::count_if(harmonics.begin(), harmonics.end(), [](const Harmonic& h) { return h.number >= 2; });
-  if (with_bending && above >= 5) {
+  if (model.bending && above >= 5) {
     const Stiff stiff = stiff_string(harmonics);
     fit.bending = stiff.b;
     fit.bending_deviation = stiff.b_deviation;
@@ -144,7 +144,7 @@ StayFit fit_straightened(const std::vector<Harmonic>& harmonics, double length_m
     }
   }
   const double weight = kGravity_m_s2 / (4.0 * length_m * c * c);  // g L/(T/m)
-  c_deviation = std::hypot(c_deviation, c * weight * weight / 24.0);
+  if (model.known_length) c_deviation = std::hypot(c_deviation, c * weight * weight / 24.0);
   fit.c_Hz = symmetric(c, quantile * c_deviation);
   const auto tension = [&](double string_Hz) { return std::pow(2.0 * length_m * string_Hz, 2); };
   fit.tension_per_mass = {tension(c), tension(std::max(0.0, fit.c_Hz.low)), tension(fit.c_Hz.high)};
@@ -166,7 +166,7 @@ StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double
   check(harmonics);
   if (!(length_m > 0.0))
     throw InputError({"", 0, "length_m"}, fmt::format("is {}, expected a length above 0", length_m), "give the stay's length");
-  StayFit fit = fit_straightened(harmonics, length_m, quantile, model.bending);
+  StayFit fit = fit_straightened(harmonics, length_m, quantile, model);
   if (!model.sag_of_higher) return fit;
   // Each turn changes c by less than a hundredth of what the last one did: a third harmonic hardly feels lambda².
   for (int turn = 0; turn < 10; ++turn) {
@@ -174,7 +174,7 @@ StayFit fit_stay(const std::vector<Harmonic>& harmonics, double length_m, double
     for (Harmonic& h : straightened) {
       if (h.number >= 2) h.frequency_Hz /= frequency_ratio(h.number, fit.lambda_squared.value);
     }
-    fit = fit_straightened(straightened, length_m, quantile, model.bending);
+    fit = fit_straightened(straightened, length_m, quantile, model);
   }
   return fit;
 }

@@ -107,6 +107,9 @@ TEST(MergedShape, LikeSetupsGiveTheSameComplexShape) {
   const auto merged = merge_poser({setup, setup, setup}, 3, {0, 1}, {});
   ASSERT_EQ(merged.size(), 1U);
   EXPECT_LT((merged[0].shape - setup.modes[0].shape).norm(), 1e-13);
+  // The references' phase, which is not that of the whole shape, has no part in it.
+  EXPECT_LT((merged[0].deviation.shape_real * std::sqrt(3.0) - setup.deviations[0].shape_real).norm(), 1e-12);
+  EXPECT_LT((merged[0].deviation.shape_imag * std::sqrt(3.0) - setup.deviations[0].shape_imag).norm(), 1e-12);
 }
 
 TEST(MergedShape, OneSetupKeepsItsDeviations) {
