@@ -1,0 +1,125 @@
+// A model on its way to its modes. Oracles: Euler's cantilever in closed form, and that frequencies go with sqrt(E); a chain of
+// springs in closed form; what is refused.
+#include "dynamics/loaded_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "spring_chain.hpp"
+
+namespace twindeck::dynamics {
+namespace {
+
+constexpr double kModulus_Pa = 200e9, kDensity_kg_m3 = 8000.0, kInertia_m4 = 1e-5, kArea_m2 = 0.01, kLength_m = 8.0;
+
+/// A cantilever of 16 beams along X with a parameter for its modulus; `held` false leaves it without support.
+fe::Model plain_cantilever(bool held = true) {
+  fe::Model model;
+  model.source = "cantilever";
+  model.formulation.shear_flexible = false;
+  model.materials.push_back({"steel", kModulus_Pa, kModulus_Pa / 2.6, 0.3, kDensity_kg_m3});
+  fe::Section section;
+  section.name = "bar";
+  section.area_m2 = kArea_m2;
+  section.inertia_y_m4 = kInertia_m4;
+  section.inertia_z_m4 = 4.0 * kInertia_m4;
+  section.torsion_m4 = kInertia_m4;
+  model.sections.push_back(section);
+  for (int i = 0; i <= 16; ++i) model.nodes.push_back({i + 1, {kLength_m / 16 * i, 0.0, 0.0}});
+  for (int i = 0; i < 16; ++i) {
+    fe::Element element;
+    element.id = i + 1;
+    element.type = fe::ElementType::beam;
+    element.group = "deck";
+    element.material = element.section = 0;
+    element.nodes = {i, i + 1};
+    model.elements.push_back(element);
+  }
+  if (held) model.supports.push_back({"wall", 0, {true, true, true, true, true, true}});
+  model.parameters.push_back({"E", fe::Target::youngs_modulus, {"steel"}, "Pa", kModulus_Pa, 1e11, 4e11});
+  model.prestress.rule = fe::PullRule::none;
+  return model;
+}
+
+// First root of Euler's cantilever: beta L = 1.8751041, f = beta² sqrt(EI / rho A) / 2 pi. Sixteen beams: error below 1e-5.
+double cantilever_Hz(double modulus_Pa) {
+  return std::pow(1.8751041 / kLength_m, 2) * std::sqrt(modulus_Pa * kInertia_m4 / (kDensity_kg_m3 * kArea_m2)) /
+         (2.0 * std::numbers::pi);
+}
+
+TEST(LoadedModel, OfACantileverHasItsFrequency) {
+  const LoadedModel loaded = from_model(plain_cantilever());
+  EXPECT_EQ(loaded.source, "cantilever");
+  ASSERT_NE(loaded.fe_model(), nullptr);
+  EXPECT_EQ(loaded.fe_model(), &loaded.structure->model());
+  EXPECT_EQ(loaded.theta, Eigen::VectorXd::Constant(1, kModulus_Pa));
+  EXPECT_NEAR(available_modes(loaded.system, loaded.theta, 1).frequency_Hz(0) / cantilever_Hz(kModulus_Pa), 1.0, 1e-4);
+}
+
+TEST(LoadedModel, WithValuesChangesTheModelAndLeavesTheFirst) {
+  const LoadedModel loaded = from_model(plain_cantilever());
+  const LoadedModel stiffer = with_values(loaded, Eigen::VectorXd::Constant(1, 1.44 * kModulus_Pa));
+  const double before = available_modes(loaded.system, loaded.theta, 1).frequency_Hz(0);
+  EXPECT_NEAR(available_modes(stiffer.system, stiffer.theta, 1).frequency_Hz(0) / before, 1.2, 1e-9);  // sqrt(E)
+  EXPECT_EQ(loaded.theta(0), kModulus_Pa);
+}
+
+TEST(LoadedModel, RefusesAMechanism) {
+  EXPECT_NO_THROW((void)valid_model(plain_cantilever(false)));  // it is valid, but has no prestress
+  EXPECT_THROW((void)from_model(plain_cantilever(false)), InputError);
+  EXPECT_THROW((void)solvable(valid_model(plain_cantilever(false))), InputError);
+}
+
+TEST(ReadModel, RefusesAnInvalidModel) {
+  fe::Model model = plain_cantilever();
+  model.materials[0].youngs_modulus_Pa = -1.0;
+  EXPECT_THROW((void)valid_model(std::move(model)), InputError);
+}
+
+TEST(ReadModel, TellsParametersOfEitherKind) {
+  const ReadModel read = valid_model(plain_cantilever());
+  ASSERT_EQ(read.parameters().size(), 1U);
+  EXPECT_EQ(read.parameters()[0].name, "E");
+  ReadModel matrices;
+  matrices.matrices = tests::SpringChain{.n = 5}.system();
+  EXPECT_EQ(matrices.parameters().size(), 3U);
+  EXPECT_EQ(matrices.fe_model(), nullptr);
+}
+
+// A matrix model comes through as it is, and takes new values alone: f goes with sqrt(k).
+TEST(LoadedModel, OfMatricesHasTheFrequenciesOfTheChain) {
+  const tests::SpringChain chain{.n = 5};
+  ReadModel read;
+  read.matrices = chain.system();
+  read.source = "springs";
+  const LoadedModel loaded = solvable(with_displacements(read, "large", 10));
+  EXPECT_EQ(loaded.fe_model(), nullptr);
+  EXPECT_EQ(loaded.source, "springs");
+  EXPECT_NEAR(available_modes(loaded.system, loaded.theta, 1).frequency_Hz(0), chain.frequency_Hz(1), 1e-12);
+  Eigen::VectorXd theta = loaded.theta;
+  theta(0) *= 4.0;
+  const LoadedModel changed = with_values(loaded, theta);
+  EXPECT_NEAR(available_modes(changed.system, changed.theta, 1).frequency_Hz(0), 2.0 * chain.frequency_Hz(1), 1e-12);
+}
+
+TEST(AvailableModes, AreNoMoreThanThereAre) {
+  const auto system = tests::SpringChain{.n = 5}.system();
+  EXPECT_EQ(available_modes(system, system.initial(), 9).frequency_Hz.size(), 5);
+  EXPECT_EQ(available_modes(system, system.initial(), 3).frequency_Hz.size(), 3);
+}
+
+TEST(WithDisplacements, SetsWhatIsAskedFor) {
+  const ReadModel read = valid_model(plain_cantilever());
+  EXPECT_EQ(with_displacements(read, "as_model", 7).structure, read.structure);
+  const ReadModel large = with_displacements(read, "large", 7);
+  EXPECT_EQ(large.fe_model()->prestress.displacements, fe::Displacements::large);
+  EXPECT_EQ(large.fe_model()->prestress.load_steps, 7);
+  EXPECT_EQ(with_displacements(large, "linear", 3).fe_model()->prestress.displacements, fe::Displacements::linear);
+  EXPECT_EQ(read.fe_model()->prestress.displacements, fe::Prestress{}.displacements);  // the first stays
+}
+
+}  // namespace
+}  // namespace twindeck::dynamics
