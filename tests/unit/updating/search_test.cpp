@@ -93,14 +93,16 @@ TEST(RunStart, BeginsInsideTheBox) {
 /// A prestress that holds each mass with 80 N/m times a.
 fe::ParametricSystem held_by_prestress(const VectorXd& theta) { return pair_of_masses(80.0 * theta(0)); }
 
-// Fixed point of the prestress: 400 a + 80 a = omega1², so a = 480 / 480 · 1.1 for omega1² = 528; c = (748 - 528) / 200.
+// Fixed point of the prestress: 400 a + 80 a = omega1², so a = 1.1 for omega1² = 528; c = (748 - 528) / 200.
 TEST(RunStart, FollowsThePrestress) {
-  const PairSearch pair(528.0, 748.0, held_by_prestress);
-  const SearchEnd end = run_start(pair.search, Eigen::Vector2d(1.6, 0.7), 0);
+  PairSearch pair(528.0, 748.0, held_by_prestress);
+  pair.search.definition.scale = Eigen::Vector2d(2.0, 0.5);  // the prestress is that of the parameters, not of x
+  pair.search.box = {Eigen::Vector2d(0.25, 1.0), Eigen::Vector2d(1.0, 4.0)};
+  const SearchEnd end = run_start(pair.search, Eigen::Vector2d(0.8, 1.4), 0);
   ASSERT_TRUE(end.result.converged) << end.result.message;
   EXPECT_LT((end.result.theta - Eigen::Vector2d(1.1, 1.1)).norm(), 1e-6);
   EXPECT_GT(end.result.outer, 2);  // the error falls by 80 / 400 a state
-  const Evaluation there = evaluate_in_balance(pair.search, Eigen::Vector2d(1.1, 1.1));
+  const Evaluation there = evaluate_in_balance(pair.search, Eigen::Vector2d(0.55, 2.2));
   EXPECT_LT(there.residual.norm(), 1e-12);
 }
 
