@@ -67,6 +67,44 @@ TEST(LoadedModel, WithValuesChangesTheModelAndLeavesTheFirst) {
   EXPECT_EQ(loaded.theta(0), kModulus_Pa);
 }
 
+/// The cantilever with a stay from its tip straight up, whose pull holds the tip where it is, and a parameter for the density.
+fe::Model propped_cantilever(double density_kg_m3) {
+  fe::Model model = plain_cantilever();
+  model.gravity_m_s2 = 10.0;
+  model.materials[0].density_kg_m3 = density_kg_m3;
+  model.materials.push_back({"weightless", 165e9, 65e9, 0.3, 0.0});
+  model.nodes.push_back({18, {kLength_m, 0.0, 10.0}});
+  fe::Element stay;
+  stay.id = 17;
+  stay.type = fe::ElementType::stay;
+  stay.group = "stays";
+  stay.name = "S1";
+  stay.material = 1;
+  stay.section = 0;
+  stay.nodes = {16, 17};
+  model.elements.push_back(stay);
+  model.supports.push_back({"top", 17, {true, true, true, true, true, true}});
+  model.prestress.rule = fe::PullRule::shape_finding;
+  model.prestress.minimum_pull_N = 1.0;
+  model.prestress.ridge = 1e-14;
+  model.prestress.conditions = {{16, 2}};
+  model.parameters = {{"rho", fe::Target::density, {"steel"}, "kg/m3", density_kg_m3, 1e3, 1e5}};
+  return model;
+}
+
+// The tip does not move, so the stay pulls 3/8 of the weight: 3/8 · 800 N/m · 8 m at 8000 kg/m3, twice that at 16000. What the
+// new values give is what a model with these values from its start gives, geometric stiffness and all.
+TEST(LoadedModel, WithValuesFindsThePrestressAnew) {
+  const LoadedModel light = from_model(propped_cantilever(8000.0)), heavy = from_model(propped_cantilever(16000.0));
+  EXPECT_NEAR(light.state.stay_pull_N(16), 2400.0, 1e-3);
+  const LoadedModel changed = with_values(light, heavy.theta);
+  EXPECT_NEAR(changed.state.stay_pull_N(16), 4800.0, 2e-3);
+  const Eigen::VectorXd expected = available_modes(heavy.system, heavy.theta, 4).frequency_Hz;
+  EXPECT_LT((available_modes(changed.system, changed.theta, 4).frequency_Hz - expected).norm(), 1e-9 * expected.norm());
+  // With the pull of the first values the sway would be slower.
+  EXPECT_GT((available_modes(light.system, heavy.theta, 4).frequency_Hz - expected).norm(), 1e-6 * expected.norm());
+}
+
 TEST(LoadedModel, RefusesAMechanism) {
   EXPECT_NO_THROW((void)valid_model(plain_cantilever(false)));  // it is valid, but has no prestress
   EXPECT_THROW((void)from_model(plain_cantilever(false)), InputError);
