@@ -165,7 +165,11 @@ Eigen::VectorXd parts_in(const std::filesystem::path& values_csv, const Calibrat
     const CalibrationValue& value = calibration.values[v];
     for (std::size_t row = 0; row < table.rows(); ++row) {
       if (table.text(row, "value") != value.name) continue;
-      part[static_cast<Index>(v)] = std::clamp(value.part_of(table.number(row, "fitted")), 0.0, 1.0);
+      const double fitted = table.number(row, "fitted");
+      if (!value.linear && fitted <= 0.0)
+        table.fail(row, "fitted", "is not above 0, but the value's range is travelled in its logarithm",
+                   "give a number above 0");
+      part[static_cast<Index>(v)] = std::clamp(value.part_of(fitted), 0.0, 1.0);
     }
   }
   return part;

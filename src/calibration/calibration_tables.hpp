@@ -21,6 +21,7 @@ void write_calibration_known(const Calibration& calibration, const CalibrationRe
                              const std::filesystem::path& file);
 
 /// The values of an earlier fit (values.csv), as parts of their ranges; those that it does not have begin at their start.
+/// @throws InputError for a value of a logarithmic range that is not above 0
 [[nodiscard]] Eigen::VectorXd parts_in(const std::filesystem::path& values_csv, const Calibration& calibration);
 /// The starts of all values as parts of their ranges. (n_values)
 [[nodiscard]] Eigen::VectorXd starts(const Calibration& calibration);

@@ -60,10 +60,10 @@ std::vector<TermPlan> plan_mass(const Model& model) {
     } else if (e.type != ElementType::beam) {
       groups.add_element(model, i, e.group + of + " mass " + section, {.density = 1, .area = 1}, whole);
     } else if (is_parameter(model, Target::area, section)) {
-      groups.add_element(model, i, e.group + of + " mass " + section, {.density = 1, .area = 1}, beam_translational);
+      groups.add_element(model, i, e.group + of + " beam mass " + section, {.density = 1, .area = 1}, beam_translational);
       groups.add_element(model, i, e.group + of + " rotary mass " + section, {.density = 1}, beam_rotary);
     } else {
-      groups.add_element(model, i, e.group + of + " mass", {.density = 1}, whole);
+      groups.add_element(model, i, e.group + of + " beam mass", {.density = 1}, whole);
     }
   }
   for (int i = 0; i < static_cast<int>(model.masses.size()); ++i) {

@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double force_range =
     4.0;                        ///< [-] the force is looked for within this factor of the taut string's, which sag never leaves
+constexpr int force_scan = 48;  ///< forces looked at first: sag makes the misfit wavy, with more than one low
 constexpr int force_cuts = 50;  ///< golden sections: 0.618^50 of the range is below rounding
 
 double mass_per_length(const Model& model, const Element& stay) {
@@ -108,7 +109,12 @@ double force_of_harmonics(const Model& model, const Element& stay, const std::ve
     return out;
   };
   const double cut = 0.5 * (std::sqrt(5.0) - 1.0);
-  double low = std::log(string / force_range), high = std::log(string * force_range);
+  // The least misfit of a scan, from the tautest cable down; the golden sections then stay beside it.
+  const double tautest = std::log(string * force_range), pace = 2.0 * std::log(force_range) / force_scan;
+  double best = tautest, least = misfit(tautest);
+  for (int i = 1; i <= force_scan; ++i)
+    if (const double here = misfit(tautest - i * pace); here < least) best = tautest - i * pace, least = here;
+  double low = best - pace, high = best + pace;
   for (int i = 0; i < force_cuts; ++i) {
     const double a = high - cut * (high - low), b = low + cut * (high - low);
     (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;

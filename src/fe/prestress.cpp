@@ -62,6 +62,9 @@ BoundedLeastSquares find_shape(const Model& model, const std::vector<int>& stays
   const Eigen::Index n = w.cols(), m = w.rows();
   const double T_ref = weight_N / static_cast<double>(n);
   const double displacement = w_dead_m.norm();
+  if (!(displacement > 0.0) || !(weight_N > 0.0))
+    return {Eigen::VectorXd::Constant(n, rule.minimum_pull_N),
+            {false, "shape finding: the dead load moves none of the conditions, so no pull can be found from them"}};
   Eigen::Index n_site = 0;
   for (const int s : stays) n_site += element_at(model, s).pull_N > 0.0 ? 1 : 0;
 

@@ -23,12 +23,12 @@ void check_beam_section(const Model& model, const Section& s, const std::string&
   require_positive(model, part, "inertia_y", s.inertia_y_m4, "m4");
   require_positive(model, part, "inertia_z", s.inertia_z_m4, "m4");
   require_positive(model, part, "torsion constant", s.torsion_m4, "m4");
-  if (s.inertia_yz_m4 * s.inertia_yz_m4 >= s.inertia_y_m4 * s.inertia_z_m4)
+  if (!(s.inertia_yz_m4 * s.inertia_yz_m4 < s.inertia_y_m4 * s.inertia_z_m4))
     refuse(model, part,
            fmt::format("inertia_yz is {:g} m4, larger than sqrt(inertia_y inertia_z) = {:g} m4: no section has that",
                        s.inertia_yz_m4, std::sqrt(s.inertia_y_m4 * s.inertia_z_m4)),
            "check the product of inertia");
-  if (s.shear_area_y_m2 < 0.0 || s.shear_area_z_m2 < 0.0)
+  if (!(s.shear_area_y_m2 >= 0.0 && s.shear_area_z_m2 >= 0.0))
     refuse(model, part,
            fmt::format("shear areas are {:g} and {:g} m2, expected 0 or more", s.shear_area_y_m2, s.shear_area_z_m2),
            "give 0 for a section that is rigid in shear");
@@ -41,7 +41,7 @@ void validate_properties(const Model& model) {
     const Material& m = model.materials[static_cast<std::size_t>(e.material)];
     const std::string material = "material '" + m.name + "'";
     require_positive(model, material, "Young's modulus", m.youngs_modulus_Pa, "Pa");
-    if (!(m.density_kg_m3 >= 0.0))
+    if (!(m.density_kg_m3 >= 0.0) || !std::isfinite(m.density_kg_m3))
       refuse(model, material, fmt::format("density is {:g} kg/m3, expected 0 or more", m.density_kg_m3), "give a density");
     if (e.type == ElementType::solid) {
       if (!(m.poisson_ratio > -1.0 && m.poisson_ratio < 0.5))

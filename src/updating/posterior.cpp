@@ -85,9 +85,13 @@ std::vector<std::vector<int>> indistinct_sets(const MatrixXd& shifts) {
   const auto n = static_cast<std::size_t>(shifts.cols());
   std::vector<std::size_t> set(n);  // of each parameter, by its first member
   std::iota(set.begin(), set.end(), std::size_t{0});
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j)
-      if (set[j] == j && alike(shifts.col(static_cast<Index>(i)), shifts.col(static_cast<Index>(j)))) set[j] = set[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const std::size_t earlier = std::min(set[i], set[j]), later = std::max(set[i], set[j]);
+      if (earlier != later && alike(shifts.col(static_cast<Index>(i)), shifts.col(static_cast<Index>(j))))
+        std::replace(set.begin(), set.end(), later, earlier);
+    }
+  }
   std::vector<std::vector<int>> sets;
   for (std::size_t first = 0; first < n; ++first) {
     std::vector<int> members;

@@ -131,6 +131,12 @@ TEST(CalibrationTables, PartsOfAFileWithoutValuesAreRefused) {
   EXPECT_THROW((void)parts_in(table_file(), two_variants()), InputError);
 }
 
+// A logarithmic range has no part for a negative number.
+TEST(CalibrationTables, PartsOfANegativeValueAreRefused) {
+  std::ofstream(table_file()) << "value,fitted\ndepth,-2\n";
+  EXPECT_THROW((void)parts_in(table_file(), two_variants()), InputError);
+}
+
 // rms of 3 % and -4 % is sqrt(12.5) %. The stay's one force of 190 kN is 5 % below its first source.
 TEST(TradeTable, HasARowATrial) {
   TradeTable table(two_variants());

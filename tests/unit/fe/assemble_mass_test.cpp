@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "assembly_models.hpp"
 
@@ -128,6 +130,30 @@ TEST(AssembleMass, StaysBarsAndLinks) {
   EXPECT_NEAR(m(4, 4), 40.0 * 0.25, 1e-12);  // m h² about y
   EXPECT_NEAR(m(0, 4), 40.0 * 0.5, 1e-12);   // +ry moves it along +x
   EXPECT_NEAR(m(1, 3), -40.0 * 0.5, 1e-12);
+}
+
+// Oracle: a parameter at its initial value changes nothing, and names of groups and sections are free: beams, bars and shells
+// that share them keep their own mass.
+TEST(AssembleMass, SharedNamesDoNotMixElements) {
+  Model model = one_beam(true);
+  const auto add_bar = [](Model& m) { test::add_element(m, ElementType::bar, "girder", 0, 0, {0, 1}); };
+  add_bar(model);
+  std::swap(model.elements[0], model.elements[1]);
+  const Eigen::MatrixXd plain = mass_at(model, Eigen::VectorXd(0));
+  add_parameter(model, Target::area, "girder", 0.01);
+  EXPECT_LT((mass_at(model, Eigen::VectorXd::Ones(1)) - plain).norm(), 1e-12 * plain.norm());
+  Model deck = test::one_of_everything();
+  deck.parameters.erase(deck.parameters.begin() + 6);  // the area of the girder
+  for (Element& e : deck.elements)
+    if (e.type == ElementType::beam) e.material = 1;
+  std::stable_partition(deck.elements.begin(), deck.elements.end(),
+                        [](const Element& e) { return e.type == ElementType::beam; });
+  Eigen::VectorXd thicker = Eigen::VectorXd::Ones(8);
+  thicker[4] = 2.0;
+  const Eigen::MatrixXd apart = mass_at(deck, thicker);
+  for (Element& e : deck.elements)
+    if (e.type == ElementType::beam) e.group = "slab";  // the shells' section
+  EXPECT_LT((mass_at(deck, thicker) - apart).norm(), 1e-12 * apart.norm());
 }
 
 }  // namespace

@@ -159,5 +159,14 @@ TEST(Cable, RefusesAStayWithoutAForce) {
   EXPECT_THROW((void)cable_of(level_cable(), 1e6, 1), InternalError);
 }
 
+// Oracle: the cable's own frequencies go in, its force comes out, for slack cables (lambda² up to 34) too.
+TEST(Cable, TwoHarmonicsFindTheForceOfASlackCable) {
+  const Model model = cable_between({0.0, 0.0, 0.0}, {300.0, 0.0, 0.0});
+  for (const double force : {3.5e5, 4e5, 5e5, 8e5}) {
+    const Eigen::VectorXd f = in_plane_frequencies(model, model.elements[0], cable_of(model, force, 12));
+    EXPECT_NEAR(force_of_harmonics(model, model.elements[0], {{1, f[0], 0.01}, {2, f[1], 0.01}}, 12) / force, 1.0, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace twindeck::fe

@@ -138,5 +138,14 @@ TEST(BoundedLeastSquares, EqualsTheBestOfAllActiveSets) {
   }
 }
 
+// Oracle: a condition that the dead load does not move (sideways here) says nothing about pulls: a status, and no nan.
+TEST(Prestress, ConditionsThatDeadLoadDoesNotMoveDoNotConverge) {
+  Model model = two_stays();
+  model.prestress.conditions = {{1, 1}, {2, 1}};
+  const PrestressState state = find_prestress(model, initial_parameters(model));
+  EXPECT_FALSE(state.status.converged);
+  EXPECT_TRUE(state.stay_pull_N.allFinite());
+}
+
 }  // namespace
 }  // namespace twindeck::fe

@@ -79,5 +79,14 @@ TEST(ValidateProperties, Solids) {
   for (const double nu : {-1.0, 0.5}) expect_fault("material 'rock'", solid_of(nu));
 }
 
+// Oracle: no number is no property. A shear area of nan would make the beam rigid in shear without a word.
+TEST(ValidateProperties, NumbersThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_fault("shear areas are", [nan](Model& m) { m.sections[0].shear_area_y_m2 = nan; });
+  expect_fault("shear areas are", [nan](Model& m) { m.sections[0].shear_area_z_m2 = nan; });
+  expect_fault("inertia_yz is nan", [nan](Model& m) { m.sections[0].inertia_yz_m4 = nan; });
+  expect_fault("density is inf", [](Model& m) { m.materials[1].density_kg_m3 = std::numeric_limits<double>::infinity(); });
+}
+
 }  // namespace
 }  // namespace twindeck::fe

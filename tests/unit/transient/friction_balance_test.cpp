@@ -99,5 +99,25 @@ TEST(FrictionBalance, ObeysTheLawFromAnyGuess) {
   EXPECT_GT(mixed, 50);  // or the law would be tried on its easy cases alone
 }
 
+// A spring that is stiff beside the flexibility, k G = 20, at three times its threshold before it gives: F = 1000 / 21 N.
+TEST(FrictionBalance, OfAStiffUnitIsFound) {
+  VectorXd force = single(0.0);
+  ASSERT_TRUE(balance_friction(single(1e-3), MatrixXd::Constant(1, 1, 2e-5), single(1e6), single(100.0), single(0.0), force));
+  EXPECT_NEAR(force(0), 1000.0 / 21.0, 1e-9);
+}
+
+// The same law as above with k G up to a million. Forces are below 1 N; rounding grows with k G.
+TEST(FrictionBalance, OfStiffUnitsObeysTheLaw) {
+  std::mt19937_64 random(8);
+  for (const double reach : {2.0, 10.0, 1e3, 1e6}) {
+    for (int trial = 0; trial < 100; ++trial) {
+      const Units u = random_units(random, reach);
+      VectorXd force = VectorXd::Zero(4);
+      ASSERT_TRUE(balance_friction(u.free, u.flexibility, u.stiffness, u.threshold, u.plastic, force)) << reach << " " << trial;
+      EXPECT_LT(error_of_law(u.free, u.flexibility, u.stiffness, u.threshold, u.plastic, force), 1e-10 * reach) << trial;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace twindeck::transient

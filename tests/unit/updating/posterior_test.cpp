@@ -160,6 +160,15 @@ TEST(IndistinctSets, AreSplitAtOneStandardDeviation) {
   EXPECT_TRUE(indistinct_sets(MatrixXd(2, 0)).empty());
 }
 
+// Invariance: b = (10, 0.8) cannot be told from a = (10, 0) nor from c = (10, 1.6), so all three are one set in any order.
+TEST(IndistinctSets, DoNotDependOnTheOrderOfParameters) {
+  MatrixXd shifts(2, 3);
+  shifts << 10.0, 10.0, 10.0, 0.8, 0.0, 1.6;  // b, a, c
+  EXPECT_EQ(indistinct_sets(shifts), (std::vector<std::vector<int>>{{0, 1, 2}}));
+  shifts << 10.0, 10.0, 10.0, 0.0, 1.6, 0.8;  // a, c, b
+  EXPECT_EQ(indistinct_sets(shifts), (std::vector<std::vector<int>>{{0, 1, 2}}));
+}
+
 // Two pairs along two axes, interleaved.
 TEST(IndistinctSets, KeepPairsApart) {
   const MatrixXd shifts = (MatrixXd(2, 5) << 10.0, 0.0, 8.0, 0.0, 0.1, 0.0, 5.0, 0.0, -9.0, 0.1).finished();
