@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double force_range =
     4.0;                        ///< [-] the force is looked for within this factor of the taut string's, which sag never leaves
-constexpr int force_scan = 48;  ///< forces looked at first: sag makes the misfit wavy, with more than one low
+constexpr int force_scan = 48;  ///< forces that are tried first: with sag the misfit has several minima
 constexpr int force_cuts = 50;  ///< golden sections: 0.618^50 of the range is below rounding
 
 double mass_per_length(const Model& model, const Element& stay) {

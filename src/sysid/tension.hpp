@@ -45,7 +45,7 @@ struct StayFit {
 struct StayModel {
   bool bending = true;        ///< try the bending term
   bool sag_of_higher = true;  ///< the sag's small effect on the third and further odd harmonics; false: f_n = c n for n >= 2
-  bool known_length = true;   ///< false: c's deviation goes without the excess length of the arc, which hangs on L
+  bool known_length = true;   ///< false: c's deviation leaves out the excess length of the arc, which depends on L
 };
 
 /// Cable parameters from the harmonics of a stay (Irvine): c from n >= 2 by weighted least squares of f_n = c n r_n(lambda²),
