@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/error.hpp"
 
@@ -128,23 +129,19 @@ void add_interpolated(const fe::Model& model, const std::string& deck, std::vect
     const auto put = [&](int r, int at, int direction, double value) {
       entries.emplace_back(row + r, 6 * at + direction, value);
     };
-    for (const auto& [line, weight] : {std::pair{&a, 1.0 - t}, std::pair{&b, t}}) {
+    // A rotation w raises the end of a line d over its start by (w × d)_z. Two lines give its horizontal components: the one
+    // across the deck and the one from centre to centre. They need not be perpendicular, as they are not on a curved deck.
+    const Eigen::Vector3d across = (1.0 - t) * a.across + t * b.across;
+    const double area = across.cross(along).z();
+    for (const auto& [line, weight, end] : {std::tuple{&a, 1.0 - t, -1.0}, std::tuple{&b, t, 1.0}}) {
       for (int d = 0; d < 3; ++d) {
         put(d, line->edge_a, d, 0.5 * weight);
         put(d, line->edge_b, d, 0.5 * weight);
       }
-      // w tangent × across = rise of edge b over edge a
-      const double lever = node.tangent.cross(line->across).z();
       for (int d = 0; d < 2; ++d) {
-        put(3 + d, line->edge_b, 2, weight * node.tangent(d) / lever);
-        put(3 + d, line->edge_a, 2, -weight * node.tangent(d) / lever);
+        put(3 + d, line->edge_b, 2, (0.5 * end * across(d) - weight * along(d)) / area);
+        put(3 + d, line->edge_a, 2, (0.5 * end * across(d) + weight * along(d)) / area);
       }
-    }
-    // w normal × tangent = slope; normal = e_z × tangent gives -1
-    const Eigen::Vector3d normal = Eigen::Vector3d::UnitZ().cross(node.tangent);
-    for (int d = 0; d < 2; ++d) {
-      for (const int edge : {b.edge_a, b.edge_b}) put(3 + d, edge, 2, -0.5 * normal(d) / span);
-      for (const int edge : {a.edge_a, a.edge_b}) put(3 + d, edge, 2, 0.5 * normal(d) / span);
     }
     out.nodes.push_back(node);
   }

@@ -30,9 +30,9 @@ struct AeroNodes {
 /// Where the model names its own (points.csv: aero_<deck>_01 … as many as asked for), those nodes and their rotations are
 /// taken, each in the middle of its length: half the way to its neighbours, the outermost as far outwards. Otherwise they are
 /// laid evenly, by interpolation between the deck's cross sections: lines of elements of the group `cross_group` across the
-/// deck. A section moves with the mean of its two edges and turns about the deck's axis by their difference, about the
-/// horizontal normal by the slope to the next section (rotation about the vertical does not meet any wind force and is left
-/// zero). A deck without stays is taken from end to end.
+/// deck. A section moves with the mean of its two edges. Its two horizontal rotations follow from the difference of its edges
+/// and from the slope to the next section. They are exact for a rigid motion, on a curved deck too. Rotation about the vertical
+/// does not meet any wind force and is left zero. A deck without stays is taken from end to end.
 /// @throws InputError  for a deck that the model does not have
 [[nodiscard]] AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>& decks,
                                         const std::vector<std::string>& cross_groups, int per_deck);

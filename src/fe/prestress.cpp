@@ -1,5 +1,7 @@
 #include "fe/prestress.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "fe/assembly.hpp"
@@ -14,6 +16,12 @@
 namespace twindeck::fe {
 
 namespace {
+
+/// Relative change of the cable forces below which shape finding under large displacements has settled: a hundredth of what
+/// they can be measured to.
+constexpr double settled_pulls = 1e-4;
+/// Two or three settle a bridge whose stays are taut.
+constexpr int shape_finding_rounds = 6;
 
 std::vector<int> find_stays(const Model& model) {
   std::vector<int> stays;
@@ -106,14 +114,15 @@ Eigen::VectorXd axial_forces(const Model& model, const Eigen::VectorXd& u) {
 
 /// Replaces the linear state by equilibrium in the deformed geometry. For shape finding the pulls follow: with the
 /// displacements of the true state in place of the linear ones, w(T) ~ w(T_k) + W (T - T_k), until they change by less than
-/// 1e-4.
+/// `settled_pulls`.
 /// @param w  (n_conditions × 1 + n_stays) linear displacements of dead load and of one newton in each stay; empty for given
 /// pulls
 void deform(const Model& model, const std::vector<int>& stays, const Eigen::MatrixXd& w, double weight_N,
             PrestressState& state) {
   const Eigen::VectorXd load = dead_load(model);
   Configuration c = find_equilibrium(model, load, state.stay_pull_N, model.prestress.load_steps);
-  for (int round = 0; w.size() > 0 && c.status.converged && round < 6; ++round) {
+  double change = 0.0;  // of the pulls in the last round, relative
+  for (int round = 0; w.size() > 0 && c.status.converged && round < shape_finding_rounds; ++round) {
     Eigen::VectorXd pull(std::ssize(stays)), displacement(w.rows());
     for (std::size_t s = 0; s < stays.size(); ++s) pull[static_cast<Eigen::Index>(s)] = state.stay_pull_N[stays[s]];
     for (Eigen::Index i = 0; i < w.rows(); ++i) {
@@ -126,11 +135,17 @@ void deform(const Model& model, const std::vector<int>& stays, const Eigen::Matr
     state.status = found.status;
     const Configuration last = std::move(c);
     c = find_equilibrium(model, load, state.stay_pull_N, 1, &last);
-    if (!found.status.converged || (found.x - pull).norm() < 1e-4 * pull.norm()) break;
+    change = (found.x - pull).norm() / pull.norm();
+    if (!found.status.converged || !(change >= settled_pulls)) break;
   }
   if (!c.status.converged) {  // the linear state stays, with the reason
     state.status = c.status;
     return;
+  }
+  if (state.status.converged && change >= settled_pulls) {
+    state.status = {false, fmt::format("the cable forces still change by {:.2g} % after {} rounds of shape finding under large "
+                                       "displacements; ask for linear displacements, or give the forces",
+                                       100.0 * change, shape_finding_rounds)};
   }
   state.displacement = c.displacement;
   state.rotation = c.rotation;

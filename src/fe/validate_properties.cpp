@@ -51,6 +51,11 @@ void validate_properties(const Model& model) {
     }
     const Section& s = model.sections[static_cast<std::size_t>(e.section)];
     const std::string section = "section '" + s.name + "'";
+    if (e.type != ElementType::shell && s.bending_inertia_ratio != 1.0)
+      refuse(model, section,
+             fmt::format("bending inertia ratio is {:g}, but element {} is no shell: only a shell's bending has that factor",
+                         s.bending_inertia_ratio, e.id),
+             "give 1, or change inertia_y and inertia_z");
     switch (e.type) {
       case ElementType::solid:
         break;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "identification/channel_lag.hpp"
@@ -131,6 +132,22 @@ MergingCheck nearest_poles(const sysid::Identification& before, const sysid::Mer
   return check;
 }
 
+/// Modes and their checks, ascending: frequencies of another merging may change the order.
+void sort_by_frequency(ConditionResult& result) {
+  std::vector<std::size_t> order(result.modes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return result.modes[a].frequency_Hz < result.modes[b].frequency_Hz; });
+  std::vector<sysid::MergedMode> modes;
+  std::vector<MergingCheck> checks;
+  for (const std::size_t i : order) {
+    modes.push_back(std::move(result.modes[i]));
+    checks.push_back(std::move(result.checks[i]));
+  }
+  result.modes = std::move(modes);
+  result.checks = std::move(checks);
+}
+
 void check_merging(ConditionResult& result, const std::vector<Index>& references, const IdentificationSettings& config) {
   Eigen::VectorXd scale;
   const sysid::Identification before = preger(result, references, config, scale);
@@ -160,6 +177,7 @@ void check_merging(ConditionResult& result, const std::vector<Index>& references
     }
     result.checks.push_back(std::move(check));
   }
+  if (config.merge == "preger") sort_by_frequency(result);
 }
 
 /// Where the configuration leaves the band open, it ends where the sensors no longer move together. @return says so

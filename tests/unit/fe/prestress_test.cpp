@@ -44,6 +44,27 @@ TEST(Prestress, PullsOfTwoStaysAreTheReactionsOfAContinuousBeam) {
   EXPECT_NEAR(state.displacement[12 + 2], 0.0, 1e-9);
 }
 
+// A soft cantilever whose tip a shallow stay draws outwards. The stay's pull of T = w l 3/8 / sin(slope) makes the tip T/l
+// stiffer across, many times the beam's own 3 EI/l³, so that each round of shape finding mends a small part of the deflection
+// only.
+TEST(Prestress, ForcesThatDoNotSettleUnderLargeDisplacementsAreSaid) {
+  Model model = two_stays();
+  model.sections[0].inertia_y_m4 = 1e-8;
+  model.nodes[4].x_m = {16.0, 0.0, 0.5};
+  model.elements.erase(model.elements.begin() + 2);
+  model.supports.erase(model.supports.begin() + 1);
+  model.nodes.erase(model.nodes.begin() + 3);
+  model.supports.back().node = 3;
+  model.elements.back().nodes = {2, 3};
+  model.prestress.conditions = {{2, 2}};
+  const Eigen::VectorXd theta = initial_parameters(model);
+  EXPECT_TRUE(find_prestress(model, theta).status.converged);
+  model.prestress.displacements = Displacements::large;
+  const PrestressState state = find_prestress(model, theta);
+  EXPECT_FALSE(state.status.converged);
+  EXPECT_NE(state.status.message.find("rounds of shape finding"), std::string::npos) << state.status.message;
+}
+
 TEST(Prestress, SlackStayIsHeldAtItsLeastPull) {
   Model model = two_stays();
   model.prestress.minimum_pull_N = 1500.0;  // above the 943 N that the tip would want
