@@ -34,11 +34,10 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
       return &other == &mode || std::abs(other.frequency_Hz - mode.frequency_Hz) > 1.5 * config.decay_band_Hz;
     });
     if (!alone || mode.frequency_Hz < 2.0 * config.decay_band_Hz) continue;
-    const Eigen::VectorXcd q = sysid::modal_coordinate(decay, rate_Hz, mode.shape, mode.frequency_Hz, config.decay_band_Hz);
-    const Index tail = std::max<Index>(8, q.size() / 10);
-    const double noise = std::sqrt(q.tail(tail).squaredNorm() / static_cast<double>(tail));
+    const sysid::DecayingCoordinate q =
+        sysid::decaying_coordinate(decay, rate_Hz, mode.shape, mode.frequency_Hz, mode.damping_ratio, config.decay_band_Hz);
     const auto points =
-        sysid::decay_by_amplitude(q, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), noise / 3.0);
+        sysid::decay_by_amplitude(q.value, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), q.noise);
     if (points.empty()) continue;
     const auto partner = partner_of(mode, result.channels, ambient);
     result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, mode.frequency_Hz, points});

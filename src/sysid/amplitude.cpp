@@ -22,6 +22,21 @@ double window(double offset, double half_width) {
   return x >= 1.0 ? 0.0 : 0.5 + 0.5 * std::cos(pi * x);
 }
 
+/// A mode's coordinate by least squares on its shape, whose largest component counts 1.
+Eigen::VectorXd by_shape(const Eigen::Ref<const Eigen::MatrixXd>& data, const Eigen::VectorXcd& shape) {
+  TWINDECK_ASSERT(shape.size() == data.cols() && data.rows() >= 8);
+  Eigen::VectorXd weights = shape.real();
+  weights /= weights.cwiseAbs().maxCoeff();
+  return data * weights / weights.squaredNorm();
+}
+
+/// Samples after which a decay is below the noise.
+Index samples_of_decay(double top, double noise, double decay_per_sample, Index n_samples) {
+  if (!(decay_per_sample > 0.0) || !(noise > 0.0)) return n_samples;
+  const double samples = std::log(std::max(top / noise, 2.0)) / decay_per_sample;
+  return samples < static_cast<double>(n_samples) ? std::max<Index>(8, static_cast<Index>(samples)) : n_samples;
+}
+
 struct FittedLine {
   double slope = 0.0, deviation = 0.0;
 };
@@ -42,10 +57,7 @@ FittedLine fitted_line(const Eigen::VectorXd& y, double step, double memory) {
 
 Eigen::VectorXcd modal_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz, const Eigen::VectorXcd& shape,
                                   double frequency_Hz, double half_width_Hz) {
-  TWINDECK_ASSERT(shape.size() == data.cols() && data.rows() >= 8);
-  Eigen::VectorXd weights = shape.real();
-  weights /= weights.cwiseAbs().maxCoeff();
-  const Eigen::VectorXd q = data * weights / weights.squaredNorm();
+  const Eigen::VectorXd q = by_shape(data, shape);
   // The record is followed by zeros, so that its end does not meet its beginning.
   const Index n = q.size(), size = signal::fast_fft_size(n + static_cast<Index>(2.0 * rate_Hz / half_width_Hz));
   signal::RealFft fft(size);
@@ -60,6 +72,34 @@ Eigen::VectorXcd modal_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data,
   Eigen::VectorXcd analytic(n);
   for (Index t = 0; t < n; ++t) analytic[t] = {real[t], imag[t]};
   return analytic;
+}
+
+DecayingCoordinate decaying_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz,
+                                       const Eigen::VectorXcd& shape, double frequency_Hz, double damping_ratio,
+                                       double half_width_Hz) {
+  DecayingCoordinate coordinate;
+  const Eigen::VectorXcd filtered = modal_coordinate(data, rate_Hz, shape, frequency_Hz, half_width_Hz);
+  const Index tail = std::max<Index>(8, filtered.size() / 10);
+  coordinate.noise = std::sqrt(filtered.tail(tail).squaredNorm() / static_cast<double>(tail)) / 3.0;
+  const std::complex<double> turn = std::complex<double>(damping_ratio, -1.0) * 2.0 * pi * frequency_Hz / rate_Hz;
+  const Index n = samples_of_decay(filtered.cwiseAbs().maxCoeff(), coordinate.noise, turn.real(), data.rows());
+  const Eigen::VectorXd q = by_shape(data, shape).head(n);
+  Eigen::VectorXcd still(n);
+  for (Index t = 0; t < n; ++t) still[t] = 2.0 * q[t] * std::exp(turn * static_cast<double>(t));
+  // Followed by zeros over the memory of both ends.
+  const Index size = signal::fast_fft_size(n + static_cast<Index>(4.0 * rate_Hz / half_width_Hz));
+  signal::RealFft fft(size);
+  const double line_Hz = rate_Hz / static_cast<double>(size);
+  const auto slow = [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXcd spectrum = fft.forward(x);
+    for (Index m = 0; m < spectrum.size(); ++m) spectrum[m] *= window(static_cast<double>(m) * line_Hz, half_width_Hz);
+    return Eigen::VectorXd(fft.inverse(spectrum).head(n));
+  };
+  const Eigen::VectorXd weight = slow(Eigen::VectorXd::Ones(n)), real = slow(still.real()), imag = slow(still.imag());
+  coordinate.value.resize(n);
+  for (Index t = 0; t < n; ++t)
+    coordinate.value[t] = std::complex<double>(real[t], imag[t]) / weight[t] * std::exp(-turn * static_cast<double>(t));
+  return coordinate;
 }
 
 std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinate, double rate_Hz, double memory_s, int n_bands,
