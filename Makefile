@@ -151,7 +151,7 @@ bench: build ## ratios against peers: modes, derivatives, identification, wind (
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field
 	@$(PRODUCT)workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
 
-bench-places: build ## make bench-places PLACES="25 100 400": processor seconds of a diagnosis against candidate places (results/bench/places.csv)
+bench-places: build ## make bench-places PLACES="25 100 400": processor seconds and memory of a diagnosis against candidate places (results/bench/places.csv)
 	@mkdir -p results/bench
 	@$(PRODUCT)workflows/python.sh tests/bench/places.py $(BIN) results/bench $(PLACES)
 

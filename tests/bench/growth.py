@@ -250,7 +250,8 @@ def series(file, group, size, quantities):
 # Table, columns that tell rows of different lines apart, column of the size, quantities with their axes.
 COST = {"cpu_s": "processor time of one thread [s]", "peak_MB": "peak memory [MB]"}
 TABLES = [("modes", ("family", "program"), "degrees_of_freedom", COST), ("records", ("channels", "program"), "samples", COST),
-          ("places", (), "places", {"form_off_s": "processor time, exact model [s]", "form_on_s": "processor time, form error [s]"})]
+          ("places", (), "places", {"form_off_s": "processor time, exact model [s]", "form_on_s": "processor time, form error [s]",
+                                    "form_off_MB": "peak memory, exact model [MB]", "form_on_MB": "peak memory, form error [MB]"})]
 
 
 def draw(file, found, size, axes_of):
@@ -259,7 +260,7 @@ def draw(file, found, size, axes_of):
     matplotlib.use("Agg")
     from matplotlib import pyplot
     lines = []
-    figure, axes = pyplot.subplots(1, len(axes_of), figsize=(9, 4), layout="constrained")
+    figure, axes = pyplot.subplots(1, len(axes_of), figsize=(4.5 * len(axes_of), 4), layout="constrained")
     for axis, (quantity, label) in zip(axes, axes_of.items()):
         for who, quantities in found.items():
             points = sorted(quantities.get(quantity, []))

@@ -1,4 +1,4 @@
-"""make bench-places: processor seconds of a diagnosis against the number of candidate places, without and with a form error of the model.
+"""make bench-places: processor seconds (one thread) and peak memory of a diagnosis against the number of candidate places, without and with a form error of the model.
 
     python3 tests/bench/places.py BIN OUT [PLACES ...]
 
@@ -10,8 +10,6 @@ import csv
 import json
 import math
 import pathlib
-import resource
-import subprocess
 import sys
 import tempfile
 
@@ -19,6 +17,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/steps"))
+import table as bench  # noqa: E402
 import three_span_girder as girder  # noqa: E402
 
 PLACES = (25, 50, 100, 200, 500, 1000)
@@ -47,16 +46,6 @@ def write_features(folder):
     (folder / "conditions.toml").write_text("[as_found]\ntemperature_C = 14.0\n")
 
 
-def seconds_of(command):
-    """Processor seconds of a child, all threads."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(command, capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode:
-        raise SystemExit(done.stderr)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
 def main():
     binaries, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     sizes = [int(n) for n in sys.argv[3:]] or PLACES
@@ -70,7 +59,7 @@ def main():
             row = {"places": size}
             for form in ("off", "on"):
                 result = work / f"s9_{size}_{form}"
-                row[f"form_{form}_s"] = seconds_of(
+                _, row[f"form_{form}_s"], row[f"form_{form}_MB"] = bench.run_child(
                     [binaries / "s9_diagnosis", "--model", work / f"model_{size}", "--features", work / "features", "--out", result, "--set", f"form={form}",
                      "--set", f"nodes={size}", "--set", f"zones={size}", "--quiet"])
                 told = json.loads((result / "diagnosis.json").read_text())
@@ -79,7 +68,7 @@ def main():
             table.append(row)
             growth = [math.log(row[f"form_{form}_s"] / table[-2][f"form_{form}_s"]) / math.log(size / table[-2]["places"]) if len(table) > 1 else math.nan
                       for form in ("off", "on")]
-            print(f"{size} places: {row['form_off_s']:.1f} s without, {row['form_on_s']:.1f} s with a form error; exponents {growth[0]:.2f} and "
+            print(f"{size} places: {row['form_off_s']:.1f} s, {row['form_off_MB']:.0f} MB without, {row['form_on_s']:.1f} s, {row['form_on_MB']:.0f} MB with a form error; exponents {growth[0]:.2f} and "
                   f"{growth[1]:.2f}; {row['form_off_verdict']} {row['form_off_leader']}, {row['form_on_verdict']} {row['form_on_leader']}", flush=True)
     with open(out / "places.csv", "w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, table[0], lineterminator="\n")
