@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
@@ -57,18 +58,22 @@ void scale_materials(fe::Model& model, const std::vector<int>& elements, double 
   }
 }
 
-/// @return whether there is a parameter of that name
-bool scale_parameter(std::vector<fe::Parameter>& parameters, Eigen::VectorXd& theta, const std::string& name, double factor) {
+/// @return the parameter of that name, null where there is none
+const fe::Parameter* scale_parameter(std::vector<fe::Parameter>& parameters, Eigen::VectorXd& theta, const std::string& name,
+                                     double factor) {
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (parameters[p].name != name) continue;
     double& value = theta[static_cast<Index>(p)];
     value = value != 0.0 && parameters[p].initial != 0.0 ? value * factor : value + factor - 1.0;
     parameters[p].lower = std::min(parameters[p].lower, value);
     parameters[p].upper = std::max(parameters[p].upper, value);
-    return true;
+    return &parameters[p];
   }
-  return false;
+  return nullptr;
 }
+
+/// Whether both stiffness and mass of a part go with a parameter.
+bool has_stiffness_and_mass(fe::Target target) { return target == fe::Target::area || target == fe::Target::thickness; }
 
 /// Elements and springs of a group.
 void scale_group(fe::Model& model, const std::string& name, double stiffness, double density, const std::string& tag) {
@@ -88,7 +93,7 @@ bool of_support(const fe::Model& model, const fe::Spring& spring, std::string na
   static const std::string fixed = " fixed";
   const bool asked_rigid = name.ends_with(fixed);
   if (asked_rigid) name.resize(name.size() - fixed.size());
-  if (spring.node2 >= 0 || group(spring) != name || (asked_rigid && !rigid(spring))) return false;
+  if (spring.is_damper() || spring.node2 >= 0 || group(spring) != name || (asked_rigid && !rigid(spring))) return false;
   if (asked_rigid || !rigid(spring)) return true;
   return std::none_of(model.springs.begin(), model.springs.end(),
                       [&](const fe::Spring& other) { return group(other) == name && other.node2 < 0 && !rigid(other); });
@@ -171,7 +176,8 @@ bool apply_scale(Extension& to, const ActionSpec& action) {
     return true;
   }
   if (c.hypothesis->set == "groups") {
-    if (scale_parameter(to.model.parameters, to.theta, to.name, factor)) return true;
+    if (const fe::Parameter* scaled = scale_parameter(to.model.parameters, to.theta, to.name, factor); scaled != nullptr)
+      return !has_stiffness_and_mass(scaled->target);
     scale_group(to.model, to.name, mass ? 1.0 : factor, mass ? factor : 1.0, id);
     return true;
   }
@@ -264,10 +270,14 @@ bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& ca
   }
   const bool mass = action.kind == "mass.add";
   if (!mass && !(action.kind == "element.spring" && c.places.size() == 1)) return false;
+  const auto named = action.text.find("direction");
+  const auto is_of_node = [&](const fe::DofLabel& dof) { return dof.node == name && dof.direction <= 2; };
+  const bool upwards = named != action.text.end() && named->second == "vertical" &&
+                       std::count_if(system.dofs.begin(), system.dofs.end(), is_of_node) == 3;  // else as the node can move
   fe::Term term;  // on the diagonal, which every pattern has
   term.label = c.id();
   for (std::size_t i = 0; i < system.dofs.size(); ++i) {
-    if (system.dofs[i].node != name || system.dofs[i].direction > 2) continue;
+    if (!is_of_node(system.dofs[i]) || (upwards && system.dofs[i].direction != 2)) continue;
     for (int p = system.pattern.outerIndexPtr()[i]; p < system.pattern.outerIndexPtr()[i + 1]; ++p) {
       if (system.pattern.innerIndexPtr()[p] != static_cast<int>(i)) continue;
       term.position.push_back(p);
@@ -276,6 +286,12 @@ bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& ca
   }
   (mass ? system.mass_terms : system.stiffness_terms).push_back(term);
   return true;
+}
+
+bool is_of_a_parameter(const Cause& cause, const std::vector<fe::Parameter>& parameters) {
+  const Candidate& c = *cause.candidate;
+  return c.hypothesis->set == "groups" && std::any_of(parameters.begin(), parameters.end(),
+                                                      [&](const fe::Parameter& p) { return "group:" + p.name == c.location; });
 }
 
 }  // namespace
@@ -287,18 +303,20 @@ ExtendedModel extended_model(const DiagnosedModel& model, const Places& places, 
     out.elements = fe::with_parameters(*model.loaded.model, theta);
   else
     out.system = model.loaded.system;
-  for (const Effect& effect : result.effects) {
-    bool held = true;
-    for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions)
-      held = (out.elements ? apply(*out.elements, theta, places, effect.cause, action)
-                           : apply(out.system, theta, effect.cause, action)) &&
-             held;
-    out.holds.push_back(held);
+  out.holds.assign(result.effects.size(), true);
+  // Parameters first: a part that another cause gives a material of its own then starts from their values.
+  for (const bool of_parameters : {true, false}) {
+    for (std::size_t i = 0; i < result.effects.size(); ++i) {
+      const Cause& cause = result.effects[i].cause;
+      if (is_of_a_parameter(cause, out.elements ? out.elements->parameters : out.system.parameters) != of_parameters) continue;
+      for (const ActionSpec& action : cause.candidate->hypothesis->actions)
+        out.holds[i] =
+            (out.elements ? apply(*out.elements, theta, places, cause, action) : apply(out.system, theta, cause, action)) &&
+            out.holds[i];
+    }
+    if (out.elements) out.elements = fe::with_parameters(*out.elements, theta);
   }
-  if (out.elements) {
-    out.elements = fe::with_parameters(*out.elements, theta);
-    return out;
-  }
+  if (out.elements) return out;
   for (std::size_t p = 0; p < out.system.parameters.size(); ++p) {
     fe::Parameter& parameter = out.system.parameters[p];
     parameter.initial = theta[static_cast<Index>(p)];
@@ -308,22 +326,26 @@ ExtendedModel extended_model(const DiagnosedModel& model, const Places& places, 
   return out;
 }
 
-CorrectedChannels corrected_channels(std::vector<matching::Channel> channels, const Diagnosis& result) {
-  std::vector<double> gain(channels.size(), 1.0);
-  for (const Effect& effect : result.effects) {
-    const Candidate& c = *effect.cause.candidate;
-    for (const ActionSpec& action : c.hypothesis->actions) {
-      if (c.channels.empty()) continue;
-      const auto first = static_cast<std::size_t>(c.channels[0]);
-      if (action.kind == "channel.gain") gain[first] /= c.value(action.number.at("factor"), effect.cause.a);
-      if (action.kind == "channel.sign") channels[first].direction *= -1.0;
-      if (action.kind == "channel.swap") {
-        const auto second = static_cast<std::size_t>(c.channels[1]);
-        std::swap(channels[first].name, channels[second].name);
-      }
-    }
-  }
-  return {std::move(channels), std::move(gain)};
+CorrectedChannels corrected_channels(const std::vector<matching::Channel>& channels, const Diagnosis& result) {
+  const auto each = [&](const char* kind, auto use) {
+    for (const Effect& effect : result.effects)
+      for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions)
+        if (action.kind == kind && !effect.cause.candidate->channels.empty()) use(effect.cause, action);
+  };
+  // Exchanges first: a sign or a gain belongs to a channel by its recorded name, wherever that stands.
+  std::vector<std::size_t> stands(channels.size());  // (n_channels) where what a recorded name reads is
+  std::iota(stands.begin(), stands.end(), std::size_t{0});
+  const auto place = [&](const Cause& cause, std::size_t which) -> std::size_t& {
+    return stands[static_cast<std::size_t>(cause.candidate->channels[which])];
+  };
+  each("channel.swap", [&](const Cause& cause, const ActionSpec&) { std::swap(place(cause, 0), place(cause, 1)); });
+  CorrectedChannels out{channels, std::vector<double>(channels.size(), 1.0)};
+  for (std::size_t c = 0; c < channels.size(); ++c) out.channels[stands[c]].name = channels[c].name;
+  each("channel.gain", [&](const Cause& cause, const ActionSpec& action) {
+    out.gain[place(cause, 0)] /= cause.candidate->value(action.number.at("factor"), cause.a);
+  });
+  each("channel.sign", [&](const Cause& cause, const ActionSpec&) { out.channels[place(cause, 0)].direction *= -1.0; });
+  return out;
 }
 
 }  // namespace twindeck::diagnosis

@@ -23,6 +23,6 @@ struct CorrectedChannels {
   std::vector<matching::Channel> channels;
   std::vector<double> gain;  ///< factor on what each reads
 };
-[[nodiscard]] CorrectedChannels corrected_channels(std::vector<matching::Channel> channels, const Diagnosis& result);
+[[nodiscard]] CorrectedChannels corrected_channels(const std::vector<matching::Channel>& channels, const Diagnosis& result);
 
 }  // namespace twindeck::diagnosis

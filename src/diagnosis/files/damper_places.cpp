@@ -15,7 +15,7 @@ std::vector<DamperMove> read_damper_places(const std::filesystem::path& file, co
   std::vector<std::string> known;
   if (model != nullptr)
     for (const fe::Spring& spring : model->springs)
-      if (can_be_moved(spring)) known.push_back(spring.name);
+      if (spring.is_damper() && can_be_moved(spring)) known.push_back(spring.name);
   std::vector<DamperMove> moves;
   for (std::size_t r = 0; r < table.rows(); ++r) {
     const std::string name = table.text(r, "alternative"), damper = table.text(r, "damper");

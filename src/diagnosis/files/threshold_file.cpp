@@ -45,6 +45,7 @@ void put_rows(std::ostream& key, const FeatureSet& features) {
   key << "|conditions ";
   for (const Condition& c : features.conditions) {
     key << c.name << ',' << (c.dampers_on ? *c.dampers_on ? "on," : "off," : ",") << c.amplitude_channel << ',';
+    if (c.state != Condition().state) key << "state " << c.state << ',';
     if (!c.load.empty()) key << c.load << ',';
     for (const auto& value : {c.amplitude_m, c.temperature_C, c.wind_m_s, c.direction_deg, c.people}) put(key, value);
   }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "unit/diagnosis/chain.hpp"
+#include "unit/io/temporary_folder.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -99,6 +100,161 @@ TEST(Catalogue, NumbersThatAreNoneAreRefusedWithTheirLine) {
   std::ofstream(folder / "gain.toml") << "action = [1]\n";
   EXPECT_THROW((void)diagnosis::read_catalogue(folder), InputError);
   std::filesystem::remove_all(folder);
+}
+
+/// A file of a folder with one cause; what is said of it.
+class CatalogueFile : public io::test::TemporaryFolder {
+ protected:
+  static constexpr const char* kHypothesis = "[hypothesis]\nid = \"h\"\n";
+  static constexpr const char* kLocation = "[location]\nset = \"nodes\"\n";
+  static constexpr const char* kAction = "[[action]]\nkind = \"mass.add\"\nmass = 2.5\n";
+  std::string said(const std::string& text) const {
+    write("catalogue/h.toml", text);
+    return refusal([&] { (void)diagnosis::read_catalogue(folder_ / "catalogue"); });
+  }
+  /// Of a sound file with further lines from line 8.
+  std::string said_of(const std::string& more) const { return said(std::string(kHypothesis) + kLocation + kAction + more); }
+};
+
+TEST_F(CatalogueFile, IsReadAsItStands) {
+  write("catalogue/h.toml",
+        "[hypothesis]\nid = \"h\"\ntitle = \"T\"\nside = \"measurement\"\nprior_weight = 0.25\n[location]\nset = "
+        "\"pairs(channels)\"\nfilter = \"same_direction\"\n[[parameter]]\nname = \"k\"\nunit = \"N/m\"\nlow = "
+        "\"0.05*k_drive\"\nhigh = \"20*k_drive\"\nstart = [\"k_drive\", 3]\n[[parameter]]\nname = \"z\"\nlow = -1\nhigh = "
+        "2.5\nscale = \"lin\"\n[[action]]\nkind = \"field.stiffness\"\nvariable = \"wind_m_s\"\nrate = \"-2*$z\"\nreference "
+        "= 4\n[needs]\nconditions = { wind_m_s = \"known\" }\ndistinct = { people = 3 }\nrows = [\"shape\", "
+        "\"frequency_Hz\"]\n[report]\nsentence = \"S\"\nremedy = \"R\"\n");
+  const auto read = diagnosis::read_catalogue(folder_ / "catalogue");
+  ASSERT_EQ(read.size(), 1U);
+  const diagnosis::Hypothesis& h = read[0];
+  EXPECT_EQ(h.id + h.title + h.set + h.filter + h.sentence + h.remedy, "hTpairs(channels)same_directionSR");
+  EXPECT_TRUE(h.measurement);
+  EXPECT_EQ(h.prior_weight, 0.25);
+  ASSERT_EQ(h.unknowns.size(), 2U);
+  EXPECT_EQ(h.unknowns[0].unit, "N/m");
+  EXPECT_TRUE(h.unknowns[0].log);
+  EXPECT_EQ(h.unknowns[0].low.factor, 0.05);
+  EXPECT_EQ(h.unknowns[0].low.name, "k_drive");
+  EXPECT_EQ(h.unknowns[0].low.line, 12);
+  EXPECT_EQ(h.unknowns[0].high.factor, 20.0);
+  ASSERT_EQ(h.unknowns[0].start.size(), 2U);
+  EXPECT_EQ(h.unknowns[0].start[0].factor, 1.0);
+  EXPECT_EQ(h.unknowns[0].start[0].name, "k_drive");
+  EXPECT_EQ(h.unknowns[0].start[1].factor, 3.0);
+  EXPECT_FALSE(h.unknowns[1].log);
+  EXPECT_EQ(h.unknowns[1].low.factor, -1.0);
+  ASSERT_EQ(h.actions.size(), 1U);
+  EXPECT_EQ(h.actions[0].kind, "field.stiffness");
+  EXPECT_EQ(h.actions[0].line, 21);
+  EXPECT_EQ(h.actions[0].text.at("variable"), "wind_m_s");
+  EXPECT_EQ(h.actions[0].number.at("rate").factor, -2.0);
+  EXPECT_EQ(h.actions[0].number.at("rate").name, "$z");
+  EXPECT_EQ(h.actions[0].number.at("reference").factor, 4.0);
+  EXPECT_EQ(h.needs.conditions, (std::map<std::string, std::string>{{"wind_m_s", "known"}}));
+  EXPECT_EQ(h.needs.distinct, (std::map<std::string, int>{{"people", 3}}));
+  EXPECT_EQ(h.needs.rows, (std::vector<std::string>{"shape", "frequency_Hz"}));
+}
+
+TEST_F(CatalogueFile, AFolderWithoutCausesIsRefused) {
+  const auto folder = [&](const std::string& name) {
+    return refusal([&] { (void)diagnosis::read_catalogue(folder_ / name); });
+  };
+  EXPECT_EQ(folder("none"), "none: is no folder, expected the catalogue of hypotheses; give --catalogue DIR");
+  write("empty/README.md", "");
+  EXPECT_EQ(folder("empty"), "empty: holds no *.toml, expected one for each cause");
+}
+
+TEST_F(CatalogueFile, CausesComeByTheirFilesAndHaveIdsOfTheirOwn) {
+  const std::string rest = std::string(kLocation) + kAction;
+  write("catalogue/b.toml", "[hypothesis]\nid = \"first\"\n" + rest);
+  write("catalogue/a.toml", "[hypothesis]\nid = \"second\"\n" + rest);
+  const auto read = diagnosis::read_catalogue(folder_ / "catalogue");
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].id, "second");
+  EXPECT_EQ(read[1].id, "first");
+  write("catalogue/a.toml", "[hypothesis]\nid = \"first\"\n" + rest);
+  EXPECT_EQ(refusal([&] { (void)diagnosis::read_catalogue(folder_ / "catalogue"); }),
+            "catalogue/b.toml: id: 'first' is the id of another file too; give each its own");
+}
+
+TEST_F(CatalogueFile, WhatIsMissingIsNamed) {
+  EXPECT_EQ(said_of(""), "");
+  EXPECT_EQ(said(std::string(kLocation) + kAction),
+            "catalogue/h.toml:1: hypothesis.id: is missing; name the cause: [hypothesis] id = \"…\"");
+  EXPECT_EQ(said(std::string(kHypothesis) + kAction),
+            "catalogue/h.toml:1: location.set: is missing; say where the cause can sit: [location] set = \"nodes\"");
+  EXPECT_EQ(said(std::string(kHypothesis) + kLocation),
+            "catalogue/h.toml:1: action: is missing; say what the cause does: [[action]] kind = \"…\"");
+  const std::string lacks = ": parameter: lacks name, low or high";
+  for (const char* two : {"name = \"k\"\nlow = 1\n", "low = 1\nhigh = 2\n", "name = \"k\"\nhigh = 2\n"}) {
+    const std::string text = said_of(std::string("[[parameter]]\n") + two);
+    EXPECT_TRUE(text.starts_with("catalogue/h.toml:") && text.ends_with(lacks)) << text;
+  }
+  EXPECT_EQ(said(std::string(kHypothesis) + kLocation + "[[action]]\nkind = \"element.oscillator\"\nmass = 1\n"),
+            "catalogue/h.toml:6: action.frequency: is missing; element.oscillator takes mass, frequency");
+}
+
+TEST_F(CatalogueFile, WhatItDoesNotKnowIsRefusedWithItsLine) {
+  const std::string at = "catalogue/h.toml:9: ";
+  const std::string parameter = "name = \"k\"\nlow = 1\nhigh = 2\n";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"[reports]\n", "catalogue/h.toml:8: unknown key 'reports'; did you mean 'report'?"},
+      {"[zzz]\n",
+       "catalogue/h.toml:8: unknown key 'zzz'; known keys are hypothesis, location, parameter, action, needs, report"},
+      {"[report]\nsentense = \"x\"\n", at + "unknown key 'sentense'; did you mean 'sentence'?"},
+      {"[report]\nsentence = 3\n", at + "sentence: is 3, expected text; write it in quotes"},
+      {"[[parameter]]\nunits = \"N\"\n" + parameter, at + "unknown key 'units'; did you mean 'unit'?"},
+      {"[[parameter]]\nscale = \"ln\"\n" + parameter,
+       at + "scale: is 'ln', expected \"lin\" or \"log\"; log suits what may be off by a factor"},
+      {"[[parameter]]\nstart = 2\n" + parameter, at + "start: is no list"},
+      {"[[parameter]]\nlow = \"2x*k_drive\"\nname = \"k\"\nhigh = 2\n",
+       at + "low: is '2x*k_drive', expected a number, a name or \"number*name\""},
+      {"[[parameter]]\nlow = 3\nname = \"k\"\nhigh = 2\n", at + "k.low: 3 is not below high, 2; exchange them, or correct one"},
+      {"[[parameter]]\nlow = 2\nname = \"k\"\nhigh = 2\n", at + "k.low: 2 is not below high, 2; exchange them, or correct one"},
+      {"[[parameter]]\nlow = 0\nname = \"k\"\nhigh = 2\n",
+       at + "k.low: 0 has no logarithm; give a value above 0, or scale = \"lin\""},
+      {"[needs]\nrows = \"shape\"\n", at + "rows: is no list"},
+      {"[needs]\nrows = [\"shapes\"]\n", at + "needs.rows: 'shapes' is no type of row (did you mean 'shape'?)"},
+      {"[needs]\nrows = [3]\n", at + "needs.rows: '' is no type of row"},
+      {"[needs]\nconditions = 3\n", at + "conditions: is 3, expected a table; write [conditions]"}};
+  for (const auto& [more, expected] : cases) EXPECT_EQ(said_of(more), expected);
+  for (const char* count : {"0", "1001", "2.5", "\"two\""}) {
+    const std::string text = said_of(std::string("[needs]\ndistinct = { people = ") + count + " }\n");
+    EXPECT_EQ(text, at + "needs.distinct.people: is " + count +
+                        ", expected a whole number from 1 to 1000; say how many different values the rows must have");
+  }
+  for (const char* count : {"1", "1000"})
+    EXPECT_EQ(said_of(std::string("[needs]\ndistinct = { people = ") + count + " }\n"), "");
+  EXPECT_TRUE(said_of("[needs]\nconditions = { wind = \"known\" }\n")
+                  .starts_with(at + "needs.conditions: 'wind' is no key of a condition"));
+  EXPECT_TRUE(said_of("[needs]\nconditions = { people = \"knwn\" }\n")
+                  .starts_with(at + "needs.conditions.people: is 'knwn' (did you mean 'known'?); use one of "));
+  EXPECT_TRUE(
+      said_of("[[parameter]]\nlow = \"k_drift\"\nname = \"k\"\nhigh = 2\n")
+          .starts_with(at + "low: 'k_drift' is no number of a place (did you mean 'k_drive'?); use a number, or one of "));
+}
+
+TEST_F(CatalogueFile, ASideASetAndAnActionAreKnownOnes) {
+  const std::string action = std::string(kHypothesis) + kLocation + "[[action]]\n";
+  EXPECT_EQ(said(std::string(kHypothesis) + "side = \"sensor\"\n" + kLocation + kAction),
+            "catalogue/h.toml:3: side: is 'sensor', expected model or measurement");
+  EXPECT_TRUE(
+      said(std::string(kHypothesis) + "[location]\nset = \"node\"\n" + kAction)
+          .starts_with("catalogue/h.toml:4: location.set: 'node' is no set of locations (did you mean 'nodes'?); use one of "));
+  EXPECT_TRUE(
+      said(action + "mass = 1\nkind = \"mass.ad\"\n")
+          .starts_with("catalogue/h.toml:7: action.kind: unknown primitive 'mass.ad' (did you mean 'mass.add'?); use one of "));
+  EXPECT_EQ(said(action + "kind = \"mass.add\"\nmass = 1\nmas = 2\n"),
+            "catalogue/h.toml:8: action.mas: is no number of mass.add (did you mean 'mass'?)");
+  EXPECT_EQ(said(action + "kind = \"mass.add\"\nmass = \"$m\"\n"),
+            "catalogue/h.toml:7: action.mass: names '$m', which is no [[parameter]]");
+  EXPECT_EQ(said(action + "kind = \"mass.add\"\nmass = 1\ndirection = \"up\"\n"),
+            "catalogue/h.toml:8: direction: is 'up', expected \"vertical\"; leave it out for all directions");
+  EXPECT_TRUE(said(action + "kind = \"mass.add\"\nmass = 1\nvariable = \"wind\"\n")
+                  .starts_with("catalogue/h.toml:8: action.variable: 'wind' is no key of a condition"));
+  EXPECT_EQ(said("hypothesis = 3\n"), "catalogue/h.toml:1: hypothesis: is 3, expected a table; write [hypothesis]");
+  EXPECT_EQ(said("action = 3\n"), "catalogue/h.toml:1: action: is 3, expected tables; write [[action]]");
+  EXPECT_EQ(said("action = [1]\n"), "catalogue/h.toml:1: action: holds 1, expected tables; write [[action]]");
 }
 
 TEST(Catalogue, BoundsThatAreNoneAreRefused) {
