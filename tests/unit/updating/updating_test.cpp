@@ -89,8 +89,9 @@ TEST(Update, TargetsThatAreNotFittedCostNothing) {
 TEST(Update, AParameterThatBeginsAtZeroIsScaledByItsRange) {
   SmallSystem small(1);
   const int more = small.parameter("more", 0.0, -0.5, 3.5);
-  small.stiffness(100.0 * Eigen::MatrixXd::Ones(1, 1)).stiffness(100.0 * Eigen::MatrixXd::Ones(1, 1), more).mass(
-      Eigen::MatrixXd::Ones(1, 1));
+  small.stiffness(100.0 * Eigen::MatrixXd::Ones(1, 1))
+      .stiffness(100.0 * Eigen::MatrixXd::Ones(1, 1), more)
+      .mass(Eigen::MatrixXd::Ones(1, 1));
   const UpdatingResult result = update(small.system(), {}, {0}, {{"1X-1N", 0, hertz(2.25)}}, one_start(), {});
   ASSERT_TRUE(result.status.converged) << result.status.message;
   EXPECT_EQ(result.scale[0], 4.0);
