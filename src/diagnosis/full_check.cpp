@@ -49,11 +49,14 @@ struct Assembly {
   const std::vector<int> columns;      ///< of the reduced basis that are used
 
   [[nodiscard]] double ratio(const OnePlace& place) const { return parameter_ratio(place.attributes, reduced_at, theta); }
-  [[nodiscard]] const OnePlace* find(const std::string& id) const {
+  /// The place of a candidate, in the set of its hypothesis or else in any: a support and its foundation have one name.
+  [[nodiscard]] const OnePlace* find(const Candidate& candidate, std::size_t which) const {
+    const std::string& id = candidate.places[which]->id;
+    const OnePlace* found = nullptr;
     for (const auto& [set, list] : sets)
       for (const OnePlace& place : list)
-        if (place.id == id) return &place;
-    return nullptr;
+        if (place.id == id && (found == nullptr || set == candidate.hypothesis->set)) found = &place;
+    return found;
   }
   [[nodiscard]] VectorXd direction(const OnePlace& place, Index d) const {
     VectorXd b = VectorXd::Zero(stiffness.rows());
@@ -79,10 +82,10 @@ struct Assembly {
   void apply(const Cause& cause) {
     const Candidate& candidate = *cause.candidate;
     if (candidate.places.empty()) return;
-    const OnePlace* place = find(candidate.places[0]->id);
+    const OnePlace* place = find(candidate, 0);
     for (const ActionSpec& action : candidate.hypothesis->actions) {
-      const bool structural =
-          action.kind.starts_with("scale.") || action.kind == "mass.add" || action.kind.starts_with("element.");
+      const bool structural = action.kind.starts_with("scale.") || action.kind == "mass.add" || action.kind == "support.move" ||
+                              action.kind.starts_with("element.");
       if (!structural) continue;
       TWINDECK_ASSERT(place != nullptr);
       const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
@@ -91,26 +94,47 @@ struct Assembly {
       if (action.kind == "mass.add")
         for (Index d = 0; d < place->directions.cols(); ++d)
           add_outer(mass, value("mass"), direction(*place, d), direction(*place, d));
-      if (action.kind == "element.spring") tie(candidate, *place, value("stiffness"));
+      if (action.kind == "support.move") move(*place, value("position"));
+      if (action.kind == "element.spring" && candidate.places.size() == 2)
+        tie(*place, *find(candidate, 1), value("stiffness"));
+      else if (action.kind == "element.spring")
+        prop(*place, action, value("stiffness"));
       if (action.kind == "element.oscillator" || action.kind == "element.string")
         swing(*place, action.kind == "element.string", value("mass"), 2.0 * std::numbers::pi * value("frequency"));
     }
   }
-  void tie(const Candidate& candidate, const OnePlace& place, double k) {
-    const OnePlace* other = candidate.places.size() == 2 ? find(candidate.places[1]->id) : nullptr;
-    const Index shared = other ? std::min(place.directions.cols(), other->directions.cols()) : place.directions.cols();
-    const Eigen::Vector3d along = other ? Eigen::Vector3d(other->x_m - place.x_m) : Eigen::Vector3d::Zero();
-    VectorXd on_line = VectorXd::Zero(stiffness.rows());
+  /// Takes the support away and puts its springs up again between the nodes where it stands.
+  void move(const OnePlace& place, double position) {
+    add(stiffness, -1.0, place.stiffness);
+    const auto [station, part] = on_line(place.attributes, position);
+    const Index springs = place.directions.cols() / static_cast<Index>(place.attributes.at("stations"));
+    for (Index d = 0; d < springs; ++d) {
+      const VectorXd b =
+          (1.0 - part) * direction(place, station * springs + d) + part * direction(place, (station + 1) * springs + d);
+      add_outer(stiffness, place.attributes.at("k_" + std::to_string(d)), b, b);
+    }
+  }
+  /// A spring to the ground: vertical where the action says so and the place can move so, else in all directions.
+  void prop(const OnePlace& place, const ActionSpec& action, double k) {
+    const auto named = action.text.find("direction");
+    const bool vertical = named != action.text.end() && named->second == "vertical" && place.directions.cols() == 3 &&
+                          direction(place, 2).squaredNorm() > 0.0;
+    for (Index d = vertical ? 2 : 0; d < place.directions.cols(); ++d)
+      add_outer(stiffness, k, direction(place, d), direction(place, d));
+  }
+  void tie(const OnePlace& place, const OnePlace& other, double k) {
+    const Index shared = std::min(place.directions.cols(), other.directions.cols());
+    const Eigen::Vector3d along = other.x_m - place.x_m;
+    VectorXd pull = VectorXd::Zero(stiffness.rows());
     const bool line = along.allFinite() && along.norm() > 0.0 && shared == 3;
     for (Index d = 0; d < shared; ++d) {
-      VectorXd b = direction(place, d);
-      if (other) b -= direction(*other, d);
+      const VectorXd b = direction(place, d) - direction(other, d);
       if (line)
-        on_line += along.normalized()[d] * b;
+        pull += along.normalized()[d] * b;
       else
         add_outer(stiffness, k, b, b);
     }
-    if (line) add_outer(stiffness, k, on_line, on_line);
+    if (line) add_outer(stiffness, k, pull, pull);
   }
   void swing(const OnePlace& place, bool string, double m, double omega) {
     for (Index d = 0; d < place.directions.cols(); ++d) {

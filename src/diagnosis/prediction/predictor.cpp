@@ -363,7 +363,7 @@ Prediction Predictor::run() {
       known->push_back(condition);
   }
   for (const auto& group : alike) pair(group);
-  for (std::size_t m = 0; m < modes && out_.valid; ++m) predict_mode(map_.modes_[m], m);
+  for (std::size_t m = 0; m < modes; ++m) predict_mode(map_.modes_[m], m);  // one that is left over says nothing of the others
   if (!out_.valid) return out_;
   for (std::size_t c = 0; c < loaded.size(); ++c)
     if (loaded[c]) predict_load(static_cast<int>(c));

@@ -54,10 +54,7 @@ void move_support(const ReducedPlace& support, double position, const std::vecto
   const auto number = [&](const std::string& name) { return support.attributes.at(name); };
   const auto stations = static_cast<Index>(number("stations"));
   const Index per_node = support.directions.cols() / stations, n = state.stiffness.rows();
-  Index i = 0;
-  while (i + 2 < stations && position > number("x_" + std::to_string(i + 1))) ++i;
-  const double from = number("x_" + std::to_string(i)), to = number("x_" + std::to_string(i + 1));
-  const double t = std::clamp((position - from) / (to - from), 0.0, 1.0);
+  const auto [i, t] = on_line(support.attributes, position);
   MatrixXd own = support.stiffness.part(columns);
   own.conservativeResizeLike(MatrixXd::Zero(n, n));
   state.stiffness -= own;

@@ -23,18 +23,9 @@ fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const
     case fe::ElementType::beam:
       return {fe::six_per_node(element),
               fe::beam_stiffness(fe::beam_geometry(model, element), fe::beam_properties(model, element))};
-    case fe::ElementType::shell: {
-      if (fe::is_triangle(element))
-        return {fe::six_per_node(element),
-                fe::shell_membrane_of(model, element, straight_sides[e]) + fe::shell_bending_of(model, element)};
-      const auto geometry = fe::shell_geometry(model, element);
-      const auto properties = fe::shell_properties(model, element);
-      const auto rule = model.formulation.drilling == fe::Formulation::Drilling::penalty ? fe::DrillingRule::penalty
-                                                                                         : fe::DrillingRule::diagonal;
-      Eigen::MatrixXd k = fe::shell_membrane_stiffness(geometry, properties, rule, model.formulation.drilling_factor);
-      k += fe::shell_bending_stiffness(geometry, properties);
-      return {fe::six_per_node(element), k};
-    }
+    case fe::ElementType::shell:
+      return {fe::six_per_node(element),
+              fe::shell_membrane_of(model, element, straight_sides[e]) + fe::shell_bending_of(model, element)};
     case fe::ElementType::solid:
       return {fe::three_per_node(element), fe::solid_stiffness_of(model, element)};
     default:

@@ -120,6 +120,16 @@ double parameter_ratio(const std::map<std::string, double>& attributes, const Ei
   return reduced_at[p] != 0.0 ? value[p] / reduced_at[p] : 1.0;
 }
 
+OnLine on_line(const std::map<std::string, double>& attributes, double position) {
+  const auto x = [&](Index i) { return attributes.at("x_" + std::to_string(i)); };
+  const auto stations = static_cast<Index>(attributes.at("stations"));
+  OnLine out;
+  while (out.first + 2 < stations && position > x(out.first + 1)) ++out.first;
+  const double from = x(out.first), to = x(out.first + 1);
+  out.part = std::clamp((position - from) / (to - from), 0.0, 1.0);
+  return out;
+}
+
 const ReducedPlace* ReducedModel::place(const std::string& set, const std::string& id) const {
   const auto found = sets.find(set);
   if (found == sets.end()) return nullptr;

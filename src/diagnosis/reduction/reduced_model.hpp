@@ -29,6 +29,14 @@ struct ReducedPlace {
 [[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
                                      const Eigen::VectorXd& value);
 
+/// Where a support that may move stands on its line: `part` of the way from station `first` to the next one.
+struct OnLine {
+  Eigen::Index first = 0;
+  double part = 0.0;
+};
+/// @param attributes  of the support's place: stations, x_0 …  @param position  on the line [m]
+[[nodiscard]] OnLine on_line(const std::map<std::string, double>& attributes, double position);
+
 /// The structure, projected once onto a small basis. Thousands of changed structures can then be solved:
 ///   K(theta) = sum a_g(theta) V' K_g V,  M likewise,  V = [modes, corrections for parameters and dampers | corrections by
 ///   place].

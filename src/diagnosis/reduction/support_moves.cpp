@@ -88,6 +88,9 @@ void ElementPlaces::add_support_moves(Places& places) const {
       clamped = clamped || spring.rotation;
       if (!spring.rotation && spring.damping == 0.0 && spring.friction_N == 0.0) springs.push_back(&spring);
     }
+    // Beside bearings of its name what is rigid is a place of its own, which stays.
+    const auto rigid = [&](const fe::Spring* s) { return stands_for_rigid(*s); };
+    if (!std::all_of(springs.begin(), springs.end(), rigid)) std::erase_if(springs, rigid);
     if (springs.empty() || clamped) continue;
     const int node = springs.front()->node;
     if (std::any_of(springs.begin(), springs.end(), [&](const fe::Spring* s) { return s->node != node; })) continue;

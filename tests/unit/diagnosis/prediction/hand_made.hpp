@@ -82,6 +82,8 @@ class Predicted {
     return reduced_->place(set, id);
   }
   [[nodiscard]] const diagnosis::ReducedModel& reduced() const { return *reduced_; }
+  [[nodiscard]] const diagnosis::Structure& structure() const { return structure_; }
+  [[nodiscard]] const diagnosis::Places& places() const { return places_; }
   [[nodiscard]] diagnosis::FeatureMap map(const diagnosis::ScatterOptions& scatter = {}) const {
     return {*reduced_, features, scatter};
   }

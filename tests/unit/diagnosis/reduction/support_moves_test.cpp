@@ -101,6 +101,21 @@ TEST(SupportMoves, SpringsAtTheirOwnStationAreTheSupport) {
   EXPECT_EQ(b.col(8).dot(b.col(9)), 0.0);
 }
 
+// What a fixed support of the same name holds is a place of its own, which stays: moved too it would be held twice.
+TEST(SupportMoves, SpringsOfAFixedSupportOfTheNameStay) {
+  fe::Model model = beams_on_springs(straight(), 2);
+  model.springs.pop_back();  // a bearing in z alone; the support holds in y
+  model.supports.push_back({"pier", 2, {false, true, false, false, false, false}});
+  const Found found = found_in(model);
+  const Place* pier = found.move("support:pier");
+  ASSERT_NE(pier, nullptr);
+  ASSERT_EQ(pier->directions.cols(), 6);  // one spring at each of six stations
+  EXPECT_EQ(pier->attributes.at("k_0"), 5e6);
+  const MatrixXd b = pier->directions;
+  const MatrixXd own = 5e6 * b.col(2) * b.col(2).transpose();
+  EXPECT_LT((own - MatrixXd(pier->stiffness.whole())).norm(), 1e-9 * own.norm());
+}
+
 TEST(SupportMoves, AreInOrderOfXHoweverTheBeamsRun) {
   auto points = straight();
   std::reverse(points.begin(), points.end());
