@@ -73,8 +73,8 @@ TEST(AeroNodes, AreEvenlyLaidBetweenTheCrossSections) {
   EXPECT_EQ(found.motion.cols(), 6 * 12);
 }
 
-// u = t + w × x moves each node by t + w × x and turns it by w, on a deck with falls too. The rotation about the vertical is left
-// zero.
+// u = t + w × x moves each node by t + w × x and turns it by w, on a deck with falls too. The rotation about the vertical is
+// left zero.
 TEST(AeroNodes, FollowARigidMotionOfTheModel) {
   const FloorBeams deck = straight_deck();
   const aero::AeroNodes found = aero::find_aero_nodes(deck.model, {"deck"}, {"floor"}, 7);

@@ -155,7 +155,8 @@ Conditioned released(double frequency_Hz, double damping_ratio, double release_s
   return conditioned;
 }
 
-// ERA of a decay without noise is exact but for what rounding lets in: 1e-6. The filter adds the mode's image at -f, at the ends.
+// ERA of a decay without noise is exact but for what rounding lets in: 1e-6. The filter adds the mode's image at -f, at the
+// ends.
 TEST(IdentifyFreeDecays, ADecayHasItsFrequencyAndDamping) {
   ConditionResult ambient = condition_of({{1.01, {1.0, -0.5, 0.0}}});
   ambient.condition = "summer";
