@@ -24,7 +24,7 @@ namespace twindeck::diagnosis {
 [[nodiscard]] std::string ended(std::string text);
 
 /// Texts that name causes and locations by their ids, for people: "support:pier_W" becomes "the support pier_W",
-/// "brg@support:pier_W" becomes "support softer or stiffer than modelled (the support pier_W)".
+/// "brg@support:pier_W" becomes "support softer or stiffer than modelled at the support pier_W".
 class IdsInWords {
  public:
   void add_location(const std::string& location, const std::string& words);

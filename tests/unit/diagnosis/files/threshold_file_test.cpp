@@ -64,87 +64,96 @@ TEST_F(ThresholdFile, ThatWasChangedIsRefused) {
             "t.toml: is not what a run of s9_diagnosis kept for these data; remove the file: the null data sets are run again");
 }
 
-/// A chain's threshold, and what of its circumstances a test changes.
+/// What a threshold depends on beside the model.
 struct Circumstances {
   ThresholdRules rules;
   FeatureSet features;
   std::vector<Hypothesis> catalogue;
   std::uint64_t seed = 1;
 };
+using Change = std::function<void(Circumstances&)>;
+
+std::vector<Change> other_rules() {
+  return {[](Circumstances& c) { c.seed = 2; },
+          [](Circumstances& c) { c.rules.alpha = 0.02; },
+          [](Circumstances& c) { c.rules.nulls = 101; },
+          [](Circumstances& c) { c.rules.modes = 21; },
+          [](Circumstances& c) { c.rules.most_refined = 4; },
+          [](Circumstances& c) { c.rules.refine_within = 2.5; },
+          [](Circumstances& c) { c.rules.pairs = std::vector<std::string>{"b"}; },
+          [](Circumstances& c) { c.rules.scatter.element_stiffness = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.element_mass = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.node_mass = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.stay_stiffness = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.stay_pull = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.gain = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.frequency_floor = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.damping_floor = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.shape_floor = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.load_model = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.model_form = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.fine = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.noise = 0.5; },
+          [](Circumstances& c) { c.rules.scatter.damping_by_dampers = true; }};
+}
+
+std::vector<Change> other_rows() {
+  return {[](Circumstances& c) { c.features.conditions[0].name = "storm"; },
+          [](Circumstances& c) { c.features.conditions[0].state = "damaged"; },
+          [](Circumstances& c) { c.features.conditions[0].dampers_on = true; },
+          [](Circumstances& c) { c.features.conditions[0].dampers_on = false; },
+          [](Circumstances& c) { c.features.conditions[0].amplitude_channel = "c1"; },
+          [](Circumstances& c) { c.features.conditions[0].load = "truck"; },
+          [](Circumstances& c) { c.features.conditions[0].amplitude_m = 0.5; },
+          [](Circumstances& c) { c.features.conditions[0].temperature_C = 0.5; },
+          [](Circumstances& c) { c.features.conditions[0].wind_m_s = 0.5; },
+          [](Circumstances& c) { c.features.conditions[0].direction_deg = 0.5; },
+          [](Circumstances& c) { c.features.conditions[0].people = 0.5; },
+          [](Circumstances& c) { c.features.rows[1].type = diagnosis::RowType::shape_imag; },
+          [](Circumstances& c) { c.features.rows[1].mode = "9"; },
+          [](Circumstances& c) { c.features.rows[1].channel = 3; },
+          [](Circumstances& c) { c.features.rows[1].stay = "S"; },
+          [](Circumstances& c) { c.features.rows[1].condition = 1; },
+          [](Circumstances& c) { c.features.rows[1].std = 0.77; },
+          [](Circumstances& c) { c.features.rows[1].held_out = true; },
+          [](Circumstances& c) { c.features.rows.pop_back(); },
+          [](Circumstances& c) { c.features.covariance = Eigen::MatrixXd(Eigen::MatrixXd::Identity(2, 2)); },
+          [](Circumstances& c) { c.features.covariance = Eigen::MatrixXd(2.0 * Eigen::MatrixXd::Identity(2, 2)); }};
+}
+
+std::vector<Change> other_causes() {
+  return {[](Circumstances& c) { c.catalogue[0].id = "x"; },
+          [](Circumstances& c) { c.catalogue[0].set = "x"; },
+          [](Circumstances& c) { c.catalogue[0].filter = "x"; },
+          [](Circumstances& c) { c.catalogue[0].prior_weight = 0.123; },
+          [](Circumstances& c) { c.catalogue[0].measurement = !c.catalogue[0].measurement; },
+          [](Circumstances& c) { c.catalogue[0].unknowns[0].name = "x"; },
+          [](Circumstances& c) { c.catalogue[0].unknowns[0].log = !c.catalogue[0].unknowns[0].log; },
+          [](Circumstances& c) { c.catalogue[0].unknowns[0].low.factor = 0.0123; },
+          [](Circumstances& c) { c.catalogue[0].unknowns[0].high.name = "x"; },
+          [](Circumstances& c) {
+            c.catalogue[0].unknowns[0].start.push_back({0.123, "", 0});
+          },
+          [](Circumstances& c) { c.catalogue[0].actions[0].kind = "x"; },
+          [](Circumstances& c) { c.catalogue[0].actions[0].text["variable"] = "people"; },
+          [](Circumstances& c) { c.catalogue[0].actions[0].number["factor"].factor = 0.123; },
+          [](Circumstances& c) { c.catalogue.pop_back(); }};
+}
 
 TEST_F(ThresholdFile, EveryCircumstanceHasAKeyOfItsOwn) {
   const Chain chain({.masses = 4, .modes = 2});
   const FeatureSet features = chain.measure(chain.as_modelled());
   const Examined e = examine(chain, features, catalogue({"stiffness", "gain", "tempE", "settle"}));
   const Circumstances base{{0.01, 100, 20, 3, 2.0, {}, {"a"}}, features, *e.hypotheses, 1};
-  const auto key = [&](const std::function<void(Circumstances&)>& change) {
-    Circumstances c = base;
-    change(c);
-    return diagnosis::threshold_key(c.rules, chain.reduced(), c.features, c.catalogue, *e.inference, c.seed);
-  };
-  const auto set = [](auto& value, auto to) { value = to; };
-  const std::vector<std::function<void(Circumstances&)>> changes = {
-      [&](auto& c) { set(c.seed, 2); },
-      [&](auto& c) { set(c.rules.alpha, 0.02); },
-      [&](auto& c) { set(c.rules.nulls, 101); },
-      [&](auto& c) { set(c.rules.modes, 21); },
-      [&](auto& c) { set(c.rules.most_refined, 4); },
-      [&](auto& c) { set(c.rules.refine_within, 2.5); },
-      [&](auto& c) { set(c.rules.pairs, std::vector<std::string>{"b"}); },
-      [&](auto& c) { set(c.rules.scatter.element_stiffness, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.element_mass, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.node_mass, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.stay_stiffness, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.stay_pull, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.gain, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.frequency_floor, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.damping_floor, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.shape_floor, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.load_model, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.model_form, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.fine, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.noise, 0.5); },
-      [&](auto& c) { set(c.rules.scatter.damping_by_dampers, true); },
-      [&](auto& c) { set(c.features.conditions[0].name, "storm"); },
-      [&](auto& c) { set(c.features.conditions[0].state, "damaged"); },
-      [&](auto& c) { set(c.features.conditions[0].dampers_on, true); },
-      [&](auto& c) { set(c.features.conditions[0].dampers_on, false); },
-      [&](auto& c) { set(c.features.conditions[0].amplitude_channel, "c1"); },
-      [&](auto& c) { set(c.features.conditions[0].load, "truck"); },
-      [&](auto& c) { set(c.features.conditions[0].amplitude_m, 0.5); },
-      [&](auto& c) { set(c.features.conditions[0].temperature_C, 0.5); },
-      [&](auto& c) { set(c.features.conditions[0].wind_m_s, 0.5); },
-      [&](auto& c) { set(c.features.conditions[0].direction_deg, 0.5); },
-      [&](auto& c) { set(c.features.conditions[0].people, 0.5); },
-      [&](auto& c) { set(c.features.rows[1].type, diagnosis::RowType::shape_imag); },
-      [&](auto& c) { set(c.features.rows[1].mode, "9"); },
-      [&](auto& c) { set(c.features.rows[1].channel, 3); },
-      [&](auto& c) { set(c.features.rows[1].stay, "S"); },
-      [&](auto& c) { set(c.features.rows[1].condition, 1); },
-      [&](auto& c) { set(c.features.rows[1].std, 0.77); },
-      [&](auto& c) { set(c.features.rows[1].held_out, true); },
-      [&](auto& c) { c.features.rows.pop_back(); },
-      [&](auto& c) { set(c.features.covariance, Eigen::MatrixXd(Eigen::MatrixXd::Identity(2, 2))); },
-      [&](auto& c) { set(c.features.covariance, Eigen::MatrixXd(2.0 * Eigen::MatrixXd::Identity(2, 2))); },
-      [&](auto& c) { set(c.catalogue[0].id, "x"); },
-      [&](auto& c) { set(c.catalogue[0].set, "x"); },
-      [&](auto& c) { set(c.catalogue[0].filter, "x"); },
-      [&](auto& c) { set(c.catalogue[0].prior_weight, 0.123); },
-      [&](auto& c) { set(c.catalogue[0].measurement, !c.catalogue[0].measurement); },
-      [&](auto& c) { set(c.catalogue[0].unknowns[0].name, "x"); },
-      [&](auto& c) { set(c.catalogue[0].unknowns[0].log, !c.catalogue[0].unknowns[0].log); },
-      [&](auto& c) { set(c.catalogue[0].unknowns[0].low.factor, 0.0123); },
-      [&](auto& c) { set(c.catalogue[0].unknowns[0].high.name, "x"); },
-      [&](auto& c) {
-        c.catalogue[0].unknowns[0].start.push_back({0.123, "", 0});
-      },
-      [&](auto& c) { set(c.catalogue[0].actions[0].kind, "x"); },
-      [&](auto& c) { c.catalogue[0].actions[0].text["variable"] = "people"; },
-      [&](auto& c) { c.catalogue[0].actions[0].number["factor"].factor = 0.123; },
-      [&](auto& c) { c.catalogue.pop_back(); }};
-  std::map<std::string, std::size_t> seen = {{key([](Circumstances&) {}), changes.size()}};
+  std::vector<Change> changes = {[](Circumstances&) {}};
+  for (const auto& more : {other_rules(), other_rows(), other_causes()})
+    changes.insert(changes.end(), more.begin(), more.end());
+  std::map<std::string, std::size_t> seen;
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    const auto [at, is_new] = seen.try_emplace(key(changes[i]), i);
+    Circumstances c = base;
+    changes[i](c);
+    const auto key = diagnosis::threshold_key(c.rules, chain.reduced(), c.features, c.catalogue, *e.inference, c.seed);
+    const auto [at, is_new] = seen.try_emplace(key, i);
     EXPECT_TRUE(is_new) << "change " << i << " has the key of " << at->second;
   }
 }
