@@ -75,6 +75,21 @@ TEST(Pair, ShapesDecideAgainstNearerFrequencies) {
   EXPECT_GT(five.model.predict().mac[0], 0.999999);
 }
 
+// Five masses that nothing holds: 2 sqrt(k/m) sin(i pi/10), i = 0 … 4. The eigenvalue of the rigid body is rounding, of either
+// sign.
+TEST(Pair, ARigidBodyIsNoMeasuredMode) {
+  VectorXd springs = VectorXd::Constant(6, 2e6);
+  springs[0] = springs[5] = 0.0;
+  for (int mass = 700; mass < 1000; mass += 13) {
+    Predicted free(nodes_in_a_row(5), springs_in_a_row(springs), mass * MatrixXd::Identity(5, 5));
+    for (int i = 1; i <= 3; ++i) {
+      const double f = std::sqrt(2e6 / mass) * std::sin(i * std::numbers::pi / 10.0) / std::numbers::pi;
+      free.add_row(RowType::frequency, std::to_string(i), -1, 1.03 * f, 0.01 * f);
+    }
+    EXPECT_EQ(free.predict().paired, (std::vector<int>{1, 2, 3})) << mass;
+  }
+}
+
 TEST(Pair, IsOneToOne) {
   // Two measured modes are nearest to mode 2; the one that is nearer gets it.
   FiveMasses five;
