@@ -35,8 +35,19 @@ void put_rules(std::ostream& key, const ThresholdRules& rules) {
   for (const std::string& pair : rules.pairs) key << pair << ',';
 }
 
+/// What each sensor sees of the basis: others where it stands elsewhere. Norms do not know of signs and rotations of vectors,
+/// which are other ones on other processors; nor may what is rounding.
+void put_sensors(std::ostream& key, const Eigen::MatrixXd& sensors) {
+  if (sensors.rows() == 0) return;
+  const Eigen::VectorXd seen = sensors.rowwise().norm();
+  const double rounding = 1e-9 * seen.maxCoeff();
+  key << ",sensors";
+  for (const double v : seen) key << ' ' << (v > rounding ? v : 0.0);
+}
+
 void put_model(std::ostream& key, const ReducedModel& model) {
   key << "|model " << model.size() << ',' << model.total_mass_kg << ',' << model.frequency_Hz.transpose();
+  put_sensors(key, model.sensors);
   if (!model.load_tests.empty()) key << ",loads " << model.load_tests.force << model.sensors;
   for (const fe::Parameter& p : model.parameters) key << ',' << p.name << ' ' << p.lower << ' ' << p.upper << ' ' << p.initial;
 }

@@ -158,6 +158,23 @@ TEST_F(ThresholdFile, EveryCircumstanceHasAKeyOfItsOwn) {
   }
 }
 
+// A sensor elsewhere has a threshold of its own; vectors of the other sign, as another processor gives them, and rounding do
+// not.
+TEST_F(ThresholdFile, WhereTheSensorsStandIsPartOfTheKey) {
+  const Chain chain({.masses = 4, .modes = 2});
+  const FeatureSet features = chain.measure(chain.as_modelled());
+  const Examined e = examine(chain, features, catalogue({"stiffness"}));
+  diagnosis::ReducedModel model = chain.reduced();
+  const auto key = [&] { return diagnosis::threshold_key({}, model, features, *e.hypotheses, *e.inference, 1); };
+  model.sensors.row(1).setZero();  // a sensor that sees nothing
+  const std::string before = key();
+  model.sensors.col(0) *= -1.0;
+  model.sensors(1, 0) = 1e-14 * model.sensors.norm();
+  EXPECT_EQ(key(), before);
+  model.sensors.row(0) *= 1.001;
+  EXPECT_NE(key(), before);
+}
+
 TEST_F(ThresholdFile, MeasuredValuesAndWordsHaveNoPartInTheKey) {
   const Chain chain({.masses = 4, .modes = 2});
   const FeatureSet features = chain.measure(chain.as_modelled());
