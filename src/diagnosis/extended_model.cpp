@@ -211,6 +211,21 @@ bool add_tie(fe::Model& model, const std::string& name, double stiffness) {
   return true;
 }
 
+/// Parameters of springs that are no longer there are taken away too: a model folder with them would be refused.
+void drop_parameters_of_nothing(fe::Model& model, Eigen::VectorXd& theta) {
+  const auto gone = [&](const std::string& group) {
+    return std::none_of(model.springs.begin(), model.springs.end(), [&](const fe::Spring& s) { return s.group == group; });
+  };
+  std::vector<Index> kept;
+  for (std::size_t p = 0; p < model.parameters.size(); ++p) {
+    fe::Parameter& parameter = model.parameters[p];
+    if (parameter.target == fe::Target::spring_stiffness) std::erase_if(parameter.of, gone);
+    if (!parameter.of.empty()) kept.push_back(static_cast<Index>(p));
+  }
+  theta = Eigen::VectorXd(theta(kept));
+  std::erase_if(model.parameters, [](const fe::Parameter& p) { return p.of.empty(); });
+}
+
 /// Dampers moved, taken away, or with another law.
 void apply_damper(Extension& to, const ActionSpec& action) {
   const auto acts_on = [&](const fe::Spring& s) { return ("," + to.name + ",").find("," + s.name + ",") != std::string::npos; };
@@ -225,6 +240,7 @@ void apply_damper(Extension& to, const ActionSpec& action) {
   }
   if (action.kind == "damper.absent") {
     std::erase_if(to.model.springs, acts_on);
+    drop_parameters_of_nothing(to.model, to.theta);
     return;
   }
   for (fe::Spring& spring : to.model.springs) {

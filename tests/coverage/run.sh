@@ -23,10 +23,12 @@ cmake --build build-coverage -j "$jobs" --target $tests $steps
 find build-coverage -name '*.gcda' -delete  # counts of earlier runs
 failures=build-coverage/failures.txt
 : >"$failures"
-# JOBS tests at a time, each with one thread.
+# JOBS tests at a time, each with one thread. An executable is run in shards of its tests, so that a long one does not keep the others waiting.
 export OMP_NUM_THREADS=1
-# shellcheck disable=SC2086
-printf '%s\n' $tests | xargs -P "$jobs" -I NAME sh -c 'cd build-coverage && bin/NAME --gtest_brief=1 || echo NAME >>failures.txt'
+export GTEST_TOTAL_SHARDS=4
+# shellcheck disable=SC2016  # the inner shell expands them
+for test in $tests; do seq -f "$test %g" 0 $((GTEST_TOTAL_SHARDS - 1)); done |
+  xargs -P "$jobs" -L 1 sh -c 'cd build-coverage && GTEST_SHARD_INDEX=$1 "bin/$0" --gtest_brief=1 || echo "$0" >>failures.txt'
 results=build-coverage/smoke
 rm -rf "$results"
 for step in $steps; do

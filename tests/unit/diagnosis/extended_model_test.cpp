@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fe/validate.hpp"
 #include "unit/diagnosis/found_causes.hpp"
 
 namespace twindeck::tests {
@@ -257,6 +258,26 @@ TEST(ExtendedModel, DampersHaveTheirOtherLaw) {
   now = dampers(At("damper.absent", {}, "dampers", "damper:D1"));
   EXPECT_FALSE(now.contains("D1"));
   EXPECT_EQ(now.size(), 4U);  // the stop, the shoe and two dampers
+}
+
+// A folder with a parameter of nothing would not be read.
+TEST(ExtendedModel, ParametersOfAbsentDampersGoWithThem) {
+  fe::Model model = with_dampers();
+  for (fe::Spring& s : model.springs)
+    if (s.name.starts_with("D")) s.group = "make_" + s.name;
+  const auto parameter = [](const char* name, std::vector<std::string> of) {
+    return fe::Parameter{name, fe::Target::spring_stiffness, std::move(of), "-", 1.0, 0.5, 2.0};
+  };
+  model.parameters = {parameter("k_D1", {"make_D1"}), parameter("k_both", {"make_D1", "make_D2"}), parameter("k_pier", {"pier"})};
+  const InTheLine line(std::move(model));
+  const At cause("damper.absent", {}, "dampers", "damper:D1");
+  const ExtendedModel out = line.with({&cause}, Eigen::Vector3d(1.1, 1.2, 1.3));
+  ASSERT_EQ(out.elements->parameters.size(), 2U);
+  EXPECT_EQ(out.elements->parameters[0].of, std::vector<std::string>{"make_D2"});
+  EXPECT_EQ(out.elements->parameters[0].initial, 1.2);
+  EXPECT_EQ(out.elements->parameters[1].name, "k_pier");
+  EXPECT_EQ(out.elements->parameters[1].initial, 1.3);
+  EXPECT_NO_THROW(fe::validate(*out.elements));
 }
 
 TEST(ExtendedModel, DampersStandAtTheirOtherPlace) {
