@@ -20,7 +20,7 @@ namespace {
 /// Relative change of the cable forces below which shape finding under large displacements has settled: a hundredth of what
 /// they can be measured to.
 constexpr double settled_pulls = 1e-4;
-/// Two or three settle a bridge whose stays are taut.
+/// Enough where each leaves less than a fifth of the change of the one before.
 constexpr int shape_finding_rounds = 6;
 
 std::vector<int> find_stays(const Model& model) {

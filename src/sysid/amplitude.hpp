@@ -36,6 +36,7 @@ struct DecayingCoordinate {
 /// mean follows, with the weights of the filter, of the samples that the record has. It leaves a constant what it is, up to the
 /// ends. The record is read until the decay meets the noise, because later noise would be magnified.
 /// @param frequency_Hz, damping_ratio  of the mode as known; an error is a slow change that the filter lets pass
+/// Reference: Knutsson and Westin (1993), Computer Vision and Pattern Recognition, 515-523 (normalised convolution).
 [[nodiscard]] DecayingCoordinate decaying_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz,
                                                      const Eigen::VectorXcd& shape, double frequency_Hz, double damping_ratio,
                                                      double half_width_Hz);
