@@ -30,7 +30,8 @@ struct DeckAerodynamics {
 /// @throws InputError  for a matrix model, whose decks are not known, and as find_aero_nodes
 [[nodiscard]] AeroNodes aero_nodes_of(const WindSettings& config, const fe::Model* model, const std::string& source);
 
-/// A model prepared for wind: aerodynamic nodes with their angle of attack from the shape under dead load, modes.
+/// A model prepared for wind: aerodynamic nodes with their angle of attack from the shape under dead load, modes. A model
+/// without a prestress rule has the shape of its files.
 struct WindModel {
   AeroNodes nodes;
   std::vector<Strip> strips;

@@ -153,17 +153,17 @@ TEST(CheckPairing, RefusesBeforeAnythingIsSolved) {
 
 // Oracle: grammar. One warning that names each mode; none where nothing was passed over.
 TEST(WarnOfUnmeasured, NamesThePassedOver) {
-  WarningList warnings;
+  HeardReporter warnings;
   warn_of_unmeasured(warnings, {});
-  EXPECT_TRUE(warnings.lines.empty());
+  EXPECT_TRUE(warnings.warned.empty());
   Pairing pairing;
   pairing.unmeasured = {"7X"};
   warn_of_unmeasured(warnings, pairing);
   pairing.unmeasured = {"7X", "9X"};
   warn_of_unmeasured(warnings, pairing);
-  ASSERT_EQ(warnings.lines.size(), 2U);
-  EXPECT_TRUE(says(warnings.lines[0], "7X is not"));
-  EXPECT_TRUE(says(warnings.lines[1], "7X, 9X are not"));
+  ASSERT_EQ(warnings.warned.size(), 2U);
+  EXPECT_TRUE(says(warnings.warned[0], "7X is not"));
+  EXPECT_TRUE(says(warnings.warned[1], "7X, 9X are not"));
 }
 
 // Oracle: hand calculation of (f_N - f_X)/f_X. 2.1 against 2.0 Hz is +5 %, 3.88 against 4.0 Hz is -3 %; the mean of the

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/reporter.hpp"
 #include "dynamics/loaded_model.hpp"
 #include "matching/measured.hpp"
 #include "unit/dynamics/spring_chain.hpp"
+#include "unit/heard_reporter.hpp"
 
 /// Measured modes and chain models, built by hand.
 namespace twindeck::matching {
@@ -43,12 +43,7 @@ inline dynamics::LoadedModel matrix_model(fe::ParametricSystem system, const std
   return model;
 }
 
-/// Keeps the warnings.
-class WarningList : public Reporter {
- public:
-  void warn(const std::string& line) override { lines.push_back(line); }
-  std::vector<std::string> lines;
-};
+using tests::HeardReporter;
 
 /// Whether a text holds a part; shows the text if it does not.
 inline testing::AssertionResult says(const std::string& text, const std::string& part) {

@@ -176,16 +176,16 @@ TEST(CommonFactor, GoesByShapeAlone) {
 
 // Oracle: the header. Each of the three findings has a line, and where nothing was found there is none.
 TEST(WarnOfPairing, HasALineForEachFinding) {
-  WarningList none, all;
+  HeardReporter none, all;
   warn_of_pairing(none, {}, std::nullopt, "");
-  EXPECT_TRUE(none.lines.empty());
+  EXPECT_TRUE(none.warned.empty());
   PairingAccount account = three_of_five();
   account.reversed = "channel c4 seems to be reversed";
   warn_of_pairing(all, account, "all are twice the measured", "before the updating");
-  ASSERT_EQ(all.lines.size(), 3U);
-  EXPECT_EQ(all.lines[0], "all are twice the measured");
-  EXPECT_EQ(all.lines[1], "channel c4 seems to be reversed");
-  EXPECT_TRUE(says(all.lines[2], "shapes disagree before the updating: 2X-2N (MAC 0.30);"));
+  ASSERT_EQ(all.warned.size(), 3U);
+  EXPECT_EQ(all.warned[0], "all are twice the measured");
+  EXPECT_EQ(all.warned[1], "channel c4 seems to be reversed");
+  EXPECT_TRUE(says(all.warned[2], "shapes disagree before the updating: 2X-2N (MAC 0.30);"));
 }
 
 // Oracle: 3 of 4 modes are paired, a share of 0.75.

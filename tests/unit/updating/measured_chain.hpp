@@ -5,19 +5,13 @@
 #include <vector>
 
 #include "chain.hpp"
-#include "core/reporter.hpp"
 #include "dynamics/loaded_model.hpp"
 #include "matching/measured.hpp"
+#include "unit/heard_reporter.hpp"
 
 namespace twindeck::updating {
 
-/// Keeps what a computation says.
-struct HeardReporter : Reporter {
-  mutable std::vector<std::string> said;
-  std::vector<std::string> warned;
-  void say(const std::string& line) const override { said.push_back(line); }
-  void warn(const std::string& line) override { warned.push_back(line); }
-};
+using tests::HeardReporter;
 
 /// A system of matrices at its initial values, as a step loads it.
 inline dynamics::LoadedModel loaded(const SmallSystem& small) {
