@@ -268,10 +268,11 @@ TEST(ExtendedModel, ParametersOfAbsentDampersGoWithThem) {
   const auto parameter = [](const char* name, std::vector<std::string> of) {
     return fe::Parameter{name, fe::Target::spring_stiffness, std::move(of), "-", 1.0, 0.5, 2.0};
   };
-  model.parameters = {parameter("k_D1", {"make_D1"}), parameter("k_both", {"make_D1", "make_D2"}), parameter("k_pier", {"pier"})};
+  model.parameters = {parameter("k_D11", {"make_D11"}), parameter("k_both", {"make_D1", "make_D2"}),
+                      parameter("k_pier", {"pier"})};
   const InTheLine line(std::move(model));
-  const At cause("damper.absent", {}, "dampers", "damper:D1");
-  const ExtendedModel out = line.with({&cause}, Eigen::Vector3d(1.1, 1.2, 1.3));
+  const At first("damper.absent", {}, "dampers", "damper:D1"), other("damper.absent", {}, "dampers", "damper:D11");
+  const ExtendedModel out = line.with({&first, &other}, Eigen::Vector3d(1.1, 1.2, 1.3));
   ASSERT_EQ(out.elements->parameters.size(), 2U);
   EXPECT_EQ(out.elements->parameters[0].of, std::vector<std::string>{"make_D2"});
   EXPECT_EQ(out.elements->parameters[0].initial, 1.2);
