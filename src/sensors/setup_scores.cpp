@@ -62,9 +62,10 @@ std::vector<Index> moved(const ScoredSetup& setup, const std::vector<LayoutPoint
            std::all_of(channels.begin(), channels.end(), [&](const auto& c) { return lines.contains(c.first); });
   };
   for (auto at = by_place.begin(); at != by_place.end();) {
-    const auto& [place, channels] = *at;
-    const std::vector<double>& choices = places.s_m.at(place.first);
-    if (std::none_of(choices.begin(), choices.end(), [&](double s) { return fits({place.first, s}, channels); })) {
+    const auto& deck = at->first.first;
+    const Wanted& channels = at->second;
+    const std::vector<double>& choices = places.s_m.at(deck);
+    if (std::none_of(choices.begin(), choices.end(), [&](double s) { return fits({deck, s}, channels); })) {
       rows.clear();
       taken.clear();
       at = by_place.begin();
@@ -72,7 +73,7 @@ std::vector<Index> moved(const ScoredSetup& setup, const std::vector<LayoutPoint
     }
     DeckPlace target;
     do {
-      target = {place.first, choices[static_cast<std::size_t>(draw.below(std::ssize(choices)))]};
+      target = {deck, choices[static_cast<std::size_t>(draw.below(std::ssize(choices)))]};
     } while (!fits(target, channels));
     taken.insert(target);
     for (const auto& [line, direction] : channels)
