@@ -58,11 +58,13 @@ void random_waves(std::uint64_t seed, std::uint64_t stream, Index first, bool no
 
 TWINDECK_TWO_WIDTHS void wave_sums(const FactorPair& factor, Index j, const double* wave, const WaveLanes& lanes,
                                    std::complex<double> first, const Drift& lane, double* out) {
-  using Four = double __attribute__((vector_size(32), aligned(8), may_alias));  // sums that stay in registers
+  using Four = double __attribute__((vector_size(32)));         // sums that stay in registers
+  typedef Four Numbers __attribute__((aligned(8), may_alias));  // four numbers in memory; clang ignores this after `using`
+  static_assert(alignof(Numbers) == alignof(double));
   Four low0{}, low1{}, low2{}, low3{}, high0{}, high1{}, high2{}, high3{};  // real 0-3, real 4-7, imaginary 0-3, imaginary 4-7
   const FactorPair::Entry* entry = factor.row(j);
   for (int k = factor.entries(j); k > 0; --k, ++entry) {
-    const auto* w = reinterpret_cast<const Four*>(wave + static_cast<std::ptrdiff_t>(2 * kLanes) * entry->column);
+    const auto* w = reinterpret_cast<const Numbers*>(wave + static_cast<std::ptrdiff_t>(2 * kLanes) * entry->column);
     const Four w0 = w[0], w1 = w[1], w2 = w[2], w3 = w[3];
     const double a = entry->low, b = entry->high;
     low0 += a * w0;
@@ -82,12 +84,12 @@ TWINDECK_TWO_WIDTHS void wave_sums(const FactorPair& factor, Index j, const doub
   }
   const double first_real = first.real(), first_imaginary = first.imag();
   for (int half = 0; half < 2; ++half) {
-    const Four t = *reinterpret_cast<const Four*>(lanes.share + 4 * half),
-               size4 = *reinterpret_cast<const Four*>(scale + 4 * half), r = 1.0 - t;
+    const Four t = *reinterpret_cast<const Numbers*>(lanes.share + 4 * half),
+               size4 = *reinterpret_cast<const Numbers*>(scale + 4 * half), r = 1.0 - t;
     const Four x = size4 * (r * (half == 0 ? low0 : low1) + t * (half == 0 ? high0 : high1));
     const Four y = size4 * (r * (half == 0 ? low2 : low3) + t * (half == 0 ? high2 : high3));
-    const Four c = *reinterpret_cast<const Four*>(lane.real + 4 * half),
-               d = *reinterpret_cast<const Four*>(lane.imaginary + 4 * half);
+    const Four c = *reinterpret_cast<const Numbers*>(lane.real + 4 * half),
+               d = *reinterpret_cast<const Numbers*>(lane.imaginary + 4 * half);
     const Four cosine = first_real * c - first_imaginary * d, sine = first_real * d + first_imaginary * c;
     const Four real = cosine * x - sine * y, imaginary = cosine * y + sine * x;
     for (int i = 0; i < 4; ++i) {
