@@ -5,6 +5,8 @@ import pandas as pd
 
 # Not results: what a run took and where it was.
 NOT_COMPARED = {"seconds", "manifest"}
+# Folders of a study that a run without report lacks: they show the others' numbers.
+SHOWN = {"figures", "report"}
 # Relative to the column's largest number: what rounding may move where numbers follow from given data.
 ROUNDING = 1e-6
 
@@ -14,7 +16,7 @@ def changes(reference, other):
     is a change without a number."""
     for file in sorted(reference.rglob("*.csv")):
         name = file.relative_to(reference)
-        if "records" in name.parts:
+        if "records" in name.parts or name.parts[0] in SHOWN:
             continue
         a = pd.read_csv(file)
         b = pd.read_csv(other / name) if (other / name).exists() else None
