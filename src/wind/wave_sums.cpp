@@ -58,13 +58,14 @@ void random_waves(std::uint64_t seed, std::uint64_t stream, Index first, bool no
 
 TWINDECK_TWO_WIDTHS void wave_sums(const FactorPair& factor, Index j, const double* wave, const WaveLanes& lanes,
                                    std::complex<double> first, const Drift& lane, double* out) {
-  using Four = double __attribute__((vector_size(32)));         // sums that stay in registers
-  typedef Four Numbers __attribute__((aligned(8), may_alias));  // four numbers in memory; clang ignores this after `using`
+  using Four = double __attribute__((vector_size(32)));  // sums that stay in registers
+  // Four numbers in memory. Clang ignores this after `using`, and `auto` loses it.
+  typedef Four Numbers __attribute__((aligned(8), may_alias));
   static_assert(alignof(Numbers) == alignof(double));
   Four low0{}, low1{}, low2{}, low3{}, high0{}, high1{}, high2{}, high3{};  // real 0-3, real 4-7, imaginary 0-3, imaginary 4-7
   const FactorPair::Entry* entry = factor.row(j);
   for (int k = factor.entries(j); k > 0; --k, ++entry) {
-    const auto* w = reinterpret_cast<const Numbers*>(wave + static_cast<std::ptrdiff_t>(2 * kLanes) * entry->column);
+    const Numbers* w = reinterpret_cast<const Numbers*>(wave + static_cast<std::ptrdiff_t>(2 * kLanes) * entry->column);
     const Four w0 = w[0], w1 = w[1], w2 = w[2], w3 = w[3];
     const double a = entry->low, b = entry->high;
     low0 += a * w0;
