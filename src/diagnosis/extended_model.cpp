@@ -112,10 +112,12 @@ void move_support(fe::Model& model, const Place& place, const std::string& name,
     if (of_support(model, spring, name) && !spring.rotation) spring.node = node;
 }
 
-/// A spring from a node to the ground, in the direction of an action or in all.
-void add_prop(fe::Model& model, int node, const ActionSpec& action, double stiffness) {
+/// A spring from a node to the ground: vertical where the action says so and the node can move so, else in all directions.
+void add_prop(fe::Model& model, int node, const ReducedPlace& place, const ActionSpec& action, double stiffness) {
   const auto named = action.text.find("direction");
-  for (int d = named != action.text.end() && named->second == "vertical" ? 2 : 0; d < 3; ++d) {
+  const bool vertical = named != action.text.end() && named->second == "vertical" &&
+                        !(place.directions.cols() == 3 && place.directions.is_zero(2));
+  for (int d = vertical ? 2 : 0; d < 3; ++d) {
     fe::Spring spring;
     spring.name = fmt::format("prop_{}_{}", model.nodes[static_cast<std::size_t>(node)].id, "xyz"[d]);
     spring.group = "prop";
@@ -265,7 +267,7 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const Places& places, const
   if (kind == "support.move")
     move_support(model, to.place(), to.name, to.value(action, "position"));
   else if (kind == "element.spring")
-    add_prop(model, node_position(model, to.name), action, to.value(action, "stiffness"));
+    add_prop(model, node_position(model, to.name), *c.places.front(), action, to.value(action, "stiffness"));
   else if (kind == "mass.add")
     model.masses.push_back({"added_mass", node_position(model, to.name), to.value(action, "mass"), Eigen::Vector3d::Zero()});
   else if (kind == "element.oscillator")

@@ -15,6 +15,11 @@ using std::numbers::pi;
 
 namespace {
 
+constexpr Index kLastPart = 10;         ///< [-] the last tenth of a record tells its noise: most decays have ended there
+constexpr Index kFewestOfLastPart = 8;  ///< [samples] an RMS of fewer is a matter of chance
+constexpr double kMotionInLastPart =
+    3.0;  ///< [-] RMS there over noise: what is left of the motion counts too (DecayingCoordinate)
+
 /// 1 within half the width of the centre, 0 beyond three halves, a cosine between.
 double window(double offset, double half_width) {
   const double x = (std::abs(offset) - 0.5 * half_width) / half_width;
@@ -79,8 +84,8 @@ DecayingCoordinate decaying_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& 
                                        double half_width_Hz) {
   DecayingCoordinate coordinate;
   const Eigen::VectorXcd filtered = modal_coordinate(data, rate_Hz, shape, frequency_Hz, half_width_Hz);
-  const Index tail = std::max<Index>(8, filtered.size() / 10);
-  coordinate.noise = std::sqrt(filtered.tail(tail).squaredNorm() / static_cast<double>(tail)) / 3.0;
+  const Index tail = std::max(kFewestOfLastPart, filtered.size() / kLastPart);
+  coordinate.noise = std::sqrt(filtered.tail(tail).squaredNorm() / static_cast<double>(tail)) / kMotionInLastPart;
   const std::complex<double> turn = std::complex<double>(damping_ratio, -1.0) * 2.0 * pi * frequency_Hz / rate_Hz;
   const Index n = samples_of_decay(filtered.cwiseAbs().maxCoeff(), coordinate.noise, turn.real(), data.rows());
   const Eigen::VectorXd q = by_shape(data, shape).head(n);

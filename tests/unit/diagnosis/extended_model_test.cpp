@@ -297,6 +297,21 @@ TEST(ExtendedModel, DampersStandAtTheirOtherPlace) {
   EXPECT_EQ(node, (std::map<std::string, int>{{"stop", 1}, {"shoe", 2}, {"D1", 0}, {"D2", 2}, {"D11", 1}}));
 }
 
+// Node 20 cannot move vertically: the fit then uses the directions in which it can.
+TEST(ExtendedModel, AVerticalPropWhereNothingMovesVerticallyActsAsInTheFit) {
+  const InTheLine line;
+  ReducedPlace node;
+  Eigen::SparseMatrix<double> along_x(2, 3);  // nodes 20 and 10 move along x alone
+  along_x.insert(0, 0) = 1.0;
+  node.directions = diagnosis::ReducedDirections(
+      along_x, std::make_shared<const diagnosis::ReducedBasis>(Eigen::MatrixXd::Identity(2, 2)), false);
+  At prop("element.spring", {{"stiffness", 4e6}}, "nodes", "node:20", {&node});
+  prop.with_text("direction", "vertical");
+  Line propped;
+  propped.near_ground = 4e6;
+  line.expect(prop, propped);
+}
+
 TEST(ExtendedModel, ASupportStandsAtTheNearestNodeOfItsLine) {
   InTheLine line;
   Place place{"support:pier", Vector3d::Zero(), {}, {}, {}, {}, {}};
