@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -42,19 +41,6 @@ std::vector<Index> common_references(const ConditionResult& result) {
     if (everywhere) common.push_back(position_of(result.channels, name));
   }
   return common;
-}
-
-/// MAC over the channels where both shapes are known.
-double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
-  std::complex<double> product = 0.0;
-  double aa = 0.0, bb = 0.0;
-  for (Index i = 0; i < a.size(); ++i) {
-    if (std::isnan(a[i].real()) || std::isnan(b[i].real())) continue;
-    product += std::conj(a[i]) * b[i];
-    aa += std::norm(a[i]);
-    bb += std::norm(b[i]);
-  }
-  return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
 }
 
 /// PreGER of the same records: reference channels on one scale in all setups, the others each on its own.
@@ -104,34 +90,6 @@ sysid::Identification preger(const ConditionResult& result, const std::vector<In
   return found;
 }
 
-/// A mode that PreGER's own selection lacks: of each order the pole nearest in frequency, within half a per cent; their median
-/// and mean.
-MergingCheck nearest_poles(const sysid::Identification& before, const sysid::MergedMode& mode) {
-  std::map<int, const sysid::Pole*> nearest;
-  const auto off = [&](const sysid::Pole& pole) { return std::abs(pole.frequency_Hz - mode.frequency_Hz); };
-  for (const sysid::DiagramPole& p : before.diagram) {
-    if (off(p.pole) > 0.005 * mode.frequency_Hz) continue;
-    const auto [at, is_new] = nearest.try_emplace(p.pole.order, &p.pole);
-    if (!is_new && off(p.pole) < off(*at->second)) at->second = &p.pole;
-  }
-  MergingCheck check;
-  if (nearest.size() < 3) return check;
-  check.found = true;
-  std::vector<double> frequencies, dampings;
-  const sysid::Pole* reference = nearest.rbegin()->second;
-  check.shape = Eigen::VectorXcd::Zero(reference->shape.size());
-  for (const auto& [order, pole] : nearest) {
-    frequencies.push_back(pole->frequency_Hz);
-    dampings.push_back(pole->damping_ratio);
-    check.shape += pole->shape * std::polar(1.0, std::arg(pole->shape.dot(reference->shape)));
-  }
-  std::sort(frequencies.begin(), frequencies.end());
-  std::sort(dampings.begin(), dampings.end());
-  check.frequency_Hz = frequencies[frequencies.size() / 2];
-  check.damping_ratio = dampings[dampings.size() / 2];
-  return check;
-}
-
 /// Modes and their checks, ascending: frequencies of another merging may change the order.
 void sort_by_frequency(ConditionResult& result) {
   std::vector<std::size_t> order(result.modes.size());
@@ -151,33 +109,21 @@ void sort_by_frequency(ConditionResult& result) {
 void check_merging(ConditionResult& result, const std::vector<Index>& references, const IdentificationSettings& config) {
   Eigen::VectorXd scale;
   const sysid::Identification before = preger(result, references, config, scale);
-  for (sysid::MergedMode& mode : result.modes) {
-    MergingCheck check;
-    for (const sysid::Cluster& other : before.modes) {
-      if (std::abs(other.frequency_Hz - mode.frequency_Hz) > 0.02 * mode.frequency_Hz) continue;
-      const double mac = known_mac(mode.shape, other.shape);
-      if (check.found && mac <= check.mac) continue;
-      check = {true, other.frequency_Hz, other.damping_ratio, mac, other.shape};
+  result.checks = merging_checks(result.modes, before, result.channels, scale);
+  if (config.merge != "preger") return;
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    sysid::MergedMode& mode = result.modes[m];
+    const MergingCheck& check = result.checks[m];
+    if (!check.found) continue;
+    mode.frequency_Hz = check.frequency_Hz;
+    mode.damping_ratio = check.damping_ratio;
+    Eigen::VectorXcd shape = check.shape;
+    for (Index i = 0; i < shape.size(); ++i) {
+      if (std::isnan(mode.shape[i].real())) shape[i] = mode.shape[i];
     }
-    if (!check.found) {
-      check = nearest_poles(before, mode);
-      if (check.found) {
-        check.shape = physical_shape(check.shape, result.channels, scale, check.frequency_Hz, check.damping_ratio);
-        check.mac = known_mac(mode.shape, check.shape);
-      }
-    }
-    if (check.found && config.merge == "preger") {
-      mode.frequency_Hz = check.frequency_Hz;
-      mode.damping_ratio = check.damping_ratio;
-      Eigen::VectorXcd shape = check.shape;
-      for (Index i = 0; i < shape.size(); ++i) {
-        if (std::isnan(mode.shape[i].real())) shape[i] = mode.shape[i];
-      }
-      mode.shape = shape;
-    }
-    result.checks.push_back(std::move(check));
+    mode.shape = shape;
   }
-  if (config.merge == "preger") sort_by_frequency(result);
+  sort_by_frequency(result);
 }
 
 /// Where the configuration leaves the band open, it ends where the sensors no longer move together. @return says so

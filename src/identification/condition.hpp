@@ -5,6 +5,7 @@
 
 #include "core/reporter.hpp"
 #include "identification/identification.hpp"
+#include "identification/merging_check.hpp"
 #include "sysid/merge_poser.hpp"
 
 namespace twindeck::identification {
@@ -16,13 +17,6 @@ struct SetupResult {
   sysid::Identification found;
   signal::PowerSpectra spectra;
   sysid::SingularSpectra singular;
-};
-
-/// PoSER against PreGER for one mode.
-struct MergingCheck {
-  bool found = false;  ///< PreGER has the mode
-  double frequency_Hz = 0.0, damping_ratio = 0.0, mac = 0.0;
-  Eigen::VectorXcd shape;  ///< (all channels)
 };
 
 /// All setups of a condition.

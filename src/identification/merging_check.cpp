@@ -1,0 +1,90 @@
+#include "identification/merging_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "matching/pairing.hpp"
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double kSameMode = 0.02;        ///< [-] of the frequency: two mergings of the same records agree far better
+constexpr double kSamePole = 0.005;       ///< [-] of the frequency: poles of single orders, that no selection has cleaned
+constexpr std::size_t kFewestOrders = 3;  ///< [-] a pole that fewer orders have is none of the structure's
+
+/// MAC over the channels where both shapes are known.
+double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+  std::complex<double> product = 0.0;
+  double aa = 0.0, bb = 0.0;
+  for (Index i = 0; i < a.size(); ++i) {
+    if (std::isnan(a[i].real()) || std::isnan(b[i].real())) continue;
+    product += std::conj(a[i]) * b[i];
+    aa += std::norm(a[i]);
+    bb += std::norm(b[i]);
+  }
+  return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
+}
+
+/// A mode that PreGER's own selection lacks, from the poles of its frequency.
+MergingCheck nearest_poles(const sysid::Identification& preger, const sysid::MergedMode& mode) {
+  std::map<int, const sysid::Pole*> nearest;
+  const auto off = [&](const sysid::Pole& pole) { return std::abs(pole.frequency_Hz - mode.frequency_Hz); };
+  for (const sysid::DiagramPole& p : preger.diagram) {
+    if (off(p.pole) > kSamePole * mode.frequency_Hz) continue;
+    const auto [at, is_new] = nearest.try_emplace(p.pole.order, &p.pole);
+    if (!is_new && off(p.pole) < off(*at->second)) at->second = &p.pole;
+  }
+  MergingCheck check;
+  if (nearest.size() < kFewestOrders) return check;
+  check.found = true;
+  std::vector<double> frequencies, dampings;
+  const sysid::Pole* reference = nearest.rbegin()->second;
+  check.shape = Eigen::VectorXcd::Zero(reference->shape.size());
+  for (const auto& [order, pole] : nearest) {
+    frequencies.push_back(pole->frequency_Hz);
+    dampings.push_back(pole->damping_ratio);
+    check.shape += pole->shape * std::polar(1.0, std::arg(pole->shape.dot(reference->shape)));
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  std::sort(dampings.begin(), dampings.end());
+  check.frequency_Hz = frequencies[frequencies.size() / 2];
+  check.damping_ratio = dampings[dampings.size() / 2];
+  return check;
+}
+
+}  // namespace
+
+std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& modes, const sysid::Identification& preger,
+                                         const std::vector<records::CampaignChannel>& channels, const Eigen::VectorXd& scale) {
+  Eigen::MatrixXd mac = Eigen::MatrixXd::Zero(std::ssize(modes), std::ssize(preger.modes));  // of the near ones
+  for (Index i = 0; i < mac.rows(); ++i) {
+    for (Index j = 0; j < mac.cols(); ++j) {
+      const sysid::MergedMode& mode = modes[static_cast<std::size_t>(i)];
+      const sysid::Cluster& other = preger.modes[static_cast<std::size_t>(j)];
+      if (std::abs(other.frequency_Hz - mode.frequency_Hz) <= kSameMode * mode.frequency_Hz)
+        mac(i, j) = known_mac(mode.shape, other.shape);
+    }
+  }
+  const std::vector<int> partner = matching::follow_modes(mac);
+  std::vector<MergingCheck> checks(modes.size());
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto row = static_cast<Index>(i);
+    MergingCheck& check = checks[i];
+    if (partner[i] >= 0 && mac(row, partner[i]) > 0.0) {
+      const sysid::Cluster& other = preger.modes[static_cast<std::size_t>(partner[i])];
+      check = {true, other.frequency_Hz, other.damping_ratio, mac(row, partner[i]), other.shape};
+    } else if (mac.row(row).isZero(0.0)) {
+      check = nearest_poles(preger, modes[i]);
+      if (!check.found) continue;
+      check.shape = physical_shape(check.shape, channels, scale, check.frequency_Hz, check.damping_ratio);
+      check.mac = known_mac(modes[i].shape, check.shape);
+    }
+  }
+  return checks;
+}
+
+}  // namespace twindeck::identification

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/identification.hpp"
+#include "sysid/merge_poser.hpp"
+
+namespace twindeck::identification {
+
+/// PoSER against PreGER for one mode.
+struct MergingCheck {
+  bool found = false;  ///< PreGER has the mode
+  double frequency_Hz = 0.0, damping_ratio = 0.0, mac = 0.0;
+  Eigen::VectorXcd shape;  ///< (all channels)
+};
+
+/// PreGER's counterpart of each mode of PoSER: a mode of PreGER within two per cent of its frequency, one-to-one with the
+/// largest sum of MAC. Where no mode of PreGER is near, the poles within half a per cent of its frequency are taken, the
+/// nearest of each order: median of frequency and damping, mean of the shape. A mode whose near ones all belong to other modes
+/// has none.
+/// @param modes     of PoSER
+/// @param preger    shapes of its modes physical, those of its poles as identified
+/// @param channels  of all setups @param scale  (n_channels) what the records were divided by
+/// @return one a mode
+[[nodiscard]] std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& modes,
+                                                       const sysid::Identification& preger,
+                                                       const std::vector<records::CampaignChannel>& channels,
+                                                       const Eigen::VectorXd& scale);
+
+}  // namespace twindeck::identification
