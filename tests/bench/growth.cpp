@@ -201,7 +201,8 @@ int write_record(const std::string& file, Index channels, Index samples) {
   Eigen::MatrixXf q(block, n);
   const auto step = [&](Index row) {
     for (std::size_t m = 0; m < pole.size(); ++m) {
-      state[m] = pole[m] * state[m] + std::complex<float>(random(), random());
+      const float imaginary = random(), real = random();  // compilers choose the order of a call's arguments
+      state[m] = pole[m] * state[m] + std::complex<float>(real, imaginary);
       q(row, static_cast<Index>(m)) = gain[m] * state[m].real();
     }
   };

@@ -32,7 +32,8 @@ inline Eigen::MatrixXd sysid_record(Eigen::Index n_samples = 60000, std::uint64_
     std::complex<double> state = 0.0;
     Eigen::VectorXd q(n_samples);
     for (Eigen::Index t = -4000; t < n_samples; ++t) {
-      state = pole * state + std::complex<double>(random(), random());
+      const double imaginary = random(), real = random();  // compilers choose the order of a call's arguments
+      state = pole * state + std::complex<double>(real, imaginary);
       if (t >= 0) q[t] = state.real();
     }
     data += q / std::sqrt(q.squaredNorm() / static_cast<double>(n_samples)) * shape;

@@ -13,7 +13,10 @@ constexpr Eigen::Index kChannelsOfDiagram = 8;
 
 Eigen::VectorXcd scattered(const Eigen::VectorXd& shape, double noise, signal::test::Noise& random) {
   Eigen::VectorXcd result = shape.normalized().cast<std::complex<double>>();
-  for (std::complex<double>& x : result) x += noise * std::complex<double>(random(), random());
+  for (std::complex<double>& x : result) {
+    const double imaginary = random(), real = random();  // compilers choose the order of a call's arguments
+    x += noise * std::complex<double>(real, imaginary);
+  }
   return normalised_shape(result);
 }
 
