@@ -15,6 +15,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+/// [-] Weight of a pair's own MAC beside the subspace MAC that all members of a run have in common: the nearer shape first.
+constexpr double nearer_shape = 1e-3;
+
 /// Runs of modes whose neighbours in frequency are closer than `gap`; runs of one are left out.
 std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, double gap) {
   std::vector<Index> order(static_cast<std::size_t>(frequency.size()));
@@ -77,9 +80,10 @@ std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eige
         const std::vector<Index> rows = modal::measured_rows(phi_x.col(i));
         if (run.size() >= rows.size()) continue;
         const double share = subspace_mac(phi_n(rows, run), phi_x(rows, Eigen::seqN(i, 1)));
+        // A shape that is like one member by itself has not turned within the span: it is not like the others.
+        if (share < options.cluster_mac || value(i, run).maxCoeff() >= options.cluster_mac) continue;
         for (const Index j : run) {
-          if (share < options.cluster_mac || value(i, j) >= options.cluster_mac) continue;
-          gain(i, j) = share + 1e-3 * value(i, j);  // within the cluster the nearer shape first
+          gain(i, j) = share + nearer_shape * value(i, j);
           value(i, j) = share;
           clustered(i, j) = true;
         }

@@ -19,12 +19,13 @@ struct PairingOptions {
   double minimum_mac = 0.0;               ///< pairs below it are left out
   double maximum_frequency_error = 0.35;  ///< relative; pairs with a larger error are not admitted
   double cluster_gap = 0.02;              ///< relative frequency gap below which modes count as close
-  double cluster_mac = 0.8;               ///< least subspace MAC of a shape that lies in the span of close modes
+  double cluster_mac = 0.8;               ///< least MAC of a shape that is like a close mode, or lies in the span of several
 };
 
 /// One-to-one pairing that maximises the sum of MAC over admissible pairs (Hungarian assignment, not greedy). A mode may stay
-/// unpaired. Close numerical modes can rotate into each other. A pair of low MAC whose experimental shape lies within the span
-/// of such a cluster is marked `clustered`. It gets the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span.
+/// unpaired. Close numerical modes can rotate into each other. An experimental shape that is like none of them by itself
+/// (`cluster_mac`) may lie within the span of such a cluster. Its pairs with the members are then marked `clustered`, and get
+/// the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span. A shape that is like one member keeps its own MACs.
 /// Without sensors (no rows) the pairing uses frequencies alone, and MAC is NaN.
 /// @return pairs in the order of the experimental modes
 /// @param frequency_x, frequency_n [Hz]
