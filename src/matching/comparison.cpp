@@ -77,8 +77,11 @@ Pairing pair_at_sensors(const Measured& measured, const dynamics::LoadedModel& m
   const Eigen::MatrixXcd phi_moving = phi_n(Eigen::all, moving);
   const Eigen::VectorXd frequency_moving = modes.frequency_Hz(moving);
   pairing.mac(moving, Eigen::all) = modal::mac_where_measured(phi_moving, measured.modes.shapes);
-  pairing.pairs =
-      matching::pair_by_mac(measured.modes.frequency_Hz, measured.modes.shapes, frequency_moving, phi_moving, options);
+  const Eigen::VectorXd& f_x = measured.modes.frequency_Hz;
+  const Likeness like = matching::likeness_of(f_x, measured.modes.shapes, frequency_moving, phi_moving, options);
+  pairing.likeness = pairing.mac;
+  pairing.likeness(moving, Eigen::all) = like.value.transpose();
+  pairing.pairs = matching::pair_by_likeness(f_x, frequency_moving, like, options);
   for (ModePair& pair : pairing.pairs) pair.numerical = moving[static_cast<std::size_t>(pair.numerical)];
   return pairing;
 }

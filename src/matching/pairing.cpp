@@ -35,6 +35,12 @@ std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, doubl
   return runs;
 }
 
+/// |f_N - f_X|/f_X [-] (n_X × n_N).
+MatrixXd relative_error(const Eigen::VectorXd& frequency_x, const Eigen::VectorXd& frequency_n) {
+  return ((-frequency_x).replicate(1, frequency_n.size()).rowwise() + frequency_n.transpose()).cwiseAbs().array() /
+         frequency_x.replicate(1, frequency_n.size()).array();
+}
+
 /// Share of `x` that lies in the span of the columns of `basis`: what is missing once x is made orthogonal to each of them
 /// (modified Gram and Schmidt, the longest column left comes first; columns of which only rounding is left are passed over).
 double subspace_mac(Eigen::MatrixXcd basis, const Eigen::MatrixXcd& x) {
@@ -58,48 +64,55 @@ double subspace_mac(Eigen::MatrixXcd basis, const Eigen::MatrixXcd& x) {
 
 std::vector<int> follow_modes(const Eigen::Ref<const MatrixXd>& mac_matrix) { return best_assignment(mac_matrix); }
 
-std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
-                                  const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
-                                  const PairingOptions& options) {
+Likeness likeness_of(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x, const Eigen::VectorXd& frequency_n,
+                     const Eigen::MatrixXcd& phi_n, const PairingOptions& options) {
   const Index n_x = frequency_x.size(), n_n = frequency_n.size();
   const bool shapes = phi_x.rows() > 0;
   TWINDECK_ASSERT(!shapes || (phi_x.cols() == n_x && phi_n.cols() == n_n));
-  const MatrixXd error = ((-frequency_x).replicate(1, n_n).rowwise() + frequency_n.transpose()).cwiseAbs().array() /
-                         frequency_x.replicate(1, n_n).array();
-
-  MatrixXd value = MatrixXd::Constant(n_x, n_n, std::numeric_limits<double>::quiet_NaN());  // MAC, or subspace MAC in a cluster
-  MatrixXd gain = (options.maximum_frequency_error - error.array()).max(0.0);
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered =
-      Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(n_x, n_n, false);
-  if (shapes) {
-    value = modal::mac_where_measured(phi_n, phi_x).transpose();
-    gain = value;
-    for (const std::vector<Index>& run : clusters(frequency_n, options.cluster_gap)) {
-      // Where there are no more sensors than close modes any shape lies in their span, which then says nothing.
-      for (Index i = 0; i < n_x; ++i) {
-        const std::vector<Index> rows = modal::measured_rows(phi_x.col(i));
-        if (run.size() >= rows.size()) continue;
-        const double share = subspace_mac(phi_n(rows, run), phi_x(rows, Eigen::seqN(i, 1)));
-        // A shape that is like one member by itself has not turned within the span: it is not like the others.
-        if (share < options.cluster_mac || value(i, run).maxCoeff() >= options.cluster_mac) continue;
-        for (const Index j : run) {
-          gain(i, j) = share + nearer_shape * value(i, j);
-          value(i, j) = share;
-          clustered(i, j) = true;
-        }
+  Likeness out;
+  out.value = MatrixXd::Constant(n_x, n_n, std::numeric_limits<double>::quiet_NaN());
+  out.gain = (options.maximum_frequency_error - relative_error(frequency_x, frequency_n).array()).max(0.0);
+  out.clustered.setConstant(n_x, n_n, false);
+  if (!shapes) return out;
+  out.value = modal::mac_where_measured(phi_n, phi_x).transpose();
+  out.gain = out.value;
+  for (const std::vector<Index>& run : clusters(frequency_n, options.cluster_gap)) {
+    // Where there are no more sensors than close modes any shape lies in their span, which then says nothing.
+    for (Index i = 0; i < n_x; ++i) {
+      const std::vector<Index> rows = modal::measured_rows(phi_x.col(i));
+      if (run.size() >= rows.size()) continue;
+      const double share = subspace_mac(phi_n(rows, run), phi_x(rows, Eigen::seqN(i, 1)));
+      // A shape that is like one member by itself has not turned within the span: it is not like the others.
+      if (share < options.cluster_mac || out.value(i, run).maxCoeff() >= options.cluster_mac) continue;
+      for (const Index j : run) {
+        out.gain(i, j) = share + nearer_shape * out.value(i, j);
+        out.value(i, j) = share;
+        out.clustered(i, j) = true;
       }
     }
   }
-  const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> admissible = error.array() <= options.maximum_frequency_error;
-  gain = (admissible && !(value.array() < options.minimum_mac))
-             .select(gain, 0.0);  // what will be left out must not crowd out a good pair
+  return out;
+}
+
+std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
+                                  const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
+                                  const PairingOptions& options) {
+  return pair_by_likeness(frequency_x, frequency_n, likeness_of(frequency_x, phi_x, frequency_n, phi_n, options), options);
+}
+
+std::vector<ModePair> pair_by_likeness(const Eigen::VectorXd& frequency_x, const Eigen::VectorXd& frequency_n,
+                                       const Likeness& like, const PairingOptions& options) {
+  const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> admissible =
+      relative_error(frequency_x, frequency_n).array() <= options.maximum_frequency_error;
+  const MatrixXd gain = (admissible && !(like.value.array() < options.minimum_mac))
+                            .select(like.gain, 0.0);  // what will be left out must not crowd out a good pair
 
   std::vector<ModePair> pairs;
   const std::vector<int> column = best_assignment(gain);
-  for (Index i = 0; i < n_x; ++i) {
+  for (Index i = 0; i < frequency_x.size(); ++i) {
     const Index j = column[static_cast<std::size_t>(i)];
-    if (j < 0 || !admissible(i, j) || value(i, j) < options.minimum_mac) continue;
-    pairs.push_back({i, j, value(i, j), clustered(i, j)});
+    if (j < 0 || !admissible(i, j) || like.value(i, j) < options.minimum_mac) continue;
+    pairs.push_back({i, j, like.value(i, j), like.clustered(i, j)});
   }
   return pairs;
 }

@@ -22,6 +22,18 @@ struct PairingOptions {
   double cluster_mac = 0.8;               ///< least MAC of a shape that is like a close mode, or lies in the span of several
 };
 
+/// How like each other the modes of two sets are.
+struct Likeness {
+  Eigen::MatrixXd value;  ///< [-] (n_X × n_N) MAC, or the subspace MAC where `clustered`; NaN where no shape is known
+  Eigen::MatrixXd gain;   ///< [-] (n_X × n_N) what a pair adds to the sum that the pairing maximises
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered;  ///< (n_X × n_N) see pair_by_mac
+};
+
+/// @param frequency_x, frequency_n, phi_x, phi_n  as in pair_by_mac
+[[nodiscard]] Likeness likeness_of(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
+                                   const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
+                                   const PairingOptions& options);
+
 /// One-to-one pairing that maximises the sum of MAC over admissible pairs (Hungarian assignment, not greedy). A mode may stay
 /// unpaired. Close numerical modes can rotate into each other. An experimental shape that is like none of them by itself
 /// (`cluster_mac`) may lie within the span of such a cluster. Its pairs with the members are then marked `clustered`, and get
@@ -34,6 +46,10 @@ struct PairingOptions {
 [[nodiscard]] std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
                                                 const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
                                                 const PairingOptions& options = {});
+
+/// The same from a likeness that is known. @param likeness  of these modes
+[[nodiscard]] std::vector<ModePair> pair_by_likeness(const Eigen::VectorXd& frequency_x, const Eigen::VectorXd& frequency_n,
+                                                     const Likeness& likeness, const PairingOptions& options);
 
 /// Mode tracking: for each reference mode its position in a changed model. The one-to-one assignment maximises the sum of
 /// `mac` (n_ref × n_new). @return (n_ref), -1 for a reference mode without a partner

@@ -45,7 +45,7 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   const dynamics::EigenModes modes_after =
       dynamics::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
   const matching::Pairing followed = updating::followed_pairing(config, pairing, result, after, modes_after, measured);
-  const matching::PairingAccount account = updating::account_after(context, config, followed, after, modes_after, measured);
+  const matching::PairingAccount account = updating::account_after(context, followed, modes_after, measured);
   std::vector<matching::ComparisonRow> comparison = matching::compare("before", measured, modes_before.frequency_Hz, pairing);
   for (auto& row : matching::compare("after", measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
 

@@ -63,29 +63,23 @@ matching::Pairing followed_pairing(const UpdatingSettings& config, const matchin
     const matching::Pairing now =
         matching::pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
     pairing.mac = now.mac;
+    pairing.likeness = now.likeness;
     pairing.shapes = now.shapes;
   }
   for (std::size_t i = 0; i < pairing.pairs.size(); ++i) {
     matching::ModePair& pair = pairing.pairs[i];
     pair.numerical = result.mode_after.at(i);
-    if (pairing.mac.size() > 0) pair.mac = pairing.mac(pair.numerical, pair.experimental);
+    if (pairing.mac.size() == 0) continue;
+    // By the same measure as before: close modes that have turned into each other count by their common subspace.
+    pair.mac = pairing.likeness(pair.numerical, pair.experimental);
+    pair.clustered = pair.mac != pairing.mac(pair.numerical, pair.experimental);
   }
   return pairing;
 }
 
-matching::PairingAccount account_after(Reporter& reporter, const UpdatingSettings& config, const matching::Pairing& followed,
-                                       const dynamics::LoadedModel& after, const dynamics::EigenModes& modes,
+matching::PairingAccount account_after(Reporter& reporter, const matching::Pairing& followed, const dynamics::EigenModes& modes,
                                        const matching::Measured& measured) {
-  matching::Pairing judged = followed;
-  if (measured.modes.has_shapes()) {
-    const matching::Pairing anew =
-        matching::pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
-    for (matching::ModePair& pair : judged.pairs)
-      for (const matching::ModePair& other : anew.pairs)
-        if (other.clustered && other.experimental == pair.experimental && other.numerical == pair.numerical)
-          pair.mac = other.mac;
-  }
-  const matching::PairingAccount account = matching::account_of(measured, judged, modes.frequency_Hz);
+  const matching::PairingAccount account = matching::account_of(measured, followed, modes.frequency_Hz);
   matching::warn_of_pairing(reporter, account, std::nullopt, "after the updating");
   return account;
 }

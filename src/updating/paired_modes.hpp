@@ -26,16 +26,16 @@ namespace twindeck::updating {
 /// How prestress is found anew for parameter values; empty for a matrix model. Holds a reference to `loaded`.
 [[nodiscard]] Refresh prestress_refresh(const dynamics::LoadedModel& loaded);
 
-/// The same measured modes with the computed modes that the updating followed them to, and MAC where shapes were measured.
+/// The same measured modes with the computed modes that the updating followed them to, and MAC where shapes were measured
+/// (that of the common subspace where close modes have turned into each other, as before the updating).
 /// @param before  the pairing that the targets came from
 [[nodiscard]] matching::Pairing followed_pairing(const UpdatingSettings& config, const matching::Pairing& before,
                                                  const UpdatingResult& result, const dynamics::LoadedModel& after,
                                                  const dynamics::EigenModes& modes, const matching::Measured& measured);
 
-/// What the pairs are worth after the updating; close modes that have turned into each other count by their common subspace.
-/// Warns where shapes disagree; where they did before and no longer do, the updating has shown the pairs right.
-[[nodiscard]] matching::PairingAccount account_after(Reporter& reporter, const UpdatingSettings& config,
-                                                     const matching::Pairing& followed, const dynamics::LoadedModel& after,
+/// What the followed pairs are worth after the updating. Warns where shapes disagree; where they did before and no longer do,
+/// the updating has shown the pairs right.
+[[nodiscard]] matching::PairingAccount account_after(Reporter& reporter, const matching::Pairing& followed,
                                                      const dynamics::EigenModes& modes, const matching::Measured& measured);
 
 /// "mean |error| of 9 pairs: 5.12 % before, 0.04 % after; 1 of 10 measured modes unpaired, worst MAC 0.93 (4X-4N)".
