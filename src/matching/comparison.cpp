@@ -19,14 +19,21 @@ std::optional<double> known(double value) { return std::isnan(value) ? std::null
 
 const std::string& label(const Measured& measured, Index i) { return measured.labels[static_cast<std::size_t>(i)]; }
 
+void sort_by_measured(std::vector<ModePair>& pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
+}
+
 }  // namespace
 
 Pairing pair_by_order(const Measured& measured, Index n_numerical, const std::vector<bool>& keep) {
   Pairing pairing;
   pairing.method = "order";
-  for (Index i = 0; i < std::min(measured.modes.size(), n_numerical); ++i) {
-    if (keep.empty() || keep[static_cast<std::size_t>(i)]) pairing.pairs.push_back({i, i, kUnknown, false});
+  const std::vector<Index> order = lowest_first(measured.modes.frequency_Hz);
+  for (Index j = 0; j < std::min(measured.modes.size(), n_numerical); ++j) {
+    const Index i = order[static_cast<std::size_t>(j)];
+    if (keep.empty() || keep[static_cast<std::size_t>(i)]) pairing.pairs.push_back({i, j, kUnknown, false});
   }
+  sort_by_measured(pairing.pairs);
   return pairing;
 }
 
@@ -41,8 +48,7 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
     else
       pairing.unmeasured.push_back(pair.experimental);
   }
-  std::sort(pairing.pairs.begin(), pairing.pairs.end(),
-            [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
+  sort_by_measured(pairing.pairs);
   return pairing;
 }
 

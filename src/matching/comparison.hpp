@@ -25,7 +25,8 @@ struct Pairing {
   std::vector<std::string> unmeasured;  ///< measured modes of a published list that are not among the measured ones
 };
 
-/// First measured with first computed mode, and so on; only the measured modes for which `keep` is true (all if it is empty).
+/// Lowest measured with lowest computed mode, and so on, in whatever order the measured modes are given; only the measured
+/// modes for which `keep` is true (all if it is empty).
 [[nodiscard]] Pairing pair_by_order(const Measured& measured, Eigen::Index n_numerical, const std::vector<bool>& keep = {});
 
 /// A published assignment such as {"1X-1N", "7X-8N"}. Pairs whose measured mode is not in `measured` are passed over, and

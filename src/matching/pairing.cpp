@@ -20,9 +20,7 @@ constexpr double nearer_shape = 1e-3;
 
 /// Runs of modes whose neighbours in frequency are closer than `gap`; runs of one are left out.
 std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, double gap) {
-  std::vector<Index> order(static_cast<std::size_t>(frequency.size()));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return frequency[a] < frequency[b]; });
+  const std::vector<Index> order = lowest_first(frequency);
   std::vector<std::vector<Index>> runs;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i > 0 && frequency[order[i]] - frequency[order[i - 1]] < gap * frequency[order[i]]) {
@@ -61,6 +59,13 @@ double subspace_mac(Eigen::MatrixXcd basis, const Eigen::MatrixXcd& x) {
 }
 
 }  // namespace
+
+std::vector<Index> lowest_first(const Eigen::VectorXd& frequency) {
+  std::vector<Index> order(static_cast<std::size_t>(frequency.size()));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return frequency[a] < frequency[b]; });
+  return order;
+}
 
 std::vector<int> follow_modes(const Eigen::Ref<const MatrixXd>& mac_matrix) { return best_assignment(mac_matrix); }
 

@@ -22,6 +22,9 @@ struct PairingOptions {
   double cluster_mac = 0.8;               ///< least MAC of a shape that is like a close mode, or lies in the span of several
 };
 
+/// Positions of modes, the lowest frequency first; equal ones in their order.
+[[nodiscard]] std::vector<Eigen::Index> lowest_first(const Eigen::VectorXd& frequency);
+
 /// How like each other the modes of two sets are.
 struct Likeness {
   Eigen::MatrixXd value;  ///< [-] (n_X × n_N) MAC, or the subspace MAC where `clustered`; NaN where no shape is known

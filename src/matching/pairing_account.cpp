@@ -122,6 +122,20 @@ std::optional<std::string> common_factor(const Measured& measured, const Pairing
       n, same_shape_mac, ratio, ratios.front(), ratios.back(), guess_of(ratio));
 }
 
+std::optional<std::string> far_by_order(const Measured& measured, const Pairing& pairing, const Eigen::VectorXd& computed_Hz,
+                                        double maximum_error) {
+  if (pairing.method != "order") return std::nullopt;
+  std::vector<std::string> far;
+  for (const ComparisonRow& row : compare("", measured, computed_Hz, pairing))
+    if (!(std::abs(row.error_pct()) <= 100.0 * maximum_error))
+      far.push_back(fmt::format("{}-{} ({:+.0f} %)", row.experimental, row.numerical, row.error_pct()));
+  if (far.empty()) return std::nullopt;
+  return fmt::format(
+      "paired by the order of frequencies, {} {} further apart than maximum_frequency_error ({:g}): a mode may be missing or "
+      "stand twice on one side, and all pairs after it are then wrong; `pairs` states which modes belong together",
+      few(far), far.size() == 1 ? "is" : "are", maximum_error);
+}
+
 void warn_of_pairing(Reporter& reporter, const PairingAccount& account, const std::optional<std::string>& factor,
                      const std::string& stage) {
   if (factor) reporter.warn(*factor);

@@ -48,6 +48,13 @@ struct PairingAccount {
 [[nodiscard]] std::optional<std::string> common_factor(const Measured& measured, const Pairing& pairing,
                                                        const Eigen::VectorXd& computed_Hz);
 
+/// Looks for pairs by order whose frequencies are too far apart: from a mode that is missing or stands twice on, all pairs by
+/// order are wrong.
+/// @param maximum_error  [-] of a frequency
+/// @return a sentence with these pairs; empty if there is none, or the pairing was made otherwise
+[[nodiscard]] std::optional<std::string> far_by_order(const Measured& measured, const Pairing& pairing,
+                                                      const Eigen::VectorXd& computed_Hz, double maximum_error);
+
 /// Warns of pairs whose shapes disagree, of a reversed channel and of a common factor.
 /// @param stage  "before the updating" or so, for the message; may be empty
 void warn_of_pairing(Reporter& reporter, const PairingAccount& account, const std::optional<std::string>& factor,

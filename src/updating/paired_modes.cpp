@@ -32,6 +32,7 @@ matching::Pairing pair_for_updating(Reporter& reporter, const UpdatingSettings& 
   const std::optional<std::string> factor = matching::common_factor(measured, pairing, modes.frequency_Hz);
   matching::refuse_few_pairs(account, config.least_paired, config.minimum_mac, measured.source, factor);
   if (factor) reporter.warn(*factor);
+  if (const auto far = far_by_order(measured, pairing, modes.frequency_Hz, config.maximum_frequency_error)) reporter.warn(*far);
   if (pairing.pairs.empty()) {
     throw InputError({measured.source, 0, ""}, "no measured mode has a computed partner",
                      "check frequencies and pairs, or raise maximum_frequency_error");

@@ -36,7 +36,7 @@ io::FieldTable RefinementConfig::fields() {
       .number("least_paired", least_paired, "", {0.0, 1.0},
               "by MAC: share of the measured modes that must have a partner, else the step refuses")
       .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
-              "relative; pairs by MAC further off are not admitted")
+              "relative; pairs by MAC further off are not admitted, pairs by order are warned of")
       .number("cluster_gap", cluster_gap, "", io::non_negative(),
               "relative frequency gap below which numerical modes count as close")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
@@ -90,6 +90,8 @@ matching::PairingAccount compare_with_measurement(runner::StepContext& context, 
     const std::optional<std::string> factor = matching::common_factor(some, after, refined.modes.frequency_Hz);
     matching::refuse_few_pairs(account, config.least_paired, config.minimum_mac, some.source, factor);
     matching::warn_of_pairing(context, account, factor, "");
+    if (const auto far = far_by_order(some, after, refined.modes.frequency_Hz, config.maximum_frequency_error))
+      context.warn(*far);
     before = some.modes.has_shapes()
                  ? matching::pair_at_sensors(some, initial.loaded, initial.modes, options, config.sensor_tolerance_m)
                  : matching::pair_by_order(some, initial.modes.frequency_Hz.size(), compared_modes(some, after));

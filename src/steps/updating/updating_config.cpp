@@ -48,7 +48,7 @@ io::FieldTable UpdatingConfig::fields() {
       .number("least_paired", least_paired, "", {0.0, 1.0},
               "pairing by MAC: share of the measured modes that must have a partner, else the step refuses")
       .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
-              "pairing by MAC: a pair further apart in frequency (relative) is not admitted")
+              "relative, of a frequency: a pair by MAC further apart is not admitted, and pairs by order are warned of")
       .number("cluster_gap", cluster_gap, "", io::non_negative(),
               "pairing by MAC: relative gap below which modes count as close")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(), "largest distance of a sensor from its node")

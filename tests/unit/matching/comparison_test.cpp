@@ -48,6 +48,17 @@ TEST(PairByOrder, ReachesAsFarAsBothLists) {
   }
 }
 
+// Oracle: the definition. Order is that of frequencies; in which rows they stand says nothing.
+TEST(PairByOrder, GoesByFrequencyAndNotByRow) {
+  const Pairing pairing =
+      pair_by_order(measured_frequencies(Eigen::Vector4d(3.0, 4.0, 1.0, 2.0)), 3, {true, true, false, true});
+  ASSERT_EQ(pairing.pairs.size(), 2U);  // 2X, the fourth, has no partner among three; 3X is left out
+  EXPECT_EQ(pairing.pairs[0].experimental, 0);
+  EXPECT_EQ(pairing.pairs[0].numerical, 2);
+  EXPECT_EQ(pairing.pairs[1].experimental, 3);
+  EXPECT_EQ(pairing.pairs[1].numerical, 1);
+}
+
 // Oracle: the definition. A mode that is left out does not shift the partners of those after it.
 TEST(PairByOrder, KeepsThePartnersOfTheOthers) {
   const Pairing pairing = pair_by_order(measured_frequencies(Eigen::Vector3d(1.0, 2.0, 3.0)), 3, {true, false, true});

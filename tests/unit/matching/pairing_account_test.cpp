@@ -217,5 +217,18 @@ TEST(RefuseFewPairs, NamesModesThatTheModelDoesNotReach) {
   }
 }
 
+// Oracle: hand calculation. The second mode stands twice: 3X is paired with 3N, 5.0/2.1 - 1 = 138 %.
+TEST(FarByOrder, NamesPairsThatCannotBeRight) {
+  const Measured measured = measured_frequencies(Eigen::Vector3d(1.0, 2.0, 2.1));
+  const Eigen::Vector3d computed(1.1, 2.2, 5.0);
+  const std::optional<std::string> far = far_by_order(measured, pair_by_order(measured, 3), computed, 0.35);
+  ASSERT_TRUE(far.has_value());
+  EXPECT_TRUE(says(*far, "3X-3N (+138 %) is further apart"));
+  EXPECT_FALSE(far_by_order(measured, pair_by_order(measured, 3), computed, 1.5).has_value());
+  // Whoever states the pairs has seen them.
+  const Pairing stated = pair_as_published(measured, 3, {"3X-3N"}, {"study.toml", 7, "pairs"});
+  EXPECT_FALSE(far_by_order(measured, stated, computed, 0.35).has_value());
+}
+
 }  // namespace
 }  // namespace twindeck::matching

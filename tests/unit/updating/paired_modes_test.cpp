@@ -49,6 +49,21 @@ TEST(PairForUpdating, GoesByOrderOrByAListWhereNoShapeWasMeasured) {
   EXPECT_NE(heard.warned[0].find("5X"), std::string::npos);
 }
 
+// The first mode stands twice: 2X is paired with 2N, 3.9/3.2 - 1 = 22 % away. Whoever states that pair has seen it.
+TEST(PairForUpdating, WarnsOfPairsByOrderThatAreTooFarApart) {
+  const Chain c;
+  HeardReporter heard;
+  UpdatingSettings settings;
+  settings.maximum_frequency_error = 0.2;
+  const matching::Measured measured = measured_frequencies(Eigen::Vector2d(3.1, 3.2), 0.01);
+  static_cast<void>(pair_for_updating(heard, settings, c.model, c.modes, measured));
+  ASSERT_EQ(heard.warned.size(), 1U);
+  EXPECT_NE(heard.warned[0].find("2X-2N (+22 %)"), std::string::npos);
+  settings.pairs = {"1X-1N", "2X-2N"};
+  static_cast<void>(pair_for_updating(heard, settings, c.model, c.modes, measured));
+  EXPECT_EQ(heard.warned.size(), 1U);
+}
+
 // Both measured frequencies are within what the model computes, and neither is near enough to be paired.
 TEST(PairForUpdating, RefusesModesWithoutPartners) {
   const Chain c;
