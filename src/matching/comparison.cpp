@@ -83,6 +83,8 @@ Pairing pair_at_sensors(const Measured& measured, const dynamics::LoadedModel& m
   const Eigen::MatrixXcd phi_moving = phi_n(Eigen::all, moving);
   const Eigen::VectorXd frequency_moving = modes.frequency_Hz(moving);
   pairing.mac(moving, Eigen::all) = modal::mac_where_measured(phi_moving, measured.modes.shapes);
+  for (Index i = 0; i < pairing.mac.cols(); ++i)
+    if (!has_a_shape(measured.modes.shapes.col(i))) pairing.mac.col(i).setConstant(kUnknown);
   const Eigen::VectorXd& f_x = measured.modes.frequency_Hz;
   const Likeness like = matching::likeness_of(f_x, measured.modes.shapes, frequency_moving, phi_moving, options);
   pairing.likeness = pairing.mac;

@@ -19,7 +19,7 @@ namespace twindeck::matching {
 struct Pairing {
   std::vector<ModePair> pairs;          ///< in the order of the measured modes
   std::string method;                   ///< "order" | "published" | "mac"
-  Eigen::MatrixXd mac;                  ///< (n_N × n_X) at the sensors; empty where no shape was measured
+  Eigen::MatrixXd mac;                  ///< (n_N × n_X) at the sensors, NaN of a mode without a shape; empty if none has one
   Eigen::MatrixXd likeness;             ///< (n_N × n_X) the same, with the subspace MAC of close modes (Likeness)
   Eigen::MatrixXcd shapes;              ///< (n_channels × n_N) computed ones at the sensors; empty likewise
   std::vector<std::string> unmeasured;  ///< measured modes of a published list that are not among the measured ones

@@ -18,6 +18,9 @@ using Eigen::MatrixXd;
 /// [-] Weight of a pair's own MAC beside the subspace MAC that all members of a run have in common: the nearer shape first.
 constexpr double nearer_shape = 1e-3;
 
+/// [-] Weight of the nearness in frequency: far above rounding, far below what measured shapes tell. It decides ties.
+constexpr double nearer_frequency = 1e-9;
+
 /// Runs of modes whose neighbours in frequency are closer than `gap`; runs of one are left out.
 std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, double gap) {
   const std::vector<Index> order = lowest_first(frequency);
@@ -60,6 +63,11 @@ double subspace_mac(Eigen::MatrixXcd basis, const Eigen::MatrixXcd& x) {
 
 }  // namespace
 
+bool has_a_shape(const Eigen::Ref<const Eigen::VectorXcd>& measured) {
+  constexpr std::size_t fewest_components = 2;
+  return modal::measured_rows(measured).size() >= fewest_components;
+}
+
 std::vector<Index> lowest_first(const Eigen::VectorXd& frequency) {
   std::vector<Index> order(static_cast<std::size_t>(frequency.size()));
   std::iota(order.begin(), order.end(), Index{0});
@@ -76,11 +84,16 @@ Likeness likeness_of(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd&
   TWINDECK_ASSERT(!shapes || (phi_x.cols() == n_x && phi_n.cols() == n_n));
   Likeness out;
   out.value = MatrixXd::Constant(n_x, n_n, std::numeric_limits<double>::quiet_NaN());
-  out.gain = (options.maximum_frequency_error - relative_error(frequency_x, frequency_n).array()).max(0.0);
   out.clustered.setConstant(n_x, n_n, false);
+  const MatrixXd nearness = (options.maximum_frequency_error - relative_error(frequency_x, frequency_n).array()).max(0.0);
+  out.gain = nearness;
   if (!shapes) return out;
-  out.value = modal::mac_where_measured(phi_n, phi_x).transpose();
-  out.gain = out.value;
+  const MatrixXd mac = modal::mac_where_measured(phi_n, phi_x).transpose();
+  for (Index i = 0; i < n_x; ++i) {
+    if (!has_a_shape(phi_x.col(i))) continue;
+    out.value.row(i) = mac.row(i);
+    out.gain.row(i) = mac.row(i) + nearer_frequency * nearness.row(i);
+  }
   for (const std::vector<Index>& run : clusters(frequency_n, options.cluster_gap)) {
     // Where there are no more sensors than close modes any shape lies in their span, which then says nothing.
     for (Index i = 0; i < n_x; ++i) {
@@ -90,7 +103,7 @@ Likeness likeness_of(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd&
       // A shape that is like one member by itself has not turned within the span: it is not like the others.
       if (share < options.cluster_mac || out.value(i, run).maxCoeff() >= options.cluster_mac) continue;
       for (const Index j : run) {
-        out.gain(i, j) = share + nearer_shape * out.value(i, j);
+        out.gain(i, j) = share + nearer_shape * out.value(i, j) + nearer_frequency * nearness(i, j);
         out.value(i, j) = share;
         out.clustered(i, j) = true;
       }

@@ -25,6 +25,10 @@ struct PairingOptions {
 /// Positions of modes, the lowest frequency first; equal ones in their order.
 [[nodiscard]] std::vector<Eigen::Index> lowest_first(const Eigen::VectorXd& frequency);
 
+/// Whether a measured shape can be told from others: at a single channel any two shapes have a MAC of 1.
+/// @param measured (n_sensors), NaN where the mode was not measured
+[[nodiscard]] bool has_a_shape(const Eigen::Ref<const Eigen::VectorXcd>& measured);
+
 /// How like each other the modes of two sets are.
 struct Likeness {
   Eigen::MatrixXd value;  ///< [-] (n_X × n_N) MAC, or the subspace MAC where `clustered`; NaN where no shape is known
@@ -41,7 +45,8 @@ struct Likeness {
 /// unpaired. Close numerical modes can rotate into each other. An experimental shape that is like none of them by itself
 /// (`cluster_mac`) may lie within the span of such a cluster. Its pairs with the members are then marked `clustered`, and get
 /// the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span. A shape that is like one member keeps its own MACs.
-/// Without sensors (no rows) the pairing uses frequencies alone, and MAC is NaN.
+/// A mode without a shape (no sensors, or measured at one of them: has_a_shape) is paired by its frequency, and its MAC is NaN.
+/// Where shapes decide nothing, the nearer frequency does.
 /// @return pairs in the order of the experimental modes
 /// @param frequency_x, frequency_n [Hz]
 /// @param phi_x (n_sensors × n_X), NaN where a mode was not measured; phi_n (n_sensors × n_N)

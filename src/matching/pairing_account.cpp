@@ -79,7 +79,10 @@ PairingAccount account_of(const Measured& measured, const Pairing& pairing, cons
     }
     ++account.measured;
     const std::string name = label + "-" + numerical_label(pair->numerical);
-    if (std::isnan(pair->mac)) continue;
+    if (std::isnan(pair->mac)) {
+      if (account.by_shape) account.shapeless.push_back(name);
+      continue;
+    }
     if (!(account.worst_mac <= pair->mac)) {
       account.worst_mac = pair->mac;
       account.worst = name;
@@ -93,6 +96,7 @@ std::string pairing_words(const PairingAccount& account) {
   if (!account.by_shape) return "";
   std::string words = fmt::format("; {} of {} measured modes unpaired", account.unpaired.size(), account.measured);
   if (!account.beyond.empty()) words += fmt::format(", {} above the highest computed", account.beyond.size());
+  if (!account.shapeless.empty()) words += fmt::format(", {} paired by frequency", account.shapeless.size());
   if (!account.worst.empty()) words += fmt::format(", worst MAC {:.2f} ({})", account.worst_mac, account.worst);
   if (!account.unlike.empty()) words += "; WARNING: shapes disagree";
   return words;
@@ -140,6 +144,9 @@ void warn_of_pairing(Reporter& reporter, const PairingAccount& account, const st
                      const std::string& stage) {
   if (factor) reporter.warn(*factor);
   if (account.reversed) reporter.warn(*account.reversed);
+  if (!account.shapeless.empty())
+    reporter.warn(fmt::format("{}: measured at one channel alone, where any two shapes agree; paired by frequency",
+                              few(account.shapeless)));
   if (account.unlike.empty()) return;
   reporter.warn(
       fmt::format("shapes disagree{}: {}; frequencies that fit say nothing there. A channel may be reversed, exchanged or "

@@ -27,6 +27,7 @@ struct PairingAccount {
   double worst_mac = kUnknown;          ///< smallest MAC of the pairs; NaN if no pair has one
   std::string worst;                    ///< its pair, "3X-4N"
   std::vector<std::string> unlike;      ///< pairs below `agreeing_mac`, "3X-4N (MAC 0.31)"
+  std::vector<std::string> shapeless;   ///< pairs of modes that were measured at one channel: by frequency, "3X-4N"
   std::optional<std::string> reversed;  ///< a channel that seems to be reversed, in a sentence
   [[nodiscard]] int paired() const { return measured - static_cast<int>(unpaired.size()); }
 };
@@ -55,7 +56,8 @@ struct PairingAccount {
 [[nodiscard]] std::optional<std::string> far_by_order(const Measured& measured, const Pairing& pairing,
                                                       const Eigen::VectorXd& computed_Hz, double maximum_error);
 
-/// Warns of pairs whose shapes disagree, of a reversed channel and of a common factor.
+/// Warns of pairs whose shapes disagree, of pairs by frequency in a pairing by shape, of a reversed channel and of a common
+/// factor.
 /// @param stage  "before the updating" or so, for the message; may be empty
 void warn_of_pairing(Reporter& reporter, const PairingAccount& account, const std::optional<std::string>& factor,
                      const std::string& stage);

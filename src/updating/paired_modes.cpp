@@ -73,7 +73,7 @@ matching::Pairing followed_pairing(const UpdatingSettings& config, const matchin
     if (pairing.mac.size() == 0) continue;
     // By the same measure as before: close modes that have turned into each other count by their common subspace.
     pair.mac = pairing.likeness(pair.numerical, pair.experimental);
-    pair.clustered = pair.mac != pairing.mac(pair.numerical, pair.experimental);
+    pair.clustered = pair.mac > pairing.mac(pair.numerical, pair.experimental);
   }
   return pairing;
 }

@@ -31,7 +31,7 @@ void write_mac(const matching::Measured& measured, const matching::Pairing& pair
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "mac"});
   for (Index j = 0; j < pairing.mac.rows(); ++j) {
     for (Index i = 0; i < pairing.mac.cols(); ++i)
-      csv.row({label(measured, i), matching::numerical_label(j), pairing.mac(j, i)});
+      csv.row({label(measured, i), matching::numerical_label(j), known(pairing.mac(j, i))});
   }
   csv.save(folder / "mac.csv");
 }

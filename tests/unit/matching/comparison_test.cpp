@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "matching/pairing_account.hpp"
 #include "unit/matching/measured_modes.hpp"
 
 namespace twindeck::matching {
@@ -141,6 +142,28 @@ TEST(PairAtSensors, PassesOverModesThatNoSensorSees) {
   EXPECT_NEAR(pairing.pairs[1].mac, 1.0, 1e-9);
   EXPECT_EQ(pairing.mac.row(1).norm() + pairing.mac.row(3).norm(), 0.0);
   EXPECT_NEAR(pairing.mac(2, 1), 1.0, 1e-9);
+}
+
+// Oracle: the definition. At one sensor any shape agrees: no MAC is claimed, and the summary says how the modes were paired.
+TEST(PairAtSensors, ClaimsNoMacAtOneSensor) {
+  const SpringChain chain{.n = 5};
+  const dynamics::LoadedModel model = matrix_model(chain.system());
+  const dynamics::EigenModes modes = dynamics::available_modes(model.system, model.theta, 3);
+  const Eigen::Vector2d f(1.02 * chain.frequency_Hz(1), 0.97 * chain.frequency_Hz(2));
+  const Measured measured = measured_shapes(f, Eigen::MatrixXcd::Ones(1, 2), {"2"});
+  const Pairing pairing = pair_at_sensors(measured, model, modes, {}, 0.1);
+  ASSERT_EQ(pairing.pairs.size(), 2U);
+  EXPECT_EQ(pairing.pairs[0].numerical, 0);
+  EXPECT_EQ(pairing.pairs[1].numerical, 1);
+  EXPECT_TRUE(std::isnan(pairing.pairs[0].mac));
+  EXPECT_TRUE(pairing.mac.array().isNaN().all());
+  const PairingAccount account = account_of(measured, pairing, modes.frequency_Hz);
+  EXPECT_EQ(account.shapeless, (std::vector<std::string>{"1X-1N", "2X-2N"}));
+  EXPECT_TRUE(says(pairing_words(account), "2 paired by frequency"));
+  HeardReporter heard;
+  warn_of_pairing(heard, account, std::nullopt, "");
+  ASSERT_EQ(heard.warned.size(), 1U);
+  EXPECT_TRUE(says(heard.warned[0], "1X-1N, 2X-2N: measured at one channel alone"));
 }
 
 // Oracle: the header. Without shapes there is no MAC to pair by.

@@ -147,6 +147,37 @@ TEST(PairByMac, GoesByFrequencyWithoutShapes) {
   EXPECT_TRUE(std::isnan(pairs[0].mac));
 }
 
+// Oracle: the definition. One component has a MAC of 1 with every other: modes measured at one channel are paired by frequency,
+// and no MAC is claimed; the third, measured at two, by its shape.
+TEST(PairByMac, TakesOneComponentForNoShape) {
+  const double none = std::nan("");
+  Eigen::MatrixXcd phi_n(2, 3), phi_x(2, 3);
+  phi_n << 1, 2, 3, 1, -1, 5;
+  phi_x << 1, 1, 4, none, none, -2;
+  const Eigen::Vector3d f_n(12.0, 13.2, 15.4), f_x(12.6, 14.7, 13.0);
+  const std::vector<ModePair> pairs = pair_by_mac(f_x, phi_x, f_n, phi_n);
+  ASSERT_EQ(pairs.size(), 3U);
+  const std::vector<Eigen::Index> partner = {0, 2, 1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(pairs[i].numerical, partner[i]) << i;
+    EXPECT_EQ(std::isnan(pairs[i].mac), i < 2) << i;
+  }
+}
+
+// Oracle: by construction. Two computed modes have one shape at the sensors: the nearer frequencies belong together, whatever
+// rounding makes of the MACs.
+TEST(PairByMac, LeavesTiesToTheFrequency) {
+  Eigen::MatrixXcd phi_n(3, 2), phi_x(3, 2);
+  phi_n << 0.1, 0.3, 0.2, 0.6, 0.7, 2.1;
+  phi_x << 0.3, 0.1, 0.6, 0.2, 2.1, 0.7;
+  for (const bool exchanged : {false, true}) {
+    const Eigen::Vector2d f_x = exchanged ? Eigen::Vector2d(1.19, 1.01) : Eigen::Vector2d(1.01, 1.19);
+    const std::vector<ModePair> pairs = pair_by_mac(f_x, phi_x, Eigen::Vector2d(1.0, 1.2), phi_n);
+    ASSERT_EQ(pairs.size(), 2U);
+    EXPECT_EQ(pairs[0].numerical, exchanged ? 1 : 0);
+  }
+}
+
 // Oracle: by construction. More references than new modes: the one without likeness is left without a partner.
 TEST(FollowModes, LeavesTheUnlikeOne) {
   Eigen::MatrixXd likeness(3, 2);
