@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "core/error.hpp"
+#include "matching/model_points.hpp"
 
 namespace twindeck::matching {
 
@@ -16,39 +16,6 @@ namespace {
 using Eigen::Index;
 
 const std::array<std::string, 6> kDirections = {"x", "y", "z", "rx", "ry", "rz"};
-
-/// Where the modes of a model are known: six values a node (FE), or single dofs (matrix model).
-struct ModelPoints {
-  std::vector<std::string> node;          ///< name of each node
-  std::vector<Eigen::Vector3d> x_m;       ///< NaN where unknown
-  std::vector<std::array<Index, 6>> row;  ///< rows of the expanded shapes; -1 where the node lacks the direction
-};
-
-/// @param model  null for a matrix model, whose points are those of its `dofs`
-ModelPoints points_of(const fe::Model* model, const std::vector<fe::DofLabel>& dofs) {
-  ModelPoints points;
-  if (model != nullptr) {
-    for (std::size_t i = 0; i < model->nodes.size(); ++i) {
-      points.node.push_back(std::to_string(model->nodes[i].id));
-      points.x_m.push_back(model->nodes[i].x_m);
-      const auto first = static_cast<Index>(6 * i);
-      points.row.push_back({first, first + 1, first + 2, first + 3, first + 4, first + 5});
-    }
-    return points;
-  }
-  std::map<std::string, std::size_t> at;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const fe::DofLabel& dof = dofs[i];
-    const auto [where, is_new] = at.try_emplace(dof.node, points.node.size());
-    if (is_new) {
-      points.node.push_back(dof.node);
-      points.x_m.push_back(dof.x_m);
-      points.row.push_back({-1, -1, -1, -1, -1, -1});
-    }
-    points.row[where->second][static_cast<std::size_t>(dof.direction)] = static_cast<Index>(i);
-  }
-  return points;
-}
 
 /// What to do about a sensor that lies on no node: another unit, where that brings it to one.
 std::string mend_of_position(const ModelPoints& points, const Eigen::Vector3d& x_m, double tolerance_m) {
@@ -64,9 +31,44 @@ std::string mend_of_position(const ModelPoints& points, const Eigen::Vector3d& x
   return "check x_m, y_m, z_m in channels.csv and the axes of the model, or raise `sensor_tolerance`";
 }
 
+using Cosines = std::array<double, 6>;  ///< along x … rz
+
+/// The cosines that a channel's row or the dof's name state; zeros if neither does.
+Cosines stated_cosines(const modal::ShapeDof& dof, const Channel* channel) {
+  Cosines cosine{};
+  const auto named = std::find(kDirections.begin(), kDirections.end(), dof.direction);
+  if (channel != nullptr && channel->direction.squaredNorm() > 0.0) {
+    for (std::size_t d = 0; d < 3; ++d) cosine[d] = channel->direction[static_cast<Index>(d)];
+  } else if (named != kDirections.end()) {
+    cosine[static_cast<std::size_t>(named - kDirections.begin())] = 1.0;
+  }
+  return cosine;
+}
+
+/// What to do where nodes coincide and a sensor may stand on any of them.
+enum class Doubt { refused, first };
+
+std::size_t one_of(const ModelPoints& points, std::size_t nearest, const modal::ShapeDof& dof, const Channel& channel,
+                   const Measured& measured, Doubt doubt) {
+  const std::vector<std::size_t> there = nodes_at_the_place_of(points, nearest);
+  if (there.size() < 2) return nearest;
+  const Cosines cosine = stated_cosines(dof, &channel);
+  const std::vector<std::size_t> possible = possible_nodes(points, there, dof.point, cosine);
+  if (doubt == Doubt::refused && !move_as_one(points, possible, cosine)) {
+    std::vector<std::string> names;
+    for (const std::size_t node : possible) names.push_back(points.node[node]);
+    throw InputError({measured.source, 0, channel.name},
+                     fmt::format("lies where the nodes {} coincide, which can move apart", fmt::join(names, ", ")),
+                     fmt::format("say on which of them it stands: name '{}' in points.csv of the model, or give the node's id "
+                                 "as the point in channels.csv",
+                                 dof.point));
+  }
+  return possible.front();
+}
+
 std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const Channel* channel, const Measured& measured,
-                    double tolerance_m) {
-  // Positions go before names: a sensor point called "12" need not be node 12.
+                    double tolerance_m, Doubt doubt) {
+  // Positions go before names: a sensor point called "12" need not be node 12. Among nodes at one place the name decides.
   if (channel != nullptr && channel->x_m) {
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -77,7 +79,7 @@ std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const
         nearest = i;
       }
     }
-    if (least <= tolerance_m) return nearest;
+    if (least <= tolerance_m) return one_of(points, nearest, dof, *channel, measured, doubt);
     if (std::isfinite(least)) {
       throw InputError({measured.source, 0, channel->name},
                        fmt::format("lies {:.2f} m from the nearest node ({}), expected at most {:.2f} m", least,
@@ -100,24 +102,21 @@ struct ChannelPart {
 };
 
 /// The parts of each measured degree of freedom.
-std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const ModelPoints& points, double tolerance_m) {
+std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const ModelPoints& points, double tolerance_m,
+                                             Doubt doubt = Doubt::first) {
   std::vector<std::vector<ChannelPart>> out(measured.modes.dofs.size());
   for (std::size_t i = 0; i < measured.modes.dofs.size(); ++i) {
     const modal::ShapeDof& dof = measured.modes.dofs[i];
     const auto found = std::find_if(measured.channels.begin(), measured.channels.end(),
                                     [&](const Channel& c) { return c.name == dof.direction; });
     const Channel* channel = found == measured.channels.end() ? nullptr : &*found;
-    const std::size_t node = node_of(points, dof, channel, measured, tolerance_m);
-    std::array<double, 6> cosine{};
-    const auto named = std::find(kDirections.begin(), kDirections.end(), dof.direction);
-    if (channel != nullptr && channel->direction.squaredNorm() > 0.0) {
-      for (std::size_t d = 0; d < 3; ++d) cosine[d] = channel->direction[static_cast<Index>(d)];
-    } else if (named != kDirections.end()) {
-      cosine[static_cast<std::size_t>(named - kDirections.begin())] = 1.0;
-    } else if (std::count_if(points.row[node].begin(), points.row[node].end(), [](Index row) { return row >= 0; }) == 1) {
+    const std::size_t node = node_of(points, dof, channel, measured, tolerance_m, doubt);
+    Cosines cosine = stated_cosines(dof, channel);
+    const bool stated = cosine != Cosines{};
+    if (!stated && std::count_if(points.row[node].begin(), points.row[node].end(), [](Index row) { return row >= 0; }) == 1) {
       // A node that carries one dof: the channel can mean nothing else.
       for (std::size_t d = 0; d < 6; ++d) cosine[d] = points.row[node][d] >= 0 ? 1.0 : 0.0;
-    } else {
+    } else if (!stated) {
       throw InputError({measured.source, 0, dof.direction},
                        "is no direction (x, y, z, rx, ry, rz) and no channel with direction cosines",
                        "give dx, dy, dz of the channel in channels.csv");
@@ -130,17 +129,17 @@ std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const Mod
   return out;
 }
 
-ModelPoints points_of(const dynamics::LoadedModel& model) { return points_of(model.fe_model(), model.system.dofs); }
+ModelPoints points_in(const dynamics::LoadedModel& model) { return points_of(model.fe_model(), model.system.dofs); }
 
 }  // namespace
 
 void refuse_unplaced_channels(const Measured& measured, const dynamics::ReadModel& model, double tolerance_m) {
-  static_cast<void>(placed(measured, points_of(model.fe_model(), model.matrices.dofs), tolerance_m));
+  static_cast<void>(placed(measured, points_of(model.fe_model(), model.matrices.dofs), tolerance_m, Doubt::refused));
 }
 
 Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const dynamics::LoadedModel& model,
                                    const dynamics::EigenModes& modes, double tolerance_m) {
-  const std::vector<std::vector<ChannelPart>> parts = placed(measured, points_of(model), tolerance_m);
+  const std::vector<std::vector<ChannelPart>> parts = placed(measured, points_in(model), tolerance_m);
   const Eigen::MatrixXd values = model.system.expand(modes.shapes);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(parts), modes.shapes.cols());
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -149,7 +148,7 @@ Eigen::MatrixXcd shapes_at_sensors(const Measured& measured, const dynamics::Loa
 }
 
 Eigen::MatrixXd sensor_vectors(const Measured& measured, const dynamics::LoadedModel& model, double tolerance_m) {
-  const std::vector<std::vector<ChannelPart>> parts = placed(measured, points_of(model), tolerance_m);
+  const std::vector<std::vector<ChannelPart>> parts = placed(measured, points_in(model), tolerance_m);
   Eigen::MatrixXd chosen =
       Eigen::MatrixXd::Zero(model.model ? model.system.expansion.rows() : model.system.size(), std::ssize(parts));
   for (std::size_t i = 0; i < parts.size(); ++i)

@@ -124,6 +124,70 @@ TEST(SensorVectors, ShowTheSame) {
   }
 }
 
+/// The cantilever with a node "4" at the place of its tip "3", on a vertical spring of its own; "A" in points.csv is node 4.
+fe::Model two_at_the_tip() {
+  fe::Model built = cantilever();
+  fe::Spring spring;
+  spring.name = "isolator";
+  spring.node = 2;
+  spring.node2 = add_node(built, 4.0, 0.0, 0.0);
+  spring.stiffness = 1e5;
+  built.springs.push_back(spring);
+  built.masses.push_back({"machine", 3, 300.0, Vector3d::Zero()});
+  built.monitoring_points["A"] = 3;
+  return built;
+}
+
+/// What is said of a channel at the tip, before anything is solved.
+std::string refusal_at_the_tip(const fe::Model& built, const std::string& point) {
+  Measured measured;
+  measured.source = "measured";
+  add_channel(measured, "a1", point, Vector3d(4.0, 0.0, 0.0), Vector3d::UnitZ());
+  try {
+    refuse_unplaced_channels(measured, dynamics::valid_model(built), 0.05);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Oracle: the header. Of nodes at one place it is the one that the sensor names, whichever stands first.
+TEST(ShapesAtSensors, StandOnTheNodeOfTheirName) {
+  const dynamics::LoadedModel model = dynamics::from_model(two_at_the_tip());
+  Measured measured;
+  for (const char* point : {"A", "4", "3"})
+    add_channel(measured, std::string("a") + point, point, Vector3d(4.0, 0.0, 0.0), Vector3d::UnitZ());
+  EXPECT_EQ(shown(measured, model, "4", 2), Vector3d(1.0, 1.0, 0.0));
+  EXPECT_EQ(shown(measured, model, "3", 2), Vector3d(0.0, 0.0, 1.0));
+}
+
+// Oracle: the header. Without such a name nothing says which of the two moves is measured; nodes that a link ties, or of which
+// one alone can move, leave no doubt.
+TEST(RefuseUnplacedChannels, AsksWhichOfTwoNodesIsMeant) {
+  for (const char* point : {"A", "3", "4"}) EXPECT_EQ(refusal_at_the_tip(two_at_the_tip(), point), "") << point;
+  const std::string words = refusal_at_the_tip(two_at_the_tip(), "p");
+  EXPECT_TRUE(says(words, "measured: a1: lies where the nodes 3, 4 coincide, which can move apart"));
+  EXPECT_TRUE(says(words, "points.csv"));
+  fe::Model tied = cantilever();
+  tied.links.push_back({"tie", 2, add_node(tied, 4.0, 0.0, 0.0)});
+  EXPECT_EQ(refusal_at_the_tip(tied, "p"), "");
+  fe::Model grounded = two_at_the_tip();
+  fe::test::fix(grounded, 3);
+  EXPECT_EQ(refusal_at_the_tip(grounded, "p"), "");
+}
+
+// Oracle: by construction. Two matrix points at one place, one along x and one along z: a sensor along z is the second.
+TEST(ShapesAtSensors, TakeTheMatrixPointThatMovesTheirWay) {
+  fe::ParametricSystem system = SpringChain{.n = 5}.system();
+  system.dofs[3] = {"4z", 2, system.dofs[2].x_m};
+  const dynamics::LoadedModel model = matrix_model(system);
+  Measured measured;
+  add_channel(measured, "a1", "p", system.dofs[2].x_m, Vector3d::UnitZ());
+  add_channel(measured, "a2", "p", system.dofs[2].x_m, Vector3d::UnitX());
+  EXPECT_EQ(shown(measured, model, "4z", 2), Eigen::Vector2d(1.0, 0.0));
+  EXPECT_EQ(shown(measured, model, "3", 0), Eigen::Vector2d(0.0, 1.0));
+}
+
 /// The refusal of a channel at a position, before anything is solved. The beam lies 10 m beside the origin: a node there would
 /// be near any position in km.
 std::string refusal(const Vector3d& x_m, double tolerance_m, double model_scale = 1.0) {
