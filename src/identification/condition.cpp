@@ -43,30 +43,53 @@ std::vector<Index> common_references(const ConditionResult& result) {
   return common;
 }
 
-/// PreGER of the same records: reference channels on one scale in all setups, the others each on its own.
+/// What PreGER divides the records by.
+struct Scales {
+  std::vector<double> level;  ///< of each setup: geometric mean of the RMS at the common references
+  Eigen::VectorXd channels;   ///< (n_channels) geometric mean over the setups of a channel's RMS in units of their levels
+};
+
+/// One scale a channel in all setups, so that the references' rows stay those of one system. A setup's own level (wind,
+/// traffic, the gain of its recorder) is taken out before: it would weigh the channels of the others.
+Scales preger_scales(const ConditionResult& result, const std::vector<Index>& references) {
+  const auto n_channels = static_cast<Index>(result.channels.size());
+  Scales scales;
+  Eigen::VectorXd log_scale = Eigen::VectorXd::Zero(n_channels), seen = log_scale;
+  for (const SetupResult& setup : result.setups) {
+    const Eigen::VectorXd log_rms = channel_rms(setup.conditioned.records).array().log();
+    const std::vector<Index> at = positions(result, setup.conditioned.channels);
+    double log_level = 0.0;
+    for (std::size_t c = 0; c < at.size(); ++c) {
+      const bool common = std::find(references.begin(), references.end(), at[c]) != references.end();
+      if (common) log_level += log_rms[static_cast<Index>(c)] / static_cast<double>(references.size());
+    }
+    scales.level.push_back(std::exp(log_level));
+    for (std::size_t c = 0; c < at.size(); ++c) {
+      log_scale[at[c]] += log_rms[static_cast<Index>(c)] - log_level;
+      seen[at[c]] += 1.0;
+    }
+  }
+  scales.channels = (log_scale.array() / seen.array().max(1.0)).exp();
+  return scales;
+}
+
+/// PreGER of the same records. @param scale  of the channels, what a setup's records are divided by beside its level
 sysid::Identification preger(const ConditionResult& result, const std::vector<Index>& references,
                              const IdentificationSettings& config, Eigen::VectorXd& scale) {
   const auto n_channels = static_cast<Index>(result.channels.size());
   const double rate = result.setups.front().conditioned.rate_Hz;
   const sysid::IdentifyOptions options = config.options(rate, result.channels);
-  Eigen::VectorXd log_scale = Eigen::VectorXd::Zero(n_channels), seen = log_scale;
-  for (const SetupResult& setup : result.setups) {
-    const Eigen::VectorXd rms = channel_rms(setup.conditioned.records);
-    const std::vector<Index> at = positions(result, setup.conditioned.channels);
-    for (std::size_t c = 0; c < at.size(); ++c) {
-      log_scale[at[c]] += std::log(rms[static_cast<Index>(c)]);
-      seen[at[c]] += 1.0;
-    }
-  }
-  scale = (log_scale.array() / seen.array().max(1.0)).exp();
+  const Scales scales = preger_scales(result, references);
+  scale = scales.channels;
   std::vector<sysid::SetupCorrelations> setups;
   for (const SetupResult& setup : result.setups) {
+    const double level = scales.level[setups.size()];
     sysid::SetupCorrelations one{setup.conditioned.setup, positions(result, setup.conditioned.channels), {}, {}};
     for (const Index r : references) {
       one.references.push_back(position_of(setup.conditioned.channels, result.channels[static_cast<std::size_t>(r)].name));
     }
     Eigen::VectorXd own(static_cast<Index>(one.channels.size()));
-    for (Index c = 0; c < own.size(); ++c) own[c] = scale[one.channels[static_cast<std::size_t>(c)]];
+    for (Index c = 0; c < own.size(); ++c) own[c] = level * scale[one.channels[static_cast<std::size_t>(c)]];
     signal::BlockCorrelations blocks;
     for (const Samples& record : setup.conditioned.records) {
       blocks.append(
@@ -111,18 +134,7 @@ void check_merging(ConditionResult& result, const std::vector<Index>& references
   const sysid::Identification before = preger(result, references, config, scale);
   result.checks = merging_checks(result.modes, before, result.channels, scale);
   if (config.merge != "preger") return;
-  for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    sysid::MergedMode& mode = result.modes[m];
-    const MergingCheck& check = result.checks[m];
-    if (!check.found) continue;
-    mode.frequency_Hz = check.frequency_Hz;
-    mode.damping_ratio = check.damping_ratio;
-    Eigen::VectorXcd shape = check.shape;
-    for (Index i = 0; i < shape.size(); ++i) {
-      if (std::isnan(mode.shape[i].real())) shape[i] = mode.shape[i];
-    }
-    mode.shape = shape;
-  }
+  for (std::size_t m = 0; m < result.modes.size(); ++m) take_preger(result.modes[m], result.checks[m]);
   sort_by_frequency(result);
 }
 

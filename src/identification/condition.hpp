@@ -37,7 +37,7 @@ struct ConditionResult {
                                              const IdentificationSettings& config, Reporter& reporter);
 
 /// Identifies each setup and merges them. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has
-/// the mode; standard deviations are PoSER's in either case.
+/// the mode, with deviations that hold the difference of both mergings (take_preger).
 /// @param result  as read_condition gives it
 void identify_condition(ConditionResult& result, const IdentificationSettings& config, const Reporter& reporter);
 

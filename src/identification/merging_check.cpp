@@ -29,8 +29,15 @@ double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
 }
 
+void set(MergingCheck& check, double frequency_Hz, double damping_ratio, const Eigen::VectorXcd& shape) {
+  check.found = true;
+  check.frequency_Hz = frequency_Hz;
+  check.damping_ratio = damping_ratio;
+  check.shape = shape;
+}
+
 /// A mode that PreGER's own selection lacks, from the poles of its frequency.
-MergingCheck nearest_poles(const sysid::Identification& preger, const sysid::MergedMode& mode) {
+void set_nearest_poles(MergingCheck& check, const sysid::Identification& preger, const sysid::MergedMode& mode) {
   std::map<int, const sysid::Pole*> nearest;
   const auto off = [&](const sysid::Pole& pole) { return std::abs(pole.frequency_Hz - mode.frequency_Hz); };
   for (const sysid::DiagramPole& p : preger.diagram) {
@@ -38,22 +45,18 @@ MergingCheck nearest_poles(const sysid::Identification& preger, const sysid::Mer
     const auto [at, is_new] = nearest.try_emplace(p.pole.order, &p.pole);
     if (!is_new && off(p.pole) < off(*at->second)) at->second = &p.pole;
   }
-  MergingCheck check;
-  if (nearest.size() < kFewestOrders) return check;
-  check.found = true;
+  if (nearest.size() < kFewestOrders) return;
   std::vector<double> frequencies, dampings;
   const sysid::Pole* reference = nearest.rbegin()->second;
-  check.shape = Eigen::VectorXcd::Zero(reference->shape.size());
+  Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(reference->shape.size());
   for (const auto& [order, pole] : nearest) {
     frequencies.push_back(pole->frequency_Hz);
     dampings.push_back(pole->damping_ratio);
-    check.shape += pole->shape * std::polar(1.0, std::arg(pole->shape.dot(reference->shape)));
+    shape += pole->shape * std::polar(1.0, std::arg(pole->shape.dot(reference->shape)));
   }
   std::sort(frequencies.begin(), frequencies.end());
   std::sort(dampings.begin(), dampings.end());
-  check.frequency_Hz = frequencies[frequencies.size() / 2];
-  check.damping_ratio = dampings[dampings.size() / 2];
-  return check;
+  set(check, frequencies[frequencies.size() / 2], dampings[dampings.size() / 2], shape);
 }
 
 }  // namespace
@@ -74,17 +77,41 @@ std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& m
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const auto row = static_cast<Index>(i);
     MergingCheck& check = checks[i];
+    check.poser_frequency_Hz = modes[i].frequency_Hz;
+    check.poser_damping_ratio = modes[i].damping_ratio;
     if (partner[i] >= 0 && mac(row, partner[i]) > 0.0) {
       const sysid::Cluster& other = preger.modes[static_cast<std::size_t>(partner[i])];
-      check = {true, other.frequency_Hz, other.damping_ratio, mac(row, partner[i]), other.shape};
+      set(check, other.frequency_Hz, other.damping_ratio, other.shape);
+      check.mac = mac(row, partner[i]);
     } else if (mac.row(row).isZero(0.0)) {
-      check = nearest_poles(preger, modes[i]);
+      set_nearest_poles(check, preger, modes[i]);
       if (!check.found) continue;
       check.shape = physical_shape(check.shape, channels, scale, check.frequency_Hz, check.damping_ratio);
       check.mac = known_mac(modes[i].shape, check.shape);
     }
   }
   return checks;
+}
+
+void take_preger(sysid::MergedMode& mode, const MergingCheck& check) {
+  if (!check.found) return;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> unknown = mode.shape.real().array().isNaN();
+  const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(mode.shape.size());
+  const Eigen::VectorXcd before = unknown.select(zero.array(), mode.shape.array());
+  const Eigen::VectorXcd after = sysid::normalised_shape(unknown.select(zero.array(), check.shape.array()));
+  // Either is as real as it can be, but its sign follows its largest entry.
+  const Eigen::VectorXcd shift = after - before * std::polar(1.0, std::arg(before.dot(after)));
+  sysid::ModeDeviation& deviation = mode.deviation;
+  deviation.frequency_Hz = std::hypot(deviation.frequency_Hz, check.frequency_Hz - mode.frequency_Hz);
+  deviation.damping_ratio = std::hypot(deviation.damping_ratio, check.damping_ratio - mode.damping_ratio);
+  for (Index i = 0; i < shift.size(); ++i) {
+    if (unknown[i]) continue;
+    deviation.shape_real[i] = std::hypot(deviation.shape_real[i], shift[i].real());
+    deviation.shape_imag[i] = std::hypot(deviation.shape_imag[i], shift[i].imag());
+    mode.shape[i] = after[i];
+  }
+  mode.frequency_Hz = check.frequency_Hz;
+  mode.damping_ratio = check.damping_ratio;
 }
 
 }  // namespace twindeck::identification

@@ -12,7 +12,8 @@ namespace twindeck::identification {
 struct MergingCheck {
   bool found = false;  ///< PreGER has the mode
   double frequency_Hz = 0.0, damping_ratio = 0.0, mac = 0.0;
-  Eigen::VectorXcd shape;  ///< (all channels)
+  Eigen::VectorXcd shape;                                      ///< (all channels)
+  double poser_frequency_Hz = 0.0, poser_damping_ratio = 0.0;  ///< what it is held against, whichever merging counts
 };
 
 /// PreGER's counterpart of each mode of PoSER: a mode of PreGER within two per cent of its frequency, one-to-one with the
@@ -27,5 +28,10 @@ struct MergingCheck {
                                                        const sysid::Identification& preger,
                                                        const std::vector<records::CampaignChannel>& channels,
                                                        const Eigen::VectorXd& scale);
+
+/// Puts PreGER's values in the place of PoSER's, where PreGER has the mode. It gives no deviations of its own: they become the
+/// root of the sum of squares of PoSER's and the difference of both mergings, so that neither value is thought more certain
+/// than the choice between two ways to merge the same records. Channels that PoSER's shape lacks stay NaN.
+void take_preger(sysid::MergedMode& mode, const MergingCheck& check);
 
 }  // namespace twindeck::identification

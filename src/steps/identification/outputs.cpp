@@ -122,7 +122,7 @@ void write_merging(const identification::ConditionResult& result, const fs::path
   for (std::size_t m = 0; m < result.checks.size(); ++m) {
     const identification::MergingCheck& check = result.checks[m];
     const auto known = [&](double value) { return check.found ? std::optional(value) : std::nullopt; };
-    csv.row({name_of(m), result.modes[m].frequency_Hz, known(check.frequency_Hz), 100.0 * result.modes[m].damping_ratio,
+    csv.row({name_of(m), check.poser_frequency_Hz, known(check.frequency_Hz), 100.0 * check.poser_damping_ratio,
              known(100.0 * check.damping_ratio), known(check.mac), result.modes[m].members.size()});
   }
   csv.save(file);

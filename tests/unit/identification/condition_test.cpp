@@ -96,8 +96,29 @@ TEST(IdentifyCondition, ASetupsGainAndTheOrderOfSetupsChangeNothing) {
   }
 }
 
-// merge = "preger": frequency, damping and shape are PreGER's, deviations PoSER's.
-TEST(IdentifyCondition, PregerReplacesTheValuesAndNoDeviations) {
+// A recorder with another gain, or ten times the wind in one setup, tells nothing of the structure: PreGER divides each setup
+// by its own level, so that a gain is gone up to rounding. Partners, MAC and deviations with it.
+TEST(IdentifyCondition, ASetupsGainChangesNothingOfPreger) {
+  IdentificationSettings config = three_modes();
+  for (const char* merge : {"poser", "preger"}) {
+    config.merge = merge;
+    const ConditionResult one = identified_chain(config), gained = identified_chain(config, 50.0);
+    ASSERT_EQ(gained.modes.size(), one.modes.size());
+    for (std::size_t m = 0; m < one.modes.size(); ++m) {
+      EXPECT_NEAR(gained.modes[m].frequency_Hz, one.modes[m].frequency_Hz, 1e-7) << merge;
+      EXPECT_NEAR(gained.modes[m].damping_ratio, one.modes[m].damping_ratio, 1e-7) << merge;
+      EXPECT_NEAR(gained.modes[m].deviation.frequency_Hz, one.modes[m].deviation.frequency_Hz, 1e-7) << merge;
+      EXPECT_LT((gained.modes[m].shape - one.modes[m].shape).norm(), 1e-6) << merge;
+      EXPECT_NEAR(gained.checks[m].frequency_Hz, one.checks[m].frequency_Hz, 1e-7) << merge;
+      EXPECT_NEAR(gained.checks[m].damping_ratio, one.checks[m].damping_ratio, 1e-7) << merge;
+      EXPECT_NEAR(gained.checks[m].mac, one.checks[m].mac, 1e-7) << merge;
+    }
+  }
+}
+
+// merge = "preger": frequency, damping and shape are PreGER's; the deviation is the root of the sum of squares of PoSER's and
+// the difference of both. The check keeps PoSER's values.
+TEST(IdentifyCondition, PregerReplacesTheValuesAndItsDeviationsHoldTheDifference) {
   IdentificationSettings config = three_modes();
   const ConditionResult poser = identified_chain(config);
   config.merge = "preger";
@@ -106,8 +127,13 @@ TEST(IdentifyCondition, PregerReplacesTheValuesAndNoDeviations) {
   for (std::size_t m = 0; m < preger.modes.size(); ++m) {
     EXPECT_EQ(preger.modes[m].frequency_Hz, preger.checks[m].frequency_Hz);
     EXPECT_EQ(preger.modes[m].damping_ratio, preger.checks[m].damping_ratio);
-    EXPECT_EQ(preger.modes[m].deviation.frequency_Hz, poser.modes[m].deviation.frequency_Hz);
-    EXPECT_NE(preger.modes[m].frequency_Hz, poser.modes[m].frequency_Hz);
+    const double shift_Hz = preger.modes[m].frequency_Hz - poser.modes[m].frequency_Hz,
+                 shift = preger.modes[m].damping_ratio - poser.modes[m].damping_ratio;
+    EXPECT_NE(shift_Hz, 0.0);
+    EXPECT_NEAR(preger.modes[m].deviation.frequency_Hz, std::hypot(poser.modes[m].deviation.frequency_Hz, shift_Hz), 1e-15);
+    EXPECT_NEAR(preger.modes[m].deviation.damping_ratio, std::hypot(poser.modes[m].deviation.damping_ratio, shift), 1e-15);
+    EXPECT_EQ(preger.checks[m].poser_frequency_Hz, poser.modes[m].frequency_Hz);
+    EXPECT_EQ(preger.checks[m].poser_damping_ratio, poser.modes[m].damping_ratio);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace twindeck::identification {
@@ -94,6 +95,34 @@ TEST(MergingChecks, APoleOfTwoOrdersIsNone) {
   preger.pole(4, 1.0, 0.01, shape(1.0, 0.5));
   preger.pole(6, 1.0, 0.01, shape(1.0, 0.5));
   EXPECT_FALSE(preger.checks({mode(1.0, shape(1.0, 0.5))})[0].found);
+}
+
+// Deviations (3, 4) -> 5 by hand. A shape of the other sign is the same shape; the third channel, which PoSER lacks, stays NaN
+// and out of the norm: (3, 4, 12)/13 becomes (0.6, 0.8).
+TEST(TakePreger, DeviationsHoldTheDifferenceAndUnknownChannelsStayUnknown) {
+  const double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  sysid::MergedMode m = mode(1.0, Eigen::Vector3cd(-0.8, -0.6, kUnknown));
+  m.deviation.frequency_Hz = 0.03;
+  m.deviation.damping_ratio = 0.003;
+  m.deviation.shape_real = m.deviation.shape_imag = Eigen::Vector3d(0.15, 0.2, 0.0);
+  MergingCheck check;
+  take_preger(m, check);  // not found: all stays
+  EXPECT_EQ(m.frequency_Hz, 1.0);
+  check.found = true;
+  check.frequency_Hz = 1.04;
+  check.damping_ratio = 0.014;
+  check.shape = Eigen::Vector3cd(3.0, 4.0, 12.0) / 13.0;
+  take_preger(m, check);
+  EXPECT_EQ(m.frequency_Hz, 1.04);
+  EXPECT_EQ(m.damping_ratio, 0.014);
+  EXPECT_NEAR(m.deviation.frequency_Hz, 0.05, 1e-15);
+  EXPECT_NEAR(m.deviation.damping_ratio, 0.005, 1e-15);
+  EXPECT_NEAR(std::abs(m.shape[0] - 0.6), 0.0, 1e-15);
+  EXPECT_NEAR(std::abs(m.shape[1] - 0.8), 0.0, 1e-15);
+  EXPECT_TRUE(std::isnan(m.shape[2].real()));
+  EXPECT_NEAR(m.deviation.shape_real[0], 0.25, 1e-15);                  // 0.15 and 0.2
+  EXPECT_NEAR(m.deviation.shape_real[1], std::hypot(0.2, 0.2), 1e-15);  // 0.2 and 0.2
+  EXPECT_NEAR(m.deviation.shape_imag[1], 0.2, 1e-15);
 }
 
 }  // namespace
