@@ -4,25 +4,13 @@
 
 #include <cmath>
 
+#include "identification/clipping.hpp"
+
 namespace twindeck::identification {
 
 using Eigen::Index;
 
 namespace {
-
-long clipped_samples(const Eigen::Ref<const Eigen::VectorXd>& x, double lowest, double highest) {
-  long clipped = 0, run = 0;
-  for (Index t = 0; t <= x.size(); ++t) {
-    const bool at_limit = t < x.size() && (x[t] == lowest || x[t] == highest);
-    if (at_limit && (run == 0 || x[t] == x[t - 1])) {
-      ++run;
-      continue;
-    }
-    if (run >= 3) clipped += run;
-    run = at_limit ? 1 : 0;
-  }
-  return clipped;
-}
 
 ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
   ChannelQuality q;

@@ -21,12 +21,12 @@ class UnusableRecord : public InputError {
 struct ChannelQuality {
   std::string setup, record, channel;
   long samples = 0;
-  long missing = 0;              ///< samples that are NaN
-  long longest_gap = 0;          ///< longest run of them
-  long clipped = 0;              ///< samples in runs of three or more that stand at the record's largest or smallest value
-  double mean = 0.0, rms = 0.0;  ///< [channel's unit]; rms about the mean
-  double drift = 0.0;            ///< change of the fitted straight line from begin to end, in units of the rms
-  bool dead = false;             ///< constant
+  long missing = 0;                        ///< samples that are NaN
+  long longest_gap = 0;                    ///< longest run of them
+  long clipped = 0;                        ///< samples at the record's largest or smallest value (clipped_samples)
+  double mean = 0.0, rms = 0.0;            ///< [channel's unit]; rms about the mean
+  double drift = 0.0;                      ///< change of the fitted straight line from begin to end, in units of the rms
+  bool dead = false;                       ///< constant
   std::optional<double> lag_s, lag_std_s;  ///< of its clock behind the first channel's, where it could be told
 };
 

@@ -30,7 +30,8 @@ io::FieldTable IdentificationConfig::fields() {
       .integer("longest_gap", longest_gap, io::non_negative(),
                "samples missing in a row that may be bridged by a straight line")
       .number("largest_clipping", largest_clipping, "", {0.0, 1.0},
-              "share of a channel's samples that may stand at its largest or smallest value, three or more in a row")
+              "share of a channel's samples that may stand at its largest or smallest value, three or more in a row or far "
+              "more than at the next values")
       .integer("decimation", decimation, {1.0, 1000.0}, "every so many-th sample is kept, after a zero-phase low-pass")
       .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below are left out")
       .number("band.highest", highest_Hz, "Hz", io::non_negative(),
