@@ -68,26 +68,41 @@ void choose_references(Conditioned& conditioned, const std::vector<std::string>&
   }
 }
 
-/// Channels that are used must move, and within their range.
+void refuse_clipped(const ChannelQuality& q, double largest, const std::string& without) {
+  const double share = static_cast<double>(q.clipped) / static_cast<double>(q.samples);
+  if (share <= largest) return;
+  throw UnusableRecord({q.record, 0, q.channel},
+                       fmt::format("stands at its largest or smallest value over {} of {} samples ({:.3g} %), expected at most "
+                                   "{:.3g} %: it was driven past its range",
+                                   q.clipped, q.samples, 100.0 * share, 100.0 * largest),
+                       without + fmt::format(", or allow it (--set largest_clipping={:.2g})", 1.1 * share));
+}
+
+void refuse_lone(const ChannelQuality& q, double largest, const std::string& without) {
+  if (!q.lone || q.lone->deviations <= largest) return;
+  throw UnusableRecord(
+      {q.record, 0, q.channel},
+      fmt::format(
+          "has {:.6g} at sample {}, {:.3g} robust deviations from its median and alone between quiet neighbours, expected "
+          "at most {:.3g}: that is no motion",
+          q.lone->value, q.lone->sample, q.lone->deviations, largest),
+      fmt::format("empty the cell and bridge the gap (--set longest_gap=1), {}, or allow it (--set largest_lone={:.2g})",
+                  without, 1.1 * q.lone->deviations));
+}
+
+/// Channels that are used must move, within their range, and without errors of the recorder. A force may be a single blow.
 void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vector<records::CampaignChannel>& used,
-                     double clipping) {
+                     const IdentificationSettings& config) {
   for (const ChannelQuality& q : quality) {
-    const bool is_used = std::any_of(used.begin(), used.end(), [&](const auto& c) { return c.name == q.channel; });
-    if (!is_used) continue;
+    const auto channel = std::find_if(used.begin(), used.end(), [&](const auto& c) { return c.name == q.channel; });
+    if (channel == used.end()) continue;
     const std::string without = "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'";
     if (q.dead) {
       throw UnusableRecord({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples),
                            without);
     }
-    const double share = static_cast<double>(q.clipped) / static_cast<double>(q.samples);
-    if (share > clipping) {
-      throw UnusableRecord(
-          {q.record, 0, q.channel},
-          fmt::format("stands at its largest or smallest value over {} of {} samples ({:.3g} %), expected at most "
-                      "{:.3g} %: it was driven past its range",
-                      q.clipped, q.samples, 100.0 * share, 100.0 * clipping),
-          without + fmt::format(", or allow it (--set largest_clipping={:.2g})", 1.1 * share));
-    }
+    if (channel->quantity != "force") refuse_lone(q, config.largest_lone, without);
+    refuse_clipped(q, config.largest_clipping, without);
   }
 }
 
@@ -131,8 +146,8 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
     const std::string file = record.file.lexically_relative(campaign.folder).generic_string();
     const auto quality = channel_quality(raw, record.channels, record.setup, file);
     try {
-      refuse_unusable(quality, conditioned.channels, config.largest_clipping);
-      refuse_unusable(quality, conditioned.inputs, config.largest_clipping);
+      refuse_unusable(quality, conditioned.channels, config);
+      refuse_unusable(quality, conditioned.inputs, config);
       Samples responses = ready(raw, columns, names, record.file.string());
       if (!input_columns.empty())
         conditioned.excitation.push_back(ready(raw, input_columns, input_names, record.file.string()));

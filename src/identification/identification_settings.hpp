@@ -21,6 +21,7 @@ struct IdentificationSettings {
   long decimation = 1, block_rows = 30, minimum_order = 2, maximum_order = 60, order_step = 2, blocks = 20, longest_gap = 0;
   long welch_segment = 2048;
   double largest_clipping = 1e-3;
+  double largest_lone = 50.0;  ///< [-] robust deviations
   double lowest_Hz = 0.0;
   double highest_Hz = 0.0;  ///< 0: left open, at most 0.8 of the Nyquist frequency after decimation, the filter's passband
   sysid::StabilisationCriteria criteria;

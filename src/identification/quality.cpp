@@ -34,6 +34,7 @@ ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
   }
   q.mean = sum / static_cast<double>(there);
   q.clipped = clipped_samples(x, lowest, highest);
+  q.lone = lone_sample(x);
   // Least-squares line in u in [-1, 1] over the samples that are there.
   double squares = 0.0, u_sum = 0.0, u_squares = 0.0, product = 0.0;
   for (Index t = 0; t < x.size(); ++t) {

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/samples.hpp"
+#include "identification/lone_sample.hpp"
 
 namespace twindeck::identification {
 
@@ -27,6 +28,7 @@ struct ChannelQuality {
   double mean = 0.0, rms = 0.0;            ///< [channel's unit]; rms about the mean
   double drift = 0.0;                      ///< change of the fitted straight line from begin to end, in units of the rms
   bool dead = false;                       ///< constant
+  std::optional<LoneSample> lone;          ///< the sample that stands furthest off, alone
   std::optional<double> lag_s, lag_std_s;  ///< of its clock behind the first channel's, where it could be told
 };
 

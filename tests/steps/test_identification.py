@@ -229,14 +229,18 @@ class Identification(unittest.TestCase):
             self.assertLess(std, 2e-3)
 
     def test_bad_input_is_refused_in_one_line(self):
-        nan, dead, clipped = (self.data[:20000].copy() for _ in range(3))
+        nan, dead, clipped, fast, lone = (self.data[:20000].copy() for _ in range(5))
         nan[700:720, 2] = np.nan
         dead[:, 3] = 1.5
         limit = 0.6 * abs(clipped[:, 1]).max()
         clipped[:, 1] = np.clip(clipped[:, 1], -limit, limit)
+        fast[:, 1] = np.clip(np.random.default_rng(1).normal(size=len(fast)), -2.0, 2.0)  # 4.6 % of white noise, hardly ever three in a row
+        lone[4999, 3] = -9999.0
         cases = [("nan", nan, {}, [], "records/ST1/record.npy: c03: has a gap of 20 samples from sample 700 on"),
                  ("dead", dead, {}, [], "records/ST1/record.npy: c04: is constant (1.5) over 20000 samples; leave the channel out"),
                  ("clipped", clipped, {}, [], "records/ST1/record.npy: c02: stands at its largest or smallest value over"),
+                 ("fast", fast, {}, [], "records/ST1/record.npy: c02: stands at its largest or smallest value over"),
+                 ("lone", lone, {}, [], "records/ST1/record.npy: c04: has -9999 at sample 4999,"),
                  ("name", self.data[:20000], {"toml": "WRONG_NAME"}, [], "campaign.toml:6: channels: channel 'c4' is not in channels.csv (did you mean 'c04'?)"),
                  ("setup", self.data[:20000], {}, ["setup=ST9"], "no record has setup 'ST9'"),
                  ("reference", self.data[:20000], {}, ['references=["c99"]'], "'c99' is no channel of the record"),

@@ -32,6 +32,8 @@ io::FieldTable IdentificationConfig::fields() {
       .number("largest_clipping", largest_clipping, "", {0.0, 1.0},
               "share of a channel's samples that may stand at its largest or smallest value, three or more in a row or far "
               "more than at the next values")
+      .number("largest_lone", largest_lone, "", {10.0, 1e300},
+              "robust standard deviations from the median that a sample may stand off alone, between quiet neighbours")
       .integer("decimation", decimation, {1.0, 1000.0}, "every so many-th sample is kept, after a zero-phase low-pass")
       .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below are left out")
       .number("band.highest", highest_Hz, "Hz", io::non_negative(),
