@@ -1,8 +1,13 @@
 #include "identification/channel_lag.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 namespace twindeck::identification {
 
@@ -10,6 +15,10 @@ using Eigen::Index;
 using std::numbers::pi;
 
 namespace {
+
+// Of a lag that is worth a warning.
+constexpr double kLagDeviations = 10.0;  // damped modes are complex by themselves, and look like a lag of six
+constexpr double kLagTurn_deg = 10.0;  // at the highest mode found; takes 3 % from the collinearity of a shape of two channels
 
 struct Phase {
   double omega = 0.0, angle = 0.0, weight = 0.0;  ///< relative to the first channel; 1/variance
@@ -75,6 +84,27 @@ void estimate_lags(Conditioned& conditioned, const sysid::Identification& found)
       quality.lag_std_s = lag->deviation;
     }
   }
+}
+
+std::string lag_warning(const Conditioned& conditioned, const sysid::Identification& found) {
+  double highest_Hz = 0.0;
+  for (const sysid::Cluster& mode : found.modes) highest_Hz = std::max(highest_Hz, mode.frequency_Hz);
+  std::vector<std::string> off;
+  for (const records::CampaignChannel& channel : conditioned.channels) {
+    const auto row = std::find_if(conditioned.quality.begin(), conditioned.quality.end(),
+                                  [&](const ChannelQuality& q) { return q.channel == channel.name && q.lag_s; });
+    if (row == conditioned.quality.end() || !row->lag_std_s) continue;
+    const double lag_s = *row->lag_s, turn_deg = 360.0 * highest_Hz * std::abs(lag_s);
+    if (std::abs(lag_s) <= kLagDeviations * *row->lag_std_s || turn_deg <= kLagTurn_deg) continue;
+    off.push_back(fmt::format("{} is {:.3g} ± {:.2g} ms {} ({:.3g} degrees at {:.4g} Hz)", channel.name, 1e3 * std::abs(lag_s),
+                              1e3 * *row->lag_std_s, lag_s > 0.0 ? "behind" : "ahead", turn_deg, highest_Hz));
+  }
+  if (off.empty()) return "";
+  return fmt::format(
+      "setup {}: not on the clock of {}: {}: shapes are bent and modes may be missing; shift the channel in its record, or "
+      "leave it "
+      "out (--set exclude=…)",
+      conditioned.setup, conditioned.channels.front().name, fmt::join(off, ", "));
 }
 
 }  // namespace twindeck::identification

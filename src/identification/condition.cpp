@@ -202,7 +202,7 @@ ConditionResult read_condition(const records::Campaign& campaign, const std::vec
   return result;
 }
 
-void identify_condition(ConditionResult& result, const IdentificationSettings& config, const Reporter& reporter) {
+void identify_condition(ConditionResult& result, const IdentificationSettings& config, Reporter& reporter) {
   std::vector<sysid::SetupModes> setups;
   std::size_t done = 0;
   for (SetupResult& setup : result.setups) {
@@ -224,6 +224,8 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
   if (config.selection == "automatic") sysid::drop_lines_of_others(found, config.periodic);
   for (SetupResult& setup : result.setups) {
     estimate_lags(setup.conditioned, setup.found);
+    const std::string late = lag_warning(setup.conditioned, setup.found);
+    if (!late.empty()) reporter.warn(late);
     setups.push_back(
         {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
   }

@@ -36,9 +36,9 @@ struct ConditionResult {
 [[nodiscard]] ConditionResult read_condition(const records::Campaign& campaign, const std::vector<records::RecordGroup>& groups,
                                              const IdentificationSettings& config, Reporter& reporter);
 
-/// Identifies each setup and merges them. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has
-/// the mode, with deviations that hold the difference of both mergings (take_preger).
+/// Identifies each setup and merges them; warns of clocks that lag. With merge = "preger" a mode's shape, frequency and damping
+/// are PreGER's where it has the mode, with deviations that hold the difference of both mergings (take_preger).
 /// @param result  as read_condition gives it
-void identify_condition(ConditionResult& result, const IdentificationSettings& config, const Reporter& reporter);
+void identify_condition(ConditionResult& result, const IdentificationSettings& config, Reporter& reporter);
 
 }  // namespace twindeck::identification

@@ -10,7 +10,7 @@ namespace {
 
 using namespace twindeck;
 
-Status run(const steps::IdentificationConfig& config, steps::IdentificationInputs& read, const runner::StepContext& context) {
+Status run(const steps::IdentificationConfig& config, steps::IdentificationInputs& read, runner::StepContext& context) {
   // 1. Each condition: spectra, subspace identification, stabilisation, selection (Eqs. 3-4), standard deviations; setups
   // merged.
   std::vector<identification::ConditionResult>& results = read.conditions;

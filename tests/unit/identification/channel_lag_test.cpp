@@ -108,5 +108,26 @@ TEST(EstimateLags, EachRecordsRowIsWritten) {
   EXPECT_NEAR(conditioned.quality[3].lag_s.value_or(9.0), 0.01, 1e-12);
 }
 
+// Deviation sqrt(s² / sum omega²) of the test above for 1, 2 and 4 Hz: 0.0902 ms. Ten of them are 0.9 ms; ten degrees at 4 Hz
+// are 6.94 ms.
+TEST(LagWarning, NamesTheChannelAndItsLagWhereItMatters) {
+  const auto warning = [](double lag_s, double deviation) {
+    sysid::Identification found = lagging({1.0, 2.0, 4.0}, lag_s);
+    for (sysid::ModeDeviation& d : found.deviations) d.shape_real = d.shape_imag = Eigen::Vector3d::Constant(deviation);
+    Conditioned conditioned = three_channels();
+    conditioned.setup = "S1";
+    estimate_lags(conditioned, found);
+    return lag_warning(conditioned, found);
+  };
+  const std::string late = warning(0.02, 0.001), early = warning(-0.02, 0.001);
+  EXPECT_NE(late.find("setup S1: not on the clock of a: b is 20 ± 0.09 ms behind (28.8 degrees at 4 Hz)"), std::string::npos)
+      << late;
+  EXPECT_NE(early.find("b is 20 ± 0.09 ms ahead"), std::string::npos) << early;
+  EXPECT_EQ(warning(0.0069, 0.001), "");  // 76 deviations, below ten degrees
+  EXPECT_NE(warning(0.0071, 0.001), "");
+  EXPECT_EQ(warning(0.02, 0.03), "");  // 7.4 deviations
+  EXPECT_EQ(warning(0.0, 0.001), "");
+}
+
 }  // namespace
 }  // namespace twindeck::identification

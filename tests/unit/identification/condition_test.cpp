@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "../heard_reporter.hpp"
 #include "../sysid/chain.hpp"
 #include "modal/mac.hpp"
 
@@ -51,7 +52,8 @@ ConditionResult identified_chain(const IdentificationSettings& config, double ga
   for (std::size_t i = 0; i < 4; ++i) result.channels[i].name = "m" + std::to_string(i);
   result.setups = {setup_at({0, 3, 1}, 1.0, config), setup_at({0, 3, 2}, gain, config)};
   if (turned) std::swap(result.setups[0], result.setups[1]);
-  identify_condition(result, config, {});
+  Reporter nobody;
+  identify_condition(result, config, nobody);
   return result;
 }
 
@@ -114,6 +116,24 @@ TEST(IdentifyCondition, ASetupsGainChangesNothingOfPreger) {
       EXPECT_NEAR(gained.checks[m].mac, one.checks[m].mac, 1e-7) << merge;
     }
   }
+}
+
+// One sample is 0.08 s: at the third mode, 3.6 Hz, a turn of 104 degrees. The step's warnings go to the manifest.
+TEST(IdentifyCondition, AChannelThatLagsIsNamedInAWarning) {
+  IdentificationSettings config = three_modes();
+  ConditionResult result;
+  result.setups = {setup_at({0, 1, 2, 3}, 1.0, config)};
+  result.channels = result.setups.front().conditioned.channels;
+  tests::HeardReporter sound, late;
+  ConditionResult lagging = result;
+  identify_condition(result, config, sound);
+  EXPECT_TRUE(sound.warned.empty());
+  Samples& record = lagging.setups.front().conditioned.records.front();
+  const Eigen::VectorXd before = record.col(2).head(record.rows() - 1);
+  record.col(2).tail(before.size()) = before;
+  identify_condition(lagging, config, late);
+  ASSERT_EQ(late.warned.size(), 1U);
+  EXPECT_NE(late.warned[0].find("m2 is "), std::string::npos) << late.warned[0];
 }
 
 // merge = "preger": frequency, damping and shape are PreGER's; the deviation is the root of the sum of squares of PoSER's and
