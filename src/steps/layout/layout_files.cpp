@@ -1,6 +1,7 @@
 #include "steps/layout/layout_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -10,6 +11,19 @@
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kSamePlace_m = 1e-3;    // sensors are wider than this
+constexpr double kSameDirection = 1e-6;  // [-] what direction cosines are given to
+
+/// Whether two channels of a setup measure the same: a second sensor at a place tells nothing of another.
+bool same_measurement(const sensors::LayoutChannel& a, const sensors::LayoutChannel& b) {
+  return a.setup == b.setup && (a.x_m - b.x_m).norm() < kSamePlace_m &&
+         std::abs(a.cosines.dot(b.cosines)) > 1.0 - kSameDirection;
+}
+
+}  // namespace
 
 std::vector<sensors::LayoutPoint> read_points(const fs::path& file) {
   const auto table = io::CsvTable::read(file, {"point", "line", "s_m", "x_m", "y_m", "z_m", "rx", "ry", "rz"});
@@ -48,6 +62,12 @@ std::vector<sensors::LayoutChannel> read_setups(const fs::path& file, const std:
     sensors::LayoutChannel channel = sensors::channel_at(points[static_cast<std::size_t>(at - known.begin())], direction, name);
     channel.setup = table.text(row, "setup");
     channel.family = table.text(row, "family");
+    const auto other = std::find_if(channels.begin(), channels.end(),
+                                    [&](const sensors::LayoutChannel& c) { return same_measurement(c, channel); });
+    if (other != channels.end())
+      table.fail(row, "point",
+                 "'" + name + "' stands at the place and in the direction of '" + other->channel + "' of its setup",
+                 "remove one, or move it");
     channels.push_back(channel);
   }
   return channels;
