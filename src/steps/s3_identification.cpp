@@ -1,4 +1,6 @@
 /// Step 3 (paper section 3.2, Table 4, Figs. 10-13): modes with standard deviations from records of one or several setups.
+#include <algorithm>
+
 #include "identification/stays.hpp"
 #include "records/inspect.hpp"
 #include "runner/run_step.hpp"
@@ -25,7 +27,10 @@ Status run(const steps::IdentificationConfig& config, steps::IdentificationInput
 
   // 3. Tables, exports, and the features that updating and diagnosis read. The first condition's stand at the top.
   steps::write_identification(read.campaign, results, decays, stays, config, context.out);
-  if (results.front().modes.empty()) {
+  if (results.empty()) {
+    const bool found = std::any_of(stays.begin(), stays.end(), [](const auto& stay) { return !stay.modes.empty(); });
+    if (!found) return {false, "no stay shows harmonics; see stay.lowest and stay.highest, or record for longer"};
+  } else if (results.front().modes.empty()) {
     return {false, "no mode is stable over the model orders; see poles.csv, and raise block_rows or the record's length"};
   }
   return {};

@@ -135,6 +135,27 @@ class Kinds(unittest.TestCase):
         rows_of_stay = [r for r in rows(self.out / "features" / "rows.csv") if r["type"] == "stay_frequency_Hz"]
         self.assertEqual([(r["channel"], r["mode"]) for r in rows_of_stay], [("S1", str(n)) for n in range(1, 6)])
 
+    def test_a_campaign_of_stays_alone_is_read(self):
+        stay = ("NE5", "stay", "spring", ["s1"], string(600, 9), RATE)
+        bridge = ("A", "ambient", "summer", CHANNELS, chain(30000, 4), RATE)
+        write(self.folder / "stays", [stay])
+        write(self.folder / "bridge_and_stays", [bridge, stay])
+        for name, sets in (("stays", []), ("stays", ["kind=stay"]), ("bridge_and_stays", ["kind=stay"])):
+            with self.subTest(name, sets=sets):
+                out = self.folder / f"{name}_out"
+                done = run(self.folder / name, out, *sets)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(rows(out / "modes.csv"), [])
+                found = [float(h["frequency_Hz"]) for h in rows(out / "stays.csv")]
+                np.testing.assert_allclose(found, [1.62, 3.0, 4.5, 6.0, 7.5], rtol=0.01)
+                features = rows(out / "features" / "rows.csv")
+                self.assertEqual({(f["type"], f["channel"], f["condition"]) for f in features}, {("stay_frequency_Hz", "NE5", "spring")})
+                self.assertEqual((out / "features" / "conditions.toml").read_text(), "[spring]\n")
+        write(self.folder / "no_stays", [bridge])
+        done = run(self.folder / "no_stays", self.folder / "no_stays_out", "kind=stay")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("kind 'stay'; there are A/summer/ambient", done.stderr)
+
     def test_measured_inputs_are_used(self):
         random = np.random.default_rng(9)
         n = 12000

@@ -20,7 +20,7 @@ io::FieldTable IdentificationConfig::fields() {
   table.text("setup", setup, "setup whose records are used; empty: all, merged over the reference channels")
       .texts("setups", setups, "setups that are merged; empty: all, or the one named by `setup`")
       .text("condition", condition, "condition whose records are used; empty: all, the first one's modes in modes.csv")
-      .text("kind", kind, "kind of record: ambient, wind, earthquake or another whose excitation is broad")
+      .text("kind", kind, "kind of record: ambient, wind, earthquake or another whose excitation is broad; stay: stays alone")
       .choice("method", method, {"covariance", "data"},
               "subspace identification from correlations or from the data (inputs, where measured, are used)")
       .choice("selection", selection, {"automatic", "paper"}, "modes by the automatic rule, or by paper Eqs. (3)-(4)")

@@ -1,5 +1,6 @@
 #include "steps/identification/inputs.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -76,6 +77,21 @@ std::vector<identification::Conditioned> read_kind(const records::Campaign& camp
   return records;
 }
 
+/// The records whose modes are those of the structure. None where the configuration asks for stays alone, or the campaign has
+/// nothing else than stays and free decays: then the stays are all there is to identify.
+std::vector<records::RecordGroup> ambient_groups(const records::Campaign& campaign,
+                                                 const identification::IdentificationSettings& config) {
+  const auto is_stay = [](const records::CampaignRecord& record) { return record.kind == "stay"; };
+  const auto is_beside = [&](const records::CampaignRecord& record) { return is_stay(record) || record.kind == "free_decay"; };
+  const bool stays_alone = std::any_of(campaign.records.begin(), campaign.records.end(), is_stay) &&
+                           std::all_of(campaign.records.begin(), campaign.records.end(), is_beside);
+  if (config.kind == "stay" || (config.kind == "ambient" && stays_alone)) {
+    static_cast<void>(records::record_groups(campaign, {"", "", "stay", {}}));  // refuses where there is none
+    return {};
+  }
+  return records::record_groups(campaign, {config.setup, config.condition, config.kind, config.setups});
+}
+
 }  // namespace
 
 IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config,
@@ -83,9 +99,9 @@ IdentificationInputs read_identification_inputs(const identification::Identifica
   IdentificationInputs read;
   read.campaign = read_lists(context);
   LeftOut left_out;
-  const records::RecordChoice ambient{config.setup, config.condition, config.kind, config.setups};
-  for (const std::vector<records::RecordGroup>& groups :
-       records::by_condition(records::record_groups(read.campaign, ambient))) {
+  const std::vector<records::RecordGroup> ambient = ambient_groups(read.campaign, config);
+  if (ambient.empty()) context.say("stays alone are identified: stays.csv and stay_tensions.csv; modes.csv stays empty");
+  for (const std::vector<records::RecordGroup>& groups : records::by_condition(ambient)) {
     left_out.attempt("condition " + groups.front().condition, [&] {
       read.conditions.push_back(identification::read_condition(read.campaign, groups, config, context));
     });
@@ -94,7 +110,7 @@ IdentificationInputs read_identification_inputs(const identification::Identifica
                           config.decay_decimation > 0 ? config.decay_decimation : config.decimation, context, left_out);
   read.stays = read_kind(read.campaign, {"", "", "stay", {}}, identification::stay_settings(config), config.stay_decimation,
                          context, left_out);
-  left_out.report(context, read.conditions.empty());
+  left_out.report(context, ambient.empty() ? read.stays.empty() : read.conditions.empty());
   return read;
 }
 

@@ -11,7 +11,7 @@ namespace twindeck::steps {
 struct IdentificationInputs {
   records::Campaign campaign;
   std::vector<identification::ConditionResult>
-      conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified
+      conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified; none for stays alone
   std::vector<identification::Conditioned> decays, stays;
 };
 

@@ -163,16 +163,23 @@ void write_condition(const records::Campaign& campaign, const identification::Co
   write_channels(campaign, result, folder / "channels.csv");
 }
 
+/// An empty table each, in the order of first appearance.
+std::string tables_of(const std::vector<std::string>& conditions) {
+  std::string tables;
+  for (auto at = conditions.begin(); at != conditions.end(); ++at) {
+    if (std::find(conditions.begin(), at, *at) == at) tables += "[" + *at + "]\n";
+  }
+  return tables;
+}
+
 void write_features(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
-                    const std::vector<std::vector<io::Cell>>& more,
+                    const std::vector<std::string>& conditions, const std::vector<std::vector<io::Cell>>& more,
                     const std::vector<identification::ChannelQuality>& more_quality, const fs::path& folder) {
   fs::create_directories(folder);
   io::CsvWriter csv({"type", "mode", "channel", "condition", "value", "std"});
   std::vector<identification::ChannelQuality> quality;
-  std::string conditions;
   for (const identification::ConditionResult& result : results) {
     const std::string& condition = result.condition;
-    conditions += "[" + condition + "]\n";
     for (std::size_t m = 0; m < result.modes.size(); ++m) {
       const sysid::MergedMode& mode = result.modes[m];
       const std::string name = name_of(m);
@@ -196,7 +203,7 @@ void write_features(const records::Campaign& campaign, const std::vector<identif
   csv.save(folder / "rows.csv");
   fs::copy_file(campaign.folder / "channels.csv", folder / "channels.csv");
   if (campaign.conditions.empty()) {
-    io::write_file_atomically(folder / "conditions.toml", conditions);
+    io::write_file_atomically(folder / "conditions.toml", tables_of(conditions));
   } else {
     fs::copy_file(campaign.folder / "conditions.toml", folder / "conditions.toml");
   }
@@ -211,6 +218,7 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
                           const std::vector<identification::StayResult>& stays,
                           const identification::IdentificationSettings& config, const fs::path& folder) {
   std::vector<identification::ChannelQuality> quality;
+  if (results.empty()) write_condition(campaign, {}, folder);  // of stays alone: the same files, without rows
   for (std::size_t i = 0; i < results.size(); ++i) {
     const fs::path place = i == 0 ? folder : folder / "conditions" / results[i].condition;
     write_condition(campaign, results[i], place);
@@ -221,7 +229,10 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
   for (const identification::DecayResult& decay : decays)
     quality.insert(quality.end(), decay.quality.begin(), decay.quality.end());
   for (const identification::StayResult& stay : stays) quality.insert(quality.end(), stay.quality.begin(), stay.quality.end());
-  write_features(campaign, results, stay_rows(stays), quality, folder / "features");
+  std::vector<std::string> conditions;
+  for (const identification::ConditionResult& result : results) conditions.push_back(result.condition);
+  for (const identification::StayResult& stay : stays) conditions.push_back(stay.condition);
+  write_features(campaign, results, conditions, stay_rows(stays), quality, folder / "features");
 }
 
 std::vector<std::string> report_lines(const identification::ConditionResult& result) {
