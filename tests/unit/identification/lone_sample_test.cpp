@@ -52,6 +52,19 @@ TEST(LoneSampleOf, UpToThreeInARowAndSeveralNearOneAnother) {
   EXPECT_FALSE(lone_sample(x).has_value());
 }
 
+// Of a long record the median is that of samples drawn from it. Median
+// distance of a sine of amplitude a: a/sqrt(2).
+TEST(LoneSampleOf, ALongRecordIsReadAsAShortOne) {
+  Eigen::VectorXd x(400000);
+  for (Eigen::Index t = 0; t < x.size(); ++t) x[t] = 3.0 * std::sin(2.0 * std::numbers::pi * static_cast<double>(t) / 7.3);
+  EXPECT_FALSE(lone_sample(x).has_value());
+  x[123456] = 1000.0;
+  const auto found = lone_sample(x);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->sample, 123456);
+  EXPECT_NEAR(found->deviations / (1000.0 / (1.4826 * 3.0 / std::numbers::sqrt2)), 1.0, 0.02);
+}
+
 TEST(LoneSampleOf, NoiseHasNone) { EXPECT_FALSE(lone_sample(floor_noise()).has_value()); }
 
 TEST(LoneSampleOf, MissingNeighboursAreLeftOut) {
