@@ -69,7 +69,7 @@ std::vector<TermPlan> plan_mass(const Model& model) {
   for (int i = 0; i < static_cast<int>(model.masses.size()); ++i) {
     const PointMass& mass = model.masses[static_cast<std::size_t>(i)];
     TermPlan& term = groups.add("point masses " + mass.group, i, mass_at_node);
-    if (term.parts.size() == 1) add_factors(model, Target::point_mass, mass.group, 1.0, term.coefficient);
+    if (term.parts.size() == 1) add_factor(model, Target::point_mass, mass.group, 1.0, term.coefficient);
   }
   for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i)
     groups.add("matrix elements", i, matrix_element_mass);

@@ -105,7 +105,7 @@ std::vector<TermPlan> plan_stiffness(const Model& model) {
     const Spring& s = model.springs[static_cast<std::size_t>(i)];
     if (!carries_stiffness(s)) continue;
     TermPlan& term = groups.add("springs " + s.group, i, spring);
-    if (term.parts.size() == 1) add_factors(model, Target::spring_stiffness, s.group, 1.0, term.coefficient);
+    if (term.parts.size() == 1) add_factor(model, Target::spring_stiffness, s.group, 1.0, term.coefficient);
   }
   for (int i = 0; i < static_cast<int>(model.matrix_elements.size()); ++i)
     groups.add("matrix elements", i, matrix_element_stiffness);
@@ -118,15 +118,15 @@ std::vector<TermPlan> plan_stays(const Model& model, const Eigen::VectorXd& stay
     const Element& e = element_at(model, i);
     if (e.type != ElementType::stay) continue;
     TermPlan term{"stay " + e.name, {}, {i}, bar_axial};
-    add_factors(model, Target::youngs_modulus, material_of(model, e).name, 1.0, term.coefficient);
     const double pull = stay_pull_N.size() > 0 ? stay_pull_N[i] : 0.0;
     if (pull > 0.0) {
       const double E = material_of(model, e).youngs_modulus_Pa;
-      term.coefficient.stay = sag_of(model, e, pull);
-      term.coefficient.base = term.coefficient.stay->modulus(E) / E;  // the matrix holds E A / L, the term E_eq A / L
-      if (!term.coefficient.factors.empty()) term.coefficient.stay_modulus_parameter = term.coefficient.factors[0].parameter;
+      term.coefficient.stay = stay_modulus(model, e, pull);
+      term.coefficient.base = term.coefficient.stay->law.modulus(E) / E;  // the matrix holds E A / L, the term E_eq A / L
+    } else {
+      add_factor(model, Target::youngs_modulus, material_of(model, e).name, 1.0, term.coefficient);
     }
-    add_factors(model, Target::area, section_of(model, e).name, 1.0, term.coefficient);
+    add_factor(model, Target::area, section_of(model, e).name, 1.0, term.coefficient);
     plans.push_back(std::move(term));
   }
   return plans;

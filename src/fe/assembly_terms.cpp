@@ -7,26 +7,34 @@
 
 namespace twindeck::fe {
 
-bool is_parameter(const Model& model, Target target, const std::string& name) {
-  Coefficient coefficient;
-  add_factors(model, target, name, 1.0, coefficient);
-  return !coefficient.factors.empty();
-}
-
-void add_factors(const Model& model, Target target, const std::string& name, double power, Coefficient& coefficient) {
+std::optional<ParameterFactor> factor_of(const Model& model, Target target, const std::string& name, double power) {
   for (std::size_t p = 0; p < model.parameters.size(); ++p) {
     const Parameter& parameter = model.parameters[p];
     if (parameter.target != target) continue;
     if (std::find(parameter.of.begin(), parameter.of.end(), name) == parameter.of.end()) continue;
-    coefficient.factors.push_back({static_cast<int>(p), power, parameter.initial});
+    return ParameterFactor{static_cast<int>(p), power, parameter.initial};
   }
+  return std::nullopt;
 }
 
-Dischinger sag_of(const Model& model, const Element& stay, double pull_N) {
+bool is_parameter(const Model& model, Target target, const std::string& name) {
+  return factor_of(model, target, name, 1.0).has_value();
+}
+
+void add_factor(const Model& model, Target target, const std::string& name, double power, Coefficient& coefficient) {
+  if (const auto factor = factor_of(model, target, name, power)) coefficient.factors.push_back(*factor);
+}
+
+StayModulus stay_modulus(const Model& model, const Element& stay, double pull_N) {
   const auto ends = end_nodes(model, stay);
   const Eigen::Vector3d chord = ends[1] - ends[0];
-  return {material_of(model, stay).density_kg_m3 * model.gravity_m_s2, chord.head<2>().norm(),
-          pull_N / section_of(model, stay).area_m2};
+  const Material& material = material_of(model, stay);
+  const Section& section = section_of(model, stay);
+  return {{material.density_kg_m3 * model.gravity_m_s2, chord.head<2>().norm(), pull_N / section.area_m2},
+          material.youngs_modulus_Pa,
+          factor_of(model, Target::youngs_modulus, material.name, 1.0),
+          factor_of(model, Target::density, material.name, 1.0),
+          factor_of(model, Target::area, section.name, 1.0)};
 }
 
 TermPlan& TermGroups::add(const std::string& label, int part, ElementMatrix (*matrix)(const Model&, int)) {
@@ -43,7 +51,7 @@ void TermGroups::add_element(const Model& model, int i, const std::string& label
   if (plan.parts.size() > 1) return;
   const Element& e = model.elements[static_cast<std::size_t>(i)];
   const auto factor = [&](Target target, const std::string& name, double power) {
-    if (power != 0.0) add_factors(model, target, name, power, plan.coefficient);
+    if (power != 0.0) add_factor(model, target, name, power, plan.coefficient);
   };
   factor(Target::youngs_modulus, material_of(model, e).name, powers.modulus);
   factor(Target::density, material_of(model, e).name, powers.density);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,16 @@ class TermGroups {
 [[nodiscard]] std::vector<Term> assemble_terms(const Model& model, const std::vector<TermPlan>& plans,
                                                const linalg::SparseMatrix& pattern, const DofMap& map);
 
-/// Factors of a coefficient for one material, section or group: (theta / current value)^power for each parameter that has this
-/// target and this name.
-void add_factors(const Model& model, Target target, const std::string& name, double power, Coefficient& coefficient);
+/// Factor (theta / current value)^power of one material, section or group, if a parameter scales it; a model has one for each
+/// property at most (validate_parameters).
+[[nodiscard]] std::optional<ParameterFactor> factor_of(const Model& model, Target target, const std::string& name,
+                                                       double power);
+/// Gives it to a coefficient.
+void add_factor(const Model& model, Target target, const std::string& name, double power, Coefficient& coefficient);
 [[nodiscard]] bool is_parameter(const Model& model, Target target, const std::string& name);
 
-/// Dischinger's reduction for a stay under its cable force, with the horizontal projection of its chord.
-[[nodiscard]] Dischinger sag_of(const Model& model, const Element& stay, double pull_N);
+/// Dischinger's modulus of a stay under its cable force, with the horizontal projection of its chord, and how parameters move
+/// it.
+[[nodiscard]] StayModulus stay_modulus(const Model& model, const Element& stay, double pull_N);
 
 }  // namespace twindeck::fe

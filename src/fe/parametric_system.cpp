@@ -1,7 +1,6 @@
 #include "fe/parametric_system.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "fe/term_sum.hpp"
@@ -9,24 +8,6 @@
 namespace twindeck::fe {
 
 namespace {
-
-double power_of(double x, double power) { return power == 1.0 ? x : std::pow(x, power); }
-
-/// One factor of a coefficient and its derivative with respect to its own parameter.
-struct FactorValue {
-  double value, derivative;
-};
-
-FactorValue evaluate(const Coefficient::Factor& factor, const Coefficient& coefficient, const Eigen::VectorXd& theta) {
-  const double now = theta[factor.parameter];
-  if (coefficient.stay && factor.parameter == coefficient.stay_modulus_parameter) {
-    const double reference = coefficient.stay->modulus(factor.reference);
-    const double equivalent = coefficient.stay->modulus(now);
-    return {equivalent / reference, coefficient.stay->modulus_derivative(now) / reference};
-  }
-  const double ratio = now / factor.reference;
-  return {power_of(ratio, factor.power), factor.power * std::pow(ratio, factor.power - 1.0) / factor.reference};
-}
 
 /// y += a · (symmetric matrix of the term) x, rows of x and y being the vectors' entries of one degree of freedom (m × n).
 void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a, const Eigen::MatrixXd& xt,
@@ -91,34 +72,6 @@ linalg::SparseMatrix combine(const linalg::SparseMatrix& pattern, const std::vec
   for (const Term& term : terms) {
     const double a = term.coefficient.value(theta);
     for (std::size_t i = 0; i < term.position.size(); ++i) values[term.position[i]] += a * term.value[i];
-  }
-  return sum;
-}
-
-double Dischinger::modulus(double youngs_modulus_Pa) const {
-  const double sag = weight_density_N_m3 * horizontal_length_m;
-  return youngs_modulus_Pa / (1.0 + sag * sag * youngs_modulus_Pa / (12.0 * stress_Pa * stress_Pa * stress_Pa));
-}
-
-double Dischinger::modulus_derivative(double youngs_modulus_Pa) const {
-  const double ratio = modulus(youngs_modulus_Pa) / youngs_modulus_Pa;
-  return ratio * ratio;
-}
-
-double Coefficient::value(const Eigen::VectorXd& theta) const {
-  double product = base;
-  for (const Factor& factor : factors) product *= evaluate(factor, *this, theta).value;
-  return product;
-}
-
-double Coefficient::derivative(const Eigen::VectorXd& theta, int parameter) const {
-  double sum = 0.0;  // product rule; a parameter may stand in several factors (thickness in t and t³)
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    if (factors[i].parameter != parameter) continue;
-    double product = base * evaluate(factors[i], *this, theta).derivative;
-    for (std::size_t j = 0; j < factors.size(); ++j)
-      if (j != i) product *= evaluate(factors[j], *this, theta).value;
-    sum += product;
   }
   return sum;
 }

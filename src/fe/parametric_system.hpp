@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "fe/coefficient.hpp"
 #include "fe/model.hpp"
 #include "linalg/sparse.hpp"
 
@@ -15,31 +15,6 @@ struct DofLabel {
   std::string node;   ///< node id as text
   int direction = 0;  ///< 0-5 = x y z rx ry rz
   Eigen::Vector3d x_m = Eigen::Vector3d::Zero();
-};
-
-/// Ernst/Dischinger tangent modulus at a frozen cable force:  E_eq = E / (1 + (gamma l)² E / (12 sigma³)),
-/// gamma = weight per volume [N/m³], l = horizontal projection [m], sigma = T/A [Pa].
-/// d E_eq/dE = (E_eq/E)². Reference: Ernst (1965), Der Bauingenieur 40, 52-55.
-struct Dischinger {
-  double weight_density_N_m3 = 0.0, horizontal_length_m = 0.0, stress_Pa = 0.0;
-  [[nodiscard]] double modulus(double youngs_modulus_Pa) const;
-  [[nodiscard]] double modulus_derivative(double youngs_modulus_Pa) const;
-};
-
-/// Coefficient of one matrix term: base * prod (theta_p / reference_p)^power_p, or E_eq(theta_p)/E_eq(reference_p) for a stay.
-struct Coefficient {
-  struct Factor {
-    int parameter;
-    double power;
-    double reference;
-  };
-  double base = 1.0;
-  std::vector<Factor> factors;
-  std::optional<Dischinger> stay;  ///< when set, the factor of `stay_modulus_parameter` goes through E_eq; stress and weight
-                                   ///< are those of the prestress state and stay frozen with it
-  int stay_modulus_parameter = -1;
-  [[nodiscard]] double value(const Eigen::VectorXd& theta) const;
-  [[nodiscard]] double derivative(const Eigen::VectorXd& theta, int parameter) const;
 };
 
 /// One term a_g K_g: entries of K_g's lower triangle by position in the common pattern.

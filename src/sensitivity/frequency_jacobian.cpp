@@ -53,7 +53,7 @@ void add_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& 
                const VectorXd& theta, const MatrixXd& shapes_by_dof, const VectorXd& sign, MatrixXd& sum) {
   std::vector<VectorXd> forms(terms.size());
   parallel_for(terms.size(), [&](std::size_t t) {
-    if (!terms[t].coefficient.factors.empty()) forms[t] = quadratic_forms(system.pattern, terms[t], column, shapes_by_dof);
+    if (!terms[t].coefficient.is_constant()) forms[t] = quadratic_forms(system.pattern, terms[t], column, shapes_by_dof);
   });
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (forms[t].size() == 0) continue;

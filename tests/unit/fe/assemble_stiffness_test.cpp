@@ -101,7 +101,8 @@ TEST(AssembleStiffness, ShellsGoWithThicknessAndItsCube) {
 }
 
 // Oracle: Ernst's modulus at 3-4-5: l = 1.2 m of 2 m, gamma = 8000·10 N/m3, sigma = 2e4/0.01 Pa; along the chord E_eq A/L, and
-// the string T/L across it (geometric). Without a force the whole E A/L. Area scales at a frozen stress.
+// the string T/L across it (geometric). Without a force the whole E A/L. The force alone is frozen:
+// sigma goes with 1/A and gamma with the density.
 TEST(AssembleStiffness, StaysHaveErnstsModulus) {
   Model model = steel_beam();
   model.nodes[1].x_m = Eigen::Vector3d(1.2, 0.0, 1.6);
@@ -110,22 +111,25 @@ TEST(AssembleStiffness, StaysHaveErnstsModulus) {
   model.prestress.geometric_stiffness = false;
   scale_by(model, Target::youngs_modulus, "steel", 200e9);
   scale_by(model, Target::area, "girder", 0.01);
+  scale_by(model, Target::density, "steel", 8000.0);
   PrestressState state;
   state.stay_pull_N = Eigen::VectorXd::Constant(1, 2e4);
   state.axial_force_N = Eigen::VectorXd::Zero(1);
   const Eigen::Vector3d along(0.6, 0.0, 0.8);
   const double q = std::pow(8e4 * 1.2, 2) / (12.0 * std::pow(2e6, 3));
   for (const double e : {1.0, 2.0})
-    for (const double area : {1.0, 1.5}) {
-      const double expected = area * 0.01 / 2.0 * 200e9 * e / (1.0 + q * 200e9 * e);
-      const Eigen::Matrix3d k = stiffness_at(model, Eigen::Vector2d(e, area), state);
-      EXPECT_LT((k - expected * along * along.transpose()).norm(), 1e-9 * expected);
-    }
+    for (const double area : {1.0, 1.5})
+      for (const double density : {1.0, 0.7}) {
+        const double sag = q * 200e9 * e * density * density * area * area * area;
+        const double expected = area * 0.01 / 2.0 * 200e9 * e / (1.0 + sag);
+        const Eigen::Matrix3d k = stiffness_at(model, Eigen::Vector3d(e, area, density), state);
+        EXPECT_LT((k - expected * along * along.transpose()).norm(), 1e-9 * expected);
+      }
   EXPECT_GT(q * 200e9, 10.0);  // else the sag would not show
-  const Eigen::Matrix3d taut = stiffness_at(model, Eigen::Vector2d::Ones());
+  const Eigen::Matrix3d taut = stiffness_at(model, Eigen::Vector3d::Ones());
   EXPECT_LT((taut - 1e9 * along * along.transpose()).norm(), 1.0);
   model.prestress.geometric_stiffness = true;
-  const Eigen::Matrix3d with = stiffness_at(model, Eigen::Vector2d::Ones(), state);
+  const Eigen::Matrix3d with = stiffness_at(model, Eigen::Vector3d::Ones(), state);
   EXPECT_NEAR(with(1, 1), 1e4, 1e-6);
 }
 

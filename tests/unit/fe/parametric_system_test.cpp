@@ -87,41 +87,6 @@ TEST(ParametricSystem, SmallAndLargeTermsMultiplyAlike) {
   EXPECT_LT((system.stiffness_derivative_times(theta, 1, x) - part * x).norm(), 1e-12 * (part * x).norm());
 }
 
-// Oracle: product rule by hand for a thickness in t and t³: base 3, t = 2 over 1: 3·2·8 = 48, slope 3·4 t³ = 96.
-TEST(ParametricSystem, AParameterMayStandInSeveralFactors) {
-  Coefficient c;
-  c.base = 3.0;
-  c.factors = {{0, 1.0, 1.0}, {0, 3.0, 1.0}, {1, -1.0, 5.0}};
-  const Eigen::Vector2d theta(2.0, 5.0);
-  EXPECT_NEAR(c.value(theta), 48.0, 1e-12);
-  EXPECT_NEAR(c.derivative(theta, 0), 96.0, 1e-12);
-  EXPECT_NEAR(c.derivative(theta, 1), -48.0 / 5.0, 1e-12);
-  EXPECT_EQ(c.derivative(theta, 2), 0.0);
-  EXPECT_EQ(Coefficient{}.value(theta), 1.0);
-}
-
-// Oracle: Ernst (1965) by hand: (gamma l)² / (12 sigma³) = (8e4·50)²/(12·1e24) 1/Pa; the slope by central differences, whose
-// third derivative costs (h/E)² = 1e-8.
-TEST(ParametricSystem, StayFollowsErnst) {
-  Coefficient c;
-  c.base = 2.0;
-  c.stay = Dischinger{8e4, 50.0, 1e8};
-  c.stay_modulus_parameter = 0;
-  c.factors = {{0, 1.0, 160e9}, {1, 1.0, 0.01}};  // its modulus, its area
-  const double q = 16e12 / 12e24;
-  EXPECT_NEAR(c.stay->modulus(160e9), 160e9 / (1.0 + q * 160e9), 1.0);
-  EXPECT_EQ(Dischinger({0.0, 50.0, 1e8}).modulus(160e9), 160e9);
-  const Eigen::Vector2d theta(200e9, 0.02);
-  EXPECT_NEAR(c.value(theta), 2.0 * 2.0 * (200.0 / 160.0) * (1.0 + q * 160e9) / (1.0 + q * 200e9), 1e-12);
-  for (int p = 0; p < 2; ++p) {
-    const double h = 1e-4 * theta[p];
-    Eigen::Vector2d up = theta, down = theta;
-    up[p] += h, down[p] -= h;
-    const double slope = (c.value(up) - c.value(down)) / (2.0 * h);
-    EXPECT_NEAR(c.derivative(theta, p) / slope, 1.0, 1e-7) << p;
-  }
-}
-
 // Oracle: full displacements are E q.
 TEST(ParametricSystem, ExpandsByItsLinks) {
   ParametricSystem system = two_terms();
