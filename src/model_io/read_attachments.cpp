@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "model_io/names.hpp"
 
@@ -26,6 +28,14 @@ double not_negative(const io::CsvTable& table, std::size_t row, const std::strin
   return value;
 }
 
+/// Refuses a row that says nothing: cells that are its point and are all empty. Where one is filled, the others are 0.
+void require_one(const io::CsvTable& table, std::size_t row, const std::vector<std::string>& columns, const std::string& mend) {
+  const auto is_empty = [&](const std::string& column) { return table.text(row, column).empty(); };
+  if (!std::all_of(columns.begin(), columns.end(), is_empty)) return;
+  table.fail(row, columns.front(), fmt::format("is empty, and so are {}", fmt::join(columns.begin() + 1, columns.end(), ", ")),
+             mend);
+}
+
 /// One of two words; the first where the cell is empty.
 bool is_second_word(const io::CsvTable& table, std::size_t row, const std::string& column, const std::string& first,
                     const std::string& second) {
@@ -45,6 +55,7 @@ void read_supports(const std::filesystem::path& folder, fe::Model& model, const 
     fe::Support support;
     support.name = table.text(row, "support");
     support.node = index.node(table, row, "node");
+    require_one(table, row, direction_names(), "write 1 for the directions that it holds");
     for (std::size_t i = 0; i < 6; ++i) support.fixed[i] = read_flag(table, row, direction_names()[i], false);
     model.supports.push_back(support);
   }
@@ -73,10 +84,12 @@ void read_springs(const std::filesystem::path& folder, fe::Model& model, const N
     // Rescaled only when it is not of unit length to the twelve digits of the file, so that a round trip changes nothing.
     if (std::abs(s.direction.norm() - 1.0) > 1e-11) s.direction.normalize();
     s.rotation = is_second_word(table, row, "quantity", "translation", "rotation");
+    require_one(table, row, {"stiffness_N_m", "damping_N_s_m", "friction_N"}, "fill the one that it has; write 0 for none");
     s.stiffness = not_negative(table, row, "stiffness_N_m");
     s.damping = not_negative(table, row, "damping_N_s_m");
     s.friction_N = not_negative(table, row, "friction_N");
     s.series = is_second_word(table, row, "arrangement", "parallel", "series");
+    if (s.series) (void)table.number(row, "stiffness_N_m");  // a spring of 0 in series would take the dashpot away
     s.active = read_flag(table, row, "active", true);
     model.springs.push_back(std::move(s));
   }
@@ -131,6 +144,8 @@ void read_masses(const std::filesystem::path& folder, fe::Model& model, const Na
     fe::PointMass mass;
     mass.group = table.text(row, "group");
     mass.node = index.node(table, row, "node");
+    require_one(table, row, {"mass_kg", "inertia_x_kg_m2", "inertia_y_kg_m2", "inertia_z_kg_m2"},
+                "fill the mass; write 0 for none");
     mass.mass_kg = not_negative(table, row, "mass_kg");
     mass.inertia_kg_m2 = {not_negative(table, row, "inertia_x_kg_m2"), not_negative(table, row, "inertia_y_kg_m2"),
                           not_negative(table, row, "inertia_z_kg_m2")};

@@ -65,6 +65,18 @@ const std::vector<BadInput> kBadInputs = {
      {"springs.csv:3", "spring", "'C1' is the name of row 1 too"}},
     {"slave of itself", "links.csv", "1,7", "1,1", {"links.csv:2", "slave"}},
     {"negative mass", "masses.csv", "120.5", "-120.5", {"masses.csv:2", "mass_kg", "-120.5"}},
+    {"no mass", "masses.csv", "120.5,1,2,3", ",,,", {"masses.csv:2", "mass_kg", "is empty, and so are inertia_x_kg_m2"}},
+    {"spring without values",
+     "springs.csv",
+     "1000000,20000,3000",
+     ",,",
+     {"springs.csv:2", "stiffness_N_m", "is empty, and so are damping_N_s_m, friction_N"}},
+    {"no stiffness in series", "springs.csv", "1000000,20000", ",20000", {"springs.csv:2", "stiffness_N_m", "is empty"}},
+    {"support without a direction",
+     "supports.csv",
+     "1,1,1,1,0,1,0",
+     "1,,,,,,",
+     {"supports.csv:2", "x", "is empty, and so are y"}},
     {"point on no node", "points.csv", "M2,5", "M2,6", {"points.csv:3", "node 6 is not in nodes.csv"}},
     {"unknown key", "model.toml", "gravity", "gravty", {"model.toml:", "gravty", "did you mean 'gravity'"}},
     {"unknown part of a parameter",
@@ -116,6 +128,21 @@ TEST(ModelErrorsOfFolders, TwoNodesAtOnePlace) {
   const std::string message = message_of([&] { (void)read_model(folder.path()); });
   EXPECT_NE(message.find("elements.csv:2"), std::string::npos) << message;
   EXPECT_NE(message.find("nodes 1 and 2 lie at one place"), std::string::npos) << message;
+}
+
+// Oracle: what docs/my_model.md says: a cell beside a filled one is 0, here the stiffness of a dashpot and the mass of a
+// flywheel.
+TEST(ModelErrorsOfFolders, ACellBesideAFilledOneIsZero) {
+  const TestFolder folder;
+  write_model(one_of_everything(), folder.path());
+  folder.write("springs.csv", "spring,node,direction_x,direction_y,direction_z,stiffness_N_m,damping_N_s_m\nd,5,0,0,1,,2e4\n");
+  folder.write("masses.csv", "group,node,mass_kg,inertia_x_kg_m2\nrail,2,,7\n");
+  folder.write("model.toml", "title = \"no parameters\"\n");
+  const fe::Model model = read_model(folder.path());
+  EXPECT_EQ(model.springs[0].stiffness, 0.0);
+  EXPECT_EQ(model.springs[0].damping, 2e4);
+  EXPECT_EQ(model.masses[0].mass_kg, 0.0);
+  EXPECT_EQ(model.masses[0].inertia_kg_m2, Eigen::Vector3d(7.0, 0.0, 0.0));
 }
 
 TEST(ModelErrorsOfFolders, SayThatAFileOrFolderIsMissing) {
