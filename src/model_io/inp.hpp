@@ -30,7 +30,7 @@ struct ImportedModel {
 
 enum class InpFlavour {
   calculix,  ///< beams as B32R, pipes or rectangles in a material of their own (inp_expanded_beam.hpp)
-  abaqus     ///< beams as B33 or B31 with *BEAM GENERAL SECTION: nothing lost
+  abaqus     ///< beams as B33 or B31 with *BEAM GENERAL SECTION: nothing of them lost
 };
 
 /// Writes the model with a *FREQUENCY step of `n_modes`. Stays become trusses with the tangent modulus of their pull (Ernst).

@@ -357,6 +357,16 @@ class PartsOfAFile(Folder):
             self.assertAlmostEqual(f / w, 1.0, delta=1e-6)
 
 
+class LeftOut(Folder):
+    def test_what_neither_file_holds_is_said_of_both(self):
+        """A shell's ratio of bending inertia; only the model itself knows that it is missing."""
+        models.write_model(self.folder / "plate", "plate", {1: (0, 0, 0), 2: (1, 0, 0), 3: (1, 1, 0), 4: (0, 1, 0)}, [("shell", "slab", "slab", [1, 2, 3, 4])],
+                           {"slab": [0, 0, 0, 0, 0, 0, 0, 0.1, 1.3]}, {1: [1] * 6, 4: [1] * 6})
+        done = run(self.folder / "plate", self.folder / "s1", "--set", "n_modes=2", "--export-inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("model.inp, model_abaqus.inp: the bending inertia ratio 1.3 of section 'slab' is left out", done.stdout + done.stderr)
+
+
 class SpoiltFiles(Folder):
     def test_spoilt_lines_are_refused_in_one_line_or_read(self):
         """Seeded mutations of both flavours: never a crash, never silence; a refusal names the file."""
