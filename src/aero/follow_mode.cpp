@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "aero/state_matrix.hpp"
+
 namespace twindeck::aero {
 namespace {
 
@@ -45,7 +47,8 @@ double shape_agreement(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return std::norm(a.dot(b)) / (a.squaredNorm() * b.squaredNorm());
 }
 
-std::optional<ComplexMode> iterate(const AeroelasticSystem& system, const ComplexMode& start, double speed) {
+std::optional<ComplexMode> iterate(const AeroelasticSystem& system, const ComplexMode& start, double speed,
+                                   const FrequencyRange& range = {}) {
   const ReducedStructure& structure = system.structure();
   const Eigen::MatrixXd damping = structure.damping();
   Complex lambda = start.lambda;
@@ -53,7 +56,8 @@ std::optional<ComplexMode> iterate(const AeroelasticSystem& system, const Comple
   const Eigen::VectorXcd normal = v;
   for (int i = 0; i < max_iterations; ++i) {
     if (!(lambda.imag() > least_oscillation * std::abs(lambda))) return std::nullopt;
-    const Dynamic d = dynamic_matrix(structure, damping, system.self_excited(speed, lambda.imag()), lambda);
+    const double omega = std::clamp(lambda.imag(), range.lowest, range.highest);
+    const Dynamic d = dynamic_matrix(structure, damping, system.self_excited(speed, omega), lambda);
     const Eigen::VectorXcd x = d.value.partialPivLu().solve(d.slope * v);
     if (!x.allFinite() ||
         x.cwiseAbs().maxCoeff() > no_inverse) {  // λ is an eigenvalue to its last digit, where the matrix has no inverse
@@ -83,24 +87,6 @@ std::optional<ComplexMode> advance(const AeroelasticSystem& system, const Comple
   return half ? advance(system, *half, middle, speed, halvings - 1) : std::nullopt;
 }
 
-Eigen::MatrixXd state_matrix(const ReducedStructure& s) {
-  const Eigen::Index m = s.size(), n = static_cast<Eigen::Index>(s.maxwell.size());
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * m + n, 2 * m + n);
-  a.block(0, m, m, m).setIdentity();
-  a.block(m, 0, m, m).diagonal() -= s.omega_rad_s.cwiseAbs2();
-  a.block(m, m, m, m) -= s.damping();
-  // State of a Maxwell unit: the elongation e of its dashpot, c ė = k (d·q - e).
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const MaxwellUnit& unit = s.maxwell[static_cast<std::size_t>(j)];
-    const double k = unit.stiffness_N_m;
-    a.block(m, 0, m, m) -= k * unit.direction * unit.direction.transpose();
-    a.block(m, 2 * m + j, m, 1) = k * unit.direction;
-    a.block(2 * m + j, 0, 1, m) = k / unit.damping_N_s_m * unit.direction.transpose();
-    a(2 * m + j, 2 * m + j) = -k / unit.damping_N_s_m;
-  }
-  return a;
-}
-
 }  // namespace
 
 double ComplexMode::frequency_Hz() const { return lambda.imag() / (2.0 * std::numbers::pi); }
@@ -123,6 +109,11 @@ std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure) {
 std::optional<ComplexMode> mode_at(const AeroelasticSystem& system, const ComplexMode& from, double from_speed_m_s,
                                    double speed_m_s) {
   return advance(system, from, from_speed_m_s, speed_m_s, most_halvings);
+}
+
+std::optional<ComplexMode> mode_near(const AeroelasticSystem& system, const ComplexMode& start, double speed_m_s,
+                                     const FrequencyRange& range) {
+  return iterate(system, start, speed_m_s, range);
 }
 
 Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air, int mode,

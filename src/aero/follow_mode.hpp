@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -38,5 +39,12 @@ struct Branch {
 /// The mode at one speed, from a mode at a lower one. @return empty if it cannot be tracked
 [[nodiscard]] std::optional<ComplexMode> mode_at(const AeroelasticSystem& system, const ComplexMode& from,
                                                  double from_speed_m_s, double speed_m_s);
+/// Frequencies at which derivatives are taken [rad/s]; beyond an end those of the end hold.
+struct FrequencyRange {
+  double lowest = 0.0, highest = std::numeric_limits<double>::infinity();
+};
+/// The mode at one speed, by the same iteration from a motion at that speed. @return empty if it does not converge
+[[nodiscard]] std::optional<ComplexMode> mode_near(const AeroelasticSystem& system, const ComplexMode& start, double speed_m_s,
+                                                   const FrequencyRange& range);
 
 }  // namespace twindeck::aero

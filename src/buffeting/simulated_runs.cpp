@@ -1,9 +1,13 @@
 #include "buffeting/simulated_runs.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <mutex>
 #include <numbers>
 #include <utility>
 
+#include "aero/stability.hpp"
 #include "buffeting/loads.hpp"
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"
@@ -16,12 +20,14 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Everything about a run in an event that does not depend on the seed.
+/// A stable run in an event, with everything that does not depend on the seed.
 struct Prepared {
-  RunResult result;
+  std::size_t run = 0;  ///< position among the event's
   MatrixXd load;
   transient::Newmark newmark;
 };
+
+constexpr double kLowestDerivatives_Hz = 0.2;  ///< derivatives are those of this frequency below it, well below the first mode
 
 /// Spacing of frequencies where the bridge has its modes, and above them.
 constexpr double kFine_Hz = 4e-3, kFineUpTo_Hz = 3.0, kCoarse_Hz = 4e-2;
@@ -34,28 +40,59 @@ Eigen::VectorXd spectral_frequencies(double cutoff_Hz) {
   return Eigen::Map<const Eigen::VectorXd>(f.data(), static_cast<Index>(f.size()));
 }
 
-Prepared prepare(const BridgeInWind& bridge, const WindEventSettings& config, const WindEvent& event, const ValidationRun& run,
-                 const wind::FieldDefinition& along, const wind::FieldDefinition& vertical) {
-  const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, run.model));
-  const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice());
-  RunResult result;
-  result.event = event.name;
-  result.run = run.name;
-  result.model = run.model;
-  result.rms.resize(bridge.sensors.motion.rows(), config.seeds);
-  result.peak = result.rms;
+/// Whether the response in this wind is stationary, both as it is integrated in time and in the frequency domain.
+Status stability(const BridgeInWind& bridge, const WindEventSettings& config, const WindEvent& event, const ValidationRun& run,
+                 const aero::AeroelasticSystem& system) {
+  const double turn = 2.0 * std::numbers::pi;
+  const std::optional<aero::Growth> growth = aero::find_growth(
+      system, event.speed_m_s,
+      {bridge.frozen_omega, {turn * kLowestDerivatives_Hz, turn * std::max(config.cutoff_Hz, kLowestDerivatives_Hz)}});
+  if (!growth) return {};
+  return {false, fmt::format("event {} at {:.4g} m/s, run {} (model {}): the bridge is unstable, {}{}", event.name,
+                             event.speed_m_s, run.name, run.model, growth->in_words(),
+                             growth->at_own_frequency ? " by the derivatives of its own frequency" : "")};
+}
+
+void add_spectral_values(RunResult& result, const BridgeInWind& bridge, const WindEventSettings& config, double speed_m_s,
+                         const aero::AeroelasticSystem& system, const MatrixXd& load, const wind::FieldDefinition& along,
+                         const wind::FieldDefinition& vertical) {
   const Eigen::VectorXd f = spectral_frequencies(config.cutoff_Hz);
   SpectralOptions options;
-  options.lowest_omega = 2.0 * std::numbers::pi * 0.2;                       // well below the first mode
+  options.lowest_omega = 2.0 * std::numbers::pi * kLowestDerivatives_Hz;
   const auto points = static_cast<Index>(3 * bridge.sensors.points.size());  // of the monitoring points alone
-  result.spectral_rms_each_frequency =
-      buffeting::band_rms(f, buffeting::response_spectra(system, event.speed_m_s, load, along, vertical,
-                                                         bridge.sensors.motion.topRows(points), f, options));
+  const auto rms = [&] {
+    return buffeting::band_rms(f, buffeting::response_spectra(system, speed_m_s, load, along, vertical,
+                                                              bridge.sensors.motion.topRows(points), f, options));
+  };
+  result.spectral_rms_each_frequency = rms();
   options.frozen_omega = bridge.frozen_omega;
-  result.spectral_rms = buffeting::band_rms(f, buffeting::response_spectra(system, event.speed_m_s, load, along, vertical,
-                                                                           bridge.sensors.motion.topRows(points), f, options));
-  return {result, load,
-          transient::Newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), config.step_s)};
+  result.spectral_rms = rms();
+}
+
+/// Results without their seeds, and what the seeds need of the stable runs.
+struct Start {
+  std::vector<RunResult> results;
+  std::vector<Prepared> stable;
+};
+
+Start prepare(const BridgeInWind& bridge, const WindEventSettings& config, const WindEvent& event,
+              const wind::FieldDefinition& along, const wind::FieldDefinition& vertical) {
+  Start start;
+  for (const ValidationRun& run : config.runs) {
+    const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, run.model));
+    RunResult result{event.name, run.name, run.model, {}, {}, {}, {}, stability(bridge, config, event, run, system)};
+    if (result.status.converged) {
+      const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice());
+      result.rms.resize(bridge.sensors.motion.rows(), config.seeds);
+      result.peak = result.rms;
+      add_spectral_values(result, bridge, config, event.speed_m_s, system, load, along, vertical);
+      start.stable.push_back(
+          {start.results.size(), load,
+           transient::Newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), config.step_s)});
+    }
+    start.results.push_back(std::move(result));
+  }
+  return start;
 }
 
 }  // namespace
@@ -71,9 +108,8 @@ SimulatedEvent simulate_event(const BridgeInWind& bridge, const wind::Turbulence
     return field_at_nodes(bridge, set, config.height_m, event.speed_m_s, component, config.frozen);
   };
   const wind::Simulator along(field(wind::Component::along), options), vertical(field(wind::Component::vertical), options);
-  std::vector<Prepared> prepared;
-  for (const ValidationRun& run : config.runs)
-    prepared.push_back(prepare(bridge, config, event, run, along.field(), vertical.field()));
+  Start start = prepare(bridge, config, event, along.field(), vertical.field());
+  if (start.stable.empty()) return {std::move(start.results), {}};
   FieldStatistics statistics(event.name, along, vertical, config.seeds);
 
   std::mutex counting;
@@ -84,19 +120,17 @@ SimulatedEvent simulate_event(const BridgeInWind& bridge, const wind::Turbulence
     MatrixXd gusts(along.n_samples(), 2 * strips);
     gusts << along.sample(own), vertical.sample(own);
     statistics.add(seed, gusts);
-    for (Prepared& run : prepared) {
+    for (const Prepared& run : start.stable) {
       const Response response =
           buffeting::respond(run.newmark, run.load, gusts, config.step_s, bridge.sensors.motion, {config.lead_in_s});
-      run.result.rms.col(seed) = buffeting::root_mean_squares(response.acceleration_m_s2);
-      run.result.peak.col(seed) = response.acceleration_m_s2.cwiseAbs().colwise().maxCoeff().transpose();
+      RunResult& result = start.results[run.run];
+      result.rms.col(seed) = buffeting::root_mean_squares(response.acceleration_m_s2);
+      result.peak.col(seed) = response.acceleration_m_s2.cwiseAbs().colwise().maxCoeff().transpose();
     }
     const std::scoped_lock lock(counting);
     reporter.progress(event.name, static_cast<double>(++done), static_cast<double>(config.seeds));
   });
-  SimulatedEvent simulated;
-  for (Prepared& run : prepared) simulated.runs.push_back(std::move(run.result));
-  simulated.checks = statistics.checks();
-  return simulated;
+  return {std::move(start.results), statistics.checks()};
 }
 
 }  // namespace twindeck::buffeting

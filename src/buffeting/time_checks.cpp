@@ -69,10 +69,10 @@ void append(std::vector<TimeCheck>& checks, const std::string& name, const Bridg
 }  // namespace
 
 std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const wind::TurbulenceSet& set,
-                                              const WindEventSettings& config, std::uint64_t seed) {
+                                              const WindEventSettings& config, const CheckedCase& checked, std::uint64_t seed) {
   std::vector<TimeCheck> checks;
-  const WindEvent& event = config.events.front();
-  const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, config.runs.front().model));
+  const WindEvent& event = checked.event;
+  const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, checked.run.model));
   const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice());
   const MatrixXd points = bridge.sensors.motion.topRows(3 * static_cast<Index>(bridge.sensors.points.size()));
 

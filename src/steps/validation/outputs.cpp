@@ -14,6 +14,8 @@ using Eigen::Index;
 
 namespace {
 
+constexpr std::size_t kBeforeMeasured = 12;  ///< columns of rms.csv before the measured side
+
 std::string word(aero::StaticRule rule) {
   return rule == aero::StaticRule::normal ? "normal" : rule == aero::StaticRule::cosine ? "cosine" : "oblique_strip";
 }
@@ -30,18 +32,26 @@ void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting
     for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
       for (Index d = 0; d < 3; ++d) {
         const Index row = 3 * static_cast<Index>(p) + d;
-        const buffeting::Interval rms = buffeting::confidence_interval(result.rms.row(row).transpose(), config.level);
         const auto found = measured.find({result.event, bridge.sensors.points[p]});
         std::optional<double> there, error, low, high;
-        if (d == 2 && found != measured.end()) {
-          there = found->second;
-          error = 100.0 * (rms.mean / *there - 1.0);
-          low = 100.0 * (rms.low / *there - 1.0);
-          high = 100.0 * (rms.high / *there - 1.0);
+        if (d == 2 && found != measured.end()) there = found->second;
+        std::vector<io::Cell> cells = {result.event, result.run, result.model, bridge.sensors.points[p],
+                                       axes[static_cast<std::size_t>(d)]};
+        if (result.status.converged) {
+          const buffeting::Interval rms = buffeting::confidence_interval(result.rms.row(row).transpose(), config.level);
+          if (there) {
+            error = 100.0 * (rms.mean / *there - 1.0);
+            low = 100.0 * (rms.low / *there - 1.0);
+            high = 100.0 * (rms.high / *there - 1.0);
+          }
+          for (const double value : {rms.mean, rms.low, rms.high, rms.deviation, result.peak.row(row).mean(),
+                                     result.spectral_rms[row], result.spectral_rms_each_frequency[row]})
+            cells.emplace_back(value);
+        } else {
+          cells.resize(kBeforeMeasured, io::Cell(""));
         }
-        csv.row({result.event, result.run, result.model, bridge.sensors.points[p], axes[static_cast<std::size_t>(d)], rms.mean,
-                 rms.low, rms.high, rms.deviation, result.peak.row(row).mean(), result.spectral_rms[row],
-                 result.spectral_rms_each_frequency[row], there, error, low, high});
+        for (const std::optional<double>& value : {there, error, low, high}) cells.emplace_back(value);
+        csv.row(cells);
       }
     }
   }
@@ -54,6 +64,12 @@ void write_comfort(const std::vector<buffeting::RunResult>& results, const buffe
                      "limit_m_s2", "verdict"});
   for (const buffeting::RunResult& result : results) {
     for (const bool vertical : {true, false}) {
+      const double limit = vertical ? config.comfort_vertical_m_s2 : config.comfort_lateral_m_s2;
+      const std::string direction = vertical ? "vertical" : "lateral";
+      if (!result.status.converged) {
+        csv.row({result.event, result.run, direction, "", "", "", "", "", limit, "unstable"});
+        continue;
+      }
       std::size_t worst = 0;
       double highest = -1.0;
       for (std::size_t i = 0; i < bridge.sensors.nodes.size(); ++i) {
@@ -66,9 +82,8 @@ void write_comfort(const std::vector<buffeting::RunResult>& results, const buffe
       const Index row = vertical ? bridge.sensors.vertical_row(worst) : bridge.sensors.lateral_row(worst);
       const aero::Strip& strip = bridge.model.strips[bridge.sensors.nodes[worst]];
       const buffeting::Interval peak = buffeting::confidence_interval(result.peak.row(row).transpose(), config.level);
-      const double limit = vertical ? config.comfort_vertical_m_s2 : config.comfort_lateral_m_s2;
-      csv.row({result.event, result.run, vertical ? "vertical" : "lateral", strip.deck, strip.station_m, peak.mean, peak.low,
-               peak.high, limit, peak.high <= limit ? "within" : "exceeded"});
+      csv.row({result.event, result.run, direction, strip.deck, strip.station_m, peak.mean, peak.low, peak.high, limit,
+               peak.high <= limit ? "within" : "exceeded"});
     }
   }
   csv.save(folder / "comfort.csv");

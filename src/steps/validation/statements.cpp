@@ -20,6 +20,7 @@ class Errors {
  public:
   Errors(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge, const MeasuredRms& measured) {
     for (const buffeting::RunResult& result : results) {
+      if (!result.status.converged) continue;
       for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
         const auto found = measured.find({result.event, bridge.sensors.points[p]});
         if (found == measured.end()) continue;

@@ -1,5 +1,6 @@
-/// Oracles: linearity in the static coefficients; the same rule gives the same run, in the same wind; seeds repeat and differ;
-/// the mean square over seeds is the integral of the spectrum, within the scatter of the samples.
+/// Oracles: the closed form of galloping by a constant h1*; linearity in the static coefficients; the same rule gives the same
+/// run, in the same wind; seeds repeat and differ; the mean square over seeds is the integral of the spectrum, within the
+/// scatter of the samples.
 #include "buffeting/simulated_runs.hpp"
 
 #include <gtest/gtest.h>
@@ -90,6 +91,32 @@ TEST(SimulatedRuns, MeanSquareIsTheIntegralOfTheSpectrum) {
     EXPECT_NEAR(std::sqrt(mean_square) / found.spectral_rms[row], 1.0, 0.36) << row;
     EXPECT_GT(found.spectral_rms[row], 0.0);
   }
+}
+
+// A mode gallops from V = 4 m ω ξ/(ρ B |h1|) on. Below it the run has its values, above it none, and a line says why; the whole
+// event then needs no wind.
+TEST(SimulatedRuns, NoValuesOfAnUnstableBridge) {
+  GustyBeam beam;
+  const double h1 = -2.0, critical = beam.deck.galloping_speed(h1, beam.aerodynamics.structural_damping);
+  const auto at = [&](double speed) {
+    buffeting::BridgeInWind bridge = beam.bridge();
+    bridge.sections[0].derivatives = tests::BeamDeck::heave_table(h1);
+    beam.config.events[0].speed_m_s = speed;
+    return simulate_event(bridge, beam.set, beam.config, beam.config.events[0], 5, Reporter());
+  };
+  const SimulatedEvent below = at(0.99 * critical), above = at(1.01 * critical);
+  ASSERT_EQ(below.runs.size(), 1U);
+  EXPECT_TRUE(below.runs[0].status.converged) << below.runs[0].status.message;
+  EXPECT_EQ(below.runs[0].rms.cols(), 3);
+  EXPECT_EQ(below.checks.size(), 8U);
+  ASSERT_EQ(above.runs.size(), 1U);
+  const std::string& told = above.runs[0].status.message;
+  EXPECT_FALSE(above.runs[0].status.converged);
+  for (const std::string part : {"event August at ", "run NS1 (model A)", "mode 1 grows at 1.1"})
+    EXPECT_NE(told.find(part), std::string::npos) << told;
+  EXPECT_EQ(above.runs[0].rms.size(), 0);
+  EXPECT_EQ(above.runs[0].spectral_rms.size(), 0);
+  EXPECT_TRUE(above.checks.empty());
 }
 
 }  // namespace
