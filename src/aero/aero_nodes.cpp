@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <map>
 #include <set>
 #include <tuple>
@@ -147,11 +149,24 @@ void add_interpolated(const fe::Model& model, const std::string& deck, std::vect
   }
 }
 
+// Points aero_<deck>_<number> in the order of their numbers, however many digits these have: 2 comes before 10, and points of a
+// deck whose name goes on after this one's are not of it.
 std::vector<int> named_nodes(const fe::Model& model, const std::string& deck) {
-  std::vector<int> nodes;
-  for (const auto& [name, node] : model.monitoring_points) {  // a map: in the order of their names
-    if (name.starts_with("aero_" + deck + "_")) nodes.push_back(node);
+  const std::string prefix = "aero_" + deck + "_";
+  std::map<long, std::pair<std::string, int>> found;
+  for (const auto& [name, node] : model.monitoring_points) {
+    if (!name.starts_with(prefix)) continue;
+    long number = 0;
+    const char *first = name.data() + prefix.size(), *last = name.data() + name.size();
+    if (first == last || !std::all_of(first, last, [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
+    if (std::from_chars(first, last, number).ec != std::errc()) continue;
+    if (const auto [other, is_new] = found.emplace(number, std::pair{name, node}); !is_new) {
+      throw InputError({model.source, 0, name}, "has the number of the point " + other->second.first,
+                       "number the points of a deck from one end to the other");
+    }
   }
+  std::vector<int> nodes;
+  for (const auto& [number, point] : found) nodes.push_back(point.second);
   return nodes;
 }
 
@@ -196,17 +211,25 @@ AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>
   AeroNodes out;
   Triplets entries;
   for (std::size_t i = 0; i < decks.size(); ++i) {
-    if (const std::vector<int> named = named_nodes(model, decks[i]);
-        named.size() > 1 && static_cast<int>(named.size()) == per_deck) {
+    const std::vector<int> named = named_nodes(model, decks[i]);
+    if (named.size() > 1 && static_cast<int>(named.size()) == per_deck) {
       add_named(model, decks[i], named, out, entries);
       continue;
     }
     std::vector<CrossSection> lines = cross_sections(model, cross_groups[i]);
     if (lines.size() < 2) {
+      const bool other_number = !named.empty();
       throw InputError(
           {model.source, 0, "deck " + decks[i]},
-          fmt::format("has {} lines of elements '{}' across it, expected at least 2", lines.size(), cross_groups[i]),
-          "name the group of its floor beams in cross_group, or give points aero_" + decks[i] + "_01 ... in points.csv");
+          fmt::format("has {} lines of elements '{}' across it, expected at least 2{}", lines.size(), cross_groups[i],
+                      other_number ? fmt::format(", and {} points aero_{}_<number> where nodes_per_deck asks for {}",
+                                                 named.size(), decks[i], per_deck)
+                                   : ""),
+          other_number
+              ? fmt::format("set nodes_per_deck to the number of points ({}), or name the group of its floor beams in "
+                            "cross_group",
+                            named.size())
+              : "name the group of its floor beams in cross_group, or give points aero_" + decks[i] + "_01 ... in points.csv");
     }
     order(lines);
     add_interpolated(model, decks[i], lines, per_deck, out, entries);

@@ -27,13 +27,13 @@ struct AeroNodes {
 
 /// Aerodynamic nodes of a finite element model, `per_deck` between the end stays of each deck.
 ///
-/// Where the model names its own (points.csv: aero_<deck>_01 … as many as asked for), those nodes and their rotations are
-/// taken, each in the middle of its length: half the way to its neighbours, the outermost as far outwards. Otherwise they are
-/// laid evenly, by interpolation between the deck's cross sections: lines of elements of the group `cross_group` across the
-/// deck. A section moves with the mean of its two edges. Its two horizontal rotations follow from the difference of its edges
-/// and from the slope to the next section. They are exact for a rigid motion, on a curved deck too. Rotation about the vertical
-/// does not meet any wind force and is left zero. A deck without stays is taken from end to end.
-/// @throws InputError  for a deck that the model does not have
+/// Where the model names its own (points.csv: aero_<deck>_01 … as many as asked for, in the order of their numbers), those
+/// nodes and their rotations are taken, each in the middle of its length: half the way to its neighbours, the outermost as far
+/// outwards. Otherwise they are laid evenly, by interpolation between the deck's cross sections: lines of elements of the group
+/// `cross_group` across the deck. A section moves with the mean of its two edges. Its two horizontal rotations follow from the
+/// difference of its edges and from the slope to the next section. They are exact for a rigid motion, on a curved deck too.
+/// Rotation about the vertical does not meet any wind force and is left zero. A deck without stays is taken from end to end.
+/// @throws InputError  for a deck that the model does not have, and for two points of one number
 [[nodiscard]] AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>& decks,
                                         const std::vector<std::string>& cross_groups, int per_deck);
 

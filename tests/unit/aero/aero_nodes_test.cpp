@@ -213,6 +213,40 @@ TEST(AeroNodes, NamedPointsAreTurnedToRunFromWestToEast) {
   EXPECT_EQ(motions[2](2, 0), 0.0);
 }
 
+// Numbers without a leading zero: by text aero_deck_10 would come before aero_deck_2. Points 5 m apart have 5 m each. Points of
+// a deck whose name begins with this one's, and a name that is no number, do not count.
+TEST(AeroNodes, NamedPointsStandInTheOrderOfTheirNumbers) {
+  FloorBeams deck;
+  for (int i = 0; i < 12; ++i) {
+    deck.model.monitoring_points["aero_deck_" + std::to_string(i + 1)] = deck.node({5.0 * i, 0, 0});
+    deck.model.monitoring_points["aero_deck_b_" + std::to_string(i + 1)] = deck.node({5.0 * i, 30, 0});
+  }
+  deck.model.monitoring_points["aero_deck_end"] = deck.node({90, 0, 0});
+  const aero::AeroNodes found = aero::find_aero_nodes(deck.model, {"deck", "deck_b"}, {"none", "none"}, 12);
+  ASSERT_EQ(found.nodes.size(), 24U);
+  for (std::size_t i = 0; i < 24; ++i) {
+    EXPECT_EQ(found.nodes[i].x_m, Eigen::Vector3d(5.0 * static_cast<double>(i % 12), i < 12 ? 0 : 30, 0)) << i;
+    EXPECT_NEAR(found.nodes[i].length_m, 5.0, 1e-13) << i;
+  }
+  deck.model.monitoring_points["aero_deck_02"] = 0;
+  EXPECT_THROW(static_cast<void>(aero::find_aero_nodes(deck.model, {"deck"}, {"none"}, 12)), InputError);
+}
+
+// Three points where eight are asked for: both numbers are told, and not that there are no points.
+TEST(AeroNodes, ANumberOfPointsThatIsNotTheOneAskedForIsTold) {
+  FloorBeams deck;
+  for (int i = 0; i < 3; ++i) deck.model.monitoring_points["aero_deck_" + std::to_string(i + 1)] = deck.node({5.0 * i, 0, 0});
+  try {
+    static_cast<void>(aero::find_aero_nodes(deck.model, {"deck"}, {"none"}, 8));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    const std::string told = error.what();
+    EXPECT_NE(told.find("3 points aero_deck_<number> where nodes_per_deck asks for 8"), std::string::npos) << told;
+    EXPECT_NE(told.find("set nodes_per_deck to the number of points (3)"), std::string::npos) << told;
+    EXPECT_EQ(told.find("aero_deck_01"), std::string::npos) << told;
+  }
+}
+
 TEST(AeroNodes, ADeckWithoutCrossSectionsIsRefused) {
   FloorBeams deck("bridges/one");
   deck.beam({0, 0, 0}, {0, 2, 0});
@@ -226,7 +260,13 @@ TEST(AeroNodes, ADeckWithoutCrossSectionsIsRefused) {
     EXPECT_NE(told.find("bridges/one"), std::string::npos) << told;
     EXPECT_NE(told.find("deck deck"), std::string::npos) << told;
     EXPECT_NE(told.find("has 1 lines of elements 'floor' across it, expected at least 2"), std::string::npos) << told;
-    EXPECT_NE(told.find("aero_deck_01"), std::string::npos) << told;
+    EXPECT_NE(told.find("nodes_per_deck asks for 3"), std::string::npos) << told;
+  }
+  try {
+    static_cast<void>(aero::find_aero_nodes(deck.model, {"other"}, {"floor"}, 3));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("give points aero_other_01"), std::string::npos) << error.what();
   }
   EXPECT_THROW(static_cast<void>(aero::find_aero_nodes(straight_deck().model, {"deck"}, {"other"}, 3)), InputError);
 }
