@@ -1,5 +1,8 @@
 #include "aero/wind_model.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "aero/analytic_derivatives.hpp"
@@ -14,14 +17,64 @@ namespace {
 constexpr double kLevelTolerance = 1e-9;  ///< [-] of a set's level: far finer than it is printed
 constexpr int kLevelSteps = 100;          ///< a third of them halves the bracket: enough for any
 
+bool is_damper_of_wind(const fe::Spring& spring) { return spring.group.starts_with("damper"); }
+
 }  // namespace
 
 std::vector<const fe::Spring*> dampers_of(const fe::Model& model) {
   std::vector<const fe::Spring*> dampers;
   for (const fe::Spring& spring : model.springs) {
-    if (spring.group.starts_with("damper")) dampers.push_back(&spring);
+    if (is_damper_of_wind(spring)) dampers.push_back(&spring);
   }
   return dampers;
+}
+
+std::string untaken_in_words(const fe::Model& model) {
+  std::vector<std::string> dashpots, friction;
+  for (const fe::Spring& spring : model.springs) {
+    const bool taken = is_damper_of_wind(spring);
+    if (!taken && spring.active && spring.damping > 0.0) dashpots.push_back(spring.name);
+    if ((taken || spring.active) && spring.friction_N > 0.0) friction.push_back(spring.name);
+  }
+  std::string words;
+  if (!dashpots.empty())
+    words =
+        fmt::format("the dashpots of {} are not taken in wind: dampers are the springs of a group that begins with 'damper'",
+                    fmt::join(dashpots, ", "));
+  if (!friction.empty())
+    words += fmt::format("{}the friction of {} is not taken in wind", words.empty() ? "" : "; ", fmt::join(friction, ", "));
+  return words;
+}
+
+linalg::SparseMatrix sum_of_outer_products(const Eigen::MatrixXd& patterns, const Eigen::VectorXd& factor) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index j = 0; j < patterns.cols(); ++j) {
+    std::vector<int> rows;
+    for (Eigen::Index i = 0; i < patterns.rows(); ++i) {
+      if (patterns(i, j) != 0.0) rows.push_back(static_cast<int>(i));
+    }
+    for (const int a : rows) {
+      for (const int b : rows) {
+        if (a >= b) entries.emplace_back(a, b, factor[j] * patterns(a, j) * patterns(b, j));
+      }
+    }
+  }
+  linalg::SparseMatrix sum(patterns.rows(), patterns.rows());
+  sum.setFromTriplets(entries.begin(), entries.end());
+  return sum;
+}
+
+linalg::SparseMatrix stiffness_with(const dynamics::LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers) {
+  linalg::SparseMatrix stiffness = loaded.system.stiffness(loaded.theta);
+  std::vector<const fe::Spring*> missing;
+  for (const fe::Spring* damper : dampers) {
+    if (!damper->active && !damper->series && damper->stiffness > 0.0) missing.push_back(damper);
+  }
+  if (missing.empty()) return stiffness;
+  Eigen::VectorXd spring(static_cast<Eigen::Index>(missing.size()));
+  for (std::size_t j = 0; j < missing.size(); ++j) spring[static_cast<Eigen::Index>(j)] = missing[j]->stiffness;
+  stiffness += sum_of_outer_products(damper_patterns(loaded, missing), spring);
+  return stiffness;
 }
 
 Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers) {
@@ -95,10 +148,10 @@ DampedModel reduce(const WindModel& model, const dynamics::LoadedModel& loaded, 
   const std::vector<const fe::Spring*> dampers =
       reduction.dampers ? dampers_of(*loaded.model) : std::vector<const fe::Spring*>();
   const Eigen::MatrixXd patterns = damper_patterns(loaded, dampers);
-  const linalg::SparseMatrix stiffness = loaded.system.stiffness(loaded.theta), mass = loaded.system.mass(loaded.theta);
+  const linalg::SparseMatrix stiffness = stiffness_with(loaded, dampers), mass = loaded.system.mass(loaded.theta);
   linalg::Cholesky factor;
   const Status factored = factor.factorize(stiffness);
-  TWINDECK_ASSERT(factored.converged);  // the modes were found with the same matrix
+  TWINDECK_ASSERT(factored.converged);  // the modes were found with the same matrix; springs of dampers only add to it
   // Dampers are strong against modes: between their ends the structure must be able to yield as it really does.
   const Eigen::MatrixXd& modes = model.modes.shapes;
   const Eigen::MatrixXd of_dampers = transient::static_corrections(factor, mass, modes, patterns, patterns.cols());
@@ -117,6 +170,7 @@ DampedModel reduce(const WindModel& model, const dynamics::LoadedModel& loaded, 
   for (std::size_t j = 0; j < dampers.size(); ++j) {
     const Eigen::VectorXd direction = basis.vectors.transpose() * patterns.col(static_cast<Eigen::Index>(j));
     if (dampers[j]->series) {
+      if (dampers[j]->stiffness == 0.0 || dampers[j]->damping == 0.0) continue;  // such a chain holds no force
       out.structure.maxwell.push_back({dampers[j]->stiffness, dampers[j]->damping, direction});
     } else {
       out.structure.viscous += dampers[j]->damping * direction * direction.transpose();

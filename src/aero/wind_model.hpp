@@ -12,6 +12,7 @@
 #include "aero/wind_settings.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/loaded_model.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::aero {
 
@@ -71,6 +72,16 @@ struct Reduction {
 [[nodiscard]] std::vector<const fe::Spring*> dampers_of(const fe::Model& model);
 [[nodiscard]] Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded,
                                               const std::vector<const fe::Spring*>& dampers);
+
+/// What damps in the model and is not taken: dashpots of active springs that are no dampers by their group, and friction. A
+/// sentence for people that names them, empty where there are none.
+[[nodiscard]] std::string untaken_in_words(const fe::Model& model);
+/// The model's stiffness with dampers fitted (lower triangle): the spring beside the dashpot of an active one is in the model's
+/// matrix already, that of one that is not active is added. A spring in series with its dashpot is not in it.
+[[nodiscard]] linalg::SparseMatrix stiffness_with(const dynamics::LoadedModel& loaded,
+                                                  const std::vector<const fe::Spring*>& dampers);
+/// Sum over the columns d of factor · d d' (lower triangle); columns have few entries.
+[[nodiscard]] linalg::SparseMatrix sum_of_outer_products(const Eigen::MatrixXd& patterns, const Eigen::VectorXd& factor);
 
 /// Level of a set at which mode 1 is critical at the speed to fit, by the rule to fit. 1 where nothing is to be fitted.
 /// @return empty if no level between 0.05 and 20 does it

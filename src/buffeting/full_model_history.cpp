@@ -14,27 +14,19 @@ RayleighDamping RayleighDamping::with_ratio(double ratio, double omega1, double 
 
 namespace {
 
-/// Adds factor d d' to a lower triangle; d has few entries.
-void add_outer(std::vector<Eigen::Triplet<double>>& entries, const VectorXd& d, double factor) {
-  std::vector<int> rows;
-  for (Index i = 0; i < d.size(); ++i) {
-    if (d[i] != 0.0) rows.push_back(static_cast<int>(i));
-  }
-  for (const int i : rows) {
-    for (const int j : rows) {
-      if (i >= j) entries.emplace_back(i, j, factor * d[i] * d[j]);
-    }
-  }
-}
-
-/// The dampers within time steps: a Maxwell unit is eliminated by the trapezoidal rule.
+/// The dampers within time steps: a Maxwell unit is eliminated by the trapezoidal rule. The spring beside a dashpot is in the
+/// stiffness matrix.
 class StepwiseDampers {
  public:
   StepwiseDampers(const std::vector<const fe::Spring*>& dampers, double step_s) : dampers_(dampers), dt_(step_s) {
     inner_ = inner_rate_ = within_ = VectorXd::Zero(static_cast<Index>(dampers.size()));
     for (std::size_t j = 0; j < dampers.size(); ++j) {
       const double dashpot = 2.0 * dampers[j]->damping / dt_, spring = dampers[j]->stiffness;
-      within_[static_cast<Index>(j)] = dampers[j]->series ? spring * dashpot / (spring + dashpot) : dashpot + spring;
+      const bool in_series = dampers[j]->series;
+      // Without spring or dashpot a chain of both holds no force.
+      within_[static_cast<Index>(j)] = !in_series                      ? dashpot
+                                       : spring > 0.0 && dashpot > 0.0 ? spring * dashpot / (spring + dashpot)
+                                                                       : 0.0;
     }
   }
   /// Stiffness of each damper within a step.
@@ -45,9 +37,13 @@ class StepwiseDampers {
     for (Index j = 0; j < force.size(); ++j) {
       const fe::Spring& damper = *dampers_[static_cast<std::size_t>(j)];
       const double dashpot = 2.0 * damper.damping / dt_;
-      force[j] = damper.series ? within_[j] * elongation[j] - damper.stiffness / (damper.stiffness + dashpot) * damper.damping *
-                                                                  (2.0 / dt_ * inner_[j] + inner_rate_[j])
-                               : damper.damping * rate[j] + damper.stiffness * elongation[j];
+      if (!damper.series)
+        force[j] = damper.damping * rate[j];
+      else if (within_[j] == 0.0)
+        force[j] = 0.0;
+      else
+        force[j] = within_[j] * elongation[j] -
+                   damper.stiffness / (damper.stiffness + dashpot) * damper.damping * (2.0 / dt_ * inner_[j] + inner_rate_[j]);
     }
     return force;
   }
@@ -55,7 +51,7 @@ class StepwiseDampers {
   void advance(const VectorXd& elongation) {
     for (Index j = 0; j < within_.size(); ++j) {
       const fe::Spring& damper = *dampers_[static_cast<std::size_t>(j)];
-      if (!damper.series) continue;
+      if (!damper.series || within_[j] == 0.0) continue;
       const double dashpot = 2.0 * damper.damping / dt_;
       const double next = (damper.stiffness * elongation[j] + damper.damping * (2.0 / dt_ * inner_[j] + inner_rate_[j])) /
                           (damper.stiffness + dashpot);
@@ -76,19 +72,15 @@ MatrixXd full_model_history(const dynamics::LoadedModel& loaded, const std::vect
                             const RayleighDamping& damping, const Eigen::Ref<const MatrixXd>& patterns,
                             const Eigen::Ref<const MatrixXd>& amplitude, const Eigen::Ref<const MatrixXd>& observed,
                             double step_s) {
-  const linalg::SparseMatrix k = loaded.system.stiffness(loaded.theta), m = loaded.system.mass(loaded.theta);
+  const linalg::SparseMatrix k = aero::stiffness_with(loaded, dampers), m = loaded.system.mass(loaded.theta);
   const MatrixXd direction = aero::damper_patterns(loaded, dampers);
   const double dt = step_s, quarter = 0.25 * dt * dt;
 
   // M + dt/2 C + dt²/4 K, with each damper as what it is within a step.
   StepwiseDampers stepwise(dampers, dt);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index j = 0; j < direction.cols(); ++j) add_outer(entries, direction.col(j), quarter * stepwise.stiffness()[j]);
-  linalg::SparseMatrix extra(k.rows(), k.cols());
-  extra.setFromTriplets(entries.begin(), entries.end());
   const double mass_part = 1.0 + 0.5 * dt * damping.mass_part, stiffness_part = quarter + 0.5 * dt * damping.stiffness_part;
   linalg::SparseMatrix effective = mass_part * m + stiffness_part * k;
-  effective += extra;
+  effective += aero::sum_of_outer_products(direction, quarter * stepwise.stiffness());
   linalg::Cholesky factor;
   const Status status = factor.factorize(effective);
   TWINDECK_ASSERT(status.converged);

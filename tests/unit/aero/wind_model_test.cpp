@@ -133,6 +133,25 @@ TEST(Dampers, AreTheSpringsOfTheirGroupAlongTheirDirection) {
   EXPECT_NEAR(elongation(2), u(21) - u(33), 1e-14);
 }
 
+// What is not taken is named: a dashpot of a bearing, friction of a damper. A damper of its group is taken, a spring is none,
+// and one that is carried as data in another group is no part of the model.
+TEST(Dampers, WhatIsNotTakenIsNamed) {
+  const BeamDeck deck;
+  fe::Model model = deck.model();
+  BeamDeck::add_damper(model, deck.middle(), 3e4);
+  EXPECT_EQ(aero::untaken_in_words(model), "");
+  for (const bool active : {true, false}) {
+    BeamDeck::add_damper(model, 3, 3e4);
+    model.springs.back().name = active ? "pot" : "spare";
+    model.springs.back().group = "bearing";
+    model.springs.back().active = active;
+  }
+  EXPECT_EQ(aero::untaken_in_words(model),
+            "the dashpots of pot are not taken in wind: dampers are the springs of a group that begins with 'damper'");
+  model.springs.front().friction_N = 100.0;
+  EXPECT_NE(aero::untaken_in_words(model).find("'damper'; the friction of damper is not taken"), std::string::npos);
+}
+
 // A damper's own static shape makes the flexibility at it exact with any number of modes: L³/48EI in the middle.
 TEST(WithDampers, TheStructureYieldsAtTheDamperAsTheBeamDoes) {
   const BeamDeck deck;

@@ -78,6 +78,11 @@ TEST(FullModelHistory, DampersActAsInTheWholeSystem) {
   BeamDeck::add_damper(model, 5, 2e4);
   BeamDeck::add_damper(model, deck.middle(), 6e4, 4e5);
   model.springs.back().node2 = 3;
+  BeamDeck::add_damper(model, 7, 1e4);  // Kelvin: its spring is in the model's stiffness
+  model.springs.back().stiffness = 3e5;
+  BeamDeck::add_damper(model, 9, 1e4);  // another, which is not active, so that its spring is not
+  model.springs.back().stiffness = 2e5;
+  model.springs.back().active = false;
   const dynamics::LoadedModel loaded = dynamics::from_model(model);
   const auto dampers = aero::dampers_of(*loaded.model);
   const MatrixXd direction = aero::damper_patterns(loaded, dampers);
@@ -94,8 +99,10 @@ TEST(FullModelHistory, DampersActAsInTheWholeSystem) {
   transient::LinearSystem whole;
   whole.mass = dense(loaded.system.mass(loaded.theta));
   whole.stiffness = dense(loaded.system.stiffness(loaded.theta));
+  whole.stiffness += 2e5 * direction.col(3) * direction.col(3).transpose();
   whole.damping = rayleigh.mass_part * whole.mass + rayleigh.stiffness_part * whole.stiffness +
-                  2e4 * direction.col(0) * direction.col(0).transpose();
+                  2e4 * direction.col(0) * direction.col(0).transpose() +
+                  1e4 * direction.rightCols(2) * direction.rightCols(2).transpose();
   transient::add_maxwell(whole, direction.col(1), 4e5, 6e4);
   const MatrixXd expected = transient::Newmark(whole, step).run(patterns * amplitude).acceleration.topRows(n);
   const MatrixXd found = full_model_history(loaded, dampers, rayleigh, patterns, amplitude, MatrixXd::Identity(n, n), step);

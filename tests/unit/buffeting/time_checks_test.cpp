@@ -57,6 +57,23 @@ TEST(TimeChecks, ReducedAndFullModelAgree) {
   }
 }
 
+// A spring beside the dashpot counts once in both, whether the damper is active in the model (its matrix holds the spring) or
+// not.
+TEST(TimeChecks, ASpringBesideADashpotCountsOnce) {
+  for (const bool active : {true, false}) {
+    GustyBeam beam;
+    beam.config.full_model_check_s = 10.0;
+    fe::Model model = beam.deck.model();
+    tests::BeamDeck::add_damper(model, beam.deck.middle(), 4e4);
+    model.springs.back().stiffness = 3e5;
+    model.springs.back().active = active;
+    const BridgeInWind bridge =
+        prepare_bridge_in_wind(beam.config, beam.aerodynamics, dynamics::valid_model(model), beam.sections());
+    const std::vector<TimeCheck> found = check_time_integration(bridge, beam.set, beam.config, first_case(beam), 7);
+    for (std::size_t p = 2; p < 4; ++p) EXPECT_NEAR(found[p].found_m_s2 / found[p].reference_m_s2, 1.0, 0.01) << active << p;
+  }
+}
+
 // With dampers left out of the reduced structure they are left out of the whole one too, though the model has them.
 TEST(TimeChecks, DampersAreLeftOutOfBoth) {
   GustyBeam beam;
