@@ -15,6 +15,7 @@ class QuasiSteady : public FlutterDerivatives {
   };
   QuasiSteady(Polar polar, const Arms& arms);
   [[nodiscard]] DerivativeBlock at(double alpha_rad, double v_over_omegaB) const override;
+  [[nodiscard]] bool covers(double alpha_rad, double /*v_over_omegaB*/) const override { return polar_.covers(alpha_rad); }
 
  private:
   Polar polar_;

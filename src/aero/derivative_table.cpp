@@ -69,9 +69,23 @@ DerivativeTable::DerivativeTable(Convention convention, std::vector<double> alph
   }
 }
 
-DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
+bool DerivativeTable::covers_angle(double alpha_rad) const {
   // A single angle of attack is a section tested at one angle only: it stands for all.
-  if (alpha_rad_.size() > 1 && !(alpha_rad >= alpha_rad_.front() && alpha_rad <= alpha_rad_.back())) {
+  return alpha_rad_.size() == 1 || (alpha_rad >= alpha_rad_.front() && alpha_rad <= alpha_rad_.back());
+}
+
+bool DerivativeTable::covers_velocity(const DerivativeCurve& curve, double v) const {
+  const std::vector<double>& axis = curve.v_over_omegaB;
+  return (v >= axis.front() || below_ == OutOfRange::hold) && (v <= axis.back() || above_ == OutOfRange::hold);
+}
+
+bool DerivativeTable::covers(double alpha_rad, double v) const {
+  return covers_angle(alpha_rad) &&
+         std::all_of(curves_.begin(), curves_.end(), [&](const DerivativeCurve& curve) { return covers_velocity(curve, v); });
+}
+
+DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
+  if (!covers_angle(alpha_rad)) {
     throw InputError({source_, 0, "alpha_deg"},
                      fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
                                  alpha_rad_.back() * degrees, alpha_rad * degrees),
@@ -84,7 +98,7 @@ DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
   for (int i = 0; i < 18; ++i) {
     const DerivativeCurve& curve = curves_[static_cast<std::size_t>(i)];
     const std::vector<double>& axis = curve.v_over_omegaB;
-    if ((!(v >= axis.front()) && below_ == OutOfRange::refuse) || (!(v <= axis.back()) && above_ == OutOfRange::refuse)) {
+    if (!covers_velocity(curve, v)) {
       throw InputError(
           {source_, 0, name_of(convention_, i)},
           fmt::format("covers V/(omega B) from {:.6g} to {:.6g} (V/(f B) {:.6g} to {:.6g}), {:.6g} is needed", axis.front(),

@@ -31,6 +31,7 @@ class DerivativeTable : public FlutterDerivatives {
                   std::string source, OutOfRange below = OutOfRange::refuse, OutOfRange above = OutOfRange::refuse);
   /// @throws InputError  outside the table, with derivative, range and requested value
   [[nodiscard]] DerivativeBlock at(double alpha_rad, double v_over_omegaB) const override;
+  [[nodiscard]] bool covers(double alpha_rad, double v_over_omegaB) const override;
   /// The same table with all eighteen derivatives multiplied: self-excited forces of another magnitude, as for another ratio of
   /// air to deck mass. Signs and shapes over the reduced velocity are kept.
   [[nodiscard]] DerivativeTable scaled(double factor) const;
@@ -40,6 +41,9 @@ class DerivativeTable : public FlutterDerivatives {
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
+  [[nodiscard]] bool covers_angle(double alpha_rad) const;
+  [[nodiscard]] bool covers_velocity(const DerivativeCurve& curve, double v_over_omegaB) const;
+
   Convention convention_;
   std::vector<double> alpha_rad_;
   std::array<DerivativeCurve, 18> curves_;

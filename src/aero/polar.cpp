@@ -37,6 +37,8 @@ Polar Polar::linear(const StaticCoefficients& at_zero) {
   return polar;
 }
 
+bool Polar::covers(double alpha) const { return linear_ || (alpha >= alpha_rad_.front() && alpha <= alpha_rad_.back()); }
+
 StaticCoefficients Polar::at(double alpha) const {
   if (linear_) {
     StaticCoefficients c = rows_.front();
@@ -45,7 +47,7 @@ StaticCoefficients Polar::at(double alpha) const {
     c.moment += c.moment_slope * alpha;
     return c;
   }
-  if (!(alpha >= alpha_rad_.front() && alpha <= alpha_rad_.back())) {
+  if (!covers(alpha)) {
     throw InputError({source_, 0, "alpha_deg"},
                      fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
                                  alpha_rad_.back() * degrees, alpha * degrees),

@@ -22,6 +22,8 @@ class Polar {
 
   /// @throws InputError  outside the table, naming its range
   [[nodiscard]] StaticCoefficients at(double alpha_rad) const;
+  /// Whether `at` has a value there.
+  [[nodiscard]] bool covers(double alpha_rad) const;
   /// The polar with lift scaled about its value at alpha = 0: C_L -> C_L(0) + factor (C_L - C_L(0)), C_L' -> factor C_L'.
   [[nodiscard]] Polar with_lift_slope_factor(double factor) const;
   [[nodiscard]] const std::vector<double>& alpha_rad() const { return alpha_rad_; }

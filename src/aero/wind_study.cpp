@@ -131,14 +131,15 @@ StaticResponse static_response(const WindSettings& config, const FittedSet& set,
   return response;
 }
 
-StaticDifference static_difference(const std::vector<StaticResponse>& responses, const std::string& a, const std::string& b) {
+std::optional<StaticDifference> static_difference(const std::vector<StaticResponse>& responses, const std::string& a,
+                                                  const std::string& b) {
   const StaticResponse *first = nullptr, *second = nullptr;
   for (const StaticResponse& response : responses) {
     if (response.model == a && first == nullptr) first = &response;
     if (response.model == b && second == nullptr) second = &response;
   }
+  if (first == nullptr || second == nullptr) return std::nullopt;
   StaticDifference largest;
-  if (first == nullptr || second == nullptr) return largest;
   for (std::size_t i = 0; i < first->displacement.size(); ++i) {
     largest.displacement_m = std::max(largest.displacement_m, (first->displacement[i] - second->displacement[i]).norm());
     largest.rotation_rad = std::max(largest.rotation_rad, std::abs(first->rotation_rad[i] - second->rotation_rad[i]));

@@ -69,9 +69,9 @@ struct Instabilities {
                                              const WindModel& model, const dynamics::LoadedModel& loaded,
                                              const linalg::Cholesky& factor);
 
-/// @param a, b  names of the rules; zero where one of them has no response
-[[nodiscard]] StaticDifference static_difference(const std::vector<StaticResponse>& responses, const std::string& a,
-                                                 const std::string& b);
+/// @param a, b  names of the rules @return empty where one of them has no response
+[[nodiscard]] std::optional<StaticDifference> static_difference(const std::vector<StaticResponse>& responses,
+                                                                const std::string& a, const std::string& b);
 
 /// Least damping ratio [-] of any followed mode up to a speed.
 [[nodiscard]] double least_damping(const DampingCurves& curves, double up_to_m_s);

@@ -115,6 +115,25 @@ class Aerodynamics(unittest.TestCase):
         # trapezoid of sin² at the sections is exact; the interpolation between them lost (kh)²/6
         self.assertAlmostEqual(self.critical("A") / speed[120] / (1 - (math.pi / PANELS) ** 2 / 6), 1.0, delta=1e-3)
 
+    def test_what_is_asked_of_models_and_tables_is_what_they_have(self):
+        """Without A no ratio to it, though the identified damping is tried with A; without G and H no difference of theirs; galloping.csv
+        as far as polar and table reach. Ratios of two runs of one model are those of their speeds."""
+        self.run_step(models='["C", "A"]', direction=110.0)
+        bare = self.critical("A")
+        for row in self.read("critical.csv"):
+            self.assertAlmostEqual(float(row["ratio_to_A"]), float(row["V_cr_m_s"]) / bare, places=9)
+        self.assertEqual(len(self.read("galloping.csv")), 5 * 39)
+        (self.folder / "polar.csv").write_text("alpha_deg,C_D,C_L,C_M\n-2,0.1,0.10821,0\n0,0.1,0,0\n2,0.1,-0.10821,0\n")
+        write_flutter(self.folder / "flutter.csv", high=16.0)
+        self.run_step("--set", "max_speed=20.0", models='["C"]', direction=110.0, exceptions="[]")
+        self.assertEqual({r["ratio_to_A"] for r in self.read("critical.csv")}, {""})
+        self.assertEqual([r["quantity"] for r in self.read("summary.csv") if r["quantity"].endswith("G_H")], [])
+        rows = self.read("galloping.csv")
+        self.assertEqual({float(r["angle_of_attack_deg"]) for r in rows}, {-2.0, 0.0, 2.0})
+        self.assertEqual(max(float(r["V_over_fB"]) for r in rows), 16.0)
+        self.run_step("--set", "max_speed=20.0", models='["G", "H"]', direction=110.0, exceptions="[]")
+        self.assertEqual(len([r for r in self.read("summary.csv") if r["quantity"].endswith("G_H")]), 2)
+
     def test_static_forces_add_up(self):
         self.run_step()
         drag = sum(float(r["drag_N"]) for r in self.read("static.csv"))

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "core/angle.hpp"
 #include "io/csv.hpp"
 #include "linalg/cholesky.hpp"
@@ -24,12 +26,14 @@ struct WindOutcome {
 
 void write_summary(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
                    const std::filesystem::path& file) {
-  const aero::StaticDifference difference = aero::static_difference(found.statics, "G", "H");
+  const std::optional<aero::StaticDifference> difference = aero::static_difference(found.statics, "G", "H");
   io::CsvWriter summary({"quantity", "value", "unit"});
   summary.row({"still_air_frequency_1", model.modes.frequency_Hz(0), "Hz"});
   summary.row({"design_speed", config.design_speed_m_s, "m/s"});
-  summary.row({"static_displacement_G_H", difference.displacement_m, "m"});
-  summary.row({"static_rotation_G_H", difference.rotation_rad * degrees, "deg"});
+  if (difference) {
+    summary.row({"static_displacement_G_H", difference->displacement_m, "m"});
+    summary.row({"static_rotation_G_H", difference->rotation_rad * degrees, "deg"});
+  }
   for (const aero::DampingCurves& curves : found.instabilities.damping) {
     if (curves.dampers) {
       summary.row(
@@ -50,7 +54,7 @@ void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model
     levels.row({set.name, set.level, fitted_quantity(set.name), config.fit_model, config.fit_speed_m_s});
   }
   levels.save(folder / "sets.csv");
-  write_critical(found.instabilities.critical, config.max_speed_m_s, folder / "critical.csv");
+  write_critical(found.instabilities.critical, config, folder / "critical.csv");
   write_damping(found.instabilities.damping, folder / "damping.csv");
   write_nodes(model.strips, found.sets.front().sections, folder / "nodes.csv");
   write_static(found.statics, model.strips, folder / "static.csv");
@@ -122,6 +126,7 @@ runner::Computation read_aerodynamics(runner::StepContext& context, const Aerody
   const std::vector<aero::DeckAerodynamics> data = read_deck_aerodynamics(config, context);
   const dynamics::ReadModel model = load_model(context, context.results / "s6_updating" / "model");
   static_cast<void>(aero::aero_nodes_of(config, model.fe_model(), model.source));
+  if (const std::string untaken = aero::untaken_in_words(*model.fe_model()); !untaken.empty()) context.warn(untaken);
   if (config.sets.empty()) throw InputError({"", 0, "sets"}, "is empty", "name at least one of standin, quasi_steady");
   for (const std::string& set : config.sets) static_cast<void>(aero::sections_of(config, data, set, 1.0));
   return [&context, &config, data, model] { return run_aerodynamics(context, config, data, model); };

@@ -31,10 +31,12 @@ std::string status_of(const aero::CriticalRow& row, double max_speed_m_s) {
 
 }  // namespace
 
-void write_critical(const std::vector<aero::CriticalRow>& rows, double max_speed_m_s, const std::filesystem::path& file) {
+void write_critical(const std::vector<aero::CriticalRow>& rows, const AerodynamicsConfig& config,
+                    const std::filesystem::path& file) {
   std::map<std::string, double> speed_of_A;
   for (const aero::CriticalRow& row : rows) {
-    if (row.model == "A" && !row.dampers && row.point) speed_of_A.emplace(row.set, row.point->speed_m_s);
+    if (row.model == "A" && !row.dampers && row.structural_damping == config.structural_damping && row.point)
+      speed_of_A.emplace(row.set, row.point->speed_m_s);
   }
   io::CsvWriter csv({"set", "model", "group", "description", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz",
                      "ratio_to_A", "f_cr_over_f1", "deck", "theta_rms_deg", "deck_share", "exponent", "V_cr_single_mode_m_s",
@@ -50,7 +52,7 @@ void write_critical(const std::vector<aero::CriticalRow>& rows, double max_speed
              found ? Number(row.point->frequency_Hz / row.point->still_air_frequency_Hz) : Number(), row.character.deck,
              found ? Number(row.character.theta_rms_rad * degrees) : Number(),
              found ? Number(row.character.deck_share) : Number(), found ? Number(row.character.exponent) : Number(),
-             row.single_mode_m_s, row.den_hartog_m_s, row.divergence_m_s, status_of(row, max_speed_m_s)});
+             row.single_mode_m_s, row.den_hartog_m_s, row.divergence_m_s, status_of(row, config.max_speed_m_s)});
   }
   csv.save(file);
 }
@@ -128,8 +130,10 @@ void write_galloping(const std::vector<std::string>& sets, const std::vector<std
   for (std::size_t s = 0; s < sets.size(); ++s) {
     for (const aero::SectionAero& section : sections[s]) {
       for (const double alpha : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
+        if (!section.polar.covers(alpha / degrees)) continue;
         for (double v = 1.0; v <= 20.0; v += 0.5) {
           const double v_omega = v / (2.0 * std::numbers::pi);
+          if (!section.derivatives->covers(alpha / degrees, v_omega)) continue;
           const aero::StaticCoefficients c = section.polar.at(alpha / degrees);
           const auto zasso =
               aero::from_block(aero::Convention::zasso, section.derivatives->at(alpha / degrees, v_omega), v_omega);

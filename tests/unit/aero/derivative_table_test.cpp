@@ -113,6 +113,20 @@ TEST(DerivativeTable, VelocitiesOutsideAreRefusedByDerivativeAndRange) {
 }
 
 // A narrow curve in the middle of the list is named by its group and number: the 13th is the first of the moment.
+// Covered is what is not refused: inside all curves (0.5 to 3), beyond an end that is held, and the angles of the table.
+TEST(DerivativeTable, CoversWhatItDoesNotRefuse) {
+  const auto refuses = bilinear_table(Convention::zasso), holds = bilinear_table(Convention::zasso, OutOfRange::hold);
+  for (const double v : {0.1, 0.4, 0.5, 2.0, 3.0, 3.01}) {
+    EXPECT_EQ(refuses.covers(0.0, v), v >= 0.5 && v <= 3.0) << v;
+    EXPECT_EQ(holds.covers(0.0, v), v <= 3.0) << v;
+    EXPECT_EQ(refuses.covers(0.0, v), refusal_of([&] { static_cast<void>(refuses.at(0.0, v)); }).empty()) << v;
+  }
+  for (const double alpha : {-0.051, -0.05, 0.06, 0.061})
+    EXPECT_EQ(refuses.covers(alpha, 1.0), alpha >= -0.05 && alpha <= 0.06) << alpha;
+  const aero::DerivativeTable single(Convention::zasso, {0.0}, bilinear_curves({0.0}), "single");
+  EXPECT_TRUE(single.covers(0.2, 1.0));
+}
+
 TEST(DerivativeTable, TheRefusedDerivativeIsNamed) {
   auto curves = bilinear_curves();
   for (auto& curve : curves) curve.v_over_omegaB.back() = 5.0;

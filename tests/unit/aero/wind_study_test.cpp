@@ -189,10 +189,11 @@ TEST(StaticDifference, IsTheLargestOverTheStrips) {
   responses[0] = {"standin", "G", {}, {{0, 0, 1}, {1, 2, 2}}, {0.01, 0.02}};
   responses[1] = {"standin", "H", {}, {{0, 0, 2}, {1, 5, 6}}, {0.04, 0.03}};
   responses[2] = {"quasi_steady", "H", {}, {{9, 9, 9}, {9, 9, 9}}, {1, 1}};
-  const aero::StaticDifference found = aero::static_difference(responses, "G", "H");
-  EXPECT_DOUBLE_EQ(found.displacement_m, 5.0);
-  EXPECT_DOUBLE_EQ(found.rotation_rad, 0.03);
-  EXPECT_EQ(aero::static_difference(responses, "G", "I").displacement_m, 0.0);
+  const std::optional<aero::StaticDifference> found = aero::static_difference(responses, "G", "H");
+  ASSERT_TRUE(found);
+  EXPECT_DOUBLE_EQ(found->displacement_m, 5.0);
+  EXPECT_DOUBLE_EQ(found->rotation_rad, 0.03);
+  EXPECT_FALSE(aero::static_difference(responses, "G", "I"));  // no difference to a rule that did not run
 }
 
 // By hand: damping ratios 0.6 and -0.8 of a branch, 0.28 of another; the negative one lies beyond the speed.
