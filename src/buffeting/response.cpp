@@ -29,11 +29,11 @@ Response respond(const transient::Newmark& newmark, const Eigen::Ref<const Matri
                  const Eigen::Ref<const MatrixXd>& wind_m_s, double step_s, const Eigen::Ref<const MatrixXd>& sensors,
                  const ResponseOptions& options) {
   const Index n = wind_m_s.rows();
-  const Index lead = std::min<Index>(n, static_cast<Index>(std::llround(options.lead_in_s / step_s)));
+  const auto lead = static_cast<Index>(std::llround(options.lead_in_s / step_s));
   const MatrixXd prepared = newmark.within_a_step(load);
   MatrixXd alone(prepared.rows(), lead + n);
   alone.rightCols(n).noalias() = prepared * wind_m_s.transpose();
-  alone.leftCols(lead) = MatrixXd(alone.rightCols(lead));
+  for (Index i = lead - 1; i >= 0; --i) alone.col(i) = alone.col(i + n);  // the sample is periodic, however often
   // From rest: the load comes up over the first half of the lead-in, so that no jump rings on.
   const Index ramp = lead / 2;
   for (Index i = 0; i < ramp; ++i) {

@@ -16,7 +16,8 @@ namespace twindeck::buffeting {
 
 /// Accelerations at sensors under one sample of turbulence.
 struct ResponseOptions {
-  double lead_in_s = 60.0;  ///< run-up before the record; it uses the end of the sample, which is periodic
+  /// Run-up before the record: the end of the sample, which is periodic, and for a longer one all of it again.
+  double lead_in_s = 60.0;
 };
 struct Response {
   Eigen::MatrixXd acceleration_m_s2;  ///< (n_steps × n_sensors) over the sample's period, first columns first
