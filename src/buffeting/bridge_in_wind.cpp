@@ -34,18 +34,9 @@ MatrixXd gust_patterns(const BridgeInWind& bridge, const WindEventSettings& conf
   return bridge.loaded.system.expansion.transpose() * nodal;
 }
 
-/// Names of the monitoring points; other named points are no accelerometers.
-std::vector<std::string> accelerometers(const dynamics::LoadedModel& loaded) {
-  std::vector<std::string> names;
-  for (const auto& [name, node] : loaded.model->monitoring_points) {
-    if (name.starts_with("M")) names.push_back(name);
-  }
-  return names;
-}
-
 /// Unit vertical forces at the monitoring points, over the free degrees of freedom. @return (n × n_points)
 MatrixXd point_patterns(const dynamics::LoadedModel& loaded) {
-  const std::vector<std::string> names = accelerometers(loaded);
+  const std::vector<std::string> names = buffeting::accelerometers(*loaded.model);
   MatrixXd nodal = MatrixXd::Zero(loaded.system.expansion.rows(), static_cast<Index>(names.size()));
   for (std::size_t p = 0; p < names.size(); ++p)
     nodal(6 * loaded.model->monitoring_points.at(names[p]) + 2, static_cast<Index>(p)) = 1.0;
@@ -56,7 +47,7 @@ Sensors find_sensors(const dynamics::LoadedModel& loaded, const aero::WindModel&
   Sensors out;
   const MatrixXd full = loaded.system.expand(vectors);
   const std::vector<aero::StripMotion> motions = aero::motions_of(model.nodes, full);
-  out.points = accelerometers(loaded);
+  out.points = buffeting::accelerometers(*loaded.model);
   for (std::size_t i = 1; i < motions.size(); i += 3) out.nodes.push_back(i);
   out.motion.resize(out.lateral_row(out.nodes.size()), vectors.cols());
   for (std::size_t p = 0; p < out.points.size(); ++p) {
@@ -71,6 +62,14 @@ Sensors find_sensors(const dynamics::LoadedModel& loaded, const aero::WindModel&
 }
 
 }  // namespace
+
+std::vector<std::string> accelerometers(const fe::Model& model) {
+  std::vector<std::string> names;
+  for (const auto& [name, node] : model.monitoring_points) {
+    if (name.starts_with("M")) names.push_back(name);
+  }
+  return names;
+}
 
 BridgeInWind prepare_bridge_in_wind(const WindEventSettings& config, const aero::WindSettings& aerodynamics,
                                     const dynamics::ReadModel& model, const std::vector<aero::SectionAero>& sections) {

@@ -26,6 +26,9 @@ struct Sensors {
   [[nodiscard]] Eigen::Index vertical_row(std::size_t node) const { return lateral_row(node) + 1; }
 };
 
+/// Names of the monitoring points, which begin with M; other named points are no accelerometers.
+[[nodiscard]] std::vector<std::string> accelerometers(const fe::Model& model);
+
 /// The updated bridge prepared for turbulent wind.
 struct BridgeInWind {
   dynamics::LoadedModel loaded;

@@ -1,9 +1,11 @@
 """Step 8 on a user's own straight deck of beams.
 
-Oracles: the frequency domain's RMS within the seeds' interval; the same bytes whatever the threads; RMS in proportion to the turbulence;
+Oracles: the frequency domain's RMS within the seeds' interval; sines of known RMS as measured records; the critical speed of step 7; the same bytes whatever the threads; RMS in proportion to the turbulence;
 the whole model and the half time step under the same forces; files and words that are not as they should be are refused by their names.
 """
 import csv
+import json
+import math
 import os
 import pathlib
 import subprocess
@@ -81,6 +83,86 @@ class Validation(unittest.TestCase):
         for calm, rough in zip(self.read("rms.csv", "one"), self.read("rms.csv", "rough")):
             if calm["direction"] == "z":
                 self.assertAlmostEqual(float(rough["rms_m_s2"]) / float(calm["rms_m_s2"]), 2.0, delta=1e-6)
+
+    def campaign(self, m1=None):
+        """A condition of two records: ten seconds of M1 with an RMS of 0.01, forty of M2 with 0.03. @param m1 cells of M1's row that differ"""
+        folder = self.folder / "campaign"
+        (folder / "records").mkdir(parents=True, exist_ok=True)
+        points = dict(line.split(",") for line in (self.folder / "model/points.csv").read_text().split()[1:])
+        nodes = dict(line.split(",", 1) for line in (self.folder / "model/nodes.csv").read_text().split()[1:])
+        rows, entries = [], []
+        for channel, seconds, rms in (("M1", 10, 0.01), ("M2", 40, 0.03)):
+            x, y, z = nodes[points[channel]].split(",")
+            cells = dict(x_m=x, y_m=y, z_m=z, dx=0, dy=0, dz=-1, quantity="acceleration", unit="m/s^2", role="response")
+            cells.update(m1 or {} if channel == "M1" else {})
+            rows.append(",".join(map(str, (channel, channel, *(cells[k] for k in ("x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "role"))))))
+            samples = [rms * math.sqrt(2) * math.sin(2 * math.pi * 2.0 * i / 50) for i in range(50 * seconds)]  # whole waves
+            (folder / f"records/{channel}.csv").write_text(f"{channel}\n" + "".join(f"{v:.9g}\n" for v in samples))
+            entries.append(f'[[record]]\nsetup = "{channel}"\nkind = "wind"\nfile = "records/{channel}.csv"\nsampling_rate_Hz = 50.0\n'
+                           f'channels = ["{channel}"]\ncondition = "windy"\n')
+        (folder / "channels.csv").write_text("channel,point,x_m,y_m,z_m,dx,dy,dz,quantity,unit,role\n" + "\n".join(rows) + "\n")
+        (folder / "campaign.toml").write_text("".join(entries))
+        (folder / "conditions.toml").write_text('[windy]\ndampers = "on"\n')
+        return folder
+
+    def measured(self, m1=None):
+        """Measured RMS of each channel, and the step's warnings."""
+        few = ("--set", "seeds=2", "--set", "duration=8.0", "--set", "lead_in=2.0", "--set", "full_model_check=0")
+        toml = self.folder / "study/s8_validation.toml"
+        toml.write_text(toml.read_text().replace("speed = 8.0\n[[run]]", 'speed = 8.0\ncondition = "windy"\n[[run]]', 1))
+        self.step("s8_validation", *few, "--campaign", self.campaign(m1))
+        rows = {(r["channel"], r["direction"]): r["measured_rms_m_s2"] for r in self.read("rms.csv") if r["run"] == "normal"}
+        warnings = json.loads((self.folder / "results/s8_validation/manifest.json").read_text())["warnings"]
+        self.assertEqual({v for (_, d), v in rows.items() if d != "z"}, {""})
+        return rows["M1", "z"], rows["M2", "z"], warnings
+
+    def test_each_channel_has_the_rms_of_its_own_records(self):
+        one, two, warnings = self.measured()
+        self.assertAlmostEqual(float(one), 0.01, delta=1e-5)  # the trend of a sine over whole waves is nearly none
+        self.assertAlmostEqual(float(two), 0.03, delta=3e-5)
+        self.assertEqual(warnings, [])
+
+    def test_a_channel_that_is_no_vertical_acceleration_of_its_point_is_left_out(self):
+        for m1, told in (({"dy": 1, "dz": 0}, "its direction is (0, 1, 0)"), ({"dy": 0.6, "dz": 0.8}, "its direction is (0, 0.6, 0.8)"),
+                         ({"quantity": "velocity", "unit": "m/s"}, "it is a velocity"), ({"role": "input"}, "its role is input"),
+                         ({"x_m": 210}, "180 m from the point"), ({"dx": "", "dy": "", "dz": ""}, "dx, dy, dz is not given")):
+            one, two, warnings = self.measured(m1)
+            self.assertEqual(one, "", m1)
+            self.assertAlmostEqual(float(two), 0.03, delta=3e-5)
+            self.assertEqual(len(warnings), 1, warnings)
+            self.assertIn("channel M1 is not the vertical acceleration", warnings[0])
+            self.assertIn(told, warnings[0])
+        one, _, warnings = self.measured({"x_m": "", "y_m": "", "z_m": ""})  # no position, no contradiction
+        self.assertAlmostEqual(float(one), 0.01, delta=1e-5)
+
+    def test_an_unstable_bridge_has_no_rms(self):
+        self.step("s7_aerodynamics", "--set", "max_speed=150.0")
+        with open(self.folder / "results/s7_aerodynamics/critical.csv", newline="", encoding="utf-8") as file:
+            row = next(r for r in csv.DictReader(file) if r["model"] == "A" and r["structural_damping_pct"] == "2")
+        critical = float(row["V_cr_m_s"])
+        toml = self.folder / "study/s8_validation.toml"
+        text = toml.read_text().replace("seeds = 6\nduration = 120.0", "seeds = 2\nduration = 20.0")
+        toml.write_text(text + f'[[event]]\nname = "storm"\nspeed = {1.01 * critical}\n')
+        self.step("s8_validation")
+        rows = self.read("rms.csv")
+        self.assertEqual({(r["event"], r["rms_m_s2"] == "", r["spectral_rms_m_s2"] == "", r["peak_m_s2"] == "") for r in rows},
+                         {("breeze", False, False, False), ("storm", True, True, True)})
+        self.assertEqual({(r["event"], r["verdict"] == "unstable") for r in self.read("comfort.csv")}, {("breeze", False), ("storm", True)})
+        warnings = json.loads((self.folder / "results/s8_validation/manifest.json").read_text())["warnings"]
+        self.assertEqual(len(warnings), 2)
+        for part in ("event storm at", "run normal (model A)", "mode 1 grows at"):
+            self.assertIn(part, warnings[0])
+        toml.write_text(text.replace("speed = 8.0", f"speed = {1.01 * critical}"))
+        self.assertIn("event breeze at", self.step("s8_validation", out="none", status=1))
+        toml.write_text(text.replace("speed = 8.0", f"speed = {0.99 * critical}"))
+        self.step("s8_validation")
+
+    def test_a_model_without_monitoring_points_is_told(self):
+        (self.folder / "model/points.csv").write_text("point,node\nP1,3\n")
+        self.step("s8_validation", "--set", "seeds=2", "--set", "duration=8.0", "--set", "full_model_check=0")
+        warnings = json.loads((self.folder / "results/s8_validation/manifest.json").read_text())["warnings"]
+        self.assertIn("no monitoring point", warnings[0])
+        self.assertEqual(self.read("rms.csv"), [])
 
     def test_what_is_not_as_it_should_be_is_refused(self):
         message = self.step("s8_validation", "--set", "turbulence_set=calmer", status=2)

@@ -58,7 +58,11 @@ ValidationInputs read_validation_inputs(const ValidationConfig& config, runner::
   const std::vector<aero::DeckAerodynamics> data = read_deck_aerodynamics(read.aerodynamics, context);
   static_cast<void>(aero::aero_nodes_of(read.aerodynamics, read.model.fe_model(), read.model.source));
   read.sections = aero::sections_of(read.aerodynamics, data, config.set, fitted_level(context, config.set));
-  read.measured = measured_rms(context, config);
+  if (const std::string untaken = aero::untaken_in_words(*read.model.fe_model()); !untaken.empty()) context.warn(untaken);
+  if (buffeting::accelerometers(*read.model.fe_model()).empty())
+    context.warn(
+        "the model has no monitoring point, a name in points.csv that begins with M: rms.csv and checks.csv have no rows");
+  read.measured = measured_rms(context, config, *read.model.fe_model());
   return read;
 }
 

@@ -4,15 +4,19 @@
 #include <string>
 #include <utility>
 
+#include "fe/model.hpp"
 #include "runner/run_step.hpp"
 #include "steps/validation/validation_config.hpp"
 
 namespace twindeck::steps {
 
-/// RMS of the vertical acceleration in the campaign's wind records, by event and channel [m/s²]; a channel counts for the
-/// monitoring point whose name it has. Empty for events whose condition is not named. `--campaign`, or the study's s0_campaign.
+/// RMS of the vertical acceleration in the campaign's wind records, by event and channel [m/s²], over all records that have the
+/// channel. A channel counts for the monitoring point whose name it has, if it can be that point's vertical acceleration: an
+/// acceleration, of role "response", vertical (up or down), and within `sensor_tolerance` of the point where its position is
+/// given. A channel that has the name and is something else is left out with a warning. Empty for events whose condition is
+/// not named. `--campaign`, or the study's s0_campaign.
 /// @throws InputError  if the campaign is there but has no wind record of a condition that is named
 using MeasuredRms = std::map<std::pair<std::string, std::string>, double>;
-[[nodiscard]] MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config);
+[[nodiscard]] MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config, const fe::Model& model);
 
 }  // namespace twindeck::steps

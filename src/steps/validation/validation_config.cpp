@@ -35,7 +35,9 @@ io::FieldTable ValidationConfig::fields() {
             buffeting::WindEvent& event = events.back();
             io::FieldTable e;
             e.text("name", event.name, "name of the event", true)
-                .number("speed", event.speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true}, "mean speed at the decks", true)
+                .number("speed", event.speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true},
+                        "mean speed at the decks; a run in which a mode grows at this speed has empty results and a warning",
+                        true)
                 .text("condition", event.condition,
                       "condition of the campaign whose wind records are the measured side; empty: none");
             return e;
@@ -56,6 +58,8 @@ io::FieldTable ValidationConfig::fields() {
               "comfort limit of vertical acceleration (EN 1990 A2.4.3.2)")
       .number("comfort_lateral", comfort_lateral_m_s2, "m/s^2", io::positive(),
               "comfort limit of lateral acceleration, as the paper has it")
+      .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
+              "largest distance of a measured channel from the monitoring point whose name it has")
       .number("full_model_check", full_model_check_s, "s", {0.0, io::longest_record_s},
               "length of the record on which the reduced structure is compared with the full model; 0: not compared");
   return t;

@@ -12,6 +12,7 @@ struct ValidationConfig : buffeting::WindEventSettings {
   std::string aerodynamics;  ///< file of step 7's configuration; empty: the study's
   std::string set = "standin";
   std::string turbulence_file = "data/wind/turbulence_sets.csv", turbulence_set = "printed";
+  double sensor_tolerance_m = 0.5;  ///< largest distance of a measured channel from the point of its name
 
   [[nodiscard]] io::FieldTable fields();
 };
