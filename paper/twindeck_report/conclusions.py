@@ -71,7 +71,7 @@ def _comfort(study, result, direction):
     own = table[(table["direction"] == direction) & table["run"].isin(RUNS)]
     if own.empty:
         return None, ""
-    above = int((own["peak_m_s2"] > own["limit_m_s2"]).sum())
+    above = int((~(own["peak_m_s2"] <= own["limit_m_s2"])).sum())  # an unstable bridge has no peak and is not within
     return above == 0, f"largest mean peak {own['peak_m_s2'].max():.3f} m/s², {above} of {len(own)} cases above the limit"
 
 

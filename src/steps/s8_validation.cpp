@@ -1,68 +1,11 @@
 /// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21): turbulent wind, accelerations with dampers, hybrid deployment.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "buffeting/bridge_in_wind.hpp"
-#include "buffeting/simulated_runs.hpp"
-#include "buffeting/time_checks.hpp"
 #include "runner/run_step.hpp"
 #include "steps/validation/inputs.hpp"
-#include "steps/validation/outputs.hpp"
-#include "steps/validation/statements.hpp"
+#include "steps/validation/validation.hpp"
 
 using namespace twindeck;
-
-namespace {
-
-Status run(const steps::ValidationConfig& config, const steps::ValidationInputs& read, runner::StepContext& context) {
-  // 1. The bridge, reduced, and the turbulence.
-  const wind::TurbulenceSet& set = read.turbulence;
-  const buffeting::BridgeInWind bridge =
-      buffeting::prepare_bridge_in_wind(config, read.aerodynamics, read.model, read.sections);
-  if (!bridge.loaded.state.status.converged) return bridge.loaded.state.status;
-  if (!bridge.model.modes.status.converged) return bridge.model.modes.status;
-  context.say(fmt::format("{} coordinates for {} degrees of freedom, {} aerodynamic nodes, {} dampers",
-                          bridge.reduced.structure.size(), bridge.loaded.system.size(), bridge.model.strips.size(),
-                          bridge.reduced.dampers));
-
-  // 2. Events one after the other, seeds in parallel. Where the bridge is unstable in a run there is nothing to publish of it.
-  std::vector<buffeting::RunResult> results;
-  std::vector<buffeting::FieldCheck> checks;
-  std::optional<buffeting::CheckedCase> stable;
-  std::vector<std::string> unstable;
-  for (const buffeting::WindEvent& event : config.events) {
-    buffeting::SimulatedEvent simulated = buffeting::simulate_event(bridge, set, config, event, context.seed, context);
-    for (std::size_t i = 0; i < simulated.runs.size(); ++i) {
-      const Status& status = simulated.runs[i].status;
-      if (!status.converged) {
-        unstable.push_back(status.message);
-      } else if (!stable) {
-        stable = {event, config.runs[i]};
-      }
-      results.push_back(std::move(simulated.runs[i]));
-    }
-    checks.insert(checks.end(), simulated.checks.begin(), simulated.checks.end());
-  }
-
-  if (!stable) return {false, fmt::format("{}", fmt::join(unstable, "; "))};
-  for (const std::string& told : unstable) context.warn(told + "; its rows in rms.csv and comfort.csv are left empty");
-
-  // 3. Tables.
-  steps::write_rms(results, bridge, read.measured, config, context.out);
-  steps::write_statements(results, bridge, read.measured, context.out);
-  steps::write_comfort(results, bridge, config, context.out);
-  steps::write_wind_check(checks, context.out);
-  steps::write_hybrid(bridge, context.out);
-  steps::write_time_checks(buffeting::check_time_integration(bridge, set, config, *stable, context.seed), context.out);
-  return {};
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   steps::ValidationConfig config;
@@ -76,7 +19,9 @@ int main(int argc, char** argv) {
   step.fields = config.fields();
   step.configured_inputs = {"model", "campaign"};
   step.read = [&config](runner::StepContext& context) -> runner::Computation {
-    return [&config, &context, read = steps::read_validation_inputs(config, context)] { return run(config, read, context); };
+    return [&config, &context, read = steps::read_validation_inputs(config, context)] {
+      return steps::run_validation(config, read, context);
+    };
   };
   return runner::run_step(argc, argv, std::move(step));
 }
