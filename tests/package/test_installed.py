@@ -145,6 +145,22 @@ class SourceTree(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(f"{BUILD}/bin/s6_updating --study workflows/mine", done.stdout)
         self.assertNotIn("cmake", done.stdout)
+        done = run("run", "mine", "--dry-run", f"BIN={BUILD}/bin")
+        self.assertIn("-m twindeck_report report", done.stdout, "options alone leave the default, all")
+
+    def test_what_is_run_is_what_the_command_offers(self):
+        """Targets of the Makefile that are not in the usage are refused, also behind the study's name. Oracle: the files of the user's, which are all still there."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for kept in ("results/mine/s1_model/modes.csv", "results/other/page.html", "build/notes.txt", "workflows/mine/study.toml"):
+            (folder / kept).parent.mkdir(parents=True, exist_ok=True)
+            (folder / kept).write_text("kept\n")
+        before = sorted(folder.rglob("*"))
+        for words in (("mine", "clean"), ("clean",), ("mine", "s6", "clean"), ("mine", "s6", "THREADS=1", "release"), ("mine", "--dry-run", "format")):
+            done = subprocess.run([ROOT / "packaging/twindeck", "run", *words], cwd=folder, capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(f"'{next(w for w in words if w in ('clean', 'release', 'format'))}'", done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertEqual(sorted(folder.rglob("*")), before)
 
 
 if __name__ == "__main__":
