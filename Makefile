@@ -24,6 +24,7 @@ DATA ?=
 PAPER := data/$(STUDY)
 REPORT := $(PRODUCT)workflows/python.sh -m twindeck_report
 
+include $(PRODUCT)workflows/study_steps.mk
 # `make why s6`: the words after `why` name a step; they are not built.
 ifeq ($(firstword $(MAKECMDGOALS)),why)
 STEP ?= $(word 2,$(MAKECMDGOALS))

@@ -1,8 +1,6 @@
 # One rule a step, for every study. A step's target is its manifest, which is written last; it depends on its configuration, the
 # study's, its executable, and the manifests of the steps that it reads. A step without a configuration file runs on its defaults.
 
-# The steps of the study as study.toml lists them.
-STEPS := $(shell sed -n '/^steps *=/,/\]/p' $(WORKFLOW)/study.toml 2>/dev/null | grep -o 's[0-9]_[a-z]*')
 STEP_MANIFESTS := $(STEPS:%=$(RESULTS)/%/manifest.json)
 STUDY_INPUTS := $(WORKFLOW)/study.toml $(wildcard data/$(STUDY)/bridge.toml data/$(STUDY)/features/* data/$(STUDY)/model/* data/$(STUDY)/*.inp)
 

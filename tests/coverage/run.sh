@@ -17,7 +17,7 @@ cmake --preset coverage >build-coverage.log 2>&1 || { cat build-coverage.log; ex
 rm -f build-coverage.log
 # The highest rooms, whose tests take longest, come first.
 tests=${*:-test_verification $(tr ';' '\n' <build-coverage/unit_tests.txt | tac) test_laws}
-steps=$([ $# -gt 0 ] || sed -n '/^steps *=/,/\]/p' workflows/smoke/study.toml | grep -o 's[0-9]_[a-z]*')
+steps=$([ $# -gt 0 ] || workflows/study_steps.sh workflows/smoke)
 # shellcheck disable=SC2086  # the lists are meant to be split
 cmake --build build-coverage -j "$jobs" --target $tests $steps
 find build-coverage -name '*.gcda' -delete  # counts of earlier runs

@@ -55,7 +55,7 @@ if [ "$only" != thread ]; then
   results=build-sanitize/smoke
   rm -rf "$results"
   # shellcheck disable=SC2013  # names are words
-  for step in $(sed -n '/^steps *=/,/\]/p' workflows/smoke/study.toml | grep -o 's[0-9]_[a-z]*'); do
+  for step in $(workflows/study_steps.sh workflows/smoke); do
     run "smoke study, $step" "$bin/$step" --study workflows/smoke --results "$results" --out "$results/$step" --threads 2 --quiet
   done
 fi
