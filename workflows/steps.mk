@@ -65,6 +65,9 @@ ifndef NO_BUILD
 # `build` compiles what was asked for; what a study's own rules (study.mk) need beside that is compiled here.
 $(STEPS:%=$(BIN)/%): build
 	@$(if $(filter executables $(@F),$(EXECUTABLES)),:,flock $(BUILD) cmake --build $(BUILD) -j $(JOBS) --target $(@F))
+else
+$(STEPS:%=$(BIN)/%):
+	@echo "$@ is not there: $(if $(INSTALLED),install twindeck again,make build)" >&2; exit 2
 endif
 
 # All that a step reads: files of the study, what its scripts make, results of earlier steps.
@@ -77,6 +80,17 @@ $(RESULTS)/$(1)/manifest.json: $(call INPUTS_OF,$(1)) $(wildcard $(WORKFLOW)/$(1
 	@$(BIN)/$(1) --study $(WORKFLOW) --results $(RESULTS) --out $(RESULTS)/$(1) --threads $(THREADS) $$(OPTIONS_$(1))
 endef
 $(foreach step,$(STEPS),$(eval $(call step_rule,$(step))))
+
+# And what it read when it ran, as its manifest lists it: a file that was edited since, wherever it lies, or that is gone makes it run again.
+# In a folder outside the study's own, which its configuration names, a new file does so too.
+RECORDED := $(shell $(PRODUCT)workflows/recorded_inputs.sh $(RESULTS) "$(STEPS)" $(wildcard $(RESULTS)/*/manifest.json $(RESULTS)_virtual/s9_diagnosis/manifest.json))
+$(foreach rule,$(RECORDED),$(eval $(subst {blank},\ ,$(rule))))
+OWN_FOLDERS := ./ $(WORKFLOW)/% data/$(STUDY)/% $(RESULTS)/%
+FOLDERS_OF = $(filter-out $(OWN_FOLDERS),$(sort $(dir $(patsubst $(1):%,%,$(filter $(1):%,$(RECORDED))))))
+define new_files_rule
+$(1): $(foreach folder,$(call FOLDERS_OF,$(1)),$(wildcard $(folder)*.toml $(folder)*.csv))
+endef
+$(foreach manifest,$(STEP_MANIFESTS),$(eval $(call new_files_rule,$(manifest))))
 
 # A step replaces its folder as a whole. Interrupted a moment later, make would delete the manifest that is there by then and leave a folder
 # that no step takes for its own.

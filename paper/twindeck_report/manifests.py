@@ -59,15 +59,16 @@ def stale_outputs(folder: Path) -> list:
 
 
 def stale_inputs(folders: list) -> list:
-    """[(folder, what is wrong)] for every folder that was made from inputs which changed since, or from a folder that is itself named
-    here. Inputs that lie elsewhere now are skipped."""
+    """[(folder, what is wrong)] for every folder that was made from inputs which changed or were removed since, or from a folder that is
+    itself named here."""
     inputs = {folder: (read_manifest(folder) or {}).get("inputs", {}) for folder in folders}
     found = {}
     for folder, read in inputs.items():
-        changed = [name for name, recorded in read.items() if Path(name).is_file() and sha256(Path(name)) != recorded]
-        if changed:
-            more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
-            found[folder] = f"stale: {', '.join(changed[:3])}{more} changed since {folder.name} was made; run `make {_target(folder.name)}`"
+        gone = [name for name in read if not Path(name).is_file()]
+        changed = [name for name, recorded in read.items() if name not in gone and sha256(Path(name)) != recorded]
+        if gone or changed:
+            what = " and ".join(_first_three(names) + verb for names, verb in ((changed, " changed"), (gone, " removed")) if names)
+            found[folder] = f"stale: {what} since {folder.name} was made; run `make {_target(folder.name)}`"
     while True:  # what was made from something stale is stale too
         later = {folder: next((f for f in found if any(Path(name).is_relative_to(f) for name in read)), None)
                  for folder, read in inputs.items() if folder not in found}
@@ -76,6 +77,10 @@ def stale_inputs(folders: list) -> list:
             return list(found.items())
         found |= {folder: f"stale: made from {before.name}, which is stale; run `make {_target(folder.name)}`"
                   for folder, before in later.items()}
+
+
+def _first_three(names: list) -> str:
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
 
 
 def _target(name: str) -> str:

@@ -46,6 +46,20 @@ class StaleSteps(CheckCase):
         self.assertIn("s6_updating: stale: made from s4_refinement, which is stale; run `make s6`", err)
         self.assertNotIn("s3_identification", err)
 
+    def test_an_input_that_is_gone_is_named_too(self):
+        """Oracle: a file that the manifest lists and that is deleted afterwards; put back as it was, nothing is stale."""
+        masses = self.data / "masses.csv"
+        masses.write_text("name,node\n")
+        made_up_study.write_manifest(self.results / "s1_model", [masses])
+        self.run_command("tables")
+        self.assertEqual(self.run_command("verify")[::2], (0, ""))
+        masses.unlink()
+        code, _, err = self.run_command("verify")
+        self.assertEqual(code, 1)
+        self.assertIn("masses.csv removed since s1_model was made; run `make s1`", err)
+        masses.write_text("name,node\n")
+        self.assertEqual(self.run_command("verify")[::2], (0, ""))
+
     def test_folders_of_unfinished_runs_are_no_steps(self):
         (self.results / "s6_updating.partial-1").mkdir()
         (self.results / "s6_updating.unconverged").mkdir()
