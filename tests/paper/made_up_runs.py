@@ -7,6 +7,7 @@ import made_up_study
 MODES = ["mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"]
 PARAMETERS = ["parameter", "unit", "initial_value", "final_value", "change_pct", "lower", "upper", "bound"]
 PAIRS = ["stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"]
+CRITICAL = ["set", "model", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz", "status"]
 # Three shapes at three channels, orthogonal, and a fourth that is none of them
 SHAPES = {1: (1.0, 0.5, 0.0), 2: (-0.5, 1.0, 0.0), 3: (0.0, 0.0, 1.0)}
 
@@ -43,6 +44,12 @@ def updated(folder, parameters, computed=2.0, **more):
                       {"parameters.csv": (PARAMETERS, [[name, "-", 1, value, 100 * (value - 1), 0, 2, "upper" if value == 2 else "none"]
                                                        for name, value in parameters.items()]),
                        "comparison.csv": (PAIRS, [["after", "1X", "1N", 2.0, computed, 50 * (computed - 2.0), 0.99, "mac"]])}, **more)
+
+
+def in_wind(folder, speeds):
+    """Step 7 with `speeds` as {(model, structural damping in per cent): critical speed}, dampers off."""
+    rows = [["standin", model, "off", damping, 1, speed, 0.7, "unstable"] for (model, damping), speed in speeds.items()]
+    return write_step(folder / "s7_aerodynamics", "s7_aerodynamics", {"critical.csv": (CRITICAL, rows)})
 
 
 def diagnosed(folder, told):

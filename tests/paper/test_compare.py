@@ -130,6 +130,16 @@ class Results(InFolder):
                                                                                       [["k", "-", 1, value, 0, 0, 2, "none", std]])})
         self.assertAlmostEqual(self.row(twindeck.compare(self.a, self.b), "k", "final_value")["change_in_std"], 0.1 / 0.05)
 
+    def test_critical_speeds_of_one_model_at_several_dampings(self):
+        """B leaves model A out but for the row at another damping, as a study of the damping asks for; no speed moved. B's dampings are whole
+        numbers, which are written without a point."""
+        made.in_wind(self.a, {("A", 0.5): 17.79, ("C", 1.0): 20.5, ("A", 1.0): 21.04})
+        made.in_wind(self.b, {("C", 1): 20.5, ("A", 1): 21.04})
+        found = twindeck.compare(self.a, self.b)
+        speeds = found.results[found.results["quantity"] == "V_cr_m_s"]
+        self.assertEqual(dict(zip(speeds["item"], speeds["status"])),
+                         {"standin A off 0.5 %": "only in A", "standin C off 1 %": "same", "standin A off 1 %": "same"})
+
     def test_diagnoses(self):
         one = made_up_answer.diagnosis()
         made.diagnosed(self.a, one)

@@ -6,7 +6,7 @@ import pandas as pd
 
 from ..results import StepResults
 from ..units import unit_of_column
-from .rows import is_missing, larger, row_of
+from .rows import as_number, is_missing, larger, row_of
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ TABLES = {
                     Compared("predictions", "leave_one_out", ("experimental_mode",), ("predicted_Hz", "error_predicted_pct")),
                     Compared("fit", "summary", ("quantity",), ("value",),
                              ("projected_gradient_relative", "smooth_bounds_cost", "smooth_bounds_largest_difference_of_range"))),
-    "s7_aerodynamics": (Compared("predictions", "critical", ("set", "model", "dampers"), ("V_cr_m_s", "f_cr_Hz", "status")),),
+    "s7_aerodynamics": (Compared("predictions", "critical", ("set", "model", "dampers", "structural_damping_pct"), ("V_cr_m_s", "f_cr_Hz", "status")),),
     "s8_validation": (Compared("predictions", "rms", ("event", "run", "model", "channel", "direction"), ("rms_m_s2", "measured_rms_m_s2")),),
     "s9_diagnosis": (Compared("pairs", "pairs", ("mode", "condition"), ("measured_Hz", "after_Hz", "mac_after")),),
 }
@@ -76,13 +76,19 @@ def _by_key(frame: pd.DataFrame, key: tuple) -> dict:
     """{name of the row: its cells}; a name that stands twice is numbered."""
     found, key = {}, [k for k in key if k in frame.columns]
     for cells in frame.to_dict("records"):
-        name = " ".join(str(cells[k]) for k in key if not is_missing(cells[k]))
+        name = " ".join(_word(k, cells[k]) for k in key if not is_missing(cells[k]))
         at, number = name, 1
         while at in found:
             number += 1
             at = f"{name} ({number})"
         found[at] = cells
     return found
+
+
+def _word(column: str, value) -> str:
+    """A number is written alike whether its column holds integers alone (1) or others too (1.0), and with its unit."""
+    number = as_number(value)
+    return str(value) if number is None else f"{number:.12g} {unit_of_column(column)}".strip()
 
 
 def _unit_beside(cells: dict) -> str:
