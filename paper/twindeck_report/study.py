@@ -19,11 +19,12 @@ class Study:
     used: set = field(default_factory=set)  # every file read so far: the inputs of a manifest
 
     def read_csv(self, path: Path, columns=(), text=False) -> pd.DataFrame:
-        """A CSV file with at least `columns`; `text` keeps every cell as printed."""
+        """A CSV file with at least `columns`. An empty cell is NaN and every other text stays text, so that a channel may be called NA; `text`
+        keeps every cell as printed."""
         if not path.is_file():
             raise InputError(f"{path}: missing; {self._mend(path)}")
         try:
-            frame = pd.read_csv(path, dtype=str if text else None, keep_default_na=not text, encoding="utf-8")
+            frame = pd.read_csv(path, dtype=str if text else None, keep_default_na=False, na_values=[] if text else [""], encoding="utf-8")
         except (ValueError, UnicodeDecodeError) as problem:
             raise InputError(f"{path}: not a readable CSV file ({problem})") from problem
         lacking = [c for c in columns if c not in frame.columns]

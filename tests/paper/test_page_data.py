@@ -142,6 +142,28 @@ class Measured(unittest.TestCase):
         )
         self.assertLess(measured.partners(found, self.positions, [other])[0][1], 1e-12)
 
+    def features(self, rows):
+        root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        write(root / "features/rows.csv", "type,mode,channel,condition,value,std\n" + rows)
+        write(root / "features/channels.csv", "channel,point,x_m,y_m,z_m,dx,dy,dz\nNA,NA,0,0,0,0,0,1\nB,B,1,0,0,0,0,1\n")
+        write(root / "workflow/study.toml", "steps = [\"s4_refinement\"]\n")
+        found = measured.read_measured(Study("made_up", root, root / "data", root / "workflow"), {"features": root / "features"})
+        return found.modes, found.values
+
+    def test_a_mode_of_two_conditions_is_that_of_the_first(self):
+        """Frequency, damping and shape belong together; the second condition's, which stand further down, are another state."""
+        rows = "".join(f"frequency_Hz,1,,{c},{f},0.1\ndamping_ratio_pct,1,,{c},{z},0.1\n" + "".join(
+            f"shape,1,{n},{c},{v},0.1\nshape_imag,1,{n},{c},{w},0.1\n" for n, v, w in shape)
+            for c, f, z, shape in (("calm", 2.0, 1.0, (("NA", 1.0, 0.1), ("B", 0.5, 0.2))), ("storm", 3.0, 4.0, (("NA", -1.0, 0.3), ("B", 1.0, 0.4)))))
+        modes, values = self.features(rows)
+        self.assertEqual(modes, [("1", 2.0, 1.0)])
+        np.testing.assert_allclose(values, [[1.0 + 0.1j, 0.5 + 0.2j]])
+
+    def test_a_mode_may_have_a_name_and_rows_without_a_mode_stand_beside(self):
+        """The contract of rows.csv: a whole number or a name; a row of temperature has none."""
+        self.assertEqual(self.features("frequency_Hz,sway,,calm,2,0.1\nshape,sway,NA,calm,1,0.1\nshape,sway,B,calm,1,0.1\n")[0][0][:2], ("sway", 2.0))
+        self.assertEqual(self.features("temperature_C,,,calm,12,1\nfrequency_Hz,3,,calm,2,0.1\nshape,3,NA,calm,1,0.1\nshape,3,B,calm,1,0.1\n")[0][0][:2], ("3", 2.0))
+
     def test_sensors_off_the_model_have_no_partner(self):
         found = self.assembled(self.truth)
         self.assertEqual(measured.partners(found, self.positions + [0, 5.0, 0], [np.ones((3, 3))]), [])

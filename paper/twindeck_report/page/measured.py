@@ -41,17 +41,28 @@ def read_measured(study: Study, settings: dict) -> MeasuredSet | None:
     folder = Path(str(settings.get("features", "")))
     if not settings.get("features") or not (folder / "channels.csv").is_file():
         return None
-    rows = study.read_csv(folder / "rows.csv", ["type", "mode", "channel", "value"])
-    real, imaginary = rows[rows["type"] == "shape"], rows[rows["type"] == "shape_imag"]
-    table = real[["mode", "channel", "value"]].merge(
-        imaginary[["mode", "channel", "value"]], on=["mode", "channel"], how="left", suffixes=("", "_i")
-    )
-    table["value"] = table["value"] + 1j * table["value_i"].fillna(0.0)
-    scalar = {
-        kind: rows[rows["type"] == kind].groupby("mode")["value"].first() for kind in ("frequency_Hz", "damping_ratio_pct")
-    }
-    listed = [(str(int(m)), f, scalar["damping_ratio_pct"].get(m)) for m, f in scalar["frequency_Hz"].items()]
+    table, listed = _of_features(study.read_csv(folder / "rows.csv", ["type", "mode", "channel", "condition", "value"]))
     return _assembled(study.read_csv(folder / "channels.csv"), table, listed, [])
+
+
+def _of_features(rows: pd.DataFrame) -> tuple:
+    """Shapes and frequencies of rows.csv: of each mode those of the first condition that has both, since a mode that was measured in several
+    conditions stands there once for each."""
+    frequency, damping, real, imaginary = (
+        rows[rows["type"] == kind] for kind in ("frequency_Hz", "damping_ratio_pct", "shape", "shape_imag")
+    )
+    place = ["mode", "condition"]
+    chosen = frequency[[*place, "value"]].merge(real[place].drop_duplicates(), on=place).drop_duplicates("mode")
+    chosen = chosen.merge(damping[[*place, "value"]], on=place, how="left", suffixes=("", "_damping"))
+    table = real[[*place, "channel", "value"]].merge(chosen[place], on=place)
+    table = table.merge(imaginary[[*place, "channel", "value"]], on=[*place, "channel"], how="left", suffixes=("", "_i"))
+    table["value"] = table["value"] + 1j * table["value_i"].fillna(0.0)
+    return table, [(_label(r["mode"]), r["value"], r["value_damping"]) for r in chosen.to_dict("records")]
+
+
+def _label(mode) -> str:
+    """A mode's number, also where other rows of its column are empty (1.0), or its name."""
+    return str(int(mode)) if isinstance(mode, (int, float)) else str(mode)
 
 
 def _wires(study: Study) -> list:
@@ -71,7 +82,7 @@ def _assembled(channels: pd.DataFrame, table: pd.DataFrame, listed: list, wires:
         channels[channels["channel"].isin(set(table["channel"].astype(str)))].drop_duplicates("channel").reset_index(drop=True)
     )
     column = {name: i for i, name in enumerate(channels["channel"])}
-    table = table.assign(mode=table["mode"].astype(int).astype(str), channel=table["channel"].astype(str))
+    table = table.assign(mode=table["mode"].map(_label), channel=table["channel"].astype(str))
     known = set(table["mode"])
     listed = [entry for entry in listed if entry[0] in known]
     row = {label: i for i, (label, *_) in enumerate(listed)}
