@@ -36,7 +36,7 @@ LONG_TEXT = 30  # letters; a cell with more of them gets room, so that its row d
 FIGURES = {
     "sensitivity_map": ("Sensitivities", "Relative sensitivities d ln f / d ln p of the model's modes, exact derivatives. Parameters in blue were selected for updating; "
                         "the bars show each parameter's score."),
-    "updating_history": ("The updating", "Cost and parameters, divided by their initial values, over the iterations of the best start. Grey: outside the bounds; red: parameters "
+    "updating_history": ("The updating", "Cost and parameters, divided by the sizes of their initial values (by their ranges where those are 0), over the iterations of the best start. Grey: outside the bounds; red: parameters "
                          "that end on one. Dashed lines: the prestress was computed anew."),
 }
 

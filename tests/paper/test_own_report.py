@@ -8,6 +8,7 @@ import json
 import re
 import shutil
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -19,7 +20,8 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 import browser  # noqa: E402
 import made_up_study  # noqa: E402
 from made_up_case import MadeUpCase  # noqa: E402
-from twindeck_report.page import chart, complexity, mac, marks  # noqa: E402
+from twindeck_report.figures import updating_history  # noqa: E402
+from twindeck_report.page import answer, chart, complexity, mac, marks, spectra  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
 
 STEPS = ["s1_model", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating"]
@@ -191,6 +193,43 @@ class OwnReport(unittest.TestCase):
             }
           return found; })()""")
         self.assertEqual(outside, 0)
+
+
+class Numbers(unittest.TestCase):
+    """Parameters that begin at 0 or below it, and channels whose names are words for nothing. Oracle: the files as they are written here."""
+
+    def setUp(self):
+        root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.study = Study("made_up", root / "results", root / "data", root / "workflow")
+        (root / "workflow").mkdir()
+        (root / "workflow/study.toml").write_text('steps = ["s3_identification", "s6_updating"]\n')
+
+    def write(self, name, header, rows):
+        path = self.study.results / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        made_up_study.write_rows(path, header, rows)
+
+    def test_a_parameter_that_begins_at_zero_has_no_per_cent(self):
+        """Step 6 leaves its change empty, and divides it by its range in history.csv: 0 to 300 kg of -200 to 600 kg is 0 to 0.375."""
+        self.write("s6_updating/summary.csv", ["quantity", "value"], [["pairs", 2], ["mean_abs_error_before_pct", 3], ["mean_abs_error_after_pct", 1]])
+        self.write("s6_updating/parameters.csv", ["parameter", "unit", "initial_value", "final_value", "change_pct", "lower", "upper", "bound"],
+                   [["mass", "kg", 0, 300, "", -200, 600, "none"], ["k", "-", 1, 1.1, 10, 0.5, 2, "none"], ["offset", "m", -2, -3, 50, -3, -1, "lower"]])
+        self.write("s6_updating/starts.csv", ["start", "cost", "converged"], [[0, 1.0, 1]])
+        self.write("s6_updating/history.csv", ["start", "outer", "iteration", "cost", "mass", "k", "offset"],
+                   [[0, 0, 0, 2.0, 0.0, 1.0, -1.0], [0, 0, 1, 1.0, 0.375, 1.1, -1.5]])
+        self.assertIn("Changed: offset +50.0 % (on its lower bound), k +10.0 %, mass from 0 to 300 kg.", answer._updating(self.study))
+        figure, _ = updating_history.draw(self.study)
+        for axes, initial, (low, high) in zip(figure.axes[1:], (0.0, 1.0, -1.0), ((-0.25, 0.75), (0.5, 2.0), (-1.5, -0.5))):
+            margin = 0.12 * (high - low)
+            np.testing.assert_allclose(axes.get_ylim(), (low - margin, high + margin), err_msg=f"of {axes.get_title(loc='left')}")
+            self.assertAlmostEqual(axes.lines[0].get_ydata()[0], initial)
+
+    def test_a_channel_may_be_called_na(self):
+        """NA, nan and null are names too: a channel at the north abutment, for one."""
+        rows = [[name, f, 1e-3, "ST1", "calm"] for name in ("NA", "null", "P1") for f in (0.0, 1.0, 2.0)]
+        self.write("s3_identification/psd.csv", ["channel", "frequency_Hz", "psd_m2_s3", "setup", "condition"], rows)
+        self.write("s3_identification/modes.csv", ["mode", "frequency_Hz"], [[1, 1.0]])
+        self.assertEqual([c["name"] for c in spectra.spectra(self.study)["records"][0]["channels"]], ["NA", "null", "P1"])
 
 
 class Pieces(unittest.TestCase):

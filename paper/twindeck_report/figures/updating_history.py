@@ -8,7 +8,7 @@ from .sensitivity_map import symbol
 from .style import ACCENT, INK, PALE, WARN, plt
 
 NAME = "updating_history"
-CAPTION = ("Cost (Eq. 5) and parameters, divided by their initial values, over the iterations of the best start. Grey: the "
+CAPTION = ("Cost (Eq. 5) and parameters, divided by their initial values (by their ranges where those are 0), over the iterations of the best start. Grey: the "
            "bounds of section 4.2; red: parameters that end on one. Dashed lines: the prestress was computed anew.")
 NEEDS = ("s6_updating",)
 
@@ -61,13 +61,14 @@ def draw(study: Study):
 
 
 def _parameter(axes, count, values, row):
-    lower, upper = row["lower"] / row["initial_value"], row["upper"] / row["initial_value"]
+    size = abs(row["initial_value"]) or row["upper"] - row["lower"]  # what history.csv divides by
+    lower, upper = row["lower"] / size, row["upper"] / size
     on_bound = row["bound"] in ("lower", "upper")
     margin = 0.12 * (upper - lower)
     axes.set_ylim(lower - margin, upper + margin)
     axes.axhspan(lower - margin, lower, color=PALE, alpha=0.6, linewidth=0)
     axes.axhspan(upper, upper + margin, color=PALE, alpha=0.6, linewidth=0)
-    axes.axhline(1.0, color=PALE, linewidth=0.8)
+    axes.axhline(row["initial_value"] / size, color=PALE, linewidth=0.8)
     axes.plot(count, values, color=WARN if on_bound else INK, linewidth=1.3, marker="o", markersize=2.5, clip_on=False)
     axes.set_title(symbol(row["parameter"]) + (f"  on its {row['bound']} bound" if on_bound else ""), loc="left", fontsize=9,
                    color=WARN if on_bound else INK, pad=3)

@@ -40,13 +40,20 @@ def _updating(study: Study) -> str | None:
     summary = study.step_csv("s6_updating/summary.csv", ["quantity", "value"]).set_index("quantity")["value"]
     if not {"pairs", "mean_abs_error_before_pct", "mean_abs_error_after_pct"} <= set(summary.index):
         return None
-    changed = study.step_csv("s6_updating/parameters.csv", ["parameter", "change_pct", "bound"])
+    changed = study.step_csv("s6_updating/parameters.csv", ["parameter", "unit", "initial_value", "final_value", "change_pct", "bound"])
     changed = changed.loc[changed["change_pct"].abs().sort_values(ascending=False, kind="stable").index].to_dict("records")
-    words = [f"{r['parameter']} {r['change_pct']:+.1f} %" + (f" (on its {r['bound']} bound)" if r["bound"] in ("lower", "upper") else "")
+    words = [f"{r['parameter']} {_change(r)}" + (f" (on its {r['bound']} bound)" if r["bound"] in ("lower", "upper") else "")
              for r in changed[:MOST_NAMED]]
     more = f" and {len(changed) - MOST_NAMED} more" if len(changed) > MOST_NAMED else ""
     return (f"Mean error of {float(summary['pairs']):.0f} frequencies: {float(summary['mean_abs_error_before_pct']):.2f} % before, "
             f"{float(summary['mean_abs_error_after_pct']):.2f} % after. Changed: {', '.join(words)}{more}.")
+
+
+def _change(row: dict) -> str:
+    """In per cent; of what began at 0, which has no per cent, both values."""
+    if row["change_pct"] == row["change_pct"]:
+        return f"{row['change_pct']:+.1f} %"
+    return f"from {row['initial_value']:g} to {physical(row['final_value'], row['unit'])}"
 
 
 def _kind(study: Study, settings: dict) -> str:
