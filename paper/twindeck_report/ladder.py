@@ -6,15 +6,22 @@ import pandas as pd
 from .cells import number
 from .study import Study
 
+CRITICAL = ["set", "model", "dampers", "structural_damping_pct", "V_cr_m_s"]
 LITERAL, OBLIQUE = "H", "H_oblique"
 
 
+def as_assumed(critical: pd.DataFrame, aerodynamic_set: str) -> pd.DataFrame:
+    """Rows of critical.csv of one set without dampers, with the structural damping that the paper assumes, which step 7 takes for the first row;
+    rows of model A at the damping that was identified come later."""
+    rows = critical[(critical["set"] == aerodynamic_set) & (critical["dampers"] == "off")]
+    return rows[rows["structural_damping_pct"] == rows["structural_damping_pct"].iloc[0]] if len(rows) else rows
+
+
 def critical_speeds(study: Study, aerodynamic_set: str = "standin") -> pd.Series:
-    """Speed by model without dampers, with the structural damping that the paper assumes (the first row of each); empty without step 7."""
+    """Speed by model without dampers, with the structural damping that the paper assumes; empty without step 7."""
     if "s7_aerodynamics" not in study.steps() or not (study.results / "s7_aerodynamics/critical.csv").is_file():
         return pd.Series(dtype=float)
-    table = study.step_csv("s7_aerodynamics/critical.csv", ["set", "model", "dampers", "V_cr_m_s"])
-    table = table[(table["set"] == aerodynamic_set) & (table["dampers"] == "off")].drop_duplicates("model")
+    table = as_assumed(study.step_csv("s7_aerodynamics/critical.csv", CRITICAL), aerodynamic_set)
     return table.set_index("model")["V_cr_m_s"].dropna()
 
 

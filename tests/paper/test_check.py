@@ -160,6 +160,18 @@ class PaperCheck(CheckCase):
         self.assertEqual(code, 1)
         self.assertIn("table_11 row H column flutter_derivatives: ours H_i* = H_i*(alpha,0,K') on B', L' in place of B, L;", err)
 
+    def test_a_model_at_another_damping_does_not_stand_for_its_row(self):
+        """Step 7 computed A at the damping that was identified (44 m/s), and not at the one that Table 12 assumes."""
+        path = self.results / "s7_aerodynamics/critical.csv"
+        rows = made_up_study.read_rows(path)
+        kept = [r for r in rows if (r["set"], r["model"], r["dampers"], r["structural_damping_pct"]) != ("standin", "A", "off", "0.5")]
+        self.assertEqual(len(kept), len(rows) - 1)
+        made_up_study.write_rows(path, list(rows[0]), [list(r.values()) for r in kept])
+        made_up_study.write_manifest(self.results / "s7_aerodynamics")
+        code, _, err = self.run_command("tables")
+        self.assertEqual(code, 2)
+        self.assertIn("set standin: no model A, a row of Table 12", err)
+
     def test_models_that_rank_otherwise_fail_the_order(self):
         self.edit(self.results / "s7_aerodynamics/critical.csv", f"off,0.5,1,{1.002 * 22.40},", "off,0.5,1,21.7,")  # H below D
         made_up_study.write_manifest(self.results / "s7_aerodynamics")

@@ -3,6 +3,7 @@ import math
 
 import numpy as np
 
+from ..ladder import CRITICAL, as_assumed
 from ..study import Study
 from .identification import AS_SET
 from .results import ROUNDING, SYNTHETIC, entry, exact, from_table, quantity, relative, rounding, setting, table
@@ -11,11 +12,11 @@ from .results import ROUNDING, SYNTHETIC, entry, exact, from_table, quantity, re
 
 def _critical(study: Study):
     """Stand-in set without dampers, with the assumed structural damping: one row a model of Table 12."""
-    rows = table(study, "s7_aerodynamics/critical.csv", ["set", "model", "dampers", "V_cr_m_s"])
+    rows = table(study, "s7_aerodynamics/critical.csv", CRITICAL)
     if rows is None:
         return None
-    rows = rows[(rows["set"] == "standin") & (rows["dampers"] == "off") & rows["V_cr_m_s"].notna()].drop_duplicates("model")
-    return rows[rows["model"].isin(list("ACDGHI"))].set_index("model")
+    rows = as_assumed(rows, "standin")
+    return rows[rows["V_cr_m_s"].notna() & rows["model"].isin(list("ACDGHI"))].set_index("model")
 
 
 def _of_model(model: str, column: str):

@@ -1,6 +1,7 @@
 """Total damping over the wind speed, from s7_aerodynamics/damping.csv."""
 import pandas as pd
 
+from ..ladder import CRITICAL, as_assumed
 from ..study import Study
 from .stabilisation import apart
 
@@ -21,6 +22,5 @@ def damping(study: Study, aerodynamic_set: str, dampers: str) -> pd.DataFrame:
 
 
 def critical(study: Study, aerodynamic_set: str) -> pd.DataFrame:
-    """Rows without dampers, the study's structural damping first."""
-    table = study.step_csv("s7_aerodynamics/critical.csv", ["set", "model", "dampers", "structural_damping_pct", "V_cr_m_s", "mode"])
-    return table[(table["set"] == aerodynamic_set) & (table["dampers"] == "off")]
+    """Rows without dampers, with the structural damping that the paper assumes."""
+    return as_assumed(study.step_csv("s7_aerodynamics/critical.csv", [*CRITICAL, "mode"]), aerodynamic_set)

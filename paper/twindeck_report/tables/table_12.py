@@ -2,7 +2,7 @@
 import pandas as pd
 
 from ..errors import InputError
-from ..ladder import set_level
+from ..ladder import as_assumed, set_level
 from ..study import Study
 
 TITLE = "Critical velocity and frequency of the simulations (synthetic aerodynamic set standin, fitted to this table)"
@@ -21,9 +21,7 @@ def note(study: Study) -> str:
 def critical(study: Study, aerodynamic_set: str) -> pd.DataFrame:
     """Rows of the paper's table for one aerodynamic set: without dampers, with the structural damping that the paper assumes."""
     source = study.results / "s7_aerodynamics/critical.csv"
-    table = study.read_csv(source, NAMES)
-    table = table[(table["set"] == aerodynamic_set) & (table["dampers"] == "off")]
-    table = table.drop_duplicates("model").set_index("model")  # the first is with the structural damping of the study
+    table = as_assumed(study.read_csv(source, NAMES), aerodynamic_set).set_index("model")
     rows = []
     for printed in study.paper_table(12).to_dict("records"):
         model = printed["ns"]
