@@ -197,6 +197,18 @@ class Pieces(unittest.TestCase):
             self.assertIn(part, found["svg"])
         self.assertNotIn("after", heatmaps(rows, False)[0]["svg"])
 
+    def test_residuals_of_named_modes_and_of_rows_without_a_mode(self):
+        """A mode may have a name; rows of a load test have none and are told by their sensor."""
+        rows = pd.DataFrame({"type": ["frequency_Hz", "frequency_Hz", "static_m"], "mode": ["sway", "2", np.nan], "channel": [np.nan, np.nan, "D1"],
+                             "condition": "still", "held_out": 0, "residual_before": [4.0, 1.0, -2.0], "residual_after": 0.0})
+        frequencies, deflection = heatmaps(rows, False)
+        for part in ("mode sway, before: +4.00", "mode 2, before: +1.00"):
+            self.assertIn(part, frequencies["svg"])
+        self.assertIn(">D1, before: -2.00", deflection["svg"])
+        self.assertNotIn("mode", deflection["svg"])
+        numbers = rows[1:].assign(mode=[2.0, np.nan])  # as pandas reads a column of numbers with an empty cell
+        self.assertIn("mode 2, before: +1.00", heatmaps(numbers, False)[0]["svg"])
+
     def test_scores_lie_on_their_parts(self):
         found = [
             {"location": "group:E", "score": 4.0, "spots": [], "nodes": [0, 1]},

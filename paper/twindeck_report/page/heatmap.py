@@ -20,7 +20,7 @@ def colour(z: float) -> str:
 def heatmaps(rows, extended: bool) -> list:
     """[{title, svg}] in the order of the file, one a kind and condition; `extended`: before and after the extension."""
     found = []
-    for (kind, condition), part in rows.fillna({"channel": "", "condition": "", "mode": -1}).groupby(["type", "condition"], sort=False):
+    for (kind, condition), part in rows.fillna({"channel": "", "condition": ""}).groupby(["type", "condition"], sort=False):
         title = f"{NAMES.get(kind, kind.replace('_', ' '))}{', ' + str(condition).replace('_', ' ') if condition else ''}"
         many = part["channel"].nunique() > 1
         sides = [(side, _grid(part, f"residual_{side}", many)) for side in (("before", "after") if extended else ("before",))]
@@ -29,23 +29,32 @@ def heatmaps(rows, extended: bool) -> list:
 
 
 def _grid(part, column: str, many: bool) -> dict:
-    """(row, column) -> (value, held out): modes over sensors, or one row over modes."""
-    return {(f"mode {int(r['mode'])}" if many and r["mode"] >= 0 else "", str(r["channel"]) if many else f"{int(r['mode'])}"):
-            (r[column], r["held_out"] == 1) for r in part.to_dict("records") if np.isfinite(r[column])}
+    """(row, column) -> (value, held out): modes over sensors, or one row over modes; a row without a mode is its sensor's."""
+    found = {}
+    for r in part.to_dict("records"):
+        mode = "" if r["mode"] != r["mode"] else f"mode {label(r['mode'])}"
+        if np.isfinite(r[column]):
+            found[(mode, str(r["channel"])) if many else ("", mode or str(r["channel"]))] = (r[column], r["held_out"] == 1)
+    return found
+
+
+def label(mode) -> str:
+    """A mode's number, also where other rows of its column are empty (1.0), or its name."""
+    return str(int(mode)) if isinstance(mode, (int, float)) else str(mode)
 
 
 def _strip(sides) -> str:
     """Before over after, with the numbers in the cells."""
     columns = list(dict.fromkeys(c for _, grid in sides for _, c in grid))
     wide, high, left = 52, 24, 56
-    body = "".join(f'<text class="axis" x="{left + wide * (i + 0.5):.1f}" y="12" text-anchor="middle">mode {html.escape(c)}</text>' for i, c in enumerate(columns))
+    body = "".join(f'<text class="axis" x="{left + wide * (i + 0.5):.1f}" y="12" text-anchor="middle">{html.escape(c)}</text>' for i, c in enumerate(columns))
     for j, (side, grid) in enumerate(sides):
         body += f'<text class="axis" x="0" y="{20 + high * j + 16}">{side if len(sides) > 1 else ""}</text>'
         for i, c in enumerate(columns):
             if ("", c) in grid:
                 z, held = grid["", c]
                 ink = "#fff" if abs(z) > 0.55 * FULL else "#1d2733"
-                body += (f'<g><title>mode {html.escape(c)}, {side}: {z:+.2f} standard deviations{", held out" if held else ""}</title>'
+                body += (f'<g><title>{html.escape(c)}, {side}: {z:+.2f} standard deviations{", held out" if held else ""}</title>'
                          f'<rect x="{left + wide * i}" y="{20 + high * j}" width="{wide - 2}" height="{high - 2}" fill="{colour(z)}"{_held(held)}/>'
                          f'<text x="{left + wide * (i + 0.5) - 1:.1f}" y="{20 + high * j + 15}" text-anchor="middle" style="fill:{ink}">{round(z, 1) + 0.0:+.1f}</text></g>')
     return _svg(left + wide * len(columns), 22 + high * len(sides), body)

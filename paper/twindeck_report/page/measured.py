@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from ..study import Study
+from .heatmap import label
 
 FAR = 0.05  # a sensor further than this share of the model's length from every node is not on the model
 
@@ -57,12 +58,7 @@ def _of_features(rows: pd.DataFrame) -> tuple:
     table = real[[*place, "channel", "value"]].merge(chosen[place], on=place)
     table = table.merge(imaginary[[*place, "channel", "value"]], on=[*place, "channel"], how="left", suffixes=("", "_i"))
     table["value"] = table["value"] + 1j * table["value_i"].fillna(0.0)
-    return table, [(_label(r["mode"]), r["value"], r["value_damping"]) for r in chosen.to_dict("records")]
-
-
-def _label(mode) -> str:
-    """A mode's number, also where other rows of its column are empty (1.0), or its name."""
-    return str(int(mode)) if isinstance(mode, (int, float)) else str(mode)
+    return table, [(label(r["mode"]), r["value"], r["value_damping"]) for r in chosen.to_dict("records")]
 
 
 def _wires(study: Study) -> list:
@@ -82,10 +78,10 @@ def _assembled(channels: pd.DataFrame, table: pd.DataFrame, listed: list, wires:
         channels[channels["channel"].isin(set(table["channel"].astype(str)))].drop_duplicates("channel").reset_index(drop=True)
     )
     column = {name: i for i, name in enumerate(channels["channel"])}
-    table = table.assign(mode=table["mode"].map(_label), channel=table["channel"].astype(str))
+    table = table.assign(mode=table["mode"].map(label), channel=table["channel"].astype(str))
     known = set(table["mode"])
     listed = [entry for entry in listed if entry[0] in known]
-    row = {label: i for i, (label, *_) in enumerate(listed)}
+    row = {name: i for i, (name, *_) in enumerate(listed)}
     values = np.full((len(listed), len(column)), np.nan, complex)
     for mode, channel, value in zip(table["mode"], table["channel"], table["value"]):
         if mode in row and channel in column:
