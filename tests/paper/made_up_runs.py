@@ -38,6 +38,15 @@ def identified(folder, frequencies, shapes, config="blocks = 20\nband.highest = 
                       {"modes.csv": (MODES, modes), "shapes.csv": (["mode", "point", "direction", "value"], shape_rows(shapes))}, config, **more)
 
 
+def identified_in(folder, conditions):
+    """Step 3 with one mode in each of `conditions`, {name: frequency}, the first one's in modes.csv, as poles.csv says."""
+    first = next(iter(conditions))
+    tables = {"modes.csv" if c == first else f"conditions/{c}/modes.csv": (MODES, [[1, f, 0.005, 1.0, 0.1]]) for c, f in conditions.items()}
+    for name in tables:
+        (folder / "s3_identification" / name).parent.mkdir(parents=True, exist_ok=True)
+    return write_step(folder / "s3_identification", "s3_identification", tables | {"poles.csv": (["setup", "order", "condition"], [["S1", 2, first]])})
+
+
 def updated(folder, parameters, computed=2.0, **more):
     """Step 6 with `parameters` as {name: final value} between 0 and 2, and one pair."""
     return write_step(folder / "s6_updating", "s6_updating",

@@ -114,6 +114,22 @@ class Results(InFolder):
         self.assertIn("paired by their number", found.notes[0])
         self.assertAlmostEqual(self.row(found, "mode 1", "frequency_Hz")["change"], 0.1)
 
+    def test_modes_are_those_of_the_same_condition(self):
+        """B looked at the storm alone, whose modes are then its first list; they are A's second."""
+        made.identified_in(self.a, {"calm": 2.0, "storm": 1.9})
+        made.identified_in(self.b, {"storm": 1.9})
+        found = twindeck.compare(self.a, self.b)
+        self.assertEqual(self.row(found, "mode 1 (storm)", "frequency_Hz")["status"], "same")
+        self.assertIn("s3_identification: modes of condition calm stand in A alone", found.notes)
+        self.assertEqual([r["item"] for r in found.table.to_dict("records") if r["quantity"] == "frequency_Hz"], ["mode 1 (storm)"])
+
+    def test_one_condition_that_each_run_calls_otherwise(self):
+        made.identified_in(self.a, {"summer": 2.0})
+        made.identified_in(self.b, {"winter": 2.1})
+        found = twindeck.compare(self.a, self.b)
+        self.assertAlmostEqual(self.row(found, "mode 1", "frequency_Hz")["change"], 0.1)
+        self.assertIn("s3_identification: modes of condition summer in A are held against those of winter in B", found.notes)
+
     def test_parameters_of_one_run_only(self):
         made.updated(self.a, {"k": 0.5, "m": 1.1}, computed=2.0)
         made.updated(self.b, {"k": 0.5, "E": 2}, computed=2.2)

@@ -14,20 +14,31 @@ def mode_rows(a: StepResults, b: StepResults, notes: list) -> list:
     """Rows of each modes.csv that both runs of a step wrote: the step's own, and of step 3 those of further conditions."""
     part = "identified modes" if a.step == "s3_identification" else "modes"
     rows = []
-    for name in _tables_of_modes(a, b):
-        condition = name.split("/")[1] if "/" in name else ""
-        rows += _rows(part, a, b, name, f" ({condition})" if condition else "", notes)
+    left, right = _tables_of_modes(a), _tables_of_modes(b)
+    top, other_top = next(iter(left), ""), next(iter(right), "")
+    if left and right and top not in right and other_top not in left:  # each run calls its first condition otherwise
+        if top and other_top:
+            notes.append(f"{a.step}: modes of condition {top} in A are held against those of {other_top} in B")
+        right = {top: right.pop(other_top)} | right
+    for condition, name in left.items():
+        if condition in right:
+            rows += _rows(part, a, b, (name, right[condition]), f" ({condition})" if condition != top else "", notes)
+    for here, other, run in ((left, right, "A"), (right, left, "B")):
+        notes += [f"{a.step}: modes of condition {condition or 'without a name'} stand in {run} alone" for condition in here if condition not in other]
     return rows
 
 
-def _tables_of_modes(a: StepResults, b: StepResults) -> list:
-    here = [file[:-4] for file in a.manifest["outputs"] if file == "modes.csv" or (file.startswith("conditions/") and file.endswith("/modes.csv"))]
-    return sorted(name for name in here if name in b)
+def _tables_of_modes(result: StepResults) -> dict:
+    """{condition: table}: that of the step's own modes.csv first, whose condition step 3 names in poles.csv."""
+    poles = result.table("poles") if "modes" in result and "poles" in result else {}
+    first = str(poles["condition"].iloc[0]) if "condition" in poles and len(poles) else ""
+    names = sorted(file[:-4] for file in result.manifest["outputs"] if file.startswith("conditions/") and file.endswith("/modes.csv"))
+    return ({first: "modes"} if "modes" in result else {}) | {name.split("/")[1]: name for name in names}
 
 
-def _rows(part, a, b, name, suffix, notes) -> list:
-    left, right = (_by_mode(result.table(name)) for result in (a, b))
-    pairs, likeness = _pairs(a, b, name, left, right, notes)
+def _rows(part, a, b, names, suffix, notes) -> list:
+    left, right = (_by_mode(result.table(name)) for result, name in zip((a, b), names))
+    pairs, likeness = _pairs(a, b, names, left, right, notes)
     rows = []
     for one, other in pairs:
         item = f"mode {one if one is not None else other}{suffix}"
@@ -47,14 +58,14 @@ def _by_mode(frame: pd.DataFrame) -> dict:
     return {str(cells["mode"]): cells for cells in frame.to_dict("records")}
 
 
-def _pairs(a, b, name, left: dict, right: dict, notes: list) -> tuple:
+def _pairs(a, b, names: tuple, left: dict, right: dict, notes: list) -> tuple:
     """[(mode of A, mode of B)] with None for no partner, and {pair: MAC}."""
-    shapes = name[: -len("modes")] + "shapes"
-    if all(a.manifest["outputs"].get(f"{t}.csv") == b.manifest["outputs"].get(f"{t}.csv") for t in (name, shapes)):
+    shapes = [name[: -len("modes")] + "shapes" for name in names]
+    if all(a.manifest["outputs"].get(f"{one}.csv") == b.manifest["outputs"].get(f"{other}.csv") for one, other in (names, shapes)):
         return [(mode, mode) for mode in left], {(mode, mode): 1.0 for mode in left}  # the same bytes
-    phi_a, phi_b = (_shapes(result.table(shapes), modes) if shapes in result else None for result, modes in ((a, left), (b, right)))
+    phi_a, phi_b = (_shapes(result.table(file), modes) if file in result else None for result, file, modes in zip((a, b), shapes, (left, right)))
     if phi_a is None or phi_b is None or set(phi_a.index) != set(phi_b.index):
-        notes.append(f"{a.step}: modes are paired by their number, since the shapes of {name}.csv are not given at the same points in both runs")
+        notes.append(f"{a.step}: modes are paired by their number, since the shapes of {names[0]}.csv are not given at the same points in both runs")
         return [(mode if mode in left else None, mode if mode in right else None) for mode in dict.fromkeys([*left, *right])], {}
     macs = mac(phi_a, phi_b.loc[phi_a.index])
     pairs = paired(macs, {m: float(c["frequency_Hz"]) for m, c in left.items()}, {m: float(c["frequency_Hz"]) for m, c in right.items()})
