@@ -11,7 +11,8 @@ from .features import Features, read_features
 from .model import Model, read_model
 from .tables import read_table
 
-# Tables with a column a parameter, named by the parameter: its unit stands in parameters.csv, not in the column's name.
+# Tables with a column a parameter, named by the parameter. Its values there are divided by the size of the initial value and have no unit, whatever
+# the name ends with (k_m).
 _BY_PARAMETER = ("history.csv", "starts.csv")
 
 
@@ -97,11 +98,8 @@ class StepResults:
         frame = read_table(self.path(file))
         frame.attrs["step"] = self.step
         if file in _BY_PARAMETER and "parameters" in self:
-            parameters = read_table(self.path("parameters.csv"))
-            for parameter, unit in zip(parameters["parameter"], parameters["unit"]):
-                frame.attrs["units"].pop(parameter, None)
-                if parameter in frame.columns and unit != "-":
-                    frame.attrs["units"][parameter] = unit
+            for parameter in read_table(self.path("parameters.csv"))["parameter"]:
+                frame.attrs["units"].pop(str(parameter), None)
         return frame
 
     def path(self, file: str) -> Path:
