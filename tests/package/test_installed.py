@@ -161,6 +161,8 @@ class SourceTree(unittest.TestCase):
             self.assertIn(f"'{next(w for w in words if w in ('clean', 'release', 'format'))}'", done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
         self.assertEqual(sorted(folder.rglob("*")), before)
+        done = subprocess.run([ROOT / "packaging/twindeck", "why", "s6", "nothing"], cwd=folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (2, "twindeck: there is no study 'nothing' here (workflows/nothing/study.toml)\n"))
 
 
 if __name__ == "__main__":
