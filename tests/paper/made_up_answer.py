@@ -44,7 +44,8 @@ def write_diagnosis(folder, told):
                              [["frequency_Hz", "1", "", "windy", 0, 0.748, 0.017, 0.69, 0.74, 3.4, 0.4, 0, 0],
                               ["frequency_Hz", "2", "", "windy", 1, 1.1, 0.02, 1.09, 1.1, 0.5, 0.1, 0, 0]])
     made_up_study.write_rows(folder / "hypotheses.csv", ["cause", "location", "log_odds", "screen", "stage", "signature_sigma", "status"],
-                             [["fric", "dampers:C1,C2", 53.2, 110.0, 3, 10.0, "fitted"], ["mass", "node:725", 51.1, 108.0, 3, 10.0, "fitted"]])
+                             [["fric", "dampers:C1,C2", 53.2, 110.0, 3, 10.0, "fitted"], ["mass", "node:725", 51.1, 108.0, 3, 10.0, "fitted"],
+                              ["mass", "node:7", "", 2.0, 1, 1.0, "screened"], ["wake", "", "", "", "", "", "not visible: no wind"]])
     made_up_study.write_rows(folder / "misfit.csv", ["by", "name", "rows", "mean_square_before", "mean_square_after"],
                              [["type", "frequency_Hz", 2, 5.9, 0.1]])
     (folder / "diagnosis.json").write_text(json.dumps(told), encoding="utf-8")

@@ -115,6 +115,7 @@ class OneStudy(unittest.TestCase):
         text = self.account(made_up_answer.diagnosis())
         self.assertIn("Log odds of something missing against nothing: 53.2", text)
         self.assertRegex(text, r"fric dampers:C1,C2 53\.2")
+        self.assertIn("The likeliest of 2 entries that were fitted", text, "two more were screened out or have no row that shows them")
         card = text[text.index("How sure: likelier"):text.index("The likeliest of")]
         self.assertNotIn("log odds", card)
         self.assertIn("mass that the model does not have (the deck at x = 34 m), probability 0.11: mass 800 kg (600 kg … 1,100 kg)", card)
@@ -126,6 +127,9 @@ class OneStudy(unittest.TestCase):
         for side, words in (("open", "mass not known"), ("lower limit", "mass at least 600 kg"), ("upper limit", "mass at most 1,100 kg")):
             told["effects"][0]["rivals"][0]["parameters"][0]["one_sided"] = side
             self.assertIn(f"probability 0.11: {words}", self.account(told))
+        own = told["effects"][0]["parameters"][0]
+        own["one_sided"] = "open"
+        self.assertRegex(self.account(told), r"How big: Fc not known \(90 %\)")
 
     def test_several_causes_are_counted(self):
         for count, words in ((1, "One cause explains it"), (2, "2 causes explain it together")):

@@ -1,6 +1,8 @@
 """The story that step 9 tells: what is wrong, why, how the model was extended, what was gained."""
 import json
 
+import pandas as pd
+
 from ..study import Study
 from .heatmap import NAMES, heatmaps
 from .numbers import physical, span
@@ -32,11 +34,11 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
     tone, title, meaning = verdict_in_words(told)
     rows = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "residual_before", "residual_after"])
     beyond = {side: _beyond(rows, side) for side in ("before", "after")}
-    tried = _tried(study)
+    fitted = _fitted(study)
     folder = "s6_updating/model" if "s6_updating" in study.steps() else None
     where = places(study, settings, folder, told.get("localisation", []))
     return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "beyond_held_out": _beyond(rows[rows["held_out"] == 1], "before"), "kind": _kind, "block": _block, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
-            "tried": tried, "causes_tried": _count(study), "places": where[:12], "where": where, "folder": folder,
+            "tried": _tried(fitted), "causes_tried": len(fitted), "places": where[:12], "where": where, "folder": folder,
             "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity, "size": _size, "physical": physical, "parameters": _parameters(told)}
 
 
@@ -86,17 +88,17 @@ def _beyond(rows, side: str) -> int:
     return int((rows[f"beyond_{side}"] == 1).sum()) if f"beyond_{side}" in rows else int((rows[f"residual_{side}"].abs() > 3.0).sum())
 
 
-def _count(study: Study) -> int:
-    return len(study.step_csv("s9_diagnosis/hypotheses.csv")) if (study.results / "s9_diagnosis/hypotheses.csv").is_file() else 0
+def _fitted(study: Study):
+    """Entries of hypotheses.csv with log odds; others were screened out or have no row that shows them. Empty where the file is not there."""
+    if not (study.results / "s9_diagnosis/hypotheses.csv").is_file():
+        return pd.DataFrame()
+    table = study.step_csv("s9_diagnosis/hypotheses.csv", ["cause", "location", "log_odds"])
+    return table[table["log_odds"].notna()].drop_duplicates(["cause", "location"])
 
 
-def _tried(study: Study) -> list:
+def _tried(table) -> list:
     """The likeliest entries in the order of the file: log odds against `nothing` before any cause is in the model. The first entry's are those
     of the detection."""
-    if not (study.results / "s9_diagnosis/hypotheses.csv").is_file():
-        return []
-    table = study.step_csv("s9_diagnosis/hypotheses.csv", ["cause", "location", "log_odds"])
-    table = table[table["log_odds"].notna()].drop_duplicates(["cause", "location"])
     most = max(1.0, float(table["log_odds"].max())) if len(table) else 1.0
     return [{"cause": r["cause"], "location": r["location"], "odds": r["log_odds"], "share": max(0.0, 100.0 * r["log_odds"] / most),
              "status": r.get("status", "") if isinstance(r.get("status", ""), str) else ""} for r in table.head(12).to_dict("records")]
