@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "diagnosis/features/shape_turn.hpp"
+
 namespace twindeck::diagnosis {
 
 namespace {
@@ -88,15 +90,12 @@ MatrixXd close_rotations(const std::vector<PairedMode>& paired, const std::vecto
       const PairedMode &low = paired[a], &high = paired[b];
       if (low.condition != high.condition || !(frequency_Hz[a] > 0.0) || !(frequency_Hz[a] < frequency_Hz[b])) continue;
       const double gap = frequency_Hz[b] / frequency_Hz[a] - 1.0;
-      if (gap <= kCovered || gap > kFarthest || low.shape_rows.size() != high.shape_rows.size() || low.shape_rows.empty())
-        continue;
-      VectorXd u = VectorXd::Zero(values.size());
-      const double ratio = std::sqrt(values(low.shape_rows).squaredNorm() / values(high.shape_rows).squaredNorm());
-      for (std::size_t k = 0; k < low.shape_rows.size(); ++k) {
-        u[low.shape_rows[k]] = values[high.shape_rows[k]] * ratio;
-        u[high.shape_rows[k]] = -values[low.shape_rows[k]] / ratio;
-      }
-      columns.push_back(kRotation / gap * u);
+      if (gap <= kCovered || gap > kFarthest || low.shape_rows.empty() || high.shape_rows.empty()) continue;
+      const ShapeTurn turn =
+          turn_of_shapes({low.shape_rows, low.shape_channels}, {high.shape_rows, high.shape_channels}, values);
+      if (turn.together.squaredNorm() > 0.0) columns.push_back(kRotation / gap * turn.together);
+      for (Index r = 0; r < values.size(); ++r)
+        if (turn.alone[r] > 0.0) columns.push_back(kRotation / gap * turn.alone[r] * VectorXd::Unit(values.size(), r));
     }
   }
   MatrixXd out(values.size(), std::ssize(columns));

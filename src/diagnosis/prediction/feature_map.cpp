@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "diagnosis/features/shape_turn.hpp"
 #include "diagnosis/prediction/predictor.hpp"
 
 namespace twindeck::diagnosis {
@@ -119,20 +120,13 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
   // Close modes: small changes turn their shapes into each other, so that only their plane is known well.
   for (const MeasuredMode& a : modes_) {
     for (const MeasuredMode& b : modes_) {
-      if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz) || a.real_rows.size() != b.real_rows.size())
-        continue;
+      if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz)) continue;
       const double gap = b.frequency_Hz / a.frequency_Hz - 1.0;
-      if (gap > kCloseModes || a.real_rows.empty()) continue;
-      Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
-      double norm_a = 0.0, norm_b = 0.0;
-      for (const int r : a.real_rows) norm_a += values_[r] * values_[r];
-      for (const int r : b.real_rows) norm_b += values_[r] * values_[r];
-      const double ratio = std::sqrt(norm_a / norm_b);
-      for (std::size_t k = 0; k < a.real_rows.size(); ++k) {
-        u[a.real_rows[k]] = values_[b.real_rows[k]] * ratio;
-        u[b.real_rows[k]] = -values_[a.real_rows[k]] / ratio;
-      }
-      covariance_ += std::pow(std::min(kTurnTimesGap / gap, kLargestTurn), 2) * u * u.transpose();
+      if (gap > kCloseModes || a.real_rows.empty() || b.real_rows.empty()) continue;
+      const ShapeTurn turn = turn_of_shapes({a.real_rows, a.real_channels}, {b.real_rows, b.real_channels}, values_);
+      const double variance = std::pow(std::min(kTurnTimesGap / gap, kLargestTurn), 2);
+      covariance_ += variance * turn.together * turn.together.transpose();
+      covariance_.diagonal() += variance * turn.alone.cwiseAbs2();
     }
   }
 }

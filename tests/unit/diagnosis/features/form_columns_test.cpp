@@ -151,5 +151,35 @@ TEST(CloseRotations, CoverGapsBetweenSixAndTwelvePerCentOfOneCondition) {
   EXPECT_LT((one.col(0) - 0.12 * expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// Oracle: the rows of the second shape in another order give the same columns in that order.
+TEST(CloseRotations, PairRowsByChannel) {
+  const std::vector<double> hertz = {1.0, 1.1};
+  VectorXd values(6), moved(6);
+  values << 1.0, 0.5, -0.2, 0.3, 2.0, 0.7;
+  moved << 1.0, 0.5, -0.2, 0.7, 0.3, 2.0;
+  const MatrixXd sorted =
+      diagnosis::close_rotations({{0, 0, -1, {0, 1, 2}, {0, 1, 2}}, {1, 0, -1, {3, 4, 5}, {0, 1, 2}}}, hertz, values);
+  const MatrixXd shuffled =
+      diagnosis::close_rotations({{0, 0, -1, {0, 1, 2}, {0, 1, 2}}, {1, 0, -1, {3, 4, 5}, {2, 0, 1}}}, hertz, moved);
+  ASSERT_EQ(sorted.cols(), 1);
+  ASSERT_EQ(shuffled.cols(), 1);
+  const std::vector<int> order = {0, 1, 2, 5, 3, 4};
+  EXPECT_LT((shuffled - sorted(order, Eigen::all)).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+// Oracle: a row whose channel the other shape lacks has a column of its own, as large as its shape is on average.
+TEST(CloseRotations, GiveAChannelOfOneShapeAloneItsOwnColumn) {
+  VectorXd values(5);
+  values << 3.0, 4.0, 5.0, 1.0, 2.0;
+  const MatrixXd columns =
+      diagnosis::close_rotations({{0, 0, -1, {0, 1, 2}, {0, 1, 2}}, {1, 0, -1, {3, 4}, {2, 0}}}, {1.0, 1.1}, values);
+  ASSERT_EQ(columns.cols(), 2);
+  const double ratio = std::sqrt((9.0 + 25.0) / (1.0 + 4.0));
+  VectorXd together(5);
+  together << 2.0 * ratio, 0.0, 1.0 * ratio, -5.0 / ratio, -3.0 / ratio;
+  EXPECT_LT((columns.col(0) - 0.12 * together).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((columns.col(1) - 0.12 * std::sqrt(50.0 / 3.0) * VectorXd::Unit(5, 1)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 }  // namespace
 }  // namespace twindeck::tests
