@@ -58,7 +58,7 @@ struct Rival {
 
 struct Effect {
   Cause cause;
-  std::string state;                 ///< state of the structure in which it acts; empty: all states
+  std::string state;                 ///< of the structure in which it acts alone or first; empty: all states
   std::vector<std::string> cluster;  ///< "fric@damper:C1", the best first
   std::vector<Rival> rivals;         ///< the others of the cluster, in its order
   double log_odds = 0.0, probability = 0.0;

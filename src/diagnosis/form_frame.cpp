@@ -1,5 +1,6 @@
 #include "diagnosis/form_frame.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -15,11 +16,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const std::string kStateContrast = "state ";  // and its name
-constexpr double kManySmall = 0.5;            // of the form error's variance in frequencies: many small causes
-constexpr double kLeastSingular = 1e-5;       // of the largest singular value: principal columns below carry nothing
-constexpr double kNoEffect = 1e-6;            // RMS change of ln f: a hypothesis below moves nothing here
-constexpr double kFreeScale = 10.0;           // of a shape, relative: wide enough to cost nothing
+const std::string kStateContrast = "state ";                             // and its name: that state alone
+const std::string kFromState = "from state ", kBeforeState = "before ";  // as Candidate::when says
+constexpr double kManySmall = 0.5;       // of the form error's variance in frequencies: many small causes
+constexpr double kLeastSingular = 1e-5;  // of the largest singular value: principal columns below carry nothing
+constexpr double kNoEffect = 1e-6;       // RMS change of ln f: a hypothesis below moves nothing here
+constexpr double kFreeScale = 10.0;      // of a shape, relative: wide enough to cost nothing
 
 const std::vector<std::string>& contrast_keys() {
   static const std::vector<std::string> keys = {"dampers", "amplitude_m", "temperature_C", "wind_m_s", "people"};
@@ -75,26 +77,46 @@ std::vector<Contrast> contrasts_of(const FeatureSet& features) {
     if (auto contrast = contrast_of(key, values)) out.push_back(std::move(*contrast));
   }
   const std::vector<std::string> states = states_of(features);
-  for (std::size_t s = 1; s < states.size(); ++s) {
-    Contrast contrast{kStateContrast + states[s], VectorXd::Zero(std::ssize(used))};
-    for (std::size_t c = 0; c < used.size(); ++c)
-      if (used[c] && features.conditions[c].state == states[s]) contrast.weight[static_cast<Index>(c)] = 1.0;
+  const auto add = [&](const std::string& key, std::size_t from, std::size_t end) {
+    Contrast contrast{key, VectorXd::Zero(std::ssize(used))};
+    for (std::size_t c = 0; c < used.size(); ++c) {
+      const auto state = std::find(states.begin(), states.end(), features.conditions[c].state) - states.begin();
+      if (used[c] && state >= static_cast<Index>(from) && state < static_cast<Index>(end))
+        contrast.weight[static_cast<Index>(c)] = 1.0;
+    }
     if (contrast.weight.sum() > 0.0) out.push_back(std::move(contrast));
-  }
+  };
+  for (std::size_t s = 1; s < states.size(); ++s) add(kStateContrast + states[s], s, s + 1);
+  for (std::size_t s = 1; s + 1 < states.size(); ++s) add(kFromState + states[s] + " on", s, states.size());
   return out;
 }
 
-int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
-  if (!candidate.state.empty()) {
-    // What acts in the first state alone tells it from every other: it is asked with the first of these.
-    int first = -1;
-    for (std::size_t c = 0; c < contrasts.size(); ++c) {
-      if (!contrasts[c].key.starts_with(kStateContrast)) continue;
-      if (first < 0) first = static_cast<int>(c);
-      if (contrasts[c].key == kStateContrast + candidate.state) return static_cast<int>(c);
-    }
-    return first;
+namespace {
+
+/// Of what acts in some states alone.
+int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
+  const auto at = [&](const auto& is_it) {
+    const auto found = std::find_if(contrasts.begin(), contrasts.end(), is_it);
+    return found == contrasts.end() ? -1 : static_cast<int>(found - contrasts.begin());
+  };
+  const auto named = [&](const std::string& key) { return at([&](const Contrast& c) { return c.key == key; }); };
+  const std::string when = candidate.when.empty() ? kStateContrast + candidate.state : candidate.when;
+  if (const int own = named(when); own >= 0) return own;
+  // What acts before a state tells this one and all after it from the others.
+  if (when.starts_with(kBeforeState)) {
+    const std::string state = when.substr(kBeforeState.size());
+    if (const int own = named("from " + state + " on"); own >= 0) return own;
+    return named(state);
   }
+  // What acts in the first state alone tells it from every other.
+  const int others = at([](const Contrast& c) { return c.key.starts_with(kFromState); });
+  return others >= 0 ? others : at([](const Contrast& c) { return c.key.starts_with(kStateContrast); });
+}
+
+}  // namespace
+
+int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
+  if (!candidate.state.empty()) return contrast_of_states(candidate, contrasts);
   for (const ActionSpec& action : candidate.hypothesis->actions)
     for (const std::string& key : keys_of(action))
       for (std::size_t c = 0; c < contrasts.size(); ++c)

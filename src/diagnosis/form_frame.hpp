@@ -10,7 +10,8 @@
 /// Private to src/diagnosis: the residual of a fit as the linear model of diagnosis/inference/form_evidence.hpp.
 namespace twindeck::diagnosis {
 
-/// Keys of conditions.toml that tell the measured conditions apart, and "state NAME" for each state after the first.
+/// Keys of conditions.toml that tell the measured conditions apart, "state NAME" for each state after the first and, of three
+/// and more, "from state NAME on" for each of them but the last.
 [[nodiscard]] std::vector<Contrast> contrasts_of(const FeatureSet& features);
 
 /// The contrast in which a candidate acts, -1 where it acts in all conditions alike.

@@ -30,11 +30,11 @@ constexpr double kLeastScale = 0.02, kMostScale = 3.0;  // of a signature, as fa
 constexpr double kSeen = 1e-3;                          // deviations: below, these rows show nothing of an entry
 constexpr double kWorthRefining = -4.0;                 // nats against none: below, the best entry is far from any threshold
 
-/// RMS change of the frequencies in the conditions where a cause acts: those of its state, or those that its contrast weighs.
+/// RMS change of the frequencies in the conditions where a cause acts: those of its states, or those that its contrast weighs.
 double effect_of(const Inference& inference, const VectorXd& change, const Candidate& candidate, const Contrast* contrast) {
   const FeatureSet& features = inference.map().features();
   const auto acts_in = [&](int condition) {
-    if (!candidate.state.empty()) return features.conditions[static_cast<std::size_t>(condition)].state == candidate.state;
+    if (!candidate.state.empty()) return candidate.acts_in(features.conditions[static_cast<std::size_t>(condition)]);
     return contrast == nullptr || contrast->weight[condition] != 0.0;
   };
   double sum = 0.0;
@@ -309,7 +309,8 @@ std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const 
   const double near = best - std::max(kRefineWithin, kRefineShare * over_none);
   const double near_family = best - std::max(kFamilyWithin, kFamilyShare * over_none);
   std::map<std::string, int> places;
-  for (const FormEntry& entry : search.entries) ++places[entry.candidate->hypothesis->id];
+  for (const FormEntry& entry : search.entries)
+    if (entry.candidate->further_states.empty()) ++places[entry.candidate->hypothesis->id];
   std::set<std::string> families, wholly;
   std::vector<FormEntry*> out;
   for (std::size_t i = 0; i < search.entries.size(); ++i) {

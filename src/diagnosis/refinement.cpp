@@ -236,7 +236,7 @@ void prefer_mass_to_bound(const Inference& inference, const Fit& base, std::vect
   const auto mass = std::find_if(ranking.begin(), ranking.end(), [&](const Scored& scored) {
     const Candidate& c = *scored.candidate;
     return c.hypothesis->actions.size() == 1 && c.hypothesis->actions[0].kind == "mass.add" && c.low.size() == 1 &&
-           c.location == oscillator.location && c.state == oscillator.state;
+           c.location == oscillator.location && c.when == oscillator.when;
   });
   if (mass == ranking.end()) return;
   Scored nested = *mass;

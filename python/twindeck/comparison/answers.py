@@ -36,7 +36,8 @@ def _name(entry: dict) -> str:
 
 
 def _effect(entry: dict) -> str:
-    state = f" in state {entry['state']}" if entry.get("state") else ""
+    states = entry.get("states") or [entry["state"]] if entry.get("state") else []
+    state = f" in state {', '.join(states)}" if states else ""
     return f"{entry.get('cause')} at {entry.get('location')}{state}"
 
 

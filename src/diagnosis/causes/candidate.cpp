@@ -243,14 +243,26 @@ bool is_a_part(const Hypothesis& h) {
   });
 }
 
-/// States in which a hypothesis is asked alone; "" for all together.
-std::vector<std::string> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
-  if (states.size() < 2 || !is_a_part(h)) return {""};
-  std::vector<std::string> out(states.begin() + 1, states.end());
+/// States that follow each other in which a hypothesis is asked; none for all together.
+struct AskedStates {
+  std::vector<std::string> states;
+  std::string when;  ///< as Candidate::when
+};
+
+/// In one state alone or, where there are three and more, from one state on: what was cut stays cut unless it is repaired.
+std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
+  if (states.size() < 2 || !is_a_part(h)) return {{}};
+  std::vector<AskedStates> out;
+  for (auto state = states.begin() + 1; state != states.end(); ++state) out.push_back({{*state}, "state " + *state});
+  for (auto state = states.begin() + 1; state + 1 != states.end(); ++state)
+    out.push_back({{state, states.end()}, fmt::format("from state {} on", *state)});
   // What a later state has more of, the first may have lost: a factor says both, what is added needs to be asked twice.
   const bool adds = std::all_of(h.actions.begin(), h.actions.end(),
                                 [](const ActionSpec& a) { return a.kind == "mass.add" || a.kind.starts_with("element."); });
-  if (adds) out.push_back(states.front());
+  if (!adds) return out;
+  out.push_back({{states.front()}, "state " + states.front()});
+  for (auto state = states.begin() + 2; state < states.end(); ++state)
+    out.push_back({{states.begin(), state}, "before state " + *state});
   return out;
 }
 
@@ -395,6 +407,8 @@ Candidate elsewhere(const Candidate& like, const std::string& location, std::vec
   out.location = location;
   out.places = std::move(places);
   out.state = like.state;
+  out.further_states = like.further_states;
+  out.when = like.when;
   out.log_prior = like.log_prior;
   out.refines = like.refines != nullptr ? like.refines : &like;
   bound(out, measured_modes(features));
@@ -413,9 +427,13 @@ Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const Reduced
       out.invisible.push_back({h.id, reason});
       continue;
     }
-    for (const std::string& state : states_asked(h, states)) {
+    for (const AskedStates& asked : states_asked(h, states)) {
       for (Candidate& candidate : locations(h, model, features)) {
-        candidate.state = state;
+        if (!asked.states.empty()) {
+          candidate.state = asked.states.front();
+          candidate.further_states.assign(asked.states.begin() + 1, asked.states.end());
+        }
+        candidate.when = asked.when;
         families.back().push_back(std::move(candidate));
       }
     }

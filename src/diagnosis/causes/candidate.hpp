@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,7 +28,9 @@ struct Candidate {
   std::vector<const ReducedPlace*> places;  ///< one, or two for a pair of nodes; empty for channels and modes
   std::vector<int> channels;                ///< one, or two for a pair
   std::string mode;                         ///< label of a measured mode
-  std::string state;                        ///< of the structure in which it acts alone, "" where it acts in all
+  std::string state;                        ///< of the structure in which it acts alone or first, "" where it acts in all
+  std::vector<std::string> further_states;  ///< after `state`, in which it acts as well
+  std::string when;                         ///< "state mid", "from state mid on", "before state mid"; "" where it acts in all
   Eigen::VectorXd low, high;                ///< (k) bounds of the unknowns, in ln where they are logarithmic
   std::vector<bool> log;
   std::vector<Eigen::VectorXd> starts;  ///< magnitudes that the screen tries, in the same coordinates
@@ -39,9 +42,16 @@ struct Candidate {
   const Candidate* refines = nullptr;
 
   [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
-  /// The same, told apart by the state that it acts in.
-  [[nodiscard]] std::string key() const { return state.empty() ? id() : id() + " in " + state; }
-  [[nodiscard]] bool acts_in(const Condition& condition) const { return state.empty() || state == condition.state; }
+  /// The same, told apart by the states that it acts in.
+  [[nodiscard]] std::string key() const {
+    if (state.empty()) return id();
+    return further_states.empty() ? id() + " in " + state : id() + " " + when;
+  }
+  [[nodiscard]] bool acts_in(const Condition& condition) const { return acts_in_state(condition.state); }
+  [[nodiscard]] bool acts_in_state(const std::string& name) const {
+    return state.empty() || state == name ||
+           std::find(further_states.begin(), further_states.end(), name) != further_states.end();
+  }
   /// Unknown `i` in its own unit at coordinates `a`.
   [[nodiscard]] double physical(const Eigen::VectorXd& a, Eigen::Index i) const;
   /// Value of an expression at coordinates `a`.
@@ -65,9 +75,9 @@ struct Instantiated {
 };
 
 /// Every hypothesis at every location of its set. Where the rows come from several states of the structure, the question is
-/// what changed: a part that is other than modelled is so in one state alone, with factors from 0.05 to 20; what is measured
-/// wrongly is so in all. Families whose needs the data don't meet, or whose set is empty here, go to `invisible` with the
-/// reason.
+/// what changed: a part that is other than modelled is so in one state alone or, of three and more, from one state on, with
+/// factors from 0.05 to 20; what is measured wrongly is so in all. Families whose needs the data don't meet, or whose set is
+/// empty here, go to `invisible` with the reason.
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
                                        const FeatureSet& features);

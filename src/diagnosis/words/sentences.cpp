@@ -184,7 +184,9 @@ std::string interval_words(const EffectParameter& p) {
 
 /// The effect's sentence and the intervals that it does not tell itself.
 std::string with_intervals(const Effect& effect) {
-  const std::string in_state = effect.state.empty() ? "" : fmt::format(" (state {})", effect.state);
+  const Candidate& candidate = *effect.cause.candidate;
+  const std::string when = candidate.further_states.empty() ? "state " + effect.state : candidate.when;
+  const std::string in_state = effect.state.empty() ? "" : fmt::format(" ({})", when);
   std::vector<std::string> words;
   for (const EffectParameter& p : effect.parameters) {
     const bool is_a_count = p.unit.empty() && p.low == p.high;

@@ -59,6 +59,10 @@ nlohmann::ordered_json listed_parameters(const std::vector<diagnosis::EffectPara
 void add_place_and_rivals(const diagnosis::Effect& effect, const Told& told, nlohmann::ordered_json& json) {
   const diagnosis::PlaceInWords place = told.places.at(effect.cause.candidate->location);
   json["state"] = effect.state;
+  if (const auto& further = effect.cause.candidate->further_states; !further.empty()) {
+    json["states"] = {effect.state};
+    for (const std::string& state : further) json["states"].push_back(state);
+  }
   json["place"] = {{"words", place.words}, {"x_m", place.x_m.x()}, {"y_m", place.x_m.y()}, {"z_m", place.x_m.z()}};
   if (effect.within_m > 0.0) json["place"]["within_m"] = effect.within_m;
   json["rivals"] = nlohmann::ordered_json::array();

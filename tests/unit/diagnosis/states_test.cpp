@@ -152,6 +152,50 @@ TEST(States, FindsWhatWasAddedAndWhatWasTakenAway) {
   EXPECT_EQ(taken.effects.front().cause.candidate->state, "reference");
 }
 
+/// Rows of a further measurement, in state "late".
+diagnosis::FeatureSet with_late(diagnosis::FeatureSet states, const diagnosis::FeatureSet& late) {
+  const std::size_t rows = states.rows.size();
+  diagnosis::FeatureSet out = two_states(std::move(states), late);
+  out.conditions.back().name = "late";
+  out.conditions.back().state = "late";
+  for (std::size_t r = rows; r < out.rows.size(); ++r) out.rows[r].condition = 2;
+  return out;
+}
+
+TEST(States, OfThreeHaveAContrastFromEachOnAndOfEach) {
+  const Chain chain({.masses = 6, .modes = 4});
+  const auto sound = chain.measure(chain.as_modelled());
+  const auto features = with_late(two_states(sound, sound), sound);
+  const Examined e = examine(chain, features, catalogue({"stiffness", "mass"}));
+  const auto contrasts = diagnosis::contrasts_of(features);
+  ASSERT_EQ(contrasts.size(), 3u);
+  EXPECT_EQ(contrasts[2].key, "from state after on");
+  EXPECT_EQ(contrasts[2].weight, Eigen::Vector3d(0.0, 1.0, 1.0));
+  // A cause is asked with the contrast that it makes, whichever side of it.
+  const std::map<std::string, int> expected = {
+      {"state after", 0}, {"state late", 1}, {"from state after on", 2}, {"before state late", 1}, {"state reference", 2}};
+  for (const auto& candidate : e.entries.candidates)
+    EXPECT_EQ(diagnosis::contrast_of(*candidate, contrasts), expected.at(candidate->when)) << candidate->key();
+}
+
+TEST(States, FindsWhatWasCutAndStaysCut) {
+  // Oracle: the spring that was cut before the second measurement, and not mended before the third.
+  const Chain chain({.masses = 10, .modes = 6});
+  std::mt19937_64 random(7);
+  const ChainTruth before = chain.scattered(random);
+  ChainTruth after = before;
+  after.spring[6] *= 0.4;
+  const auto features =
+      with_late(two_states(chain.measure(before, &random), chain.measure(after, &random)), chain.measure(after, &random));
+  const Examined e = examine(chain, features, catalogue());
+  const auto result = asked(e);
+  ASSERT_FALSE(result.effects.empty()) << result.message;
+  EXPECT_TRUE(in_a_set(result, "stiffness@group:g6"));
+  EXPECT_EQ(result.effects.size(), 1U);
+  EXPECT_EQ(result.effects.front().cause.candidate->when, "from state after on");
+  EXPECT_EQ(result.effects.front().state, "after");
+}
+
 TEST(States, FindsSeveralPartsThatChangedTogether) {
   // Three storeys, all several times stiffer afterwards: frequencies more than double.
   const Chain chain({.masses = 3, .modes = 3, .parameters = true, .frequency_std = 0.002});

@@ -281,6 +281,43 @@ TEST(Instantiate, BetweenStatesPartsChangeInOneAlone) {
   }
 }
 
+TEST(Instantiate, OfThreeStatesPartsChangeInOneOrFromOneOn) {
+  // A factor: in the second, in the third, from the second on. What is added may also be missing in the third, or after the
+  // first. The prior of a family stays what it is.
+  const RowModel model;
+  FeatureSet f = two_modes_at_channels();
+  for (const char* state : {"mid", "late"}) {
+    f.conditions.push_back(f.conditions[0]);
+    f.conditions.back().state = state;
+    f.rows.push_back({RowType::frequency, "1", -1, "", static_cast<int>(f.conditions.size()) - 1, 2.0, 0.01, false});
+  }
+  Hypothesis stiff = family("stiff", "global", "scale.stiffness"), sign = family("sign", "channels", "channel.sign"),
+             mass = family("mass", "global", "mass.add");
+  stiff.unknowns = {unknown("factor", 0.5, 2.0, true, {0.7})};
+  sign.measurement = true;
+  const std::vector<Hypothesis> all = {stiff, sign, mass};
+  const auto found = instantiate(all, *model.reduced, f);
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(ids(found), (Ids{"stiff@global in mid", "stiff@global in late", "stiff@global from state mid on", "sign@channel:a",
+                             "sign@channel:b", "sign@channel:c", "mass@global in mid", "mass@global in late",
+                             "mass@global from state mid on", "mass@global in reference", "mass@global before state late"}));
+  const auto acts = [&](std::size_t i) {
+    std::string out;
+    for (const auto& condition : f.conditions) out += found.candidates[i]->acts_in(condition) ? '1' : '0';
+    return out;
+  };
+  EXPECT_EQ(acts(0), "010");
+  EXPECT_EQ(acts(2), "011");
+  EXPECT_EQ(acts(3), "111");
+  EXPECT_EQ(acts(10), "110");
+  double sum = 0.0;
+  for (const auto& c : found.candidates) sum += c->hypothesis->id == "stiff" ? std::exp(c->log_prior) : 0.0;
+  EXPECT_NEAR(sum, 1.0 / 3.0, 1e-12);
+  const Candidate laid = elsewhere(*found.candidates[2], "somewhere", {}, f);
+  EXPECT_EQ(laid.key(), "stiff@somewhere from state mid on");
+  EXPECT_TRUE(laid.acts_in(f.conditions[2]));
+}
+
 TEST(Instantiate, DampersOfATypeAreOneLocation) {
   const RowModel model(4, [](diagnosis::Places& places) {
     for (const int i : {0, 1, 2}) {

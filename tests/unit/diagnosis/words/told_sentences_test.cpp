@@ -77,6 +77,18 @@ TEST(ToldSentences, IntervalsSayWhatEachEndIsKnownTo) {
       "at most 60 kg; a b not known.");
 }
 
+TEST(ToldSentences, StatesAreSaidFromTheFirstOn) {
+  Told told;
+  told.first.when = "from state mid on";
+  told.first.further_states = {"late"};
+  Diagnosis result = told.base;
+  result.verdict = Verdict::named;
+  Effect e = Told::effect(told.first, 0.5);
+  e.state = "mid";
+  result.effects = {e};
+  EXPECT_EQ(told.said(result).why, "It is soft (from state mid on).");
+}
+
 TEST(ToldSentences, WhyNamesEveryCauseOrWhatComesNearest) {
   const Told told;
   Diagnosis result = told.base;
