@@ -31,7 +31,8 @@ io::FieldTable DiagnosisConfig::fields() {
       .number("refine_within", search.refine_within, "", io::positive(),
               "nats of the best, as weighed before, within which they are")
       .integer("most_causes", most_causes, {0, 8}, "causes put into the model one after another")
-      .integer("modes", modes, {4, 200}, "modes in the reduced basis")
+      .integer("modes", modes, {4, 200},
+               "least number of modes in the reduced basis; it has more where the highest measured frequency asks for them")
       .integer("zones", zones, {2, 10000}, "zones that the elements are gathered in")
       .integer("nodes", nodes, {2, 10000}, "nodes at which masses, oscillators and ties are looked for")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),

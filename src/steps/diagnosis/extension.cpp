@@ -30,22 +30,39 @@ void write_corrected_channels(const diagnosis::CorrectedChannels& corrected, con
   csv.save(file);
 }
 
+/// Entry of extension.toml.
+std::string listed(const diagnosis::Effect& effect, bool several_states, bool in_model) {
+  const diagnosis::Candidate& cause = *effect.cause.candidate;
+  std::string text =
+      fmt::format("\n[[cause]]\nid = {}\nlocation = {}\n", io::toml_text(cause.hypothesis->id), io::toml_text(cause.location));
+  if (several_states) text += fmt::format("acts = {}\n", io::toml_text(cause.state.empty() ? "in all states" : cause.when));
+  text += fmt::format("in_model = {}\n", in_model);
+  for (const diagnosis::EffectParameter& p : effect.parameters)
+    text += fmt::format("{} = {}\n", p.name, io::toml_number(p.value));
+  return text;
+}
+
 }  // namespace
 
-void write_extended_model(const diagnosis::DiagnosedModel& model, const diagnosis::Places& places,
-                          const diagnosis::Diagnosis& result, const std::filesystem::path& folder) {
+std::vector<std::string> write_extended_model(const diagnosis::DiagnosedModel& model, const diagnosis::Places& places,
+                                              const diagnosis::Diagnosis& result, const std::string& state, bool several,
+                                              const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const diagnosis::ExtendedModel extended = diagnosis::extended_model(model, places, result);
+  const auto of_state = [&](const diagnosis::Effect& e) { return e.cause.candidate->acts_in_state(state); };
+  diagnosis::Diagnosis here = result;
+  std::erase_if(here.effects, [&](const diagnosis::Effect& e) { return !of_state(e); });
+  const diagnosis::ExtendedModel extended = diagnosis::extended_model(model, places, here);
   std::string list = "# Causes that the diagnosis put into this model, in the order in which they were found.\n";
+  if (several) list += fmt::format("state = {}\n", io::toml_text(state));
+  std::vector<std::string> others;
   bool measurement = false;
-  for (std::size_t i = 0; i < result.effects.size(); ++i) {
-    const diagnosis::Effect& effect = result.effects[i];
-    const diagnosis::Hypothesis& cause = *effect.cause.candidate->hypothesis;
-    measurement = measurement || cause.measurement;
-    list += fmt::format("\n[[cause]]\nid = {}\nlocation = {}\nin_model = {}\n", io::toml_text(cause.id),
-                        io::toml_text(effect.cause.candidate->location), static_cast<bool>(extended.holds[i]));
-    for (const diagnosis::EffectParameter& p : effect.parameters)
-      list += fmt::format("{} = {}\n", p.name, io::toml_number(p.value));
+  std::size_t held = 0;  // effects of this state so far
+  for (const diagnosis::Effect& effect : result.effects) {
+    measurement = measurement || effect.cause.candidate->hypothesis->measurement;
+    const bool is_here = of_state(effect);
+    list += listed(effect, several, is_here && extended.holds[held]);
+    if (is_here) ++held;
+    if (!is_here) others.push_back(effect.cause.candidate->key());
   }
   if (extended.elements)
     model_io::write_model(*extended.elements, folder);
@@ -54,6 +71,7 @@ void write_extended_model(const diagnosis::DiagnosedModel& model, const diagnosi
   model_io::carry_load_cases(model.loaded.source, folder);
   if (measurement) write_corrected_channels(diagnosis::corrected_channels(model.channels, result), folder / "channels.csv");
   io::write_file_atomically(folder / "extension.toml", list);
+  return others;
 }
 
 }  // namespace twindeck::steps

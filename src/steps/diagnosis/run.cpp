@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <set>
 
 #include "diagnosis/files/measurement_corrections.hpp"
 #include "diagnosis/form_diagnosis.hpp"
 #include "diagnosis/refinement.hpp"
 #include "steps/diagnosis/extension.hpp"
+#include "steps/diagnosis/full_model_check.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/setup.hpp"
 
@@ -58,7 +58,7 @@ void say_modes_explained(const diagnosis::Diagnosis& result, runner::StepContext
 }
 
 /// The tables of a diagnosis, but for diagnosis.json.
-void write_tables(const diagnosis::Inference& inference, const DiagnosisInputs& inputs, const diagnosis::Instantiated& entries,
+void write_tables(const diagnosis::Inference& inference, const diagnosis::Instantiated& entries,
                   const diagnosis::Diagnosis& result, const std::filesystem::path& out) {
   write_residuals(inference, result, out / "residuals.csv");
   write_hypotheses(result, entries.invisible, out / "hypotheses.csv");
@@ -66,22 +66,17 @@ void write_tables(const diagnosis::Inference& inference, const DiagnosisInputs& 
   write_pairs(inference, result, out / "pairs.csv");
   write_misfit(inference, result, out / "misfit.csv");
   write_unknowns(inference, result, out / "parameters.csv");
-  write_extended_model(*inputs.extended, inputs.places, result, out / "extended_model");
 }
 
-/// The winner against the full model, as many of the lowest modes as were measured.
-diagnosis::FullCheck checked(const DiagnosisInputs& inputs, const diagnosis::FeatureMap& map,
-                             const diagnosis::Diagnosis& result, runner::StepContext& context) {
-  std::set<std::string> labels;
-  for (const auto& mode : map.measured_modes()) labels.insert(mode.label);
-  diagnosis::FullCheck check = diagnosis::check_against_full(inputs.model->structure(), inputs.places, map, result.after,
-                                                             std::max(1, static_cast<int>(labels.size())));
-  if (check.message.empty())
-    context.say(fmt::format("reduced basis against the full model: the lowest {} frequencies agree to {:.4f} %",
-                            check.full_Hz.size(), check.largest_pct));
-  else
-    context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
-  return check;
+/// The model of the last state; what acts in others alone is none of it.
+void write_extension(const DiagnosisInputs& inputs, const diagnosis::Diagnosis& result, runner::StepContext& context) {
+  const std::string state = last_state(inputs.features);
+  const bool several = diagnosis::states_of(inputs.features).size() > 1;
+  const std::vector<std::string> others =
+      write_extended_model(*inputs.extended, inputs.places, result, state, several, context.out / "extended_model");
+  if (!others.empty())
+    context.warn(fmt::format("the extended model is that of state {}: what acts in other states alone is not in it ({})", state,
+                             fmt::join(others, ", ")));
 }
 
 Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
@@ -118,8 +113,9 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
   diagnosis::put_into_words(result, places, ids);
   result.scatter = diagnosis::scatter_scales(inference, result.after);
   const diagnosis::Inference judged(result.with_form ? *result.with_form : map, entries.candidates);
-  write_tables(judged, inputs, entries, result, context.out);
-  const diagnosis::FullCheck check = checked(inputs, map, result, context);
+  write_tables(judged, entries, result, context.out);
+  write_extension(inputs, result, context);
+  const diagnosis::FullCheck check = checked_against_full(inputs, map, result, context);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::vector<records::Correction> corrections = diagnosis::corrections_of(result, inputs.features.channels);
   const std::vector<std::string> next = diagnosis::measure_next(result, places, ids, entries.invisible);

@@ -11,6 +11,7 @@
 #include "diagnosis/null_calibration.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "matching/mode_name.hpp"
+#include "steps/diagnosis/basis_modes.hpp"
 
 namespace twindeck::steps {
 
@@ -32,15 +33,27 @@ std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::Featu
 
 constexpr double kAlike = 0.6;  ///< MAC where least_mac says nothing: below it two shapes share less than they do not
 
+/// Where the highest measured frequency is so far up that no basis holds the modes below it.
+void refuse_endless_basis(const BasisModes& basis, const dynamics::LoadedModel& loaded, const diagnosis::FeatureSet& features,
+                          runner::StepContext& context) {
+  if (basis.enough) return;
+  warn_of_unit_slips(context, loaded, basis.frequency_Hz, frequencies_of(features));  // which may be why
+  throw InputError(
+      {loaded.source, 0, ""},
+      fmt::format("has more than {} modes below {:.4g} Hz, the reach of the basis for the highest measured frequency",
+                  basis.frequency_Hz.size(), basis.reach_Hz),
+      "set highest_frequency below the measured modes that are too high, or take bodies and cables that swing by "
+      "themselves out of the model");
+}
+
 /// Places and reduced model of the model as it is now.
-void reduce(const diagnosis::PlaceOptions& place_options, int modes, DiagnosisInputs& inputs) {
-  diagnosis::Structure& structure = inputs.structure;
-  structure = inputs.model->structure();
+void reduce(const diagnosis::PlaceOptions& place_options, const BasisModes& basis, DiagnosisInputs& inputs) {
+  const diagnosis::Structure& structure = inputs.structure;
   inputs.places = diagnosis::find_places(structure, place_options);
-  structure.load_tests =
+  inputs.structure.load_tests =
       diagnosis::load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
   diagnosis::ReductionOptions reduction;
-  reduction.modes = modes;
+  reduction.modes = basis.modes;
   // Fits end far from where the basis is made (full_model): parameters on bounds, element scatter off by several deviations.
   reduction.parameter_vectors = 60;
   reduction.least_correction = 2.5e-4;
@@ -48,7 +61,7 @@ void reduce(const diagnosis::PlaceOptions& place_options, int modes, DiagnosisIn
   std::set<std::string> measured;
   for (const diagnosis::Row& row : inputs.features.rows)
     if (row.type == diagnosis::RowType::frequency) measured.insert(row.mode);
-  reduction.corrected_modes = std::max(12, static_cast<int>(measured.size()) + 2);
+  reduction.corrected_modes = std::max({12, static_cast<int>(measured.size()) + 2, basis.in_band + 2});
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
 }
 
@@ -96,7 +109,11 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   inputs.model = diagnosis::prepare_model(loaded, files.channels, config.sensor_tolerance_m);
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
   place_options.moves = files.moves;
-  reduce(place_options, static_cast<int>(config.modes), inputs);
+  inputs.structure = inputs.model->structure();
+  const BasisModes basis = modes_of_basis(inputs.structure, inputs.features, static_cast<int>(config.modes));
+  refuse_endless_basis(basis, loaded, inputs.features, context);
+  inputs.basis_modes = basis.modes;
+  reduce(place_options, basis, inputs);
   diagnosis::refuse_slack_stays(inputs.features, inputs.places, files.folder);
   inputs.extended = inputs.model;
   if (config.stays == "auto") swing_stays(config, files.stay_rows, inputs);
@@ -107,6 +124,11 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
     inputs.account.push_back(*unpaired);
   diagnosis::hold_out(config.hold_out, config.with_form(inputs.features), inputs.features);
   return inputs;
+}
+
+std::string last_state(const diagnosis::FeatureSet& features) {
+  const std::vector<std::string> states = diagnosis::states_of(features);
+  return states.empty() ? std::string() : states.back();
 }
 
 std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
@@ -126,7 +148,7 @@ Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& i
                          runner::StepContext& context) {
   std::filesystem::path folder = config.threshold_cache;
   if (folder.empty()) folder = (context.results.empty() ? context.out.parent_path() : context.results) / "thresholds";
-  const std::string key = diagnosis::threshold_key({config.alpha, config.nulls, config.modes, config.most_refined,
+  const std::string key = diagnosis::threshold_key({config.alpha, config.nulls, inputs.basis_modes, config.most_refined,
                                                     config.search.refine_within, config.scatter, config.pairs},
                                                    *inputs.reduced, inputs.features, inputs.catalogue, inference, context.seed);
   const auto file = diagnosis::threshold_file(folder, key);

@@ -23,6 +23,7 @@ struct DiagnosisInputs {
   diagnosis::Structure structure;  ///< borrows from `model`
   diagnosis::Places places;
   std::unique_ptr<diagnosis::ReducedModel> reduced;
+  long basis_modes = 0;  ///< that `reduced` was asked for
   diagnosis::FeatureSet features;
   std::vector<records::Correction> corrected;  ///< what of the features --correct has put right
   std::vector<diagnosis::Hypothesis> catalogue;
@@ -36,6 +37,9 @@ struct DiagnosisInputs {
 /// The model reduced, with its places, and the rows that it can be compared with.
 [[nodiscard]] DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
                                                 runner::StepContext& context);
+
+/// The last state of the structure that rows were measured in, which is the one to repair.
+[[nodiscard]] std::string last_state(const diagnosis::FeatureSet& features);
 
 /// Threshold of the largest log odds: of a cached null calibration where the same model, rows (without their values), catalogue
 /// and rule were run before, of one run now where the configuration asks for it, else the analytic tail.
