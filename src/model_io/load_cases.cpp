@@ -21,6 +21,16 @@ void check_one_of(const io::CsvTable& table, std::size_t row, const std::string&
                fmt::format("use {}", fmt::join(known, ", ")));
 }
 
+/// Two rows of one load would add up, which is more often a row that was copied twice than meant.
+void refuse_repeated(const io::CsvTable& table, std::size_t row, const LoadEntry& entry, const std::vector<LoadEntry>& before) {
+  for (const LoadEntry& other : before)
+    if (other.load == entry.load && other.node == entry.node && other.direction == entry.direction && other.kind == entry.kind)
+      table.fail(row, "node",
+                 fmt::format("is loaded by '{}' in direction {} in line {} already", entry.load, table.text(row, "direction"),
+                             other.line),
+                 "delete one of the two rows, or write their sum into one");
+}
+
 }  // namespace
 
 std::vector<LoadEntry> read_load_cases(const std::filesystem::path& folder) {
@@ -45,6 +55,7 @@ std::vector<LoadEntry> read_load_cases(const std::filesystem::path& folder) {
     if ((entry.direction >= translations) != (entry.kind == LoadEntry::Kind::moment))
       table.fail(row, "unit", fmt::format("is '{}' in direction {}", table.text(row, "unit"), table.text(row, "direction")),
                  "N and m go with x, y, z; N m goes with rx, ry, rz");
+    refuse_repeated(table, row, entry, entries);
     entries.push_back(entry);
   }
   return entries;

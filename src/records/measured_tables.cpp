@@ -16,6 +16,8 @@ namespace twindeck::records {
 namespace {
 
 constexpr double absolute_zero_C = -273.15;
+/// Asphalt and dark steel in the sun reach 70 to 80 degrees. Kelvin, of a frost of -20 on, are far above.
+constexpr double hottest_C = 150.0;
 constexpr const char* reference_state = "reference";  ///< of a condition that names none
 
 std::vector<std::string> names_of(const std::vector<MeasuredCondition>& conditions) {
@@ -69,6 +71,11 @@ void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition
     condition.amplitude_m = number_from(entry, place, 0.0);
   } else if (entry.key == "temperature_C") {
     condition.temperature_C = number_from(entry, place, absolute_zero_C);
+    if (*condition.temperature_C > hottest_C)
+      throw InputError(
+          place,
+          fmt::format("is {}, expected a temperature of at most {:.0f} degrees Celsius", io::shown(entry.value), hottest_C),
+          "take 273.15 away if it is in kelvin, or leave the key out where it is unknown");
   } else if (entry.key == "wind_m_s") {
     condition.wind_m_s = number_from(entry, place, 0.0);
   } else if (entry.key == "direction_deg") {

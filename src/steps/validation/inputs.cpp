@@ -35,7 +35,12 @@ double fitted_level(runner::StepContext& context, const std::string& set) {
   const io::CsvTable table = io::CsvTable::read(file, {"set", "level"}, {}, true);
   std::vector<std::string> known;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "set") == set) return table.number(row, "level");
+    if (table.text(row, "set") == set) {
+      const double level = table.number(row, "level");
+      if (level > 0.0) return level;
+      table.fail(row, "level", fmt::format("is {}, expected a factor above 0", table.text(row, "level")),
+                 "run step 7 again, which writes this file");
+    }
     known.push_back(table.text(row, "set"));
   }
   throw InputError({file.string(), 0, "set"}, "has no set '" + set + "'" + did_you_mean(set, known),

@@ -54,6 +54,9 @@ TEST(LoadCases, AreRefusedWithLineAndColumn) {
   EXPECT_NE(said("2e3,N", "2e3,kN").find("loads.csv:3: unit: is 'kN'"), std::string::npos);
   EXPECT_NE(said("-1.2e5,N", "-1.2e5,N m").find("loads.csv:2: unit: is 'N m' in direction z"), std::string::npos);
   EXPECT_NE(said("3,y", "3,ry").find("loads.csv:3: unit: is 'N' in direction ry"), std::string::npos);
+  EXPECT_NE(said("wind,3,y,2e3,N\n", "wind,3,y,2e3,N\nwind,3,y,2e3,N\n")
+                .find("loads.csv:4: node: is loaded by 'wind' in direction y"),
+            std::string::npos);
   EXPECT_NE(said("unit", "units").find("loads.csv:1: unknown column 'units'"), std::string::npos);
 }
 
