@@ -195,7 +195,9 @@ std::string with_intervals(const Effect& effect) {
   }
   const std::string within =
       effect.within_m > 0.0 ? fmt::format(" The place is known to {} m.", number_in_words(effect.within_m)) : "";
-  return ended(effect.sentence + in_state) + within +
+  std::string sentence = effect.sentence;
+  if (!in_state.empty() && sentence.ends_with('.')) sentence.pop_back();
+  return ended(sentence + in_state) + within +
          (words.empty() ? "" : fmt::format(" 90 % intervals: {}.", fmt::join(words, "; ")));
 }
 

@@ -16,6 +16,13 @@ using diagnosis::FullCheck;
 /// Of a frequency, in per cent: identification is taken as no better (scatter.frequency_floor), so that a smaller error of the
 /// basis is behind every measured frequency.
 constexpr double kBasisErrorPct = 0.1;
+/// Of the error of the model's form, beside which a tenth adds nothing that counts (half a per cent of it, in squares).
+constexpr double kPartOfForm = 0.1;
+
+/// Error of the basis up to which it is behind what is not known anyway, in per cent.
+double largest_allowed_pct(const diagnosis::Diagnosis& result) {
+  return std::max(kBasisErrorPct, result.form ? 100.0 * kPartOfForm * result.form->frequency.level : 0.0);
+}
 
 /// Positions in the model of the modes that the measured ones of a state are paired with, ascending.
 std::vector<int> paired_positions(const diagnosis::FeatureMap& map, const diagnosis::Fit& fit, const std::string& state) {
@@ -55,11 +62,12 @@ FullCheck checked_against_full(const DiagnosisInputs& inputs, const diagnosis::F
   const FullCheck check = of_modes(all, positions);
   context.say(fmt::format("reduced basis against the full model: the {} paired frequencies agree to {:.4f} %",
                           check.full_Hz.size(), check.largest_pct));
-  if (check.largest_pct > kBasisErrorPct)
+  const double allowed_pct = largest_allowed_pct(result);
+  if (check.largest_pct > allowed_pct)
     context.warn(
         fmt::format("the reduced basis is too small for the measured modes: their frequencies are up to {:.2g} % off the "
-                    "full model's (more than {} %); set modes above {}",
-                    check.largest_pct, kBasisErrorPct, inputs.basis_modes));
+                    "full model's (more than {:.2g} %); set modes above {}",
+                    check.largest_pct, allowed_pct, inputs.basis_modes));
   return check;
 }
 

@@ -87,6 +87,8 @@ TEST(ToldSentences, StatesAreSaidFromTheFirstOn) {
   e.state = "mid";
   result.effects = {e};
   EXPECT_EQ(told.said(result).why, "It is soft (from state mid on).");
+  result.effects[0].sentence += ".";
+  EXPECT_EQ(told.said(result).why, "It is soft (from state mid on).");
 }
 
 TEST(ToldSentences, WhyNamesEveryCauseOrWhatComesNearest) {
