@@ -18,29 +18,6 @@ constexpr double ridge = 1e-8;              // on the linearised problem's norma
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-class Residuals : public ceres::CostFunction {
- public:
-  Residuals(const ResidualFunction& function, int n_residuals, int n) : function_(function) {
-    set_num_residuals(n_residuals);
-    mutable_parameter_block_sizes()->push_back(n);
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const Eigen::Index n = parameter_block_sizes()[0];
-    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], n);
-    Eigen::VectorXd residual(num_residuals());
-    Eigen::MatrixXd jacobian;
-    if (!function_(x, residual, wants_jacobian ? &jacobian : nullptr)) return false;
-    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = residual;
-    if (wants_jacobian) Eigen::Map<RowMajor>(jacobians[0], num_residuals(), n) = jacobian;
-    return true;
-  }
-
- private:
-  const ResidualFunction& function_;
-};
-
 // Where a search stands between two rounds.
 struct Point {
   Eigen::VectorXd x, residual;
@@ -56,55 +33,101 @@ Point evaluate(const ResidualFunction& function, int n_residuals, const Eigen::V
   return point;
 }
 
+class Residuals : public ceres::CostFunction {
+ public:
+  Residuals(const ResidualFunction& function, int n_residuals, int n) : function_(function) {
+    set_num_residuals(n_residuals);
+    mutable_parameter_block_sizes()->push_back(n);
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::Index n = parameter_block_sizes()[0];
+    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], n);
+    Eigen::VectorXd residual(num_residuals());
+    Eigen::MatrixXd jacobian;
+    if (!function_(x, residual, wants_jacobian ? &jacobian : nullptr)) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = residual;
+    if (!wants_jacobian) return true;
+    Eigen::Map<RowMajor>(jacobians[0], num_residuals(), n) = jacobian;
+    last_x_ = x;
+    last_gradient_ = jacobian.transpose() * residual;
+    return true;
+  }
+
+  // Of the cost. Ceres asks for the Jacobian where it accepts a step, so that the gradient there is known.
+  [[nodiscard]] Eigen::VectorXd gradient(const Eigen::VectorXd& x) const {
+    if (last_x_.size() == x.size() && last_x_ == x) return last_gradient_;
+    return evaluate(function_, num_residuals(), x).gradient();
+  }
+
+ private:
+  const ResidualFunction& function_;
+  mutable Eigen::VectorXd last_x_, last_gradient_;
+};
+
 // A refused step of which the linearised problem expected less than the cost's rounding.
 bool is_lost_in_rounding(const ceres::IterationSummary& step) {
   if (!step.step_is_valid || step.relative_decrease == 0.0) return false;
   return std::abs(step.cost_change / step.relative_decrease) <= rounding_of_cost * step.cost;
 }
 
-// Reports accepted steps. Ends the round when a component meets a bound that it was not on, and when rounding refuses a step.
+// What a round goes by.
+struct Round {
+  const Box& box;
+  const BoundedOptions& options;
+  const std::vector<bool>& is_held;
+  int used;  // iterations of earlier rounds
+  const std::function<void(const AcceptedStep&)>& accepted;
+};
+
+// Reports accepted steps. Ends the round when a component meets a bound that it was not on, when rounding refuses a step, and
+// when the projected gradient of the components that may move is below its tolerance. Ceres' own test of the gradient is off:
+// it takes the length of x - P(x - g), which is never longer than the way to the bounds, however steep the cost is.
 class RoundWatcher : public ceres::IterationCallback {
  public:
-  RoundWatcher(const Eigen::VectorXd& x, std::function<double(const Eigen::VectorXd&)> projected, const Box& box,
-               double bound_tolerance, int first_iteration, const std::function<void(const AcceptedStep&)>& accepted)
-      : x_(x),
-        projected_(std::move(projected)),
-        box_(box),
-        bound_tolerance_(bound_tolerance),
-        first_iteration_(first_iteration),
-        accepted_(accepted),
-        side_(on_bound(x, box, bound_tolerance)) {}
+  RoundWatcher(const Eigen::VectorXd& x, const Residuals& residuals, const Round& round)
+      : x_(x), residuals_(residuals), round_(round), side_(on_bound(x, round.box, round.options.bound_tolerance)) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     tried = summary.iteration;
-    if (summary.iteration == 0) return ceres::SOLVER_CONTINUE;
-    if (!summary.step_is_successful)
+    if (summary.iteration > 0 && !summary.step_is_successful)
       return is_lost_in_rounding(summary) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-    ++accepted_steps;
-    if (accepted_) {
-      accepted_({first_iteration_ + summary.iteration, summary.cost, projected_(x_), summary.step_norm,
-                 summary.trust_region_radius, x_});
+    const Eigen::VectorXd projected =
+        projected_gradient(x_, residuals_.gradient(x_), round_.box, round_.options.bound_tolerance);
+    if (summary.iteration > 0) {
+      ++accepted_steps;
+      if (round_.accepted) {
+        round_.accepted({round_.used + summary.iteration, summary.cost, projected.norm(), summary.step_norm,
+                         summary.trust_region_radius, x_});
+      }
     }
-    const std::vector<int> side = on_bound(x_, box_, bound_tolerance_);
-    for (std::size_t i = 0; i < side.size(); ++i) {
-      if (side[i] != 0 && side[i] != side_[i]) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    }
-    return ceres::SOLVER_CONTINUE;
+    return meets_a_bound() || is_flat(projected) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
   int tried = 0, accepted_steps = 0;
 
  private:
+  [[nodiscard]] bool meets_a_bound() const {
+    const std::vector<int> side = on_bound(x_, round_.box, round_.options.bound_tolerance);
+    for (std::size_t i = 0; i < side.size(); ++i)
+      if (side[i] != 0 && side[i] != side_[i]) return true;
+    return false;
+  }
+  [[nodiscard]] bool is_flat(const Eigen::VectorXd& projected) const {
+    const double most = round_.options.gradient_tolerance / std::sqrt(static_cast<double>(projected.size()));
+    for (Eigen::Index i = 0; i < projected.size(); ++i)
+      if (!round_.is_held[static_cast<std::size_t>(i)] && std::abs(projected(i)) > most) return false;
+    return true;
+  }
+
   const Eigen::VectorXd& x_;
-  std::function<double(const Eigen::VectorXd&)> projected_;
-  const Box& box_;
-  double bound_tolerance_;
-  int first_iteration_;
-  const std::function<void(const AcceptedStep&)>& accepted_;
+  const Residuals& residuals_;
+  const Round& round_;
   std::vector<int> side_;
 };
 
-ceres::Solver::Options solver_options(const BoundedOptions& options, int iterations_left, double max_norm_tolerance) {
+ceres::Solver::Options solver_options(const BoundedOptions& options, int iterations_left) {
   ceres::Solver::Options solver;
   solver.trust_region_strategy_type = ceres::DOGLEG;
   solver.dogleg_type = ceres::TRADITIONAL_DOGLEG;
@@ -115,7 +138,7 @@ ceres::Solver::Options solver_options(const BoundedOptions& options, int iterati
   solver.min_lm_diagonal = solver.max_lm_diagonal = 1.0;
   solver.jacobi_scaling = false;
   solver.max_num_iterations = iterations_left;
-  solver.gradient_tolerance = max_norm_tolerance;
+  solver.gradient_tolerance = 0.0;  // RoundWatcher judges
   solver.function_tolerance = 0.0;
   solver.parameter_tolerance = 1e-10;
   solver.max_num_consecutive_invalid_steps = 20;
@@ -127,27 +150,21 @@ ceres::Solver::Options solver_options(const BoundedOptions& options, int iterati
 }
 
 // One Ceres solve with the held components constant; `x` moves. Returns accepted and tried steps.
-std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals, Eigen::VectorXd& x,
-                              const std::vector<bool>& is_held, const Box& box, const BoundedOptions& options, int used,
-                              const std::function<void(const AcceptedStep&)>& accepted) {
+std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals, Eigen::VectorXd& x, const Round& round) {
   const auto n = static_cast<int>(x.size());
   ceres::Problem problem;
   problem.AddParameterBlock(x.data(), n);
   std::vector<int> constant;
   for (int i = 0; i < n; ++i) {
-    problem.SetParameterLowerBound(x.data(), i, box.lower(i));
-    problem.SetParameterUpperBound(x.data(), i, box.upper(i));
-    if (is_held[static_cast<std::size_t>(i)]) constant.push_back(i);
+    problem.SetParameterLowerBound(x.data(), i, round.box.lower(i));
+    problem.SetParameterUpperBound(x.data(), i, round.box.upper(i));
+    if (round.is_held[static_cast<std::size_t>(i)]) constant.push_back(i);
   }
   if (!constant.empty()) problem.SetManifold(x.data(), new ceres::SubsetManifold(n, constant));
-  problem.AddResidualBlock(new Residuals(function, n_residuals, n), nullptr, x.data());
-
-  const auto projected = [&](const Eigen::VectorXd& at) {
-    return projected_gradient(at, evaluate(function, n_residuals, at).gradient(), box, options.bound_tolerance).norm();
-  };
-  RoundWatcher watcher(x, projected, box, options.bound_tolerance, used, accepted);
-  ceres::Solver::Options solver =
-      solver_options(options, options.max_iterations - used, options.gradient_tolerance / std::sqrt(static_cast<double>(n)));
+  auto* residuals = new Residuals(function, n_residuals, n);
+  problem.AddResidualBlock(residuals, nullptr, x.data());  // which owns them
+  RoundWatcher watcher(x, *residuals, round);
+  ceres::Solver::Options solver = solver_options(round.options, round.options.max_iterations - round.used);
   solver.callbacks.push_back(&watcher);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
@@ -188,12 +205,8 @@ std::optional<Point> step_below_rounding(const ResidualFunction& function, const
   return to;
 }
 
-}  // namespace
-
-BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start, const Box& box,
-                              const BoundedOptions& options, const std::function<void(const AcceptedStep&)>& accepted) {
-  TWINDECK_ASSERT(start.size() == box.lower.size() && start.size() == box.upper.size());
-  TWINDECK_ASSERT((box.lower.array() < box.upper.array()).all());
+BoundedResult run_rounds(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start, const Box& box,
+                         const BoundedOptions& options, const std::function<void(const AcceptedStep&)>& accepted) {
   BoundedResult result;
   result.x = start.cwiseMax(box.lower).cwiseMin(box.upper);
   bool predict = true;  // who stays is predicted; where a round gets nowhere with that, the sign of the gradient decides
@@ -238,10 +251,40 @@ BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals,
       continue;
     }
     snap_to_bounds(result.x, is_held, box);
-    const auto [steps, tried] = run_round(function, n_residuals, result.x, is_held, box, options, result.iterations, accepted);
+    const auto [steps, tried] =
+        run_round(function, n_residuals, result.x, {box, options, is_held, result.iterations, accepted});
     last_accepted = steps;
     result.iterations += tried;
   }
+}
+
+}  // namespace
+
+BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start, const Box& box,
+                              const BoundedOptions& options, const std::function<void(const AcceptedStep&)>& accepted) {
+  TWINDECK_ASSERT(start.size() == box.lower.size() && start.size() == box.upper.size());
+  TWINDECK_ASSERT((box.lower.array() < box.upper.array()).all() && options.residual_unit > 0.0);
+  const double unit = options.residual_unit, squared = unit * unit;
+  const ResidualFunction in_units = [&](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
+    if (!function(x, residual, jacobian)) return false;
+    residual /= unit;
+    if (jacobian != nullptr) *jacobian /= unit;
+    return true;
+  };
+  BoundedOptions options_in_units = options;
+  options_in_units.gradient_tolerance /= squared;
+  std::function<void(const AcceptedStep&)> tell;
+  if (accepted) {
+    tell = [&](AcceptedStep step) {
+      step.cost *= squared;
+      step.projected_gradient *= squared;
+      accepted(step);
+    };
+  }
+  BoundedResult result = run_rounds(in_units, n_residuals, start, box, options_in_units, tell);
+  result.cost *= squared;
+  result.projected_gradient *= squared;
+  return result;
 }
 
 }  // namespace twindeck::updating

@@ -18,6 +18,7 @@ struct BoundedOptions {
   int max_iterations = 100;          ///< accepted and refused steps together, over all rounds
   double gradient_tolerance = 1e-6;  ///< absolute norm of the projected gradient at which the search ends
   double bound_tolerance = 1e-6;     ///< see `on_bound`
+  double residual_unit = 1.0;        ///< residuals count in it during the search, whose small constants then fit any residuals
 };
 
 /// One accepted step (number 0: the starting point).

@@ -16,6 +16,11 @@ Eigen::VectorXd ResidualDefinition::theta(const Eigen::VectorXd& x) const {
   return values;
 }
 
+double ResidualDefinition::residual_unit(const Eigen::MatrixXd& jacobian) const {
+  const double norm = jacobian.norm();
+  return weighted && norm > 0.0 ? norm : 1.0;
+}
+
 ModalResiduals::ModalResiduals(std::shared_ptr<const fe::ParametricSystem> system, const ResidualDefinition& definition)
     : system_(std::move(system)), definition_(definition), solver_(*system_) {}
 

@@ -29,6 +29,10 @@ struct ResidualDefinition {
   /// Size of residuals that mean nothing: far below any measurement error if they are relative frequencies; one standard
   /// deviation of all rows together if they are weighed.
   [[nodiscard]] double negligible_residual() const { return weighted ? 1.0 : 1e-4; }
+  /// Unit in which a search that begins with this Jacobian counts residuals: 1 for relative frequencies, which have no unit of
+  /// their own. Weighed rows grow without limit as their standard deviations shrink; in units of the Jacobian's norm the search
+  /// is the same for any factor on all deviations.
+  [[nodiscard]] double residual_unit(const Eigen::MatrixXd& jacobian) const;
 };
 
 /// Residuals at one point.

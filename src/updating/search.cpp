@@ -30,6 +30,12 @@ SharedSystem refreshed(const Search& search, const Eigen::VectorXd& x) {
   return std::make_shared<const fe::ParametricSystem>(search.refresh(search.definition.theta(x)));
 }
 
+// Of a search whose gradient counts beside `reference` and that begins with `jacobian`.
+BoundedOptions bounded_options(const Search& search, double reference, const Eigen::MatrixXd& jacobian) {
+  return {search.options.trust_radius, search.options.max_iterations, search.options.optimality_tolerance * reference,
+          search.options.bound_tolerance, search.definition.residual_unit(jacobian)};
+}
+
 // Bounded solves on the full system at frozen prestress, the prestress found anew in between, until the parameters stay.
 void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, double reference, int start, SearchEnd& out) {
   const int n_residuals = search.definition.n_residuals();
@@ -38,13 +44,10 @@ void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, d
   for (int outer = 0;; ++outer) {
     result.outer = before + outer + 1;
     ModalResiduals residuals(system, search.definition);
-    if (outer == 0 && reference == 0.0) {
-      const Evaluation& begin = residuals.at(x, true);
-      if (begin.valid)
-        reference = gradient_reference(begin.gradient(), begin.jacobian, search.definition.negligible_residual());
-    }
-    const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
-                                 search.options.optimality_tolerance * reference, search.options.bound_tolerance};
+    const Evaluation& begin = residuals.at(x, true);
+    if (outer == 0 && reference == 0.0 && begin.valid)
+      reference = gradient_reference(begin.gradient(), begin.jacobian, search.definition.negligible_residual());
+    const BoundedOptions options = bounded_options(search, reference, begin.jacobian);
     const BoundedResult inner =
         minimise_on_box(as_function(residuals), n_residuals, x, search.box, options, [&](const AcceptedStep& step) {
           out.history.push_back(
@@ -123,8 +126,7 @@ bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference,
     const CorrectedResiduals corrected(reduced, search.definition, search.surrogate, full);
     if (!corrected.valid()) return false;
     const Box box = std::isfinite(reach) ? box_about(x, search.box, reach) : search.box;
-    const BoundedOptions options{search.options.trust_radius, search.options.max_iterations,
-                                 0.1 * search.options.optimality_tolerance * reference, search.options.bound_tolerance};
+    const BoundedOptions options = bounded_options(search, 0.1 * reference, full.jacobian);
     next = minimise_on_box(corrected, n_residuals, x, box, options, {}).x;
     if (next == x) return false;
   }
@@ -182,10 +184,9 @@ SmoothCheck check_by_smooth_map(const Search& search, const SearchEnd& ended) {
   SmoothCheck check;
   if (!full.valid) return check;
   const Eigen::VectorXd first = ended.result.initial.cwiseQuotient(search.definition.scale);
-  const BoundedOptions options{search.options.trust_radius, 3 * search.options.max_iterations,
-                               search.options.optimality_tolerance *
-                                   gradient_reference(full.gradient(), full.jacobian, search.definition.negligible_residual()),
-                               search.options.bound_tolerance};
+  BoundedOptions options = bounded_options(
+      search, gradient_reference(full.gradient(), full.jacobian, search.definition.negligible_residual()), full.jacobian);
+  options.max_iterations *= 3;
   BoundedResult found;
   if (search.surrogate.basis) {
     const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());

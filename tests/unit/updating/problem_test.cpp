@@ -156,6 +156,51 @@ TEST(BoundedDogleg, EndsWhereTheCostIsOnlyRounding) {
   }
 }
 
+// Residuals in small units are large, and so is their gradient: no longer than the way to a bound may a search that has just
+// begun be called ended. Oracle: the same problem in units of 1, step by step.
+TEST(BoundedDogleg, IsTheSameSearchInAnyUnitOfTheResiduals) {
+  const auto history_in = [](double size) {
+    const ResidualFunction sized = [&](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
+      (void)rosenbrock(x, residual, jacobian);
+      residual *= size;
+      if (jacobian != nullptr) *jacobian *= size;
+      return true;
+    };
+    BoundedOptions options;
+    options.gradient_tolerance = 1e-6 * size * size;
+    options.residual_unit = size;
+    std::vector<AcceptedStep> steps;
+    const BoundedResult result = minimise_on_box(sized, 2, Eigen::Vector2d(-1.2, 1.0), box_of({-3, -3}, {3, 3}), options,
+                                                 [&](const AcceptedStep& step) { steps.push_back(step); });
+    EXPECT_TRUE(result.converged) << size << ": " << result.message;
+    return steps;
+  };
+  const std::vector<AcceptedStep> plain = history_in(1.0);
+  for (const double size : {1e-5, 3e3, 1e6}) {
+    const std::vector<AcceptedStep> steps = history_in(size);
+    ASSERT_EQ(steps.size(), plain.size()) << size;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      EXPECT_LT((steps[i].x - plain[i].x).norm(), 1e-9) << size << ", step " << i;
+      EXPECT_NEAR(steps[i].cost / (size * size), plain[i].cost, 1e-9 * (1.0 + plain[i].cost)) << size << ", step " << i;
+    }
+  }
+}
+
+// The cost is steep, the bounds are near, and the step to them is short: no reason to end. Without units of one's own.
+TEST(BoundedDogleg, DoesNotTakeTheWayToABoundForTheGradient) {
+  const double size = 1e5;
+  const auto steep = [&](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
+    residual = size * (x - Eigen::Vector2d(0.3, 0.6));
+    if (jacobian != nullptr) *jacobian = size * Eigen::Matrix2d::Identity();
+    return true;
+  };
+  BoundedOptions options;
+  options.gradient_tolerance = 1e-6 * size * size;
+  const BoundedResult result = minimise_on_box(steep, 2, Eigen::Vector2d(0.5, 0.5), box_of({0, 0}, {1, 1}), options, {});
+  EXPECT_TRUE(result.converged) << result.message;
+  EXPECT_LT((result.x - Eigen::Vector2d(0.3, 0.6)).norm(), 1e-6);
+}
+
 TEST(BoundedDogleg, SaysWhenTheIterationsDoNotSuffice) {
   BoundedOptions options;
   options.max_iterations = 2;

@@ -47,6 +47,28 @@ TEST(ShapesInUpdate, TellTwinsApartThatFrequenciesCannot) {
   EXPECT_GT(result.cost_before, 100.0);
 }
 
+// A factor on all standard deviations changes what the cost is counted in, nothing else. Oracle: the history with the
+// deviations as measured, step by step.
+TEST(ShapesInUpdate, IsTheSameSearchForAFactorOnAllDeviations) {
+  const fe::ParametricSystem system = twin_chain(kTwinMasses, 0.4, 1.6).system();
+  std::mt19937_64 noise(5);
+  const ShapedMeasurement measured = measure_chain(system, kSoftLeft, kSeen, 5, 1e-3, 0.01, &noise);
+  for (const Eigen::Index surrogate_from : {1000, 0}) {
+    const UpdatingResult as_measured = shaped_update(system, measured, 8, surrogate_from);
+    for (const double factor : {0.1, 0.01}) {
+      ShapedMeasurement smaller = measured;
+      smaller.rows.covariance *= factor * factor;
+      const UpdatingResult result = shaped_update(system, smaller, 8, surrogate_from);
+      EXPECT_TRUE(result.status.converged) << factor << ": " << result.status.message;
+      ASSERT_EQ(result.history.size(), as_measured.history.size()) << factor;
+      for (std::size_t i = 0; i < result.history.size(); ++i)
+        EXPECT_LT((result.history[i].theta - as_measured.history[i].theta).norm(), 1e-8) << factor << ", record " << i;
+      for (std::size_t k = 0; k < result.starts.size(); ++k)
+        EXPECT_EQ(result.starts[k].converged, as_measured.starts[k].converged) << factor << ", start " << k;
+    }
+  }
+}
+
 TEST(ShapesInUpdate, OnTheReducedSystemEndWhereTheFullSearchEnds) {
   const fe::ParametricSystem system = twin_chain(31, 0.6, 1.4).system();
   std::mt19937_64 noise(11);
