@@ -22,6 +22,7 @@ struct EndPoint {
   double cost = 0.0;  ///< F(x)
   bool converged = false;
   Eigen::MatrixXd jacobian;  ///< (n_residuals × n) at x
+  Eigen::VectorXd residual;  ///< (n_residuals) at x
 };
 
 /// Sorts end points into distinct optima. Two are the same optimum if their parameters agree within 1 % of each range; or if

@@ -74,7 +74,7 @@ void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, d
     system = refreshed(search, x);
   }
   result.theta = x.cwiseProduct(search.definition.scale);
-  out.end = {x, result.cost, result.converged, out.evaluation.jacobian};
+  out.end = {x, result.cost, result.converged, out.evaluation.jacobian, out.evaluation.residual};
 }
 
 // Box of half width `reach` about x inside the search's.
@@ -156,7 +156,7 @@ SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int star
   if (search.surrogate.basis) {
     if (search_reduced(search, x, reference, start, out)) {
       out.result.theta = x.cwiseProduct(search.definition.scale);
-      out.end = {x, out.result.cost, true, out.evaluation.jacobian};
+      out.end = {x, out.result.cost, true, out.evaluation.jacobian, out.evaluation.residual};
       return out;
     }
     if (search.refresh && reference > 0.0) system = refreshed(search, x);

@@ -13,6 +13,7 @@
 #include "updating/multi_start.hpp"
 #include "updating/residuals.hpp"
 #include "updating/search.hpp"
+#include "updating/valley_walk.hpp"
 
 namespace twindeck::updating {
 namespace {
@@ -104,20 +105,33 @@ int best_start(const std::vector<SearchEnd>& ends) {
   return static_cast<int>(std::min_element(ends.begin(), ends.end(), better) - ends.begin());
 }
 
-void collect(const Search& search, std::vector<SearchEnd>& ends, UpdatingResult& result) {
+// The start to publish, where it has walked to, and which starts share an optimum.
+std::vector<int> choose(const Search& search, std::vector<SearchEnd>& ends, const Eigen::VectorXd& x0, UpdatingResult& result) {
   std::vector<EndPoint> end_points;
   for (const SearchEnd& end : ends) end_points.push_back(end.end);
   const std::vector<int> optimum = distinct_optima(end_points, search.box, search.definition.negligible_residual());
+  result.best = best_start(ends);
+  if (!ends[static_cast<std::size_t>(result.best)].result.converged) return optimum;
+  result.best = preferred_end(end_points, optimum, result.best, x0, search.box, sight_of(search));
+  SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
+  best = walk_towards(search, best, x0, result.best);
+  result.flat = flat_directions(best.end.residual, best.end.jacobian, best.end.x, search.box, sight_of(search));
+  return optimum;
+}
+
+void collect(const Search& search, std::vector<SearchEnd>& ends, const Eigen::VectorXd& x0, UpdatingResult& result) {
+  const std::vector<int> optimum = choose(search, ends, x0, result);
   for (std::size_t k = 0; k < ends.size(); ++k) {
     ends[k].result.optimum = optimum[k];
     if (optimum[k] == static_cast<int>(k)) result.optima.push_back(static_cast<int>(k));
     result.starts.push_back(ends[k].result);
     result.history.insert(result.history.end(), ends[k].history.begin(), ends[k].history.end());
   }
+  const int published = optimum[static_cast<std::size_t>(result.best)];
   std::stable_sort(result.optima.begin(), result.optima.end(), [&](int a, int b) {
+    if ((a == published) != (b == published)) return a == published;
     return ends[static_cast<std::size_t>(a)].result.cost < ends[static_cast<std::size_t>(b)].result.cost;
   });
-  result.best = best_start(ends);
   const SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
   result.theta = search.definition.theta(best.end.x);
   result.on_bound = on_bound(best.end.x, search.box, search.options.bound_tolerance);
@@ -195,7 +209,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   const Eigen::MatrixXd points = starting_points(x0, search.box, options.starts, options.seed);
   if (start.size() >= options.surrogate_from_size) search.surrogate = make_surrogate(search, points);
   std::vector<SearchEnd> ends = run_starts(search, points, progress);
-  collect(search, ends, result);
+  collect(search, ends, x0, result);
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const double residual = result.frequency_before_Hz(static_cast<Eigen::Index>(i)) / targets[i].measured_Hz - 1.0;
     if (!rows.given()) result.cost_before += targets[i].fitted ? 0.5 * residual * residual : 0.0;

@@ -91,8 +91,9 @@ struct Linearised {
 struct UpdatingResult {
   Eigen::VectorXd theta;  ///< (n_parameters) all parameters, the inactive at their initial values
   std::vector<StartResult> starts;
-  int best = 0;
-  std::vector<int> optima;                                  ///< starts that represent distinct optima, best first
+  int best = 0;                                             ///< start whose end is published
+  std::vector<int> optima;                                  ///< starts that represent distinct optima, the published one first
+  Eigen::MatrixXd flat;                                     ///< (n_active × k) what the data don't see (flat_valley.hpp)
   std::vector<int> on_bound;                                ///< (n_active) -1 lower, +1 upper, 0 inside
   Eigen::VectorXd frequency_before_Hz, frequency_after_Hz;  ///< (n_targets) of the followed modes
   std::vector<int> mode_after;                              ///< (n_targets) positions
@@ -133,7 +134,8 @@ using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)
 /// @param progress called when a start has ended; may be empty
 /// @param rows     measured rows with their covariance: F is then half the sum of squared weighed rows (weighted_rows.hpp), of
 ///                 frequencies alone or of shapes too; by default Eq. (5).
-/// @return the cheapest converged start; status not converged if no start converged
+/// @return the cheapest converged start; among ends of equal cost the nearest to the initial values (flat_valley.hpp), and in a
+///         valley of equal cost its nearest point (valley_walk.hpp); status not converged if no start converged
 /// @throws InputError  for a parameter that is fixed or starts outside its bounds, no parameter or target, a frequency that is
 ///                     not positive, or a mode that does not exist
 /// Reference: Powell (1970); Madsen, Nielsen and Tingleff (2004), Methods for non-linear least squares problems, section 3.3.

@@ -80,4 +80,10 @@ MeasuredRows weighed_rows(const UpdatingSettings& config, const matching::Measur
   return rows;
 }
 
+Eigen::VectorXd Weighed::normalised() const {
+  Eigen::VectorXd x(result.scale.size());
+  for (Index j = 0; j < x.size(); ++j) x[j] = result.theta(active[static_cast<std::size_t>(j)]) / result.scale[j];
+  return x;
+}
+
 }  // namespace twindeck::updating

@@ -30,6 +30,9 @@ struct Weighed {
   const matching::Pairing& pairing;
   const MeasuredRows& rows;
   const UpdatingResult& result;
+
+  /// (n_active) the published values.
+  [[nodiscard]] Eigen::VectorXd normalised() const;
 };
 
 }  // namespace twindeck::updating

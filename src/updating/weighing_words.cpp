@@ -18,6 +18,7 @@ constexpr double as_good = 4.0;            ///< [-] of chi²: two standard devia
 constexpr double doubtful_score = 3.09;    ///< [-] of chi²: one sound measurement in a thousand is above
 constexpr double most_of_misfit = 0.4;     ///< [-] share of the squared differences that singles a channel out
 constexpr double close_correlation = 0.9;  ///< [-] from it on the deviations alone mislead
+constexpr double told_share = 0.95;        ///< [-] of a flat direction that lies in what undetermined.hpp tells
 
 const std::string& name_of(const Weighed& weighed, Index j) {
   return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])].name;
@@ -61,18 +62,28 @@ std::vector<std::string> twin_sentences(const Weighed& weighed) {
   return sentences;
 }
 
+/// Whether a flat direction is one that the data don't see at all (UpdatingResult::flat), of which another sentence tells.
+bool is_told(const UpdatingResult& result, const FlatDirection& flat) {
+  if (result.flat.cols() == 0) return false;
+  const Eigen::VectorXd per_range = flat.step.cwiseQuotient(result.scale).cwiseQuotient(result.box.upper - result.box.lower);
+  return (result.flat.transpose() * per_range).norm() >= told_share * per_range.norm();
+}
+
 /// Directions that the rows hardly limit. @param several  those of several parameters, else those of one
-std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior& posterior, bool several) {
+/// @param rows  their name
+std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior& posterior, bool several,
+                                        const char* rows = "what is weighed") {
   std::vector<std::string> sentences;
   for (const FlatDirection& flat : posterior.flat) {
+    if (is_told(weighed.result, flat)) continue;
     std::vector<std::string> parts;
     for (Index j = 0; j < flat.step.size(); ++j)
       if (std::abs(flat.step[j]) >= named_component * posterior.prior_std[j])
         parts.push_back(fmt::format("{} by {:+.3g}", name_of(weighed, j), flat.step[j]));
     if ((parts.size() > 1) != several) continue;
     sentences.push_back(fmt::format(
-        "flat direction: moving {}{} changes what is weighed by {:.2g} standard deviations only; {}", fmt::join(parts, " and "),
-        several ? " together" : "", flat.change,
+        "flat direction: moving {}{} changes {} by {:.2g} standard deviations only; {}", fmt::join(parts, " and "),
+        several ? " together" : "", rows, flat.change,
         several ? "the measurement does not say how they share it" : "its bounds say more of it than the measurement"));
   }
   return sentences;
@@ -152,6 +163,20 @@ void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& p
   for (const std::string& sentence : twin_sentences(weighed)) reporter.warn(sentence);
   for (const std::string& sentence : flat_sentences(weighed, posterior, true)) reporter.warn(sentence);
   for (const std::string& sentence : rival_sentences(weighed)) reporter.warn(sentence);
+}
+
+void say_flat_frequencies(Reporter& reporter, const Weighed& weighed) {
+  Linearised at = weighed.result.at_optimum;
+  for (Index i = 0; i < at.jacobian.rows(); ++i) {
+    const Index mode = weighed.pairing.pairs[static_cast<std::size_t>(i)].experimental;
+    const double deviations = weighed.measured.modes.frequency_Hz[mode] / weighed.measured.modes.frequency_std_Hz[mode];
+    at.jacobian.row(i) *= deviations;
+    at.residual[i] /= deviations;  // the gradient stays as it is, and with it what the bounds hold
+  }
+  const Posterior linearised = posterior(at, weighed.normalised(), weighed.result.box, weighed.result.scale);
+  for (const bool several : {false, true})
+    for (const std::string& sentence : flat_sentences(weighed, linearised, several, "the paired frequencies"))
+      reporter.say(sentence);
 }
 
 }  // namespace twindeck::updating

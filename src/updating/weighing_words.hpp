@@ -24,4 +24,8 @@ struct WeighedRow {
 /// they cannot rule out, as lines and warnings.
 void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& posterior);
 
+/// Directions that relative frequencies hardly limit, counted in the frequencies' standard deviations, as lines: an update by
+/// Eq. (5) gives their values as exactly as any other.
+void say_flat_frequencies(Reporter& reporter, const Weighed& weighed);
+
 }  // namespace twindeck::updating

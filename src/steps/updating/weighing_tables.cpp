@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/csv.hpp"
+#include "updating/undetermined.hpp"
 #include "updating/weighing_words.hpp"
 
 namespace twindeck::steps {
@@ -68,11 +69,11 @@ void write_weighing(const updating::Weighed& weighed, const updating::Posterior&
 }  // namespace
 
 void report_weighing(runner::StepContext& context, const updating::Weighed& weighed) {
+  updating::warn_of_undetermined(context, weighed);
   const updating::UpdatingResult& result = weighed.result;
-  if (!weighed.rows.given() || result.at_optimum.jacobian.size() == 0) return;
-  Eigen::VectorXd x(result.scale.size());
-  for (Index j = 0; j < x.size(); ++j) x[j] = result.theta(weighed.active[static_cast<std::size_t>(j)]) / result.scale[j];
-  const updating::Posterior posterior = updating::posterior(result.at_optimum, x, result.box, result.scale);
+  if (result.at_optimum.jacobian.size() == 0) return;
+  if (!weighed.rows.given()) return updating::say_flat_frequencies(context, weighed);
+  const updating::Posterior posterior = updating::posterior(result.at_optimum, weighed.normalised(), result.box, result.scale);
   write_posterior(weighed, posterior, context.out / "posterior.csv");
   write_correlations(weighed, posterior, context.out / "correlations.csv");
   write_rows(weighed, context.out / "weighed_rows.csv");

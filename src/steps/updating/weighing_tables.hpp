@@ -12,8 +12,8 @@ namespace twindeck::steps {
 ///  - `weighed_rows.csv`:
 ///  type,experimental_mode,numerical_mode,channel,value,std,computed_start,computed_updated,difference_std
 ///  - `weighing.csv`: quantity,value,unit: chi_squared, degrees_of_freedom, misfit, rows, free_scales
-/// and says in words how well the model agrees, what cannot be told apart, and which directions are flat. Nothing without
-/// weighed rows.
+/// and says in words how well the model agrees, what cannot be told apart, and which directions are flat. Without weighed rows
+/// it only tells which directions are flat and what the data do not determine.
 void report_weighing(runner::StepContext& context, const updating::Weighed& weighed);
 
 }  // namespace twindeck::steps

@@ -35,7 +35,7 @@ TEST(StartingPoints, SameSeedSameBytes) {
 }
 
 EndPoint end_point(double x0, double x1, double cost, bool converged = true) {
-  EndPoint end{Eigen::Vector2d(x0, x1), cost, converged, Eigen::MatrixXd::Zero(1, 2)};
+  EndPoint end{Eigen::Vector2d(x0, x1), cost, converged, Eigen::MatrixXd::Zero(1, 2), Eigen::VectorXd::Zero(1)};
   end.jacobian << 1.0, 0.0;  // residuals do not feel x1
   return end;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "measured_chain.hpp"
 
@@ -110,6 +111,40 @@ TEST(SayWeighing, TellsFlatDirectionsOfOneAndOfSeveral) {
   EXPECT_TRUE(h.heard().warned.empty());
   h.posterior.flat = {{Eigen::Vector2d(0.2, -0.2), 0.1}};
   EXPECT_TRUE(holds(h.heard().warned, "moving left by +0.2 and right by -0.2 together"));
+}
+
+// What the data do not see at all is told by another sentence (undetermined.hpp), not twice.
+TEST(SayWeighing, LeavesOutFlatDirectionsThatAreToldAlready) {
+  ByHand h;
+  h.result.scale = Eigen::Vector2d(1.0, 2.0);
+  h.result.flat = Eigen::Vector2d(1.0, -1.0) / std::sqrt(2.0);
+  h.posterior.flat = {{Eigen::Vector2d(0.2, -0.4), 0.0}};
+  EXPECT_TRUE(h.heard().warned.empty());
+  h.posterior.flat = {{Eigen::Vector2d(0.2, 0.4), 0.1}};
+  EXPECT_TRUE(holds(h.heard().warned, "moving left by +0.2 and right by +0.4 together"));
+}
+
+// A frequency of 4 Hz ± 0.1 Hz has 40 deviations. A slope of 0.05 over a range of 1, whose deviation is 1/sqrt(12), is 0.58 of
+// them; one of 0.5 is 5.8.
+TEST(SayFlatFrequencies, CountsRelativeResidualsInTheirDeviations) {
+  ByHand h;
+  h.result.scale = Eigen::Vector2d::Ones();
+  h.result.at_optimum = {Eigen::VectorXd::Constant(1, 1e-3), Eigen::RowVector2d(0.5, 0.0), {}, 0};
+  const auto said = [&] {
+    HeardReporter reporter;
+    say_flat_frequencies(reporter, {h.model, h.active, h.measured, h.pairing, {}, h.result});
+    EXPECT_TRUE(reporter.warned.empty());
+    return reporter.said;
+  };
+  ASSERT_EQ(said().size(), 1U);
+  EXPECT_TRUE(holds(said(), "moving right by +0.289 changes the paired frequencies by 0 standard deviations"));
+  h.active = {0};
+  h.result.scale = Eigen::VectorXd::Ones(1);
+  h.result.box = {Eigen::VectorXd::Constant(1, 0.5), Eigen::VectorXd::Constant(1, 1.5)};
+  h.result.at_optimum.jacobian = Eigen::MatrixXd::Constant(1, 1, 0.5);
+  EXPECT_TRUE(said().empty());
+  h.result.at_optimum.jacobian(0, 0) = 0.05;
+  EXPECT_TRUE(holds(said(), "moving left by +0.289 changes the paired frequencies by 0.58 standard deviations"));
 }
 
 // Costs of 1 and 2.9 are chi² of 2 and 5.8: within 4. A cost of 3.1 is not.

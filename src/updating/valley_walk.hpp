@@ -1,0 +1,17 @@
+#pragma once
+
+#include "updating/flat_valley.hpp"
+#include "updating/search.hpp"
+
+/// The way along a valley of equal cost to its point nearest to given values.
+namespace twindeck::updating {
+
+[[nodiscard]] Sight sight_of(const Search& search);
+
+/// Continues an ended search along its valley to the point nearest to `wanted`: a step of the linearised valley, and a search
+/// from there back to its floor, in turn, until the point rests. Each walk counts only if it ends nearer and costs no more. An
+/// end without a flat direction stays as it is.
+/// @param from  converged  @param wanted (n_active) normalised  @param start  its number in the history
+[[nodiscard]] SearchEnd walk_towards(const Search& search, const SearchEnd& from, const Eigen::VectorXd& wanted, int start);
+
+}  // namespace twindeck::updating
