@@ -95,11 +95,11 @@ void add_common_options(CLI::App& app, CommandLine& line, Words& words) {
                "read and validate all inputs, tell what would run and how long it took last time, and end: nothing is computed "
                "or written");
   app.add_flag("--print-config", words.print_config, "print the resolved configuration as TOML and end");
-  words.describe =
-      app.add_option("--describe", words.key,
-                     "print meaning, unit, range and default of one key, of all, or of study.toml or model.toml, and end")
-          ->type_name("KEY")
-          ->expected(0, 1);
+  words.describe = app.add_option("--describe", words.key,
+                                  "print meaning, unit, range and default of one key, of all (without KEY, or all), or of "
+                                  "study.toml or model.toml, and end")
+                       ->type_name("KEY")
+                       ->expected(0, 1);
   app.add_flag("--version", words.version_asked, "print the version and end");
 }
 

@@ -117,11 +117,11 @@ io::Manifest manifest_of(const Status& status, const Step& step, const StepConte
   return manifest;
 }
 
-/// A key of the step's configuration, or all; or all of one of the files that are no step's own.
+/// A key of the step's configuration, or all of them ("" or "all"); or all of one of the files that are no step's own.
 std::string describe(const Step& step, const std::string& key) {
   if (key == "study.toml") return describe_study();
   if (key == "model.toml") return model_io::describe_model_toml();
-  return step.fields.describe(key);
+  return step.fields.describe(key == "all" ? "" : key);
 }
 
 /// The line of an InputError that names no file: a key of the configuration stands where it was given, anything else concerns

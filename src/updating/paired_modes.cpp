@@ -21,6 +21,7 @@ matching::Pairing pair_for_updating(Reporter& reporter, const UpdatingSettings& 
                                     const dynamics::EigenModes& modes, const matching::Measured& measured) {
   matching::Pairing pairing;
   if (measured.modes.has_shapes()) {
+    if (!config.pairs.empty()) reporter.say("`pairs` is not used: shapes were measured, and modes are paired by their MAC");
     pairing = matching::pair_at_sensors(measured, loaded, modes, pairing_options(config), config.sensor_tolerance_m);
   } else if (!config.pairs.empty()) {
     pairing = matching::pair_as_published(measured, modes.frequency_Hz.size(), config.pairs, {"", 0, "pairs"});

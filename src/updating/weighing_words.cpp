@@ -35,7 +35,7 @@ void say_parameters(Reporter& reporter, const Weighed& weighed, const Posterior&
     const double value = weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]);
     reporter.say(posterior.is_held[static_cast<std::size_t>(j)]
                      ? fmt::format("{:<14} {:>13.6g}  held by its bound", name_of(weighed, j), value)
-                     : fmt::format("{:<14} {:>13.6g} +- {:.2g} (standard deviation)", name_of(weighed, j), value,
+                     : fmt::format("{:<14} {:>13.6g} +- {:.2g} (std_with_misfit)", name_of(weighed, j), value,
                                    posterior.std[j] * posterior.misfit()));
   }
   for (Index j = 0; j < posterior.std.size(); ++j)

@@ -126,6 +126,7 @@ class Answers(unittest.TestCase):
         one = run("--describe", keys[0])
         self.assertEqual(one.returncode, 0)
         self.assertTrue(one.stdout.startswith(keys[0] + ": "))
+        self.assertEqual(run("--describe", "all").stdout, run("--describe").stdout)
 
     def test_print_config_reads_back(self):
         printed = run("--study", STUDY, "--print-config")

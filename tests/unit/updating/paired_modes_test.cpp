@@ -34,6 +34,18 @@ TEST(PairForUpdating, GoesByShapeWhereShapesWereMeasured) {
   EXPECT_TRUE(heard.warned.empty());
 }
 
+TEST(PairForUpdating, SaysThatAListIsNotUsedWhereShapesWereMeasured) {
+  const Chain c;
+  HeardReporter heard;
+  UpdatingSettings settings;
+  EXPECT_EQ(pair_for_updating(heard, settings, c.model, c.modes, c.exchanged()).pairs[0].numerical, 1);
+  EXPECT_TRUE(heard.said.empty());
+  settings.pairs = {"1X-1N", "2X-2N"};
+  EXPECT_EQ(pair_for_updating(heard, settings, c.model, c.modes, c.exchanged()).pairs[0].numerical, 1);
+  ASSERT_EQ(heard.said.size(), 1U);
+  EXPECT_NE(heard.said[0].find("`pairs` is not used"), std::string::npos);
+}
+
 TEST(PairForUpdating, GoesByOrderOrByAListWhereNoShapeWasMeasured) {
   const Chain c;
   HeardReporter heard;

@@ -88,7 +88,7 @@ TEST(SayWeighing, WarnsOfAMisfitAndNamesTheChannel) {
   ASSERT_EQ(heard.warned.size(), 1U);
   EXPECT_NE(heard.warned[0].find("differ 6.3 times"), std::string::npos);
   EXPECT_NE(heard.warned[0].find("90 % of the squared differences are channel c7's"), std::string::npos);
-  EXPECT_TRUE(holds(heard.said, "+- 0.13"));  // 0.02 · 6.3
+  EXPECT_TRUE(holds(heard.said, "+- 0.13 (std_with_misfit)"));  // 0.02 · 6.3
   h.result.at_optimum.predicted = Eigen::Vector3d(4.6, 1.0, 1.0);
   EXPECT_TRUE(holds(h.heard().warned, "90 % of the squared differences are the frequencies'"));
 }
