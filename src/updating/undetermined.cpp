@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double named_share = 0.05;  // [-] of a unit direction: who takes part less is left out of a sentence
-constexpr double at_rest = 1e-6;      // [ranges] within which a parameter is at its initial value
+constexpr double named_share = 0.1;  // [-] of a unit direction: who takes part less is left out of a sentence
+constexpr double at_rest = 1e-6;     // [ranges] within which a parameter is at its initial value
 
 const fe::Parameter& parameter_of(const Weighed& weighed, Index j) {
   return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])];
@@ -35,17 +35,27 @@ std::string sentence_of_one(const Weighed& weighed, Index j) {
             : fmt::format("its value {:.6g} means nothing", value));
 }
 
+/// One direction is told with steps of one standard deviation of the ranges, as those of `FlatDirection`, the first of them
+/// upwards. Of more directions only the names are the same on every processor.
 std::string sentence_of_several(const Weighed& weighed, const Eigen::MatrixXd& directions) {
-  std::vector<std::string> names;
-  for (Index j = 0; j < directions.rows(); ++j)
-    if (directions.row(j).norm() >= named_share) names.push_back(parameter_of(weighed, j).name);
-  const Index known = std::ssize(names) - directions.cols();
+  std::vector<std::string> names, steps;
+  double sign = 0.0;
+  for (Index j = 0; j < directions.rows(); ++j) {
+    if (directions.row(j).norm() < named_share) continue;
+    const fe::Parameter& parameter = parameter_of(weighed, j);
+    if (sign == 0.0) sign = std::copysign(1.0, directions(j, 0));
+    names.push_back(parameter.name);
+    const double step = sign * directions(j, 0) * (parameter.upper - parameter.lower) / std::sqrt(12.0);
+    steps.push_back(fmt::format("{} by {:+.3g}", parameter.name, step));
+  }
+  const bool one = directions.cols() == 1;
   return fmt::format(
-      "the data do not determine {} one by one, but {} of them only: along {} nothing that is fitted changes. Of all values "
-      "that "
-      "fit as well, those nearest the initial ones are given. Update fewer of them, or measure more",
-      fmt::join(names, ", "), known == 1 ? "one combination" : fmt::format("{} combinations", known),
-      directions.cols() == 1 ? "one direction" : fmt::format("{} directions", directions.cols()));
+      "flat {}: {} changes nothing that is fitted, so that the data do not determine {} one by one. Of all values that fit as "
+      "well, those nearest the initial ones are given. Update fewer of them, or measure more",
+      one ? "direction" : "directions",
+      one ? fmt::format("moving {} together", fmt::join(steps, " and "))
+          : fmt::format("moving parameters together in {} ways", directions.cols()),
+      fmt::join(names, ", "));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace twindeck::updating {
 
 /// What the data do not determine at the published end (UpdatingResult::flat), in sentences. One for each parameter that
-/// nothing depends on, and one for parameters of which only combinations are known.
+/// nothing depends on, and one for all that change nothing together.
 [[nodiscard]] std::vector<std::string> undetermined_sentences(const Weighed& weighed);
 
 /// Warns of them, with any weights.

@@ -115,7 +115,7 @@ std::vector<int> choose(const Search& search, std::vector<SearchEnd>& ends, cons
   result.best = preferred_end(end_points, optimum, result.best, x0, search.box, sight_of(search));
   SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
   best = walk_towards(search, best, x0, result.best);
-  result.flat = flat_directions(best.end.residual, best.end.jacobian, best.end.x, search.box, sight_of(search));
+  result.flat = directions_of_valley(search, best);
   return optimum;
 }
 

@@ -93,7 +93,7 @@ struct UpdatingResult {
   std::vector<StartResult> starts;
   int best = 0;                                             ///< start whose end is published
   std::vector<int> optima;                                  ///< starts that represent distinct optima, the published one first
-  Eigen::MatrixXd flat;                                     ///< (n_active × k) what the data don't see (flat_valley.hpp)
+  Eigen::MatrixXd flat;                                     ///< (n_active × k) what the data don't see (valley_walk.hpp)
   std::vector<int> on_bound;                                ///< (n_active) -1 lower, +1 upper, 0 inside
   Eigen::VectorXd frequency_before_Hz, frequency_after_Hz;  ///< (n_targets) of the followed modes
   std::vector<int> mode_after;                              ///< (n_targets) positions

@@ -14,4 +14,10 @@ namespace twindeck::updating {
 /// @param from  converged  @param wanted (n_active) normalised  @param start  its number in the history
 [[nodiscard]] SearchEnd walk_towards(const Search& search, const SearchEnd& from, const Eigen::VectorXd& wanted, int start);
 
+/// Those of an end's flat directions that are flat beyond the first order: a search from a tenth of the ranges along one ends
+/// at equal cost and far from where it set out. At the optimum of a symmetric structure the slopes of its halves are alike, but
+/// a search from beside it returns.
+/// @param end  converged
+[[nodiscard]] Eigen::MatrixXd directions_of_valley(const Search& search, const SearchEnd& end);
+
 }  // namespace twindeck::updating

@@ -80,5 +80,18 @@ TEST(ValleyWalk, EndsAtTheNearestPointOfABentValley) {
   }
 }
 
+// Two masses between walls, symmetric: at equal ends the frequencies feel their difference in the second order alone. It is
+// determined all the same: there is one way only to be as stiff as measured.
+TEST(ValleyWalk, AnOptimumThatIsFlatInTheFirstOrderOnlyIsNoValley) {
+  SmallSystem small(2);
+  const int left = small.parameter("left", 1.0, 0.5, 1.5), right = small.parameter("right", 1.0, 0.5, 1.5);
+  small.stiffness(400.0 * spring(2, 0, -1), left).stiffness(400.0 * spring(2, 1, -1), right);
+  small.stiffness(100.0 * spring(2, 0, 1)).mass(Eigen::MatrixXd::Identity(2, 2));
+  const UpdatingResult result = updated(small.system(), dense_frequencies(small.system(), Eigen::Vector2d(0.8, 0.8)), 1, 0.0);
+  ASSERT_TRUE(result.status.converged) << result.status.message;
+  EXPECT_EQ(result.flat.cols(), 0);
+  EXPECT_LT((result.theta - Eigen::Vector2d(0.8, 0.8)).norm(), 1e-3);
+}
+
 }  // namespace
 }  // namespace twindeck::updating
