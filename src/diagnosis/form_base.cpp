@@ -27,7 +27,6 @@ constexpr double kAside = 10.0;  // deviation of rows that are set aside: e^10, 
 // A measured mode has no counterpart where its MAC with the model's is below; at most this part of the modes may be such.
 constexpr double kLeastMac = 0.5, kMostStrangers = 0.25;
 constexpr double kSameMac = 0.8, kSameFrequency = 0.2;  // of one measured mode in two conditions: MAC above, |ln ratio| below
-constexpr double kMostlyCommon = 0.75;  // of the channels of the longer shape: fewer common ones make shapes alike by chance
 
 /// Conditions that the first fit is made to.
 std::set<int> plainest_conditions(const FeatureSet& features) {
@@ -79,9 +78,7 @@ std::vector<std::size_t> strangers_of(const FeatureMap& map, const Fit& fit) {
 /// which is the model's.
 bool is_like(const FeatureMap& map, const MeasuredMode& mode, const MeasuredMode& stranger) {
   const CommonRows common = common_rows({mode.real_rows, mode.real_channels}, {stranger.real_rows, stranger.real_channels});
-  const std::size_t most = std::max(mode.real_rows.size(), stranger.real_rows.size());
-  return static_cast<double>(common.first.size()) >= kMostlyCommon * static_cast<double>(most) &&
-         std::abs(std::log(mode.frequency_Hz / stranger.frequency_Hz)) < kSameFrequency &&
+  return common.most && std::abs(std::log(mode.frequency_Hz / stranger.frequency_Hz)) < kSameFrequency &&
          shape_mac(map.values()(common.first), map.values()(common.second)) > kSameMac;
 }
 

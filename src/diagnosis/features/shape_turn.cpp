@@ -9,6 +9,8 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr double kMost = 0.75;  // [-] of the rows of the longer shape
+
 double squares(const std::vector<int>& rows, const VectorXd& values) {
   double sum = 0.0;
   for (const int r : rows) sum += values[r] * values[r];
@@ -34,12 +36,15 @@ CommonRows common_rows(const ShapeRows& first, const ShapeRows& second) {
     out.first.push_back(first.rows[k]);
     out.second.push_back(second.rows[static_cast<std::size_t>(at - second.channels.begin())]);
   }
+  const std::size_t longer = std::max(first.rows.size(), second.rows.size());
+  out.most = longer > 0 && static_cast<double>(out.first.size()) >= kMost * static_cast<double>(longer);
   return out;
 }
 
 ShapeTurn turn_of_shapes(const ShapeRows& low, const ShapeRows& high, const VectorXd& values) {
   ShapeTurn out{VectorXd::Zero(values.size()), VectorXd::Zero(values.size())};
   const CommonRows common = common_rows(low, high);
+  if (!common.most) return out;
   const double of_low = squares(common.first, values), of_high = squares(common.second, values);
   if (of_low > 0.0 && of_high > 0.0) {
     const double ratio = std::sqrt(of_low / of_high);

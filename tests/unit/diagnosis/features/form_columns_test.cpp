@@ -169,16 +169,16 @@ TEST(CloseRotations, PairRowsByChannel) {
 
 // Oracle: a row whose channel the other shape lacks has a column of its own, as large as its shape is on average.
 TEST(CloseRotations, GiveAChannelOfOneShapeAloneItsOwnColumn) {
-  VectorXd values(5);
-  values << 3.0, 4.0, 5.0, 1.0, 2.0;
-  const MatrixXd columns =
-      diagnosis::close_rotations({{0, 0, -1, {0, 1, 2}, {0, 1, 2}}, {1, 0, -1, {3, 4}, {2, 0}}}, {1.0, 1.1}, values);
+  VectorXd values(7);
+  values << 3.0, 4.0, 5.0, 2.0, 1.0, 2.0, 6.0;
+  const MatrixXd columns = diagnosis::close_rotations(
+      {{0, 0, -1, {0, 1, 2, 3}, {0, 1, 2, 3}}, {1, 0, -1, {4, 5, 6}, {2, 0, 3}}}, {1.0, 1.1}, values);
   ASSERT_EQ(columns.cols(), 2);
-  const double ratio = std::sqrt((9.0 + 25.0) / (1.0 + 4.0));
-  VectorXd together(5);
-  together << 2.0 * ratio, 0.0, 1.0 * ratio, -5.0 / ratio, -3.0 / ratio;
+  const double ratio = std::sqrt((9.0 + 25.0 + 4.0) / (1.0 + 4.0 + 36.0));
+  VectorXd together(7);
+  together << 2.0 * ratio, 0.0, 1.0 * ratio, 6.0 * ratio, -5.0 / ratio, -3.0 / ratio, -2.0 / ratio;
   EXPECT_LT((columns.col(0) - 0.12 * together).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((columns.col(1) - 0.12 * std::sqrt(50.0 / 3.0) * VectorXd::Unit(5, 1)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((columns.col(1) - 0.12 * std::sqrt(54.0 / 4.0) * VectorXd::Unit(7, 1)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 }  // namespace
