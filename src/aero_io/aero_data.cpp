@@ -80,6 +80,10 @@ aero::Polar read_polar(const std::filesystem::path& file) {
   if (given != 0 && given != 3) {
     throw InputError({file.string(), 1, "dC_L_per_rad"}, "only some of the three slopes are given", "give all three or none");
   }
+  if (table.rows() == 1) {
+    throw InputError({file.string(), 2, "alpha_deg"}, "is the only angle of attack, expected two or more",
+                     "add the angles that the deck turns to");
+  }
   std::vector<double> alpha;
   std::vector<aero::StaticCoefficients> rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {

@@ -124,7 +124,7 @@ class MakeCheck(unittest.TestCase):
     def test_a_study_that_is_not_there(self):
         done = self.make("no_such_study")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("workflows/no_such_study/study.toml is not there", done.stderr)
+        self.assertIn("there is no study 'no_such_study' (workflows/no_such_study/study.toml)", done.stderr)
 
     def test_what_can_be_checked_before_anything_ran(self):
         said = self.first_lines("smoke")

@@ -6,12 +6,15 @@ in no model of the structure as it is now.
 import json
 import pathlib
 import subprocess
+import sys
 import tempfile
 import tomllib
 import unittest
 
 import numpy as np
-import test_diagnosis as chain
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import test_diagnosis as chain  # noqa: E402
 
 MASSES, MEASURED = 40, 6
 SPRING, MASS, BODY = 2e6, 1000.0, 5.0
