@@ -13,7 +13,10 @@ class Stream {
   explicit Stream(std::uint64_t seed) : random_(seed * 6364136223846793005ULL + 1442695040888963407ULL) { random_.discard(20); }
   double uniform() { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1.0p-53; }
   double between(double low, double high) { return low + (high - low) * uniform(); }
-  double normal() { return std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * std::numbers::pi * uniform()); }
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(uniform())), angle = 2.0 * std::numbers::pi * uniform();
+    return radius * std::cos(angle);
+  }
   bool chance(double probability) { return uniform() < probability; }
   int below(int n) { return static_cast<int>(uniform() * n) % n; }
 

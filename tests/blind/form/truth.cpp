@@ -264,6 +264,7 @@ std::array<double, 3> draw_wave(Stream& random) {
   return {random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)};
 }
 
+// Sizes are drawn before places, each in a statement of its own: compilers choose the order of a call's arguments.
 void draw_girder_form(const Layout& layout, Stream& random, Form& form) {
   const auto add = [&](What what, int place, double size) { form.features.push_back({what, place, size, draw_wave(random)}); };
   const int inner = static_cast<int>(layout.nodes.size()) - 2, bearings = static_cast<int>(layout.bearings.size());
@@ -271,13 +272,17 @@ void draw_girder_form(const Layout& layout, Stream& random, Form& form) {
   add(What::stiffness, -1, random.between(0.05, 0.25));
   add(What::mass, -1, random.between(0.03, 0.12));
   const int splices = 2 + random.below(3);
-  for (int i = 0; i < splices; ++i) add(What::splice, 1 + random.below(inner), random.between(0.01, 0.08));
+  for (int i = 0; i < splices; ++i) {
+    const double size = random.between(0.01, 0.08);
+    add(What::splice, 1 + random.below(inner), size);
+  }
   for (int b = 0; b < bearings; ++b) {
     add(What::end_turn, b, random.between(0.0, 0.4));
     add(What::eccentric, b, random.between(-0.4, 0.4));
     add(What::diaphragm, layout.bearings[static_cast<std::size_t>(b)].node, random.between(0.0, 0.015));
   }
-  add(What::diaphragm, 1 + random.below(inner), random.between(0.0, 0.015));
+  const double diaphragm = random.between(0.0, 0.015);
+  add(What::diaphragm, 1 + random.below(inner), diaphragm);
   add(What::depth, -1, random.between(0.2, 0.5) * layout.sections[0].depth_m);
 }
 
@@ -292,7 +297,8 @@ void draw_frame_form(const Layout& layout, Stream& random, Form& form) {
   for (const int b : {0, 1}) add(What::eccentric, b, random.between(-0.3, 0.3));
   add(What::high_floors, -1, random.between(0.0, 0.5));
   const int storeys = static_cast<int>(layout.floors.size()) / 2;
-  add(What::infill, random.below(storeys), random.between(0.0, 0.2));
+  const double infill = random.between(0.0, 0.2);
+  add(What::infill, random.below(storeys), infill);
 }
 
 }  // namespace
