@@ -57,14 +57,19 @@ TEST(Undetermined, AParameterThatNothingDependsOnStaysAndIsNamed) {
   }
 }
 
-// Frequencies depend on a/m and b/m alone. Along a multiple of the truth the step in units of the ranges is (0.5/5, 1.1/5,
-// 0.8/2) over its length 0.4673; a standard deviation of the ranges is 1/sqrt(12) of them: a by 0.309, b by 0.679, m by 0.494.
-TEST(Undetermined, ParametersOfWhichOnlyCombinationsAreKnownAreNamed) {
+/// Springs of sizes a and b, masses of one size m.
+SmallSystem two_masses_of_one_size() {
   SmallSystem small(2);
   const int a = small.parameter("a", 1.0, 0.1, 5.1), b = small.parameter("b", 1.0, 0.1, 5.1),
             m = small.parameter("m", 1.0, 0.3, 2.3);
   small.stiffness(100.0 * spring(2, 0, -1), a).stiffness(80.0 * spring(2, 1, 0), b);
-  const Case valley(small.mass(Eigen::MatrixXd::Identity(2, 2), m), Eigen::Vector3d(0.5, 1.1, 0.8), 2);
+  return small.mass(Eigen::MatrixXd::Identity(2, 2), m);
+}
+
+// Frequencies depend on a/m and b/m alone. Along a multiple of the truth the step in units of the ranges is (0.5/5, 1.1/5,
+// 0.8/2) over its length 0.4673; a standard deviation of the ranges is 1/sqrt(12) of them: a by 0.309, b by 0.679, m by 0.494.
+TEST(Undetermined, ParametersOfWhichOnlyCombinationsAreKnownAreNamed) {
+  const Case valley(two_masses_of_one_size(), Eigen::Vector3d(0.5, 1.1, 0.8), 2);
   for (const double std_Hz : {0.0, 0.01}) {
     const auto warned = valley.warned(valley.updated(1, std_Hz));
     ASSERT_EQ(warned.size(), 1U);
@@ -75,11 +80,7 @@ TEST(Undetermined, ParametersOfWhichOnlyCombinationsAreKnownAreNamed) {
 
 // One frequency of three parameters: two ways.
 TEST(Undetermined, OfSeveralDirectionsTheNamesAreTold) {
-  SmallSystem small(2);
-  const int a = small.parameter("a", 1.0, 0.1, 5.1), b = small.parameter("b", 1.0, 0.1, 5.1),
-            m = small.parameter("m", 1.0, 0.3, 2.3);
-  small.stiffness(100.0 * spring(2, 0, -1), a).stiffness(80.0 * spring(2, 1, 0), b);
-  const Case valley(small.mass(Eigen::MatrixXd::Identity(2, 2), m), Eigen::Vector3d(0.5, 1.1, 0.8), 1);
+  const Case valley(two_masses_of_one_size(), Eigen::Vector3d(0.5, 1.1, 0.8), 1);
   const auto warned = valley.warned(valley.updated(1));
   ASSERT_EQ(warned.size(), 1U);
   EXPECT_NE(warned[0].find("in 2 ways"), std::string::npos) << warned[0];
