@@ -45,10 +45,9 @@ template <typename Matrix, typename OnePlace>
 struct Assembly {
   Matrix stiffness, mass;
   const std::map<std::string, std::vector<OnePlace>>& sets;
-  const VectorXd &reduced_at, &theta;  ///< values of the parameters at the places' matrices, and here
-  const std::vector<int> columns;      ///< of the reduced basis that are used
+  const VectorXd& theta;           ///< values of the parameters
+  const std::vector<int> columns;  ///< of the reduced basis that are used
 
-  [[nodiscard]] double ratio(const OnePlace& place) const { return parameter_ratio(place.attributes, reduced_at, theta); }
   /// The place of a candidate, in the set of its hypothesis or else in any: a support and its foundation have one name.
   [[nodiscard]] const OnePlace* find(const Candidate& candidate, std::size_t which) const {
     const std::string& id = candidate.places[which]->id;
@@ -67,6 +66,11 @@ struct Assembly {
   template <typename Part>
   void add(Matrix& to, double amount, const Part& what) {
     if (what.size() != 0 && amount != 0.0) add_part(to, amount, what, columns);
+  }
+  /// A place's matrix as the parameters have made it.
+  template <typename Part>
+  void add(Matrix& to, double amount, const Part& whole, const ParameterLaw<Part>& law) {
+    law.each(whole, theta, [&](double times, const Part& part) { add(to, amount * times, part); });
   }
   void scatter(const FeatureMap& map, const VectorXd& x) {
     const auto place = [&](const char* set, int i) -> const OnePlace& { return sets.at(set)[static_cast<std::size_t>(i)]; };
@@ -89,8 +93,8 @@ struct Assembly {
       if (!structural) continue;
       TWINDECK_ASSERT(place != nullptr);
       const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
-      if (action.kind == "scale.stiffness") add(stiffness, ratio(*place) * (value("factor") - 1.0), place->stiffness);
-      if (action.kind == "scale.mass") add(mass, ratio(*place) * (value("factor") - 1.0), place->mass);
+      if (action.kind == "scale.stiffness") add(stiffness, value("factor") - 1.0, place->stiffness, place->stiffness_law);
+      if (action.kind == "scale.mass") add(mass, value("factor") - 1.0, place->mass, place->mass_law);
       if (action.kind == "mass.add")
         for (Index d = 0; d < place->directions.cols(); ++d)
           add_outer(mass, value("mass"), direction(*place, d), direction(*place, d));
@@ -100,26 +104,32 @@ struct Assembly {
       else if (action.kind == "element.spring")
         prop(*place, action, value("stiffness"));
       if (action.kind == "element.oscillator" || action.kind == "element.string")
-        swing(*place, action.kind == "element.string", value("mass"), 2.0 * std::numbers::pi * value("frequency"));
+        swing(*place, action, value("mass"), 2.0 * std::numbers::pi * value("frequency"));
     }
   }
   /// Takes the support away and puts its springs up again between the nodes where it stands.
   void move(const OnePlace& place, double position) {
-    add(stiffness, -1.0, place.stiffness);
+    add(stiffness, -1.0, place.stiffness, place.stiffness_law);
+    const double ratio = place.stiffness_law.ratio.value(theta);
     const auto [station, part] = on_line(place.attributes, position);
     const Index springs = place.directions.cols() / static_cast<Index>(place.attributes.at("stations"));
     for (Index d = 0; d < springs; ++d) {
       const VectorXd b =
           (1.0 - part) * direction(place, station * springs + d) + part * direction(place, (station + 1) * springs + d);
-      add_outer(stiffness, place.attributes.at("k_" + std::to_string(d)), b, b);
+      add_outer(stiffness, ratio * place.attributes.at("k_" + std::to_string(d)), b, b);
     }
   }
-  /// A spring to the ground: vertical where the action says so and the place can move so, else in all directions.
-  void prop(const OnePlace& place, const ActionSpec& action, double k) {
+  /// The first direction that an action goes by: the vertical one, which is the last, where it says so and the place can move
+  /// so, else it goes by all.
+  [[nodiscard]] Index first_direction(const OnePlace& place, const ActionSpec& action) const {
     const auto named = action.text.find("direction");
     const bool vertical = named != action.text.end() && named->second == "vertical" && place.directions.cols() == 3 &&
                           direction(place, 2).squaredNorm() > 0.0;
-    for (Index d = vertical ? 2 : 0; d < place.directions.cols(); ++d)
+    return vertical ? 2 : 0;
+  }
+  /// A spring to the ground.
+  void prop(const OnePlace& place, const ActionSpec& action, double k) {
+    for (Index d = first_direction(place, action); d < place.directions.cols(); ++d)
       add_outer(stiffness, k, direction(place, d), direction(place, d));
   }
   void tie(const OnePlace& place, const OnePlace& other, double k) {
@@ -136,8 +146,9 @@ struct Assembly {
     }
     if (line) add_outer(stiffness, k, pull, pull);
   }
-  void swing(const OnePlace& place, bool string, double m, double omega) {
-    for (Index d = 0; d < place.directions.cols(); ++d) {
+  void swing(const OnePlace& place, const ActionSpec& action, double m, double omega) {
+    const bool string = action.kind == "element.string";
+    for (Index d = first_direction(place, action); d < place.directions.cols(); ++d) {
       grow(stiffness);
       grow(mass);
       const Index k = stiffness.rows() - 1;
@@ -175,7 +186,6 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
   Assembly<Symmetric, Place> full{Symmetric(system.stiffness(fit.base.theta).selfadjointView<Eigen::Lower>()),
                                   Symmetric(system.mass(fit.base.theta).selfadjointView<Eigen::Lower>()),
                                   places.sets,
-                                  map.model().theta,
                                   fit.base.theta,
                                   {}};
   full.scatter(map, fit.base.x);
@@ -187,7 +197,7 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
         if (std::find(columns.begin(), columns.end(), k) == columns.end()) columns.push_back(k);
   // What the map assembles holds parameters and element scatter already.
   const auto [stiffness, mass] = map.matrices(fit.base, columns);
-  Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets, map.model().theta, fit.base.theta, columns};
+  Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets, fit.base.theta, columns};
   for (const Cause& cause : fit.causes) {
     full.apply(cause);
     reduced.apply(cause);

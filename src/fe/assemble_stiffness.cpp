@@ -117,7 +117,7 @@ std::vector<TermPlan> plan_stays(const Model& model, const Eigen::VectorXd& stay
   for (int i = 0; i < static_cast<int>(model.elements.size()); ++i) {
     const Element& e = element_at(model, i);
     if (e.type != ElementType::stay) continue;
-    TermPlan term{"stay " + e.name, {}, {i}, bar_axial};
+    TermPlan term{"stay " + e.name, {}, {i}, bar_axial, true};
     const double pull = stay_pull_N.size() > 0 ? stay_pull_N[i] : 0.0;
     if (pull > 0.0) {
       const double E = material_of(model, e).youngs_modulus_Pa;

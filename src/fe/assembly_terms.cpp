@@ -39,7 +39,7 @@ StayModulus stay_modulus(const Model& model, const Element& stay, double pull_N)
 
 TermPlan& TermGroups::add(const std::string& label, int part, ElementMatrix (*matrix)(const Model&, int)) {
   const auto [found, is_new] = index_.try_emplace(label, plans_.size());
-  if (is_new) plans_.push_back({label, {}, {}, matrix});
+  if (is_new) plans_.push_back({label, {}, {}, matrix, false});
   TermPlan& plan = plans_[found->second];
   plan.parts.push_back(part);
   return plan;
@@ -48,6 +48,7 @@ TermPlan& TermGroups::add(const std::string& label, int part, ElementMatrix (*ma
 void TermGroups::add_element(const Model& model, int i, const std::string& label, const Powers& powers,
                              ElementMatrix (*matrix)(const Model&, int)) {
   TermPlan& plan = add(label, i, matrix);
+  plan.of_elements = true;
   if (plan.parts.size() > 1) return;
   const Element& e = model.elements[static_cast<std::size_t>(i)];
   const auto factor = [&](Target target, const std::string& name, double power) {

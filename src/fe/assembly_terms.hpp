@@ -17,6 +17,7 @@ struct TermPlan {
   Coefficient coefficient;
   std::vector<int> parts;                                     ///< elements, springs or masses
   ElementMatrix (*matrix)(const Model&, int part) = nullptr;  ///< matrix of one part at the model's own values
+  bool of_elements = false;                                   ///< its parts are elements
 };
 
 /// Powers of the properties in the coefficient of a term.

@@ -20,12 +20,13 @@ struct SolvedState {
   StructureState state;
   StateModes modes;
   std::map<Eigen::Index, ModeDerivative> derivatives;
-  /// A part of the state that a cause scales and that a parameter has scaled before.
+  /// A part of the state that a cause scales or moves and that goes with a parameter.
   struct Followed {
     int parameter = 0;
-    double amount = 0.0;  ///< of the part, per unit of the parameter
-    const ReducedMatrix* part = nullptr;
+    double amount = 0.0;                  ///< of the part, per unit of the parameter
+    const ReducedMatrix* part = nullptr;  ///< null where it is a spring
     bool mass = false;
+    Eigen::VectorXd spring;  ///< (n) b of the part b b', a spring of a support that was moved
   };
   std::vector<Followed> followed;
 };
@@ -94,12 +95,18 @@ class Predictor {
   [[nodiscard]] double stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   [[nodiscard]] StructureState build_state(const Condition& condition) const;
   void apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const;
-  /// Notes that a part of the state that is being built goes with a parameter. @param change  [-] of the part where the model
-  /// stands
-  void follow(const ReducedPlace& place, double change, bool mass) const;
+  /// Adds `change` times the stiffness or mass of a place, as the parameters have made it, to the state that is being built.
+  void add_change(const ReducedPlace& place, double change, bool mass, StructureState& state) const;
+  /// Takes a support away and puts it up again at a position on its line, between nodes by interpolation.
+  void move_support(const ReducedPlace& support, double position, StructureState& state) const;
   void apply_spring(const Candidate& candidate, const ActionSpec& action, double stiffness, StructureState& state) const;
   /// An oscillator or, as a string, a cable of this mass and circular frequency, with degrees of freedom of its own.
-  void apply_body(const ReducedPlace& place, bool string, double mass_kg, double omega_rad_s, StructureState& state) const;
+  void apply_body(const ReducedPlace& place, const ActionSpec& action, double mass_kg, double omega_rad_s,
+                  StructureState& state) const;
+  /// A spring k b b' that goes with parameters by a ratio.
+  void add_spring(const Eigen::VectorXd& b, double k, const fe::Coefficient& ratio, StructureState& state) const;
+  struct DamperInUse;
+  [[nodiscard]] DamperInUse damper_in(const Condition& condition, const ReducedPlace& damper) const;
   void apply_dampers(const Condition& condition, StructureState& state) const;
   struct Acting;
   [[nodiscard]] Acting acting_in(const Condition& condition) const;

@@ -30,6 +30,12 @@ double variable(const ActionSpec& action, const Condition& condition) {
   return value(condition.temperature_C);
 }
 
+/// A number of a place, 0 where it has none.
+double place_number(const ReducedPlace& place, const char* name) {
+  const auto at = place.attributes.find(name);
+  return at == place.attributes.end() ? 0.0 : at->second;
+}
+
 /// Adds an own degree of freedom to a state.
 void grow(StructureState& state) {
   const Index n = state.stiffness.rows() + 1;
@@ -47,23 +53,6 @@ std::vector<Index> directions_of(const ReducedPlace& place, const ActionSpec& ac
   std::vector<Index> all(static_cast<std::size_t>(place.directions.cols()));
   std::iota(all.begin(), all.end(), Index{0});
   return all;
-}
-
-/// Takes a support away and puts it up again at a position on its line, between nodes by interpolation.
-void move_support(const ReducedPlace& support, double position, const std::vector<int>& columns, StructureState& state) {
-  const auto number = [&](const std::string& name) { return support.attributes.at(name); };
-  const auto stations = static_cast<Index>(number("stations"));
-  const Index per_node = support.directions.cols() / stations, n = state.stiffness.rows();
-  const auto [i, t] = on_line(support.attributes, position);
-  MatrixXd own = support.stiffness.part(columns);
-  own.conservativeResizeLike(MatrixXd::Zero(n, n));
-  state.stiffness -= own;
-  for (Index d = 0; d < per_node; ++d) {
-    VectorXd b = (1.0 - t) * support.directions.part(i * per_node + d, columns) +
-                 t * support.directions.part((i + 1) * per_node + d, columns);
-    b.conservativeResizeLike(VectorXd::Zero(n));
-    state.stiffness += number("k_" + std::to_string(d)) * b * b.transpose();
-  }
 }
 
 }  // namespace
@@ -98,50 +87,64 @@ bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Conditi
   return kind.starts_with("scale.") || kind == "mass.add" || kind == "support.move" || kind.starts_with("element.");
 }
 
+/// A damper as its causes leave it.
+struct Predictor::DamperInUse {
+  double damping, stiffness, threshold;
+  std::pair<const ReducedDirections*, Index> direction;
+  bool series, sliding, absent = false;
+};
+
+Predictor::DamperInUse Predictor::damper_in(const Condition& condition, const ReducedPlace& damper) const {
+  const double threshold = place_number(damper, "friction");
+  DamperInUse out{place_number(damper, "damping"), place_number(damper, "stiffness"),     threshold,
+                  {&damper.directions, 0},         place_number(damper, "series") != 0.0, threshold > 0.0};
+  for (const Cause& cause : causes_) {
+    if (!cause.candidate->acts_in(condition)) continue;
+    const auto& places = cause.candidate->places;
+    const auto here = std::find(places.begin(), places.end(), &damper);
+    if (here == places.end()) continue;
+    for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
+      const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
+      if (action.kind == "damper.absent") out.absent = true;
+      if (action.kind == "damper.move") out.direction = {&places.back()->directions, here - places.begin()};
+      if (action.kind == "damper.damping") out.damping *= value("factor");
+      if (action.kind == "damper.series") {
+        out.stiffness = value("stiffness");
+        out.series = true;
+      }
+      if (action.kind == "damper.friction") {
+        out.stiffness = value("stiffness");
+        out.threshold = value("threshold");
+        out.sliding = true;
+      }
+    }
+  }
+  return out;
+}
+
 void Predictor::apply_dampers(const Condition& condition, StructureState& state) const {
   const auto dampers = map_.model().sets.find("dampers");
   if (dampers == map_.model().sets.end()) return;
   const Index n = state.stiffness.rows();
   for (const ReducedPlace& damper : dampers->second) {
-    const auto number = [&](const char* name) {
-      const auto at = damper.attributes.find(name);
-      return at == damper.attributes.end() ? 0.0 : at->second;
-    };
-    if (!condition.dampers_on.value_or(number("always_on") != 0.0)) continue;
-    double c = number("damping"), k = number("stiffness"), threshold = number("friction");
-    std::pair<const ReducedDirections*, Index> direction = {&damper.directions, 0};
-    bool series = number("series") != 0.0, absent = false, sliding = threshold > 0.0;
-    for (const Cause& cause : causes_) {
-      if (!cause.candidate->acts_in(condition)) continue;
-      const auto& places = cause.candidate->places;
-      const auto here = std::find(places.begin(), places.end(), &damper);
-      if (here == places.end()) continue;
-      for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
-        const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
-        if (action.kind == "damper.absent") absent = true;
-        if (action.kind == "damper.move") direction = {&places.back()->directions, here - places.begin()};
-        if (action.kind == "damper.damping") c *= value("factor");
-        if (action.kind == "damper.series") {
-          k = value("stiffness");
-          series = true;
-        }
-        if (action.kind == "damper.friction") {
-          k = value("stiffness");
-          threshold = value("threshold");
-          sliding = true;
-        }
-      }
-    }
-    if (absent) continue;
-    const VectorXd b = sliced(*direction.first, direction.second, columns_, n);
-    if (sliding) {
-      state.attachments.push_back({Attachment::Kind::jenkins, b, k, c, threshold});
-    } else if (series && k > 0.0) {
-      state.attachments.push_back({Attachment::Kind::maxwell, b, k, c, 0.0});
-    } else {
-      if (k > 0.0) state.stiffness += k * b * b.transpose();
-      state.attachments.push_back({Attachment::Kind::dashpot, b, 0.0, c, 0.0});
-    }
+    const bool fitted = place_number(damper, "always_on") != 0.0, on = condition.dampers_on.value_or(fitted);
+    const DamperInUse used = damper_in(condition, damper);
+    const bool acts = on && !used.absent, moved = used.direction.first != &damper.directions;
+    const bool in_series = used.series && used.stiffness > 0.0;
+    // The model's stiffness holds the spring of a fitted damper, unless it is in series with the dashpot.
+    const double spring = place_number(damper, "stiffness"),
+                 held = fitted && place_number(damper, "series") == 0.0 ? spring : 0.0;
+    const double beside = acts && !used.sliding && !in_series ? spring : 0.0;
+    const auto& ratio = damper.stiffness_law.ratio;
+    const VectorXd b = sliced(*used.direction.first, used.direction.second, columns_, n);
+    if (moved) add_spring(sliced(damper.directions, 0, columns_, n), -held, ratio, state);
+    add_spring(b, beside - (moved ? 0.0 : held), ratio, state);
+    if (!acts) continue;
+    const auto kind = used.sliding ? Attachment::Kind::jenkins
+                      : in_series  ? Attachment::Kind::maxwell
+                                   : Attachment::Kind::dashpot;
+    const double mount = used.sliding || in_series ? used.stiffness : 0.0;
+    state.attachments.push_back({kind, b, mount, used.damping, used.sliding ? used.threshold : 0.0});
   }
 }
 
@@ -166,15 +169,12 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
   const Index n = state.stiffness.rows();
   const std::string& kind = action.kind;
-  const double ratio = parameter_ratio(place.attributes, map_.model().theta, base_.theta);
   if (const double change = stiffness_change(cause, action, condition); change != 0.0) {
-    state.stiffness += change * ratio * sliced(place.stiffness, columns_, n);
-    follow(place, change, false);
+    add_change(place, change, false, state);
   } else if (kind == "scale.mass") {
-    state.mass += (value("factor") - 1.0) * ratio * sliced(place.mass, columns_, n);
-    follow(place, value("factor") - 1.0, true);
+    add_change(place, value("factor") - 1.0, true, state);
   } else if (kind == "support.move") {
-    move_support(place, value("position"), columns_, state);
+    move_support(place, value("position"), state);
   } else if (kind == "mass.add") {
     for (Index d = 0; d < place.directions.cols(); ++d) {
       const VectorXd b = sliced(place.directions, d, columns_, n);
@@ -188,16 +188,39 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   } else if (kind == "element.spring") {
     apply_spring(candidate, action, value("stiffness"), state);
   } else if (kind == "element.oscillator" || kind == "element.string") {
-    apply_body(place, kind == "element.string", value("mass"), 2.0 * std::numbers::pi * value("frequency"), state);
+    apply_body(place, action, value("mass"), 2.0 * std::numbers::pi * value("frequency"), state);
   }
 }
 
-void Predictor::follow(const ReducedPlace& place, double change, bool mass) const {
-  const auto parameter = place.attributes.find("parameter");
-  if (parameter == place.attributes.end()) return;
-  const int p = static_cast<int>(parameter->second);
-  const double reduced_at = map_.model().theta[p];
-  if (reduced_at != 0.0) followed_.push_back({p, change / reduced_at, mass ? &place.mass : &place.stiffness, mass});
+void Predictor::add_change(const ReducedPlace& place, double change, bool mass, StructureState& state) const {
+  MatrixXd& to = mass ? state.mass : state.stiffness;
+  const ReducedMatrix& whole = mass ? place.mass : place.stiffness;
+  const ParameterLaw<ReducedMatrix>& law = mass ? place.mass_law : place.stiffness_law;
+  law.each(whole, base_.theta,
+           [&](double amount, const ReducedMatrix& part) { to += change * amount * sliced(part, columns_, to.rows()); });
+  law.each_slope(whole, base_.theta, [&](int p, double slope, const ReducedMatrix& part) {
+    followed_.push_back({p, change * slope, &part, mass, {}});
+  });
+}
+
+void Predictor::move_support(const ReducedPlace& support, double position, StructureState& state) const {
+  const auto stations = static_cast<Index>(support.attributes.at("stations"));
+  const Index springs = support.directions.cols() / stations, n = state.stiffness.rows();
+  add_change(support, -1.0, false, state);
+  const auto [i, t] = on_line(support.attributes, position);
+  for (Index d = 0; d < springs; ++d) {
+    const double k = support.attributes.at("k_" + std::to_string(d));
+    const VectorXd b = (1.0 - t) * sliced(support.directions, i * springs + d, columns_, n) +
+                       t * sliced(support.directions, (i + 1) * springs + d, columns_, n);
+    add_spring(b, k, support.stiffness_law.ratio, state);
+  }
+}
+
+void Predictor::add_spring(const VectorXd& b, double k, const fe::Coefficient& ratio, StructureState& state) const {
+  if (k == 0.0) return;
+  state.stiffness += ratio.value(base_.theta) * k * b * b.transpose();
+  for (const fe::ParameterFactor& factor : ratio.factors)
+    followed_.push_back({factor.parameter, k * ratio.derivative(base_.theta, factor.parameter), nullptr, false, b});
 }
 
 void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& action, double stiffness,
@@ -222,9 +245,11 @@ void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& actio
   }
 }
 
-void Predictor::apply_body(const ReducedPlace& place, bool string, double m, double omega, StructureState& state) const {
-  // An attached body moves in every direction that the node has; a cable in the two across its chord.
-  for (Index d = 0; d < place.directions.cols(); ++d) {
+void Predictor::apply_body(const ReducedPlace& place, const ActionSpec& action, double m, double omega,
+                           StructureState& state) const {
+  const bool string = action.kind == "element.string";
+  // An attached body moves in every direction that the node has, or vertically alone; a cable in the two across its chord.
+  for (const Index d : directions_of(place, action)) {
     grow(state);
     const Index k = state.stiffness.rows() - 1;
     const VectorXd b = sliced(place.directions, d, columns_, k + 1);
@@ -438,7 +463,11 @@ MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd&
   const auto count = std::ssize(change.position);
   for (const SolvedState::Followed& followed : state.followed) {
     if (followed.mass != mass) continue;
-    const MatrixXd part = sliced(*followed.part, state.columns, x.rows()) * x;
+    MatrixXd part = MatrixXd::Zero(x.rows(), x.cols());
+    if (const Index n = followed.spring.size(); n > 0)  // own degrees of freedom of later causes lie below
+      part.topRows(n) = followed.spring * (followed.spring.transpose() * x.topRows(n));
+    else
+      part = sliced(*followed.part, state.columns, x.rows()) * x;
     for (Index j = 0; j < count; ++j) {
       const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(change.position[static_cast<std::size_t>(j)])];
       if (v.kind != Nuisance::Kind::parameter || v.index != followed.parameter) continue;

@@ -44,32 +44,12 @@ bool alike(const Symmetric& a, const Symmetric& b) {
 
 }  // namespace
 
-struct ElementPlaces::Sum {
-  Eigen::Index size = 0;
-  std::vector<Eigen::Triplet<double>> entries;
-  void add(const fe::ElementMatrix& part, double factor = 1.0) {
-    for (std::size_t i = 0; i < part.dofs.size(); ++i)
-      for (std::size_t j = 0; j < part.dofs.size(); ++j) {
-        const double value = part.matrix(static_cast<Index>(i), static_cast<Index>(j));
-        if (value != 0.0) entries.emplace_back(part.dofs[i], part.dofs[j], factor * value);
-      }
-  }
-};
-
-Symmetric ElementPlaces::free(const Sum& sum) const {
-  Eigen::SparseMatrix<double> full(sum.size, sum.size);
-  full.setFromTriplets(sum.entries.begin(), sum.entries.end());
-  const Eigen::SparseMatrix<double> right = full * expansion_;
-  Symmetric reduced = expansion_.transpose() * right;
-  reduced.prune(0.0);
-  return reduced;
-}
-
 ElementPlaces::ElementPlaces(const Structure& structure)
     : structure_(structure),
       model_(*structure.model),
       straight_sides_(fe::sides_beside_four_nodes(model_)),
-      expansion_(structure.system->expansion) {
+      expansion_(structure.system->expansion),
+      laws_(structure) {
   for (std::size_t e = 0; e < model_.elements.size(); ++e) {
     const fe::Element& element = model_.elements[e];
     if (element.type == fe::ElementType::stay) continue;
@@ -121,8 +101,15 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
   }
   for (std::size_t z = 0; z < centres.size(); ++z) {
     const fe::Element& centre = model_.elements[static_cast<std::size_t>(candidates_[static_cast<std::size_t>(centres[z])])];
-    places.sets["elements"].push_back(
-        {"element:" + std::to_string(centre.id), points[z], free(stiffness[z]), free(mass[z]), {}, {}, members[z]});
+    places.sets["elements"].push_back({"element:" + std::to_string(centre.id),
+                                       points[z],
+                                       free(stiffness[z]),
+                                       free(mass[z]),
+                                       {},
+                                       {},
+                                       members[z],
+                                       laws_.stiffness(members[z]),
+                                       laws_.mass(members[z])});
   }
 }
 
@@ -163,7 +150,9 @@ void ElementPlaces::add_stays(Places& places) const {
                 free(mass),
                 {},
                 {},
-                {static_cast<int>(e)}};
+                {static_cast<int>(e)},
+                laws_.stiffness({static_cast<int>(e)}),
+                laws_.mass({static_cast<int>(e)})};
     // A cable's own mode shakes its anchorages across the chord: directions are the two transverse ones of the lower end.
     const int low = ends[0].z() <= ends[1].z() ? element.nodes[0] : element.nodes[1];
     const Eigen::Vector3d along = (ends[1] - ends[0]).normalized();
@@ -210,6 +199,7 @@ Place ElementPlaces::damper_place(const fe::Spring& damper) const {
   place.attributes["series"] = damper.series ? 1.0 : 0.0;
   place.attributes["always_on"] = damper.active ? 1.0 : 0.0;
   if (damper.friction_N > 0.0) place.attributes["friction"] = damper.friction_N;
+  place.stiffness_law.ratio = laws_.of_spring(damper);
   return place;
 }
 
@@ -252,6 +242,7 @@ void ElementPlaces::add_supports(Places& places) const {
     Eigen::Vector3d x_m;
     bool rigid;
     std::array<Sum, 2> stiffness;  // of translations, of rotations
+    fe::Coefficient ratio;         // of all its springs, which are one group or one spring
   };
   std::vector<Support> supports;
   std::map<std::string, std::size_t> position;
@@ -263,7 +254,7 @@ void ElementPlaces::add_supports(Places& places) const {
     const auto [at, is_new] = position.try_emplace(name, supports.size());
     if (is_new) {
       const Eigen::Vector3d& x_m = model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
-      supports.push_back({name, x_m, false, {Sum{expansion_.rows(), {}}, Sum{expansion_.rows(), {}}}});
+      supports.push_back({name, x_m, false, {Sum{expansion_.rows(), {}}, Sum{expansion_.rows(), {}}}, laws_.of_spring(spring)});
     }
     Support& support = supports[at->second];
     support.rigid = support.rigid || rigid;
@@ -274,6 +265,7 @@ void ElementPlaces::add_supports(Places& places) const {
       const Sum& sum = support.stiffness[rotation ? 1 : 0];
       if (sum.entries.empty()) continue;
       Place place{"support:" + support.name, support.x_m, free(sum), {}, {}, {}, {}};
+      place.stiffness_law.ratio = support.ratio;
       // A spring that stands for a rigid support must fall by orders before anything moves; a bearing may err both ways.
       place.attributes["f_low"] = support.rigid ? 1e-6 : 0.02;
       place.attributes["f_soft"] = support.rigid ? 2e-5 : 0.25;
@@ -333,6 +325,7 @@ void ElementPlaces::add_groups(Places& places) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int count = 0;
     std::vector<int> elements;
+    std::vector<const fe::Spring*> springs;
   };
   std::vector<std::string> order;
   std::map<std::string, Group> groups;
@@ -359,6 +352,7 @@ void ElementPlaces::add_groups(Places& places) const {
     if (spring.node2 < 0 || spring.group.empty() || !fe::carries_stiffness(spring)) continue;
     Group& group = group_of(spring.group);
     group.stiffness.add(fe::spring_stiffness(spring));
+    group.springs.push_back(&spring);
     group.sum += model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
     ++group.count;
   }
@@ -372,7 +366,10 @@ void ElementPlaces::add_groups(Places& places) const {
       return other.id == place.id ||
              (other.stiffness.nonZeros() > 0 && alike(other.stiffness.whole(), place.stiffness.whole()));
     });
-    if (!known && place.stiffness.nonZeros() > 0) set.push_back(std::move(place));
+    if (known || place.stiffness.nonZeros() == 0) continue;
+    place.stiffness_law = laws_.stiffness(group.elements, group.springs);
+    place.mass_law = laws_.mass(group.elements);
+    set.push_back(std::move(place));
   }
 }
 
@@ -391,7 +388,7 @@ Place ElementPlaces::part(const std::vector<int>& elements) const {
       count += 1.0;
     }
   }
-  return {"", sum / count, free(stiffness), free(mass), {}, {}, elements};
+  return {"", sum / count, free(stiffness), free(mass), {}, {}, elements, laws_.stiffness(elements), laws_.mass(elements)};
 }
 
 bool ElementPlaces::stands_for_rigid(const fe::Spring& spring) const {
@@ -405,12 +402,14 @@ void ElementPlaces::fill_global(Place& global) const {
   const bool shells = std::any_of(model_.elements.begin(), model_.elements.end(),
                                   [](const fe::Element& e) { return e.type == fe::ElementType::shell; });
   double deck = 0.0;
+  std::vector<int> of_deck;
   for (const int e : candidates_) {
     const fe::Element& element = model_.elements[static_cast<std::size_t>(e)];
     stiffness.add(element_stiffness(model_, static_cast<std::size_t>(e), straight_sides_));
     if (shells && element.type != fe::ElementType::shell) continue;
     const fe::ElementMatrix m = fe::element_mass(model_, element);
     mass.add(m);
+    of_deck.push_back(e);
     const int per_node = static_cast<int>(m.dofs.size() / element.nodes.size());
     for (std::size_t i = 0; i < m.dofs.size(); i += static_cast<std::size_t>(per_node))
       for (std::size_t j = 0; j < m.dofs.size(); j += static_cast<std::size_t>(per_node))
@@ -418,6 +417,8 @@ void ElementPlaces::fill_global(Place& global) const {
   }
   global.stiffness = free(stiffness);
   global.mass = free(mass);
+  global.stiffness_law = laws_.stiffness(candidates_);
+  global.mass_law = laws_.mass(of_deck);
   if (deck > 0.0) global.attributes["deck_mass"] = deck;
 }
 

@@ -216,7 +216,7 @@ std::vector<Place> halves_of(const Structure& structure, const Places& places, c
     if (named == half.end()) continue;
     place.id = name_of_element(*named);
     taken.insert(place.id);
-    for (const char* kept : {"parameter", "least_change", "most_change"})
+    for (const char* kept : {"least_change", "most_change"})
       if (const auto number = whole.attributes.find(kept); number != whole.attributes.end()) place.attributes.insert(*number);
     out.push_back(std::move(place));
   }

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "diagnosis/reduction/element_laws.hpp"
+#include "diagnosis/reduction/element_sum.hpp"
 #include "diagnosis/reduction/structure.hpp"
 #include "fe/assembly_elements.hpp"
 
@@ -31,11 +33,15 @@ class ElementPlaces {
   void add_nodes(const std::vector<int>& chosen, Places& places) const;  ///< set nodes
   /// Some elements as a place, with its middle; the id is left empty.
   [[nodiscard]] Place part(const std::vector<int>& elements) const;
+  /// How the stiffness of some elements together goes with the parameters.
+  [[nodiscard]] ParameterLaw<CompactMatrix> stiffness_law(const std::vector<int>& elements) const {
+    return laws_.stiffness(elements);
+  }
   void fill_global(Place& global) const;  ///< stiffness of all but stays; mass of the deck (shells, else all elements)
 
  private:
-  struct Sum;  // element matrices being added up over full dofs
-  [[nodiscard]] Symmetric free(const Sum& sum) const;
+  using Sum = ElementSum;
+  [[nodiscard]] Symmetric free(const Sum& sum) const { return sum.free(expansion_); }
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;
   [[nodiscard]] Place damper_place(const fe::Spring& damper) const;
@@ -48,6 +54,7 @@ class ElementPlaces {
   std::vector<int> candidates_;  ///< elements that are no stays
   std::vector<Eigen::Vector3d> centroids_;
   std::vector<int> nodes_;
+  ElementLaws laws_;
 };
 
 }  // namespace twindeck::diagnosis

@@ -15,14 +15,14 @@ using Eigen::Index;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 const Eigen::Vector3d kNowhere = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
-/// Symmetric matrix of dK/dtheta · scale (or of M) on both triangles.
-Symmetric of_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const Eigen::VectorXd& theta,
-                   int parameter, double scale) {
+/// A sum of terms on both triangles. @param amounts  (n_terms)
+Symmetric of_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const std::vector<double>& amounts) {
   Triplets entries;
   const int* outer = system.pattern.outerIndexPtr();
   const int* inner = system.pattern.innerIndexPtr();
-  for (const fe::Term& term : terms) {
-    const double a = scale * term.coefficient.derivative(theta, parameter);
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const fe::Term& term = terms[t];
+    const double a = amounts[t];
     if (a == 0.0) continue;
     int column = 0;
     for (std::size_t i = 0; i < term.position.size(); ++i) {
@@ -39,6 +39,45 @@ Symmetric of_terms(const fe::ParametricSystem& system, const std::vector<fe::Ter
   matrix.resize(system.size(), system.size());
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
+}
+
+/// How a sum of terms goes with the parameters, each term as its own coefficient does.
+/// @param amounts  (n_terms) in the sum as the model stands
+ParameterLaw<CompactMatrix> law_of_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms,
+                                         const Eigen::VectorXd& theta, const std::vector<double>& amounts) {
+  ParameterLaw<CompactMatrix> law;
+  std::vector<fe::Coefficient> ratios;
+  std::vector<std::vector<double>> shares;  // (n_ratios × n_terms)
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (amounts[t] == 0.0) continue;
+    const fe::Coefficient ratio = ratio_of(terms[t].coefficient, theta);
+    const auto known = std::find_if(ratios.begin(), ratios.end(), [&](const auto& other) { return same_ratio(ratio, other); });
+    const auto at = static_cast<std::size_t>(known - ratios.begin());
+    if (known == ratios.end()) {
+      ratios.push_back(ratio);
+      shares.emplace_back(terms.size(), 0.0);
+    }
+    shares[at][t] = amounts[t];
+  }
+  if (!ratios.empty()) law.ratio = ratios.front();
+  for (std::size_t i = 1; i < ratios.size(); ++i)
+    law.parts.push_back({ratios[i], 1.0, CompactMatrix(of_terms(system, terms, shares[i]))});
+  return law;
+}
+
+/// The same of the whole structure's stiffness or mass. A correction term that starts at zero is not in it yet.
+ParameterLaw<CompactMatrix> law_of_all(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms,
+                                       const Eigen::VectorXd& theta) {
+  std::vector<double> amounts;
+  for (const fe::Term& term : terms) amounts.push_back(term.coefficient.value(theta));
+  ParameterLaw<CompactMatrix> law = law_of_terms(system, terms, theta, amounts);
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (amounts[t] != 0.0) continue;
+    std::vector<double> alone(terms.size(), 0.0);
+    alone[t] = 1.0;
+    law.parts.push_back({terms[t].coefficient, 0.0, CompactMatrix(of_terms(system, terms, alone))});
+  }
+  return law;
 }
 
 /// Picks `count` of the points so that they lie far from each other, the given ones first (farthest-point selection).
@@ -72,15 +111,22 @@ std::vector<Place> group_places(const Structure& structure) {
     Place place{"group:" + system.parameters[p].name, kNowhere, {}, {}, {}, {}, {}};
     const double scale = value != 0.0 ? value : 1.0;  // a correction term that starts at zero is counted in its own unit
     const fe::Parameter& parameter = system.parameters[p];
-    if (value != 0.0) place.attributes["parameter"] = static_cast<double>(p);  // the matrices are those at its value here
+    if (value != 0.0) place.attributes["parameter"] = static_cast<double>(p);
     // A material's modulus or density may be uncertain within its bounds, but it does not change from one state to another.
     const bool of_material = parameter.target == fe::Target::youngs_modulus || parameter.target == fe::Target::density;
     if (of_material && parameter.lower > 0.0 && parameter.upper > parameter.lower) {
       place.attributes["least_change"] = parameter.lower / parameter.upper;
       place.attributes["most_change"] = parameter.upper / parameter.lower;
     }
-    place.stiffness = of_terms(system, system.stiffness_terms, structure.theta, static_cast<int>(p), scale);
-    place.mass = of_terms(system, system.mass_terms, structure.theta, static_cast<int>(p), scale);
+    const auto scaled = [&](const std::vector<fe::Term>& terms, CompactMatrix& matrix, ParameterLaw<CompactMatrix>& law) {
+      std::vector<double> amounts;
+      for (const fe::Term& term : terms)
+        amounts.push_back(scale * term.coefficient.derivative(structure.theta, static_cast<int>(p)));
+      matrix = of_terms(system, terms, amounts);
+      if (value != 0.0) law = law_of_terms(system, terms, structure.theta, amounts);
+    };
+    scaled(system.stiffness_terms, place.stiffness, place.stiffness_law);
+    scaled(system.mass_terms, place.mass, place.mass_law);
     places.push_back(std::move(place));
   }
   return places;
@@ -162,6 +208,8 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
     places.sets["nodes"] = matrix_nodes(structure, options);
     global.stiffness = Symmetric(structure.system->stiffness(theta).selfadjointView<Eigen::Lower>());
     global.mass = Symmetric(structure.system->mass(theta).selfadjointView<Eigen::Lower>());
+    global.stiffness_law = law_of_all(*structure.system, structure.system->stiffness_terms, theta);
+    global.mass_law = law_of_all(*structure.system, structure.system->mass_terms, theta);
   } else {
     ElementPlaces elements(structure);
     if (options.zone_centres.empty())
@@ -183,6 +231,9 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
     for (const Place& stay : places.sets["stays"])
       stays.stiffness =
           stays.stiffness.size() == 0 ? stay.stiffness : Symmetric(stays.stiffness.whole() + stay.stiffness.whole());
+    std::vector<int> all;
+    for (const Place& stay : places.sets["stays"]) all.insert(all.end(), stay.elements.begin(), stay.elements.end());
+    stays.stiffness_law = elements.stiffness_law(all);
     if (stays.stiffness.size() > 0) places.sets["all_stays"] = {std::move(stays)};
   }
   if (places.total_mass_kg > 0.0) global.attributes["total_mass"] = places.total_mass_kg;

@@ -36,10 +36,19 @@ Symmetric symmetric_of(const fe::ParametricSystem& system, const fe::Term& term)
 /// Sets whose matrices are scattered, so that every state needs them in the coordinates of its causes.
 bool is_scattered(const std::string& set) { return set == "elements" || set == "nodes" || set == "stays"; }
 
+/// What goes with parameters otherwise than the rest of a place is used where the place is, never in every state.
+ParameterLaw<ReducedMatrix> reduced(const ParameterLaw<CompactMatrix>& law, const std::shared_ptr<const ReducedBasis>& basis) {
+  ParameterLaw<ReducedMatrix> out{law.ratio, {}};
+  for (const auto& part : law.parts) out.parts.push_back({part.ratio, part.held, ReducedMatrix(part.matrix, basis, false)});
+  return out;
+}
+
 /// A place in the coordinates of a basis, but for its columns.
 ReducedPlace reduced(const Place& place, const std::string& set, const std::shared_ptr<const ReducedBasis>& basis,
                      const StaticVectors& statics, double total_mass_kg) {
   ReducedPlace out{place.id, place.x_m, {}, {}, {}, {}, place.attributes};
+  out.stiffness_law = reduced(place.stiffness_law, basis);
+  out.mass_law = reduced(place.mass_law, basis);
   out.attributes.try_emplace("total_mass", total_mass_kg);
   if (place.stiffness.size() > 0) out.stiffness = ReducedMatrix(place.stiffness, basis, is_scattered(set));
   if (place.mass.size() > 0) out.mass = ReducedMatrix(place.mass, basis, is_scattered(set));
@@ -111,14 +120,6 @@ struct ReducedModel::Owner {
   ReducedPlace* reduced;
   int count;  ///< most vectors
 };
-
-double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
-                       const Eigen::VectorXd& value) {
-  const auto parameter = attributes.find("parameter");
-  if (parameter == attributes.end()) return 1.0;
-  const auto p = static_cast<Index>(parameter->second);
-  return reduced_at[p] != 0.0 ? value[p] / reduced_at[p] : 1.0;
-}
 
 OnLine on_line(const std::map<std::string, double>& attributes, double position) {
   const auto x = [&](Index i) { return attributes.at("x_" + std::to_string(i)); };
@@ -242,6 +243,8 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
       const int group = kept_->basis->place_of(own[i].front()).first;
       place.stiffness.keep(group);
       place.mass.keep(group);
+      for (auto* law : {&place.stiffness_law, &place.mass_law})
+        for (auto& part : law->parts) part.matrix.keep(group);
       place.directions.keep(group);
     }
     const MatrixXd v = beside(blocks);

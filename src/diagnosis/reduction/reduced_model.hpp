@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/reduction/parameter_law.hpp"
 #include "diagnosis/reduction/reduced_directions.hpp"
 #include "diagnosis/reduction/reduced_matrix.hpp"
 #include "diagnosis/reduction/reduction_options.hpp"
@@ -21,13 +22,8 @@ struct ReducedPlace {
   ReducedMatrix stiffness, mass;  ///< (r × r), size 0 if the location has none
   ReducedDirections directions;   ///< unit forces
   std::map<std::string, double> attributes;
+  ParameterLaw<ReducedMatrix> stiffness_law = {}, mass_law = {};  ///< how its matrices go with the parameters
 };
-
-/// Factor on the matrices of a location at other values of the parameters. For a group of elements that is scaled by a
-/// parameter, it is `value` / `reduced_at` of that parameter. For all other locations it is 1.
-/// @param reduced_at  (n_parameters) values at which the basis was made
-[[nodiscard]] double parameter_ratio(const std::map<std::string, double>& attributes, const Eigen::VectorXd& reduced_at,
-                                     const Eigen::VectorXd& value);
 
 /// Where a support that may move stands on its line: `part` of the way from station `first` to the next one.
 struct OnLine {

@@ -8,6 +8,7 @@
 
 #include "diagnosis/features/load_tests.hpp"
 #include "diagnosis/reduction/compact_matrix.hpp"
+#include "diagnosis/reduction/parameter_law.hpp"
 #include "fe/assembly.hpp"
 #include "fe/model.hpp"
 #include "fe/parametric_system.hpp"
@@ -44,6 +45,7 @@ struct Place {
   Eigen::SparseMatrix<double> directions;    ///< (n × k) unit forces: x y z of a node, a damper's line; size 0 where none
   std::map<std::string, double> attributes;  ///< numbers for a catalogue's expressions: "damping", "stiffness", "k_drive" …
   std::vector<int> elements;                 ///< positions of the elements that belong to it
+  ParameterLaw<CompactMatrix> stiffness_law = {}, mass_law = {};  ///< how what is there goes with the parameters
 };
 
 /// The places of a structure by set: elements, nodes, stays, dampers, damper_types ("dampers:C1,C2", all of a make), supports,

@@ -97,7 +97,7 @@ void ElementPlaces::add_support_moves(Places& places) const {
     const std::vector<std::pair<int, double>> line = line_through(model_, beams, node);
     constexpr std::size_t kFewest = 4;  // nodes that a support can go between
     if (line.size() < kFewest) continue;
-    Place place{support.id, support.x_m, support.stiffness, {}, {}, {}, {}};
+    Place place{support.id, support.x_m, support.stiffness, {}, {}, {}, {}, support.stiffness_law};
     std::vector<Eigen::Triplet<double>> entries;
     const auto per_node = static_cast<Index>(springs.size());
     const Vector3d x = model_.nodes[static_cast<std::size_t>(node)].x_m;

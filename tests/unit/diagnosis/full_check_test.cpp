@@ -165,6 +165,26 @@ TEST(FullCheck, BodiesAndCablesSwing) {
   }
 }
 
+// A body that only moves vertically has one degree of freedom, in the check as in the fit.
+TEST(FullCheck, ABodySwingsVertically) {
+  TwoNodes nodes;
+  const double m = 150.0, hertz = 4.0, own = m * std::pow(2.0 * std::numbers::pi * hertz, 2);
+  MatrixXd k = MatrixXd::Zero(7, 7), mass = k;
+  k.topLeftCorner(6, 6) = nodes.stiffness;
+  mass.topLeftCorner(6, 6) = nodes.mass;
+  mass(6, 6) = m;
+  k += own * squared(VectorXd::Unit(7, 6) - VectorXd::Unit(7, 2));
+  HandMade body("element.oscillator", {{"mass", m}, {"frequency", hertz}}, {nodes.model.place("nodes", "node:1")});
+  body.with_text("direction", "vertical");
+  const auto check = nodes.check({body.cause()}, 9);
+  ASSERT_EQ(check.full_Hz.size(), 7);
+  nodes.expect(check, k, mass);
+  nodes.model.features.rows.clear();
+  nodes.model.add_frequencies(dense_hertz(k, mass));
+  const auto predicted = nodes.model.predict({body.cause()});
+  for (int i = 0; i < 7; ++i) EXPECT_NEAR(predicted.g[i], std::log(dense_hertz(k, mass)[i]), 1e-7);
+}
+
 diagnosis::Place on_dof(const std::string& id, int node, int direction, double stiffness, double mass = 0.0) {
   diagnosis::Place place{id, Vector3d::Zero(), {}, {}, {}, {}, {}};
   place.stiffness = diagnosis::Symmetric(MatrixXd(stiffness * squared(TwoNodes::axis(node, direction))).sparseView());

@@ -343,6 +343,20 @@ TEST(CausesOfDampers, SpringBesideOrInSeries) {
   series.expect_roots({mount.cause()}, roots_in_series(series.k, series.m, 1, 2e5, 8e3));
 }
 
+TEST(CausesOfDampers, TheSpringOfAFittedOneIsInTheModelAlready) {
+  FourMasses four = damped({{"damping", 8e3}, {"stiffness", 4e5}, {"always_on", 1.0}});
+  const auto* damper = four.model.place("dampers", "damper:D");
+  four.expect_roots({}, damped_roots(four.k, four.m, dashpot(8e3)));
+  MatrixXd without = four.k;
+  without(1, 1) -= 4e5;
+  const Eigen::VectorXcd off = damped_roots(without, four.m, dashpot(0.0));
+  four.expect_roots({HandMade("damper.absent", {}, {damper}).cause()}, off);
+  four.expect_roots({HandMade("damper.series", {{"stiffness", 2e5}}, {damper}).cause()},
+                    roots_in_series(without, four.m, 1, 2e5, 8e3));
+  four.condition().dampers_on = false;
+  four.expect_roots({}, off);
+}
+
 TEST(CausesOfDampers, OneThatIsMovedActsElsewhere) {
   FourMasses four([](diagnosis::Places& places) {
     places.sets["dampers"] = {damper_at(4, 1, {{"damping", 8e3}})};
