@@ -48,6 +48,10 @@ void scale_materials(fe::Model& model, const std::vector<int>& elements, double 
     const auto [at, is_new] = copies.try_emplace(element.material, static_cast<int>(model.materials.size()));
     if (is_new) {
       fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
+      for (fe::Parameter& parameter : model.parameters)  // which go on scaling the part
+        if ((parameter.target == fe::Target::youngs_modulus || parameter.target == fe::Target::density) &&
+            std::find(parameter.of.begin(), parameter.of.end(), material.name) != parameter.of.end())
+          parameter.of.push_back(material.name + "_" + tag);
       material.name += "_" + tag;
       material.youngs_modulus_Pa *= modulus;
       material.shear_modulus_Pa *= modulus;
@@ -112,11 +116,16 @@ void move_support(fe::Model& model, const Place& place, const std::string& name,
     if (of_support(model, spring, name) && !spring.rotation) spring.node = node;
 }
 
-/// A spring from a node to the ground: vertical where the action says so and the node can move so, else in all directions.
-void add_prop(fe::Model& model, int node, const ReducedPlace& place, const ActionSpec& action, double stiffness) {
+/// Whether an action goes vertically: it says so and the node can move so. Else it goes in all directions.
+bool is_vertical(const Candidate& candidate, const ActionSpec& action) {
   const auto named = action.text.find("direction");
-  const bool vertical = named != action.text.end() && named->second == "vertical" &&
-                        !(place.directions.cols() == 3 && place.directions.is_zero(2));
+  if (named == action.text.end() || named->second != "vertical") return false;
+  const ReducedDirections& directions = candidate.places.front()->directions;
+  return !(directions.cols() == 3 && directions.is_zero(2));
+}
+
+/// A spring from a node to the ground.
+void add_prop(fe::Model& model, int node, bool vertical, double stiffness) {
   for (int d = vertical ? 2 : 0; d < 3; ++d) {
     fe::Spring spring;
     spring.name = fmt::format("prop_{}_{}", model.nodes[static_cast<std::size_t>(node)].id, "xyz"[d]);
@@ -128,15 +137,15 @@ void add_prop(fe::Model& model, int node, const ReducedPlace& place, const Actio
   }
 }
 
-/// A body on springs beside a node: a node of its own that only moves.
-void add_oscillator(fe::Model& model, int node, double mass, double frequency_Hz) {
+/// A body on springs beside a node: a node of its own that only moves, or only moves vertically.
+void add_oscillator(fe::Model& model, int node, bool vertical, double mass, double frequency_Hz) {
   long id = 0;
   for (const fe::Node& n : model.nodes) id = std::max(id, n.id);
   model.nodes.push_back({id + 1, model.nodes[static_cast<std::size_t>(node)].x_m});
   const auto body = static_cast<int>(model.nodes.size()) - 1;
-  model.supports.push_back({"oscillator_" + std::to_string(id + 1), body, {false, false, false, true, true, true}});
+  model.supports.push_back({"oscillator_" + std::to_string(id + 1), body, {vertical, vertical, false, true, true, true}});
   model.masses.push_back({"oscillator", body, mass, Eigen::Vector3d::Zero()});
-  for (int d = 0; d < 3; ++d) {
+  for (int d = vertical ? 2 : 0; d < 3; ++d) {
     fe::Spring spring;
     spring.name = fmt::format("oscillator_{}_{}", id + 1, "xyz"[d]);
     spring.group = "oscillator";
@@ -267,11 +276,12 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const Places& places, const
   if (kind == "support.move")
     move_support(model, to.place(), to.name, to.value(action, "position"));
   else if (kind == "element.spring")
-    add_prop(model, node_position(model, to.name), *c.places.front(), action, to.value(action, "stiffness"));
+    add_prop(model, node_position(model, to.name), is_vertical(c, action), to.value(action, "stiffness"));
   else if (kind == "mass.add")
     model.masses.push_back({"added_mass", node_position(model, to.name), to.value(action, "mass"), Eigen::Vector3d::Zero()});
   else if (kind == "element.oscillator")
-    add_oscillator(model, node_position(model, to.name), to.value(action, "mass"), to.value(action, "frequency"));
+    add_oscillator(model, node_position(model, to.name), is_vertical(c, action), to.value(action, "mass"),
+                   to.value(action, "frequency"));
   else if (kind.starts_with("damper."))
     apply_damper(to, action);
   else

@@ -57,6 +57,7 @@ SearchOptions beside_a_leader(SearchOptions options) {
 Index oscillator_frequency(const Candidate& candidate) {
   const Hypothesis& h = *candidate.hypothesis;
   if (h.actions.size() != 1 || h.actions[0].kind != "element.oscillator") return -1;
+  if (h.actions[0].text.contains("direction")) return -1;  // a mass moves in all three
   const std::string& name = h.actions[0].number.at("frequency").name;
   for (std::size_t i = 0; i < h.unknowns.size(); ++i)
     if (name == "$" + h.unknowns[i].name) return static_cast<Index>(i);

@@ -135,6 +135,20 @@ TEST(ExtendedModel, AnOscillatorSplitsEveryMode) {
   EXPECT_EQ(two.elements->nodes.back().id, 14);  // each a node of its own
 }
 
+TEST(ExtendedModel, AnOscillatorThatOnlyMovesVerticallySplitsThatModeAlone) {
+  const DiagnosedModel prepared = ready(Body().model());
+  const ReducedPlace node;
+  At osc("element.oscillator", {{"mass", 150.0}, {"frequency", 9.0}}, "nodes", "node:12", {&node});
+  osc.with_text("direction", "vertical");
+  const ExtendedModel out = diagnosis::extended_model(prepared, Places(), diagnosis_with({&osc}));
+  EXPECT_EQ(out.holds, std::vector<bool>{true});
+  const double ka = 150.0 * std::pow(2.0 * std::numbers::pi * 9.0, 2);
+  MatrixXd k = MatrixXd(Eigen::Vector4d(2e6, 5e6, 9e6 + ka, ka).asDiagonal());
+  k(2, 3) = k(3, 2) = -ka;
+  const MatrixXd m = Eigen::Vector4d(1000.0, 1000.0, 1000.0, 150.0).asDiagonal();
+  expect_close(model_hertz(*out.elements, 4), dense_hertz(k, m));
+}
+
 /// Two bodies in a plane, three metres apart on x and four on y.
 fe::Model two_bodies(const Vector3d& second = {3.0, 4.0, 0.0}) {
   fe::Model m;

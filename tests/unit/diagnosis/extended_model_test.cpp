@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fe/assembly_parameters.hpp"
 #include "fe/validate.hpp"
 #include "unit/diagnosis/found_causes.hpp"
 
@@ -168,6 +169,22 @@ TEST(ExtendedModel, AParameterAndAnElementOfItAreBothInIt) {
   expected.right *= 0.6 * 0.5;
   expect_close(model_hertz(*line.with({&all, &one}).elements, 2), expected.hertz());
   expect_close(model_hertz(*line.with({&one, &all}).elements, 2), expected.hertz());
+}
+
+TEST(ExtendedModel, AMaterialOfACauseGoesOnWithItsParameters) {
+  // Whoever updates the extended model moves the soft element with the rest of its steel.
+  fe::Model model = with_modulus(Line().model());
+  model.parameters.push_back({"rho", fe::Target::density, {"steel"}, "kg/m3", Line::kDensity, 7000.0, 8500.0});
+  const InTheLine line(std::move(model));
+  const At soft("scale.stiffness", {{"factor", 0.5}}, "elements", "element:8");
+  const ExtendedModel out = line.with({&soft});
+  for (const fe::Parameter& parameter : out.elements->parameters)
+    EXPECT_EQ(parameter.of, (std::vector<std::string>{"steel", "steel_h_8"})) << parameter.name;
+  Line expected;
+  expected.left *= 1.05;
+  expected.right *= 1.05 * 0.5;
+  const fe::Model updated = fe::with_parameters(*out.elements, Eigen::Vector2d(1.05 * Line::kModulus, Line::kDensity));
+  expect_close(model_hertz(updated, 2), expected.hertz());
 }
 
 TEST(ExtendedModel, AnAreaHasMassToo) {
