@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "diagnosis/form_magnitudes.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
@@ -21,7 +22,8 @@ const std::string kFromState = "from state ", kBeforeState = "before ";  // as C
 constexpr double kManySmall = 0.5;       // of the form error's variance in frequencies: many small causes
 constexpr double kLeastSingular = 1e-5;  // of the largest singular value: principal columns below carry nothing
 constexpr double kNoEffect = 1e-6;       // RMS change of ln f: a hypothesis below moves nothing here
-constexpr double kFreeScale = 10.0;      // of a shape, relative: wide enough to cost nothing
+constexpr double kSmall = 0.1;  // of the screen's first magnitude: there effects are proportional and modes keep their order
+constexpr double kFreeScale = 10.0;  // of a shape, relative: wide enough to cost nothing
 
 const std::vector<std::string>& contrast_keys() {
   static const std::vector<std::string> keys = {"dampers", "amplitude_m", "temperature_C", "wind_m_s", "people"};
@@ -178,8 +180,10 @@ MatrixXd many_small_causes(const Inference& inference, const Fit& fit, const std
   for (const auto& candidate : inference.candidates()) {
     const bool everywhere = candidate->state.empty() && contrast_of(*candidate, contrasts) < 0;
     if (!everywhere || candidate->hypothesis->measurement || candidate->tuned >= 0 || candidate->low.size() != 1) continue;
-    const auto tried = inference.tried(fit, *candidate);
-    if (!tried.empty()) by_hypothesis[candidate->hypothesis->id].push_back(tried.front().change);
+    VectorXd small = candidate->starts.front();
+    if (is_a_size(*candidate)) small[0] = scaled_magnitude(*candidate, small[0], kSmall);
+    if (VectorXd change = inference.change(fit, *candidate, small); change.size() > 0)
+      by_hypothesis[candidate->hypothesis->id].push_back(std::move(change));
   }
   const std::vector<int>& rows = inference.training();
   std::vector<int> frequencies;

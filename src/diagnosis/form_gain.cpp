@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/form_magnitudes.hpp"
+
 namespace twindeck::diagnosis {
 
 namespace {

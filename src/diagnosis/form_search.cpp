@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "diagnosis/form_magnitudes.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -84,12 +85,6 @@ int leftover_contrast(const FormEntry& entry, const Leftover& leftover) {
 double leftover_effect(const FormEntry& entry, double own, const Leftover& leftover) {
   if (entry.contrast < 0) return leftover.effect;
   return entry.contrast == leftover.contrast ? std::max(own, leftover.effect) : own;
-}
-
-/// A start for a fit where the effect should be t times as large: ln of a factor and rates scale, other logarithms shift.
-double scaled_magnitude(const Candidate& candidate, double a, double t) {
-  const bool factor = candidate.hypothesis->unknowns[0].name == "factor" || !candidate.log[0];
-  return std::clamp(factor ? t * a : a + std::log(t), candidate.low[0], candidate.high[0]);
 }
 
 /// Screen of every entry, none and something else at the base.
@@ -333,20 +328,9 @@ std::vector<FormEntry*> worth_refining(FormSearch& search, const std::set<const 
 
 }  // namespace
 
-bool is_a_size(const Candidate& candidate) {
-  const auto& actions = candidate.hypothesis->actions;
-  return candidate.low.size() > 0 && candidate.tuned < 0 &&
-         std::none_of(actions.begin(), actions.end(), [](const ActionSpec& action) { return action.kind == "support.move"; });
-}
-
 double log_prior_of_none() { return std::log(kNone); }
 double log_prior_of_something_else() { return std::log(kSomethingElse); }
 double log_prior_of(const Candidate& candidate) { return std::log(kCatalogue) + candidate.log_prior; }
-
-std::vector<double> magnitude_factors(const Candidate& candidate) {
-  if (candidate.low.size() != 1 || !is_a_size(candidate)) return {1.0};
-  return {0.15, 0.3, 0.55, 1.0, 1.5};
-}
 
 FormSearch search_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover) {
   FormSearch out;

@@ -54,13 +54,6 @@ struct FormSetting {
   Eigen::MatrixXd many;  ///< columns of many_small_causes, a part of the form error
 };
 
-/// Whether the effect of a candidate grows with its first magnitude. There are three exceptions. The effect of a tuned cause
-/// depends on its frequency. The position of a moved support is not a size. A candidate without unknowns has no magnitude.
-[[nodiscard]] bool is_a_size(const Candidate& candidate);
-
-/// Factors on the magnitudes of the screen (n_factors); 1 alone if they cannot be scaled.
-[[nodiscard]] std::vector<double> magnitude_factors(const Candidate& candidate);
-
 /// First computes the evidence of every hypothesis at `base`, the fit with the accepted causes. Then fits the model with each
 /// leading entry in it, once from `base` and once from the prior mean, and linearises there. The larger evidence counts.
 [[nodiscard]] FormSearch search_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover);

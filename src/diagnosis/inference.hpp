@@ -99,6 +99,8 @@ class Inference {
   /// Signature of a candidate at coordinates a, whitened; empty where it cannot be computed.
   [[nodiscard]] Eigen::VectorXd signature(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
 
+  /// What a candidate at coordinates a does to all rows; empty where it cannot be computed.
+  [[nodiscard]] Eigen::VectorXd change(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
   /// What a candidate does to all rows at the magnitudes that the screen tries.
   struct Tried {
     Eigen::VectorXd a, change;  ///< coordinates; g(x, a) - g(x) (n_rows)
@@ -122,8 +124,6 @@ class Inference {
   };
   /// Magnitudes that the screen tries, those tuned to modes where the base has the modes.
   [[nodiscard]] std::vector<Eigen::VectorXd> starts_at(const Fit& base, const Candidate& candidate) const;
-  /// What a candidate at coordinates a does to all rows; empty where it cannot be computed.
-  [[nodiscard]] Eigen::VectorXd change(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
   /// The best magnitude of the screen at the promised starts. @param from_table  changes of the table instead of new ones
   /// @param by_start  screens and starts, the best first; may be null @param record  takes the new changes, (n_starts); may be
   /// null

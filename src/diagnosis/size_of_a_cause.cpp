@@ -1,6 +1,6 @@
 #include "diagnosis/size_of_a_cause.hpp"
 
-#include "diagnosis/form_search.hpp"
+#include "diagnosis/form_magnitudes.hpp"
 
 namespace twindeck::diagnosis {
 

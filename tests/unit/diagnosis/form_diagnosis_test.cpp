@@ -69,6 +69,34 @@ TEST(ManySmallCauses, ShareTheFormErrorByHypothesis) {
   EXPECT_EQ(diagnosis::many_small_causes(*sensors.inference, sensors.inference->fit({}, {}), {}).cols(), 0);
 }
 
+// Oracle: the first derivatives of frequencies, d ln f = (b'phi)² dk / 2 omega² (Fox and Kapoor 1968), of the dense
+// eigenproblem.
+TEST(ManySmallCauses, AreSmallSoThatEffectsAreProportional) {
+  const Chain chain({.masses = 10, .modes = 5});
+  const Examined e = examine(chain, all_rows(chain.measure(chain.as_modelled())), catalogue({"stiffness"}));
+  const Eigen::MatrixXd many = diagnosis::many_small_causes(*e.inference, e.inference->fit({}, {}), {});
+  std::vector<Index> rows;
+  for (std::size_t r = 0; r < e.inference->training().size(); ++r)
+    if (e.map->features().rows[static_cast<std::size_t>(e.inference->training()[r])].type == diagnosis::RowType::frequency)
+      rows.push_back(static_cast<Index>(r));
+  ASSERT_EQ(rows.size(), 5u);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(chain.stiffness(chain.as_modelled()) / Chain::kMass);
+  Eigen::MatrixXd slopes(5, 11);
+  for (Index spring = 0; spring < 11; ++spring) {
+    ChainTruth only = chain.as_modelled();
+    only.spring.setZero();
+    only.spring[spring] = 1.0;
+    const Eigen::MatrixXd shapes = eigen.eigenvectors().leftCols(5);
+    slopes.col(spring) =
+        (shapes.transpose() * chain.stiffness(only) * shapes).diagonal().cwiseQuotient(eigen.eigenvalues().head(5));
+  }
+  const auto correlation = [](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd covariance = columns * columns.transpose();
+    return covariance / covariance.trace();
+  };
+  EXPECT_LT((correlation(many(rows, Eigen::all)) - correlation(slopes)).norm() / correlation(slopes).norm(), 0.02);
+}
+
 TEST(FormSearch, ExchangedChannelsAreTheSameRowsUnderOtherNames) {
   // The evidence of the rows as measured without a cause is that of the exchanged rows under "exchanged": the columns go with
   // the channels.
