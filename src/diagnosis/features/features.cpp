@@ -60,6 +60,11 @@ std::vector<std::string> states_of(const FeatureSet& features) {
   return out;
 }
 
+std::string last_state(const FeatureSet& features) {
+  const std::vector<std::string> states = states_of(features);
+  return states.empty() ? std::string() : states.back();
+}
+
 const std::vector<std::string>& row_type_names() {
   static const std::vector<std::string> names = {"frequency_Hz",        "damping_ratio_pct", "shape",           "shape_imag",
                                                  "stay_frequency_Hz",   "rms_m_s2",          "psd_floor_m2_s3", "static_m",

@@ -76,6 +76,9 @@ void hold_out_by_rule(FeatureSet& features);
 /// first of the file. One name where the structure was the same throughout.
 [[nodiscard]] std::vector<std::string> states_of(const FeatureSet& features);
 
+/// The last of them, which is the one to repair.
+[[nodiscard]] std::string last_state(const FeatureSet& features);
+
 /// "frequency_Hz" and so on, as in rows.csv.
 [[nodiscard]] const std::vector<std::string>& row_type_names();
 [[nodiscard]] std::string name_of(RowType type);

@@ -6,9 +6,9 @@
 
 #include "diagnosis/files/measurement_corrections.hpp"
 #include "diagnosis/form_diagnosis.hpp"
+#include "diagnosis/paired_check.hpp"
 #include "diagnosis/refinement.hpp"
 #include "steps/diagnosis/extension.hpp"
-#include "steps/diagnosis/full_model_check.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/setup.hpp"
 
@@ -70,13 +70,28 @@ void write_tables(const diagnosis::Inference& inference, const diagnosis::Instan
 
 /// The model of the last state; what acts in others alone is none of it.
 void write_extension(const DiagnosisInputs& inputs, const diagnosis::Diagnosis& result, runner::StepContext& context) {
-  const std::string state = last_state(inputs.features);
+  const std::string state = diagnosis::last_state(inputs.features);
   const bool several = diagnosis::states_of(inputs.features).size() > 1;
   const std::vector<std::string> others =
       write_extended_model(*inputs.extended, inputs.places, result, state, several, context.out / "extended_model");
   if (!others.empty())
     context.warn(fmt::format("the extended model is that of state {}: what acts in other states alone is not in it ({})", state,
                              fmt::join(others, ", ")));
+}
+
+/// Says how far the reduced basis and the full model agree, and warns where the basis is too small for the measured modes.
+void say_check(const diagnosis::FullCheck& check, double allowed_pct, long modes, runner::StepContext& context) {
+  if (!check.message.empty()) {
+    context.warn("the extended model was not checked against the full one, which cannot be solved: " + check.message);
+    return;
+  }
+  context.say(fmt::format("reduced basis against the full model: the {} paired frequencies agree to {:.4f} %",
+                          check.full_Hz.size(), check.largest_pct));
+  if (check.largest_pct > allowed_pct)
+    context.warn(
+        fmt::format("the reduced basis is too small for the measured modes: their frequencies are up to {:.2g} % off the "
+                    "full model's (more than {:.2g} %); set modes above {}",
+                    check.largest_pct, allowed_pct, modes));
 }
 
 Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
@@ -115,7 +130,9 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
   const diagnosis::Inference judged(result.with_form ? *result.with_form : map, entries.candidates);
   write_tables(judged, entries, result, context.out);
   write_extension(inputs, result, context);
-  const diagnosis::FullCheck check = checked_against_full(inputs, map, result, context);
+  const diagnosis::FullCheck check =
+      check_paired_modes(inputs.model->structure(), inputs.places, map, result, diagnosis::last_state(inputs.features));
+  say_check(check, diagnosis::allowed_basis_error_pct(result), inputs.basis_modes, context);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::vector<records::Correction> corrections = diagnosis::corrections_of(result, inputs.features.channels);
   const std::vector<std::string> next = diagnosis::measure_next(result, places, ids, entries.invisible);

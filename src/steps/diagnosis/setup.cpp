@@ -9,9 +9,9 @@
 #include "diagnosis/files/feature_files.hpp"
 #include "diagnosis/files/threshold_file.hpp"
 #include "diagnosis/null_calibration.hpp"
+#include "diagnosis/reduction/basis_modes.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "matching/mode_name.hpp"
-#include "steps/diagnosis/basis_modes.hpp"
 
 namespace twindeck::steps {
 
@@ -34,8 +34,8 @@ std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::Featu
 constexpr double kAlike = 0.6;  ///< MAC where least_mac says nothing: below it two shapes share less than they do not
 
 /// Where the highest measured frequency is so far up that no basis holds the modes below it.
-void refuse_endless_basis(const BasisModes& basis, const dynamics::LoadedModel& loaded, const diagnosis::FeatureSet& features,
-                          runner::StepContext& context) {
+void refuse_endless_basis(const diagnosis::BasisModes& basis, const dynamics::LoadedModel& loaded,
+                          const diagnosis::FeatureSet& features, runner::StepContext& context) {
   if (basis.enough) return;
   warn_of_unit_slips(context, loaded, basis.frequency_Hz, frequencies_of(features));  // which may be why
   throw InputError(
@@ -47,7 +47,7 @@ void refuse_endless_basis(const BasisModes& basis, const dynamics::LoadedModel& 
 }
 
 /// Places and reduced model of the model as it is now.
-void reduce(const diagnosis::PlaceOptions& place_options, const BasisModes& basis, DiagnosisInputs& inputs) {
+void reduce(const diagnosis::PlaceOptions& place_options, const diagnosis::BasisModes& basis, DiagnosisInputs& inputs) {
   const diagnosis::Structure& structure = inputs.structure;
   inputs.places = diagnosis::find_places(structure, place_options);
   inputs.structure.load_tests =
@@ -110,7 +110,8 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
   place_options.moves = files.moves;
   inputs.structure = inputs.model->structure();
-  const BasisModes basis = modes_of_basis(inputs.structure, inputs.features, static_cast<int>(config.modes));
+  const diagnosis::BasisModes basis =
+      diagnosis::modes_of_basis(inputs.structure, inputs.features, static_cast<int>(config.modes));
   refuse_endless_basis(basis, loaded, inputs.features, context);
   inputs.basis_modes = basis.modes;
   reduce(place_options, basis, inputs);
@@ -124,11 +125,6 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
     inputs.account.push_back(*unpaired);
   diagnosis::hold_out(config.hold_out, config.with_form(inputs.features), inputs.features);
   return inputs;
-}
-
-std::string last_state(const diagnosis::FeatureSet& features) {
-  const std::vector<std::string> states = diagnosis::states_of(features);
-  return states.empty() ? std::string() : states.back();
 }
 
 std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,

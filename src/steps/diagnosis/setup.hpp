@@ -38,9 +38,6 @@ struct DiagnosisInputs {
 [[nodiscard]] DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
                                                 runner::StepContext& context);
 
-/// The last state of the structure that rows were measured in, which is the one to repair.
-[[nodiscard]] std::string last_state(const diagnosis::FeatureSet& features);
-
 /// Threshold of the largest log odds: of a cached null calibration where the same model, rows (without their values), catalogue
 /// and rule were run before, of one run now where the configuration asks for it, else the analytic tail.
 struct Threshold {

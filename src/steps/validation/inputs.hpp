@@ -17,7 +17,7 @@ struct ValidationInputs {
   aero::WindSettings aerodynamics;          ///< of step 7
   dynamics::ReadModel model;                ///< the updated one
   std::vector<aero::SectionAero> sections;  ///< of the set, at the level that step 7 fitted
-  MeasuredRms measured;
+  buffeting::MeasuredRms measured;
 };
 [[nodiscard]] ValidationInputs read_validation_inputs(const ValidationConfig& config, runner::StepContext& context);
 

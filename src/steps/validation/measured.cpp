@@ -11,28 +11,11 @@
 #include "buffeting/bridge_in_wind.hpp"
 #include "core/error.hpp"
 #include "records/campaign.hpp"
+#include "records/vertical_channel.hpp"
 #include "signal/condition.hpp"
 
 namespace twindeck::steps {
 namespace {
-
-/// |dz| of a vertical channel: within 5 degrees, more than the fall of a deck. Such a tilt takes 0.4 % from a vertical motion.
-constexpr double kLeastVertical = 0.9962;
-
-/// Why a channel is not the vertical acceleration at a point, in words; empty where it is.
-std::string other_than_vertical_acceleration(const records::CampaignChannel& channel, const Eigen::Vector3d& point_m,
-                                             double tolerance_m) {
-  if (channel.is_input) return "its role is input";
-  if (channel.quantity != "acceleration") return "it is a " + channel.quantity;
-  if (!channel.direction.allFinite()) return "its direction dx, dy, dz is not given";
-  if (std::abs(channel.direction.z()) < kLeastVertical)
-    return fmt::format("its direction is ({:.3g}, {:.3g}, {:.3g})", channel.direction.x(), channel.direction.y(),
-                       channel.direction.z());
-  const double distance = (channel.position_m - point_m).norm();
-  if (distance > tolerance_m)  // a position that is not given is no contradiction
-    return fmt::format("it lies {:.3g} m from the point, expected at most {:.3g} m", distance, tolerance_m);
-  return "";
-}
 
 /// Channels that are the vertical acceleration at the monitoring point of their name. Warns of those that are not.
 std::set<std::string> vertical_channels(runner::StepContext& context, const records::Campaign& campaign, const fe::Model& model,
@@ -42,7 +25,7 @@ std::set<std::string> vertical_channels(runner::StepContext& context, const reco
   for (const records::CampaignChannel& channel : campaign.channels) {
     if (std::find(points.begin(), points.end(), channel.name) == points.end()) continue;
     const Eigen::Vector3d& x_m = model.nodes[static_cast<std::size_t>(model.monitoring_points.at(channel.name))].x_m;
-    const std::string other = other_than_vertical_acceleration(channel, x_m, tolerance_m);
+    const std::string other = records::other_than_vertical_acceleration(channel, x_m, tolerance_m);
     if (other.empty())
       vertical.insert(channel.name);
     else
@@ -60,7 +43,7 @@ class MeanSquares {
     sum.square += values.squaredNorm();
     sum.samples += static_cast<double>(values.size());
   }
-  void write(const std::string& event, MeasuredRms& out) const {
+  void write(const std::string& event, buffeting::MeasuredRms& out) const {
     for (const auto& [channel, sum] : sums_) out[{event, channel}] = std::sqrt(sum.square / sum.samples);
   }
 
@@ -84,8 +67,8 @@ std::optional<std::filesystem::path> folder_of(const runner::StepContext& contex
 
 }  // namespace
 
-MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config, const fe::Model& model) {
-  MeasuredRms out;
+buffeting::MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config, const fe::Model& model) {
+  buffeting::MeasuredRms out;
   const bool wanted = std::any_of(config.events.begin(), config.events.end(),
                                   [](const buffeting::WindEvent& e) { return !e.condition.empty(); });
   if (!wanted) return out;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "buffeting/paper_statements.hpp"
 #include "fe/model.hpp"
 #include "runner/run_step.hpp"
 #include "steps/validation/validation_config.hpp"
@@ -16,7 +17,8 @@ namespace twindeck::steps {
 /// given. A channel that has the name and is something else is left out with a warning. Empty for events whose condition is
 /// not named. `--campaign`, or the study's s0_campaign.
 /// @throws InputError  if the campaign is there but has no wind record of a condition that is named
-using MeasuredRms = std::map<std::pair<std::string, std::string>, double>;
-[[nodiscard]] MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config, const fe::Model& model);
+
+[[nodiscard]] buffeting::MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config,
+                                                  const fe::Model& model);
 
 }  // namespace twindeck::steps

@@ -23,7 +23,7 @@ std::string word(aero::StaticRule rule) {
 }  // namespace
 
 void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
-               const MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder) {
+               const buffeting::MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "run", "model", "channel", "direction", "rms_m_s2", "rms_low_m_s2", "rms_high_m_s2",
                      "seed_deviation_m_s2", "peak_m_s2", "spectral_rms_m_s2", "spectral_rms_each_frequency_m_s2",
                      "measured_rms_m_s2", "error_pct", "error_low_pct", "error_high_pct"});
@@ -56,6 +56,12 @@ void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting
     }
   }
   csv.save(folder / "rms.csv");
+}
+
+void write_statements(const std::vector<buffeting::PaperStatement>& statements, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"statement", "found", "verdict"});
+  for (const buffeting::PaperStatement& said : statements) csv.row({said.statement, said.found, said.holds ? "hit" : "miss"});
+  csv.save(folder / "statements.csv");
 }
 
 void write_comfort(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,

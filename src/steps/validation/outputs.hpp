@@ -6,6 +6,7 @@
 #include "buffeting/bridge_in_wind.hpp"
 #include "buffeting/field_statistics.hpp"
 #include "buffeting/interval.hpp"
+#include "buffeting/paper_statements.hpp"
 #include "buffeting/simulated_runs.hpp"
 #include "buffeting/time_checks.hpp"
 #include "steps/validation/measured.hpp"
@@ -21,7 +22,10 @@ namespace twindeck::steps {
 /// 1), empty without a measured side. The bounds are those of the mean over seeds. Where the bridge is unstable in an event and
 /// a run, all that is simulated is empty.
 void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
-               const MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder);
+               const buffeting::MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder);
+
+/// statements.csv: `statement,found,verdict`, hit or miss.
+void write_statements(const std::vector<buffeting::PaperStatement>& statements, const std::filesystem::path& folder);
 
 /// comfort.csv: `event,run,direction,deck,station_m,peak_m_s2,peak_low_m_s2,peak_high_m_s2,limit_m_s2,verdict`: the aerodynamic
 /// node with the largest mean peak, against the comfort limits: "within", "exceeded", or "unstable", which has no peak.

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "buffeting/bridge_in_wind.hpp"
+#include "buffeting/paper_statements.hpp"
 #include "buffeting/simulated_runs.hpp"
 #include "buffeting/time_checks.hpp"
 #include "steps/validation/outputs.hpp"
-#include "steps/validation/statements.hpp"
 
 namespace twindeck::steps {
 
@@ -51,7 +51,7 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
 
   // 3. Tables.
   write_rms(results, bridge, read.measured, config, context.out);
-  write_statements(results, bridge, read.measured, context.out);
+  write_statements(buffeting::paper_statements(results, bridge.sensors, read.measured), context.out);
   write_comfort(results, bridge, config, context.out);
   write_wind_check(checks, context.out);
   write_hybrid(bridge, context.out);

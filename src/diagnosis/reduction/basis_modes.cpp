@@ -1,11 +1,11 @@
-#include "steps/diagnosis/basis_modes.hpp"
+#include "diagnosis/reduction/basis_modes.hpp"
 
 #include <algorithm>
 
 #include "diagnosis/reduction/reduction_options.hpp"
 #include "dynamics/eigenmodes.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::diagnosis {
 
 namespace {
 
@@ -18,10 +18,10 @@ constexpr double kReach = 1.5;
 /// Of a basis, as the setting `modes`: the time of a search grows with the third power of its size.
 constexpr int kMostModes = 200;
 
-double highest_measured(const diagnosis::FeatureSet& features) {
+double highest_measured(const FeatureSet& features) {
   double highest = 0.0;
-  for (const diagnosis::Row& row : features.rows)
-    if (row.type == diagnosis::RowType::frequency) highest = std::max(highest, row.value);
+  for (const Row& row : features.rows)
+    if (row.type == RowType::frequency) highest = std::max(highest, row.value);
   return highest;
 }
 
@@ -31,10 +31,10 @@ int count_up_to(const Eigen::VectorXd& ascending_Hz, double highest_Hz) {
 
 }  // namespace
 
-BasisModes modes_of_basis(const diagnosis::Structure& structure, const diagnosis::FeatureSet& features, int least) {
+BasisModes modes_of_basis(const Structure& structure, const FeatureSet& features, int least) {
   BasisModes out{least, 0, kReach * highest_measured(features), true, {}};
   const auto dofs = static_cast<int>(structure.system->size());
-  if (!(out.reach_Hz > 0.0) || dofs <= diagnosis::ReductionOptions{}.full_below) return out;
+  if (!(out.reach_Hz > 0.0) || dofs <= ReductionOptions{}.full_below) return out;
   dynamics::ModalSolver solver(*structure.system);
   for (int asked = least;; asked = std::min(2 * asked, kMostModes)) {
     out.frequency_Hz = solver.solve_available(structure.theta, std::min(asked, dofs)).frequency_Hz;
@@ -51,4 +51,4 @@ BasisModes modes_of_basis(const diagnosis::Structure& structure, const diagnosis
   return out;
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::diagnosis

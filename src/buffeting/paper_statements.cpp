@@ -1,31 +1,27 @@
-#include "steps/validation/statements.hpp"
+#include "buffeting/paper_statements.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
-#include "io/csv.hpp"
-#include "steps/validation/outputs.hpp"
-
-namespace twindeck::steps {
-
-using Eigen::Index;
+namespace twindeck::buffeting {
 
 namespace {
 
 /// Errors of Eq. (18) by run, event and channel [%].
 class Errors {
  public:
-  Errors(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge, const MeasuredRms& measured) {
-    for (const buffeting::RunResult& result : results) {
+  Errors(const std::vector<RunResult>& results, const Sensors& sensors, const MeasuredRms& measured) {
+    for (const RunResult& result : results) {
       if (!result.status.converged) continue;
-      for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
-        const auto found = measured.find({result.event, bridge.sensors.points[p]});
+      for (std::size_t p = 0; p < sensors.points.size(); ++p) {
+        const auto found = measured.find({result.event, sensors.points[p]});
         if (found == measured.end()) continue;
-        const double mean = result.rms.row(bridge.sensors.vertical(p)).mean();
-        value_[result.run + "|" + result.event + "|" + bridge.sensors.points[p]] = 100.0 * (mean / found->second - 1.0);
+        const double mean = result.rms.row(sensors.vertical(p)).mean();
+        value_[result.run + "|" + result.event + "|" + sensors.points[p]] = 100.0 * (mean / found->second - 1.0);
       }
     }
   }
@@ -54,15 +50,15 @@ class Errors {
 
 }  // namespace
 
-void write_statements(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
-                      const MeasuredRms& measured, const std::filesystem::path& folder) {
-  io::CsvWriter csv({"statement", "found", "verdict"});
-  const Errors errors(results, bridge, measured);
+std::vector<PaperStatement> paper_statements(const std::vector<RunResult>& results, const Sensors& sensors,
+                                             const MeasuredRms& measured) {
+  std::vector<PaperStatement> out;
+  const Errors errors(results, sensors, measured);
   if (errors.complete()) {
     const std::vector<std::string> runs = {"NS1", "NS2", "NS3"};
     const std::vector<int> inner = {2, 3, 4, 5, 6, 7}, all = {1, 2, 3, 4, 5, 6, 7, 8}, ends = {1, 8};
     const auto put = [&](const std::string& statement, const std::string& found, bool holds) {
-      csv.row({statement, found, holds ? "hit" : "miss"});
+      out.push_back({statement, found, holds});
     };
     const auto counted = [&](const std::string& statement, const std::string& event, const std::vector<int>& channels,
                              bool over) {
@@ -102,7 +98,7 @@ void write_statements(const std::vector<buffeting::RunResult>& results, const bu
     put("Errors in August are below 26 % but for M7 in NS 2 (M1 and M8 aside)", fmt::format("largest {:.1f} %", largest),
         largest < 26.0);
   }
-  csv.save(folder / "statements.csv");
+  return out;
 }
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::buffeting

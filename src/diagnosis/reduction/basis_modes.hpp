@@ -5,7 +5,7 @@
 #include "diagnosis/features/features.hpp"
 #include "diagnosis/reduction/structure.hpp"
 
-namespace twindeck::steps {
+namespace twindeck::diagnosis {
 
 /// Modes that the reduced basis needs for the measured frequencies to lie well inside it.
 struct BasisModes {
@@ -17,7 +17,6 @@ struct BasisModes {
 };
 
 /// @param least  modes that the basis has in any case
-[[nodiscard]] BasisModes modes_of_basis(const diagnosis::Structure& structure, const diagnosis::FeatureSet& features,
-                                        int least);
+[[nodiscard]] BasisModes modes_of_basis(const Structure& structure, const FeatureSet& features, int least);
 
-}  // namespace twindeck::steps
+}  // namespace twindeck::diagnosis
