@@ -161,6 +161,10 @@ class Chain {
         be_unknown(step.ruling);  // a name that leaves the main change unexplained is none
     }
     search_ = std::move(step.search);
+    if (number == 0 && accepted && !goes_on) {
+      be_unknown(step.ruling);
+      ruling_.reason = "a cause stands out, and most_causes allows none";
+    }
     if (!goes_on) return false;
     if (!accept(step.ranking, step.weighing)) return false;
     if (!accepted) {

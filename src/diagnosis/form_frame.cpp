@@ -22,7 +22,10 @@ const std::string kFromState = "from state ", kBeforeState = "before ";  // as C
 constexpr double kManySmall = 0.5;       // of the form error's variance in frequencies: many small causes
 constexpr double kLeastSingular = 1e-5;  // of the largest singular value: principal columns below carry nothing
 constexpr double kNoEffect = 1e-6;       // RMS change of ln f: a hypothesis below moves nothing here
-constexpr double kSmall = 0.1;  // of the screen's first magnitude: there effects are proportional and modes keep their order
+/// Of the screen's first magnitude, for the many small causes. At the whole of it a soft joint puts modes into another order,
+/// and the jump explains data by accident. Far below, only what is proportional at the fit without a cause is left, which is
+/// not what small causes do beside the true one (decision 0013).
+constexpr double kOfMany = 0.7;
 constexpr double kFreeScale = 10.0;  // of a shape, relative: wide enough to cost nothing
 
 const std::vector<std::string>& contrast_keys() {
@@ -181,7 +184,7 @@ MatrixXd many_small_causes(const Inference& inference, const Fit& fit, const std
     const bool everywhere = candidate->state.empty() && contrast_of(*candidate, contrasts) < 0;
     if (!everywhere || candidate->hypothesis->measurement || candidate->tuned >= 0 || candidate->low.size() != 1) continue;
     VectorXd small = candidate->starts.front();
-    if (is_a_size(*candidate)) small[0] = scaled_magnitude(*candidate, small[0], kSmall);
+    if (is_a_size(*candidate)) small[0] = scaled_magnitude(*candidate, small[0], kOfMany);
     if (VectorXd change = inference.change(fit, *candidate, small); change.size() > 0)
       by_hypothesis[candidate->hypothesis->id].push_back(std::move(change));
   }

@@ -154,6 +154,9 @@ class Validation(unittest.TestCase):
             self.assertIn(part, warnings[0])
         toml.write_text(text.replace("speed = 8.0", f"speed = {1.01 * critical}"))
         self.assertIn("event breeze at", self.step("s8_validation", out="none", status=1))
+        self.step("s8_validation", "--accept-unconverged")  # its tables say that nothing is known
+        self.assertEqual({(r["event"], r["rms_m_s2"]) for r in self.read("rms.csv")}, {("breeze", "")})
+        self.assertEqual(self.read("checks.csv"), [])
         toml.write_text(text.replace("speed = 8.0", f"speed = {0.99 * critical}"))
         self.step("s8_validation")
 

@@ -46,7 +46,6 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
     checks.insert(checks.end(), simulated.checks.begin(), simulated.checks.end());
   }
 
-  if (!stable) return {false, fmt::format("{}", fmt::join(unstable, "; "))};
   for (const std::string& told : unstable) context.warn(told + "; its rows in rms.csv and comfort.csv are left empty");
 
   // 3. Tables.
@@ -55,7 +54,10 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
   write_comfort(results, bridge, config, context.out);
   write_wind_check(checks, context.out);
   write_hybrid(bridge, context.out);
-  write_time_checks(buffeting::check_time_integration(bridge, set, config, *stable, context.seed), context.out);
+  write_time_checks(stable ? buffeting::check_time_integration(bridge, set, config, *stable, context.seed)
+                           : std::vector<buffeting::TimeCheck>(),
+                    context.out);
+  if (!stable) return {false, fmt::format("{}", fmt::join(unstable, "; "))};
   return {};
 }
 

@@ -69,32 +69,18 @@ TEST(ManySmallCauses, ShareTheFormErrorByHypothesis) {
   EXPECT_EQ(diagnosis::many_small_causes(*sensors.inference, sensors.inference->fit({}, {}), {}).cols(), 0);
 }
 
-// Oracle: the first derivatives of frequencies, d ln f = (b'phi)² dk / 2 omega² (Fox and Kapoor 1968), of the dense
-// eigenproblem.
-TEST(ManySmallCauses, AreSmallSoThatEffectsAreProportional) {
+TEST(FormSearch, ACauseWhereNoneMayBeTakenIsUnknown) {
   const Chain chain({.masses = 10, .modes = 5});
-  const Examined e = examine(chain, all_rows(chain.measure(chain.as_modelled())), catalogue({"stiffness"}));
-  const Eigen::MatrixXd many = diagnosis::many_small_causes(*e.inference, e.inference->fit({}, {}), {});
-  std::vector<Index> rows;
-  for (std::size_t r = 0; r < e.inference->training().size(); ++r)
-    if (e.map->features().rows[static_cast<std::size_t>(e.inference->training()[r])].type == diagnosis::RowType::frequency)
-      rows.push_back(static_cast<Index>(r));
-  ASSERT_EQ(rows.size(), 5u);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(chain.stiffness(chain.as_modelled()) / Chain::kMass);
-  Eigen::MatrixXd slopes(5, 11);
-  for (Index spring = 0; spring < 11; ++spring) {
-    ChainTruth only = chain.as_modelled();
-    only.spring.setZero();
-    only.spring[spring] = 1.0;
-    const Eigen::MatrixXd shapes = eigen.eigenvectors().leftCols(5);
-    slopes.col(spring) =
-        (shapes.transpose() * chain.stiffness(only) * shapes).diagonal().cwiseQuotient(eigen.eigenvalues().head(5));
-  }
-  const auto correlation = [](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd covariance = columns * columns.transpose();
-    return covariance / covariance.trace();
-  };
-  EXPECT_LT((correlation(many(rows, Eigen::all)) - correlation(slopes)).norm() / correlation(slopes).norm(), 0.02);
+  ChainTruth truth = chain.as_modelled();
+  truth.gain[3] = -1.0;
+  const Examined e = examine(chain, all_rows(chain.measure(truth)), catalogue({"pol"}));
+  diagnosis::DiagnoseOptions options;
+  options.most_causes = 0;
+  const diagnosis::Diagnosis out = diagnosis::diagnose_with_form(*e.inference, options, 1);
+  EXPECT_EQ(out.verdict, diagnosis::Verdict::unknown);
+  EXPECT_TRUE(out.effects.empty());
+  EXPECT_NE(out.message.find("most_causes allows none"), std::string::npos) << out.message;
+  EXPECT_NE(out.message.find("pol@channel:c4"), std::string::npos) << out.message;
 }
 
 TEST(FormSearch, ExchangedChannelsAreTheSameRowsUnderOtherNames) {
