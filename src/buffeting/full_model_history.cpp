@@ -1,5 +1,6 @@
 #include "buffeting/full_model_history.hpp"
 
+#include "aero/wind_model.hpp"
 #include "linalg/cholesky.hpp"
 
 namespace twindeck::buffeting {
