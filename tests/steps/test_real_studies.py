@@ -103,13 +103,14 @@ class RealStudies(unittest.TestCase):
         for part in ("1.2283 ± 0.0012", "13.854 ± 0.011", 'id="mode-shapes"', 'id="poles"', "verdict of the diagnosis"):
             self.assertIn(part, page)
         told = json.loads((self.root / "results/weimar_frame/s9_diagnosis/diagnosis.json").read_text())
-        effects = {e["location"]: e["parameters"][0]["value"] for e in told["effects"] if e["cause"] == "calibration"}
+        effects = {e["location"]: e["parameters"][0] for e in told["effects"] if e["cause"] == "calibration"}
         self.assertEqual(set(effects), {"channel:ref_x", "channel:ref_y"})
-        # ref_x is written down along -x, ref_y along -y. A tenth: the model's floors don't move quite as the frame's do.
+        # ref_x is written down along -x, ref_y along -y. What is claimed is the interval: the model is 8 % off, and factors have been 3 to 12 % off.
         for name, channel, hertz, direction in (("ref_x", 3, 1.2284, (-1, 0, 0)), ("ref_y", 4, 1.4357, (0, -1, 0))):
             measured = self.accelerometer_factor(channel, hertz, direction)
-            print(f"{name}: {measured:.3f} in the records, -{effects['channel:' + name]:.3f} diagnosed")
-            self.assertAlmostEqual(-effects["channel:" + name], measured, delta=0.1 * abs(measured))
+            told_of = effects["channel:" + name]
+            print(f"{name}: {measured:.3f} in the records, -{told_of['value']:.3f} diagnosed, {told_of['low']:.3f} to {told_of['high']:.3f}")
+            self.assertTrue(told_of["low"] <= -measured <= told_of["high"])
         pairs = self.table("weimar_frame/s9_diagnosis/pairs.csv")
         self.assertEqual(len(pairs), 10)
         for pair in pairs:
