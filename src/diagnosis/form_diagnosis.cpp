@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/error.hpp"
 #include "diagnosis/diagnose_parts.hpp"
 #include "diagnosis/form_base.hpp"
 #include "diagnosis/form_gain.hpp"
@@ -115,6 +116,11 @@ class Chain {
   Step look(const Fit& base, const Leftover& leftover, bool always_guarded) {
     Step out;
     out.search = search_with_form(setting_, base, leftover);
+    if (!out.search.weighed) {
+      out.of_rules.verdict = out.ruling.verdict = Verdict::unknown;
+      out.ruling.reason = "with the causes in the model some rows change too fast to be weighed";
+      return out;
+    }
     for (const FormEntry& entry : out.search.entries) out.ranking.push_back(scored_of(out.search, entry, setting_.informed));
     out.weighing = weighing_of(out.search, out.ranking, setting_, options_);
     out.of_rules = out.ruling = rule(out.weighing.weighed);
@@ -143,6 +149,14 @@ class Chain {
   /// Whether a cause was taken into the model.
   bool take(int number) {
     Step step = look(current_, leftover_, number == 0);
+    if (!step.search.weighed) {
+      if (number == 0)
+        throw InputError({"", 0, "scatter"},
+                         "rows are measured more exactly than 16 digits can weigh against what the model leaves open",
+                         "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
+      be_unknown(step.ruling);
+      return false;
+    }
     if (number == 0) begin_with(step);
     if (number > 0 && !in_part_ && is_error_of_the_first(step)) return false;
     if (number == 0 || verdict_ != Verdict::unknown) ruling_ = step.ruling;
@@ -290,6 +304,10 @@ class Chain {
       }
       Step step = look(base, leftover_, false);
       if (step.ruling.verdict == Verdict::unknown) be_unknown(step.ruling);
+      if (!step.search.weighed) {
+        ++i;
+        continue;
+      }
       if (step.ruling.against_none > step.ruling.threshold) {  // it stays, named or not
         search_ = std::move(step.search);
         out_.effects[i] = effect_from(search_, step.ranking, step.weighing, step.ruling, setting_);
@@ -358,13 +376,12 @@ Diagnosis diagnose_with_form(const Inference& whole, const DiagnoseOptions& opti
   const FeatureMap informed_map = with_form_error(ground.known, prior, nominal.g, ground.level);
   const Inference informed(informed_map, plain.candidates());
   const int dof = plain.dof() - static_cast<int>(strangers.rows.size()) + strangers.shapes;  // each shape has a free scale
-  FormSetting setting{plain, informed, dof, contrasts_of(map.features()), scale_grid(), {}};
+  const FormSetting setting{plain, informed, dof, contrasts_of(map.features()), scale_grid()};
   out.before = first_fit(informed);
   if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;
     return out;
   }
-  setting.many = many_small_causes(plain, out.before, setting.contrasts);
   out.form.emplace();
   Chain chain(setting, options, seed, out.before, out);
   chain.run();

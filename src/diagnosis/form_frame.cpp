@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "diagnosis/form_magnitudes.hpp"
 #include "linalg/dense.hpp"
 
@@ -23,8 +24,7 @@ constexpr double kManySmall = 0.5;       // of the form error's variance in freq
 constexpr double kLeastSingular = 1e-5;  // of the largest singular value: principal columns below carry nothing
 constexpr double kNoEffect = 1e-6;       // RMS change of ln f: a hypothesis below moves nothing here
 /// Of the screen's first magnitude, for the many small causes. At the whole of it a soft joint puts modes into another order,
-/// and the jump explains data by accident. Far below, only what is proportional at the fit without a cause is left, which is
-/// not what small causes do beside the true one (decision 0013).
+/// and the jump explains data by accident. Far below they are too weak beside a model that is far off (decision 0013).
 constexpr double kOfMany = 0.7;
 constexpr double kFreeScale = 10.0;  // of a shape, relative: wide enough to cost nothing
 
@@ -129,8 +129,7 @@ int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contras
   return -1;
 }
 
-FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, const MatrixXd& many,
-                       Index tested) {
+FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, Index tested) {
   TWINDECK_ASSERT(fit.made());
   const FeatureMap& map = plain.map();
   const std::vector<int>& rows = plain.training();
@@ -153,7 +152,7 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
     const linalg::ThinSvd svd = linalg::thin_svd(out.scatter);
     out.scatter = svd.u * svd.values.asDiagonal();
   }
-  const MatrixXd own = form.frequency(rows, Eigen::all);
+  const MatrixXd own = form.frequency(rows, Eigen::all), many = many_small_causes(plain, fit, contrasts);
   const double share = many.cols() > 0 ? kManySmall : 0.0;
   out.frequency.resize(std::ssize(rows), own.cols() + many.cols());
   out.frequency.leftCols(own.cols()) = std::sqrt(1.0 - share) * own;
@@ -179,15 +178,21 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
 }
 
 MatrixXd many_small_causes(const Inference& inference, const Fit& fit, const std::vector<Contrast>& contrasts) {
-  std::map<std::string, std::vector<VectorXd>> by_hypothesis;
+  std::vector<const Candidate*> everywhere;
   for (const auto& candidate : inference.candidates()) {
-    const bool everywhere = candidate->state.empty() && contrast_of(*candidate, contrasts) < 0;
-    if (!everywhere || candidate->hypothesis->measurement || candidate->tuned >= 0 || candidate->low.size() != 1) continue;
-    VectorXd small = candidate->starts.front();
-    if (is_a_size(*candidate)) small[0] = scaled_magnitude(*candidate, small[0], kOfMany);
-    if (VectorXd change = inference.change(fit, *candidate, small); change.size() > 0)
-      by_hypothesis[candidate->hypothesis->id].push_back(std::move(change));
+    if (!candidate->state.empty() || contrast_of(*candidate, contrasts) >= 0) continue;
+    if (candidate->hypothesis->measurement || candidate->tuned >= 0 || candidate->low.size() != 1) continue;
+    everywhere.push_back(candidate.get());
   }
+  std::vector<VectorXd> effects(everywhere.size());
+  parallel_for(everywhere.size(), [&](std::size_t i) {
+    VectorXd small = everywhere[i]->starts.front();
+    if (is_a_size(*everywhere[i])) small[0] = scaled_magnitude(*everywhere[i], small[0], kOfMany);
+    effects[i] = inference.change(fit, *everywhere[i], small);
+  });
+  std::map<std::string, std::vector<VectorXd>> by_hypothesis;
+  for (std::size_t i = 0; i < everywhere.size(); ++i)
+    if (effects[i].size() > 0) by_hypothesis[everywhere[i]->hypothesis->id].push_back(std::move(effects[i]));
   const std::vector<int>& rows = inference.training();
   std::vector<int> frequencies;
   for (const int r : rows)

@@ -20,13 +20,14 @@ namespace twindeck::diagnosis {
 /// Columns, residual y - g + J x and Sigma_0 of the training rows at a fit. The coordinates of the last `tested` columns of the
 /// fit's Jacobian are those of a cause under test: they become the signatures (per unit of its coordinates) and leave the
 /// residual.
-/// @param plain  with the covariance of identification alone  @param many  many_small_causes, or no columns
+/// @param plain  with the covariance of identification alone
 [[nodiscard]] FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
-                                     const Eigen::MatrixXd& many, Eigen::Index tested = 0);
+                                     Eigen::Index tested = 0);
 
 /// Many small causes everywhere: the effects of all structural candidates of one size that act in all conditions alike.
 /// Unknowns of unit deviation give the frequencies an RMS change of 1, of which every hypothesis has the same share (n_rows ×
 /// n_candidates). A model is off for many small reasons, so a single cause has to explain the data better than these together.
+/// They are those at the fit: beside its causes.
 [[nodiscard]] Eigen::MatrixXd many_small_causes(const Inference& inference, const Fit& fit,
                                                 const std::vector<Contrast>& contrasts);
 

@@ -29,6 +29,7 @@ constexpr double kRefineShare = 0.1,
                  kFamilyShare = 0.3;  // … or this much of what it has over none, whatever is more: screens are coarse
 constexpr double kLeastScale = 0.02, kMostScale = 3.0;  // of a signature, as far as its direction holds
 constexpr double kSeen = 1e-3;                          // deviations: below, these rows show nothing of an entry
+constexpr double kSameFit = 0.01;                       // prior deviations: nearer fits are one
 constexpr double kWorthRefining = -4.0;                 // nats against none: below, the best entry is far from any threshold
 
 /// RMS change of the frequencies in the conditions where a cause acts: those of its states, or those that its contrast weighs.
@@ -273,15 +274,17 @@ void refine_with_form(const FormSetting& setting, const Fit& base, const Leftove
   const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
   std::vector<Cause> causes = base.causes;
   causes.push_back({entry.candidate, entry.a});
-  VectorXd refined_a;
+  VectorXd refined_a, found_before;
   for (const VectorXd& start : {VectorXd(base.map.x.head(n)), VectorXd()}) {
     Fit with = setting.informed.fit(causes, start);
-    if (with.chi_squared > 1e299) continue;
+    if (!with.made()) continue;
+    if (found_before.size() > 0 && (with.map.x - found_before).norm() < kSameFit) continue;
+    found_before = with.map.x;
     const Prediction without = setting.plain.map().predict(with.base, base.causes, false);
     const Contrast* contrast = entry.contrast < 0 ? nullptr : &setting.contrasts[static_cast<std::size_t>(entry.contrast)];
     const double effect =
         without.valid ? effect_of(setting.plain, with.all.g - without.g, *entry.candidate, contrast) : entry.effect;
-    FormSystem system = form_system(setting.plain, with, setting.contrasts, setting.many, entry.a.size());
+    FormSystem system = form_system(setting.plain, with, setting.contrasts, entry.a.size());
     if (!can_be_weighed(system)) continue;  // costs the entry, not the results
     const Linearised found = linearised(setting, entry, system, with.causes.back().a, effect, leftover);
     const double log_weight = found.evidence.log_evidence + log_prior_of(*entry.candidate);
@@ -335,11 +338,9 @@ double log_prior_of(const Candidate& candidate) { return std::log(kCatalogue) + 
 FormSearch search_with_form(const FormSetting& setting, const Fit& base, const Leftover& leftover) {
   FormSearch out;
   out.base = base;
-  out.system = form_system(setting.plain, base, setting.contrasts, setting.many);
-  if (!can_be_weighed(out.system))
-    throw InputError({"", 0, "scatter"},
-                     "rows are measured more exactly than 16 digits can weigh against what the model leaves open",
-                     "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
+  out.system = form_system(setting.plain, base, setting.contrasts);
+  out.weighed = can_be_weighed(out.system);
+  if (!out.weighed) return out;
   const auto& candidates = setting.plain.candidates();
   std::vector<FormEntry> entries(candidates.size());
   parallel_for(candidates.size(), [&](std::size_t i) {

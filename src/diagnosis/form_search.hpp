@@ -35,7 +35,8 @@ struct Leftover {
 
 struct FormSearch {
   Fit base;
-  FormSystem system;  ///< at the base, with the signatures of all entries at all their magnitudes
+  bool weighed = true;  ///< false: the columns at the base are too large for 16 digits, and there is no evidence of anything
+  FormSystem system;    ///< at the base, with the signatures of all entries at all their magnitudes
   HypothesisEvidence none;
   std::vector<HypothesisEvidence> something_else;  ///< (n_contrasts)
   double none_weight = 0.0;
@@ -51,7 +52,6 @@ struct FormSetting {
   int dof;  ///< degrees of freedom of the rows in use
   std::vector<Contrast> contrasts;
   ScaleGrid grid;
-  Eigen::MatrixXd many;  ///< columns of many_small_causes, a part of the form error
 };
 
 /// First computes the evidence of every hypothesis at `base`, the fit with the accepted causes. Then fits the model with each

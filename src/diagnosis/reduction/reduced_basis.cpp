@@ -78,7 +78,7 @@ MatrixXd ReducedBasis::motion(const MatrixXd& own, const MatrixXd& x) const {
 
 MatrixXd ReducedBasis::projected(const MatrixXd& own, const MatrixXd& force) const {
   MatrixXd out(common() + own.cols(), force.cols());
-  for (Index k = 0; k < force.cols(); ++k) out.col(k).head(common()).noalias() = common_rows_ * force.col(k);  // few columns
+  out.topRows(common()) = linalg::product(common_rows_, force);
   for (Index k = 0; k < own.cols(); ++k) out.row(common() + k) = own.col(k).transpose() * force;
   return out;
 }

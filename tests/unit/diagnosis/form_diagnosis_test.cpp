@@ -21,8 +21,8 @@ diagnosis::FeatureSet all_rows(diagnosis::FeatureSet f) {
 diagnosis::Diagnosis with_form(const Examined& e) { return diagnosis::diagnose_with_form(*e.inference, {}, 1); }
 
 diagnosis::FormSearch searched(const Examined& e) {
-  const diagnosis::FormSetting setting{
-      *e.inference, *e.inference, e.inference->dof(), diagnosis::contrasts_of(e.map->features()), diagnosis::scale_grid(), {}};
+  const diagnosis::FormSetting setting{*e.inference, *e.inference, e.inference->dof(),
+                                       diagnosis::contrasts_of(e.map->features()), diagnosis::scale_grid()};
   return diagnosis::search_with_form(setting, e.inference->fit({}, {}), {});
 }
 
@@ -67,6 +67,15 @@ TEST(ManySmallCauses, ShareTheFormErrorByHypothesis) {
   EXPECT_NEAR(sum / frequencies, 1.0, 1e-9);
   const Examined sensors = examine(chain, all_rows(chain.measure(chain.as_modelled())), catalogue({"swap", "gain"}));
   EXPECT_EQ(diagnosis::many_small_causes(*sensors.inference, sensors.inference->fit({}, {}), {}).cols(), 0);
+}
+
+// With deviations of 1e-8 the products need more digits than there are.
+TEST(FormSearch, RowsThatAreTooExactAreRefused) {
+  const Chain chain({.masses = 10, .modes = 5, .frequency_std = 1e-8, .shape_std = 1e-8});
+  diagnosis::ScatterOptions no_floors;
+  no_floors.frequency_floor = no_floors.shape_floor = 0.0;
+  const Examined e = examine(chain, all_rows(chain.measure(chain.as_modelled())), catalogue({"mass"}), no_floors);
+  EXPECT_THROW((void)with_form(e), InputError);
 }
 
 TEST(FormSearch, ACauseWhereNoneMayBeTakenIsUnknown) {
