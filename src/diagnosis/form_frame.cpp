@@ -26,6 +26,8 @@ constexpr double kNoEffect = 1e-6;       // RMS change of ln f: a hypothesis bel
 /// Of the screen's first magnitude, for the many small causes. At the whole of it a soft joint puts modes into another order,
 /// and the jump explains data by accident. Far below they are too weak beside a model that is far off (decision 0013).
 constexpr double kOfMany = 0.7;
+/// Places of a hypothesis that stand for all of them among the many small causes: places beside each other do nearly the same.
+constexpr std::size_t kPlacesOfMany = 200;
 constexpr double kFreeScale = 10.0;  // of a shape, relative: wide enough to cost nothing
 
 const std::vector<std::string>& contrast_keys() {
@@ -177,13 +179,28 @@ FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector
   return out;
 }
 
-MatrixXd many_small_causes(const Inference& inference, const Fit& fit, const std::vector<Contrast>& contrasts) {
-  std::vector<const Candidate*> everywhere;
+namespace {
+
+/// Candidates for many small causes: those of one size that act in all conditions alike, of many places every so many-th.
+std::vector<const Candidate*> places_of_many(const Inference& inference, const std::vector<Contrast>& contrasts) {
+  std::map<std::string, std::vector<const Candidate*>> by_hypothesis;
   for (const auto& candidate : inference.candidates()) {
     if (!candidate->state.empty() || contrast_of(*candidate, contrasts) >= 0) continue;
     if (candidate->hypothesis->measurement || candidate->tuned >= 0 || candidate->low.size() != 1) continue;
-    everywhere.push_back(candidate.get());
+    by_hypothesis[candidate->hypothesis->id].push_back(candidate.get());
   }
+  std::vector<const Candidate*> out;
+  for (const auto& [id, all] : by_hypothesis) {
+    const std::size_t count = std::min(all.size(), kPlacesOfMany);
+    for (std::size_t k = 0; k < count; ++k) out.push_back(all[k * all.size() / count]);
+  }
+  return out;
+}
+
+}  // namespace
+
+MatrixXd many_small_causes(const Inference& inference, const Fit& fit, const std::vector<Contrast>& contrasts) {
+  const std::vector<const Candidate*> everywhere = places_of_many(inference, contrasts);
   std::vector<VectorXd> effects(everywhere.size());
   parallel_for(everywhere.size(), [&](std::size_t i) {
     VectorXd small = everywhere[i]->starts.front();
