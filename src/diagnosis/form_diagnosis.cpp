@@ -234,7 +234,7 @@ class Chain {
     if (!with.made()) return withdraw("the best cause cannot be put into the model");
     if (may_be_zero(effect_parameters(setting_.informed, with, causes_.size() - 1), *causes_.back().candidate))
       return causes_.size() > 1 ? leave_out() : withdraw("the size of the best cause cannot be told from zero");
-    if ((leader.contrast < 0 || leader.candidate->tuned >= 0) && at_its_least(with.causes.back()))
+    if (at_its_least(with.causes.back()))
       return causes_.size() > 1 ? leave_out()
                                 : withdraw(
                                       "the best cause fits best where it is as small as it can be: something outside the "

@@ -133,6 +133,22 @@ TEST(States, FindsWhatWasCut) {
   }
 }
 
+// 300 kg where the least that counts as a mass is 500 kg.
+TEST(States, ASizeAtItsLeastIsNotNamed) {
+  const Chain chain({.masses = 10, .modes = 6});
+  std::mt19937_64 random(8);
+  const ChainTruth light = chain.scattered(random);
+  ChainTruth heavy = light;
+  heavy.mass[3] += 300.0;
+  std::vector<diagnosis::Hypothesis> masses = catalogue({"mass"});
+  masses.front().unknowns.front().low = {0.05, "total_mass", 0};
+  masses.front().unknowns.front().start = {{0.08, "total_mass", 0}};
+  const auto result =
+      asked(examine(chain, two_states(chain.measure(light, &random), chain.measure(heavy, &random)), std::move(masses)));
+  EXPECT_EQ(result.verdict, diagnosis::Verdict::unknown) << result.message;
+  EXPECT_NE(result.message.find("as small as it can be"), std::string::npos) << result.message;
+}
+
 TEST(States, FindsWhatWasAddedAndWhatWasTakenAway) {
   const Chain chain({.masses = 10, .modes = 6});
   std::mt19937_64 random(8);
