@@ -83,6 +83,16 @@ void finish(const Inference& plain, const std::vector<Cause>& causes, const Fit&
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
 }
 
+/// The causes that stand at the end have been fitted beside one another, and some were put in the place of others: a size that
+/// was fine when its cause was taken may no longer be. What is told then cannot be named.
+void object_to_size(const Effect& effect, Verdict& verdict, Ruling& ruling) {
+  if (verdict != Verdict::named && verdict != Verdict::ambiguous) return;
+  const std::string objection = objection_to_size(effect.cause, effect.parameters);
+  if (objection.empty()) return;
+  verdict = Verdict::unknown;
+  ruling.reason = objection;
+}
+
 constexpr int kRoundsOfJudging = 2;
 
 /// Causes one after another, and what the rules say of each.
@@ -232,13 +242,9 @@ class Chain {
     const Fit with = fit_from(setting_.informed, fitted ? leader.with.causes : causes_,
                               VectorXd((leader.refined ? leader.with : current_).map.x.head(n)));
     if (!with.made()) return withdraw("the best cause cannot be put into the model");
-    if (may_be_zero(effect_parameters(setting_.informed, with, causes_.size() - 1), *causes_.back().candidate))
-      return causes_.size() > 1 ? leave_out() : withdraw("the size of the best cause cannot be told from zero");
-    if (at_its_least(with.causes.back()))
-      return causes_.size() > 1 ? leave_out()
-                                : withdraw(
-                                      "the best cause fits best where it is as small as it can be: something outside the "
-                                      "catalogue acts like it");
+    const std::string objection =
+        objection_to_size(with.causes.back(), effect_parameters(setting_.informed, with, causes_.size() - 1));
+    if (!objection.empty()) return causes_.size() > 1 ? leave_out() : withdraw(objection);
     winner_ = leader.evidence;
     if (leader.contrast >= 0) leftover_ = {leader.contrast, std::max(leader.effect, leftover_.effect)};
     current_ = with;
@@ -392,7 +398,9 @@ Diagnosis diagnose_with_form(const Inference& whole, const DiagnoseOptions& opti
     out.form->warnings.push_back(fmt::format("no mode of the model resembles the measured mode {}: its rows count for nothing",
                                              fmt::join(strangers.labels, ", ")));
   finish(plain, chain.causes(), chain.current(), chain.without_cause(), options, seed, out);
-  out.message = message_of(out, chain.ruling(), *out.form, chain.search());
+  Ruling ruling = chain.ruling();
+  for (const Effect& effect : out.effects) object_to_size(effect, out.verdict, ruling);
+  out.message = message_of(out, ruling, *out.form, chain.search());
   return out;
 }
 

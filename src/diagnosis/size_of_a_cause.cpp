@@ -31,4 +31,11 @@ bool at_its_least(const Cause& cause) {
   return false;
 }
 
+std::string objection_to_size(const Cause& cause, const std::vector<EffectParameter>& parameters) {
+  if (may_be_zero(parameters, *cause.candidate)) return "the size of the best cause cannot be told from zero";
+  if (at_its_least(cause))
+    return "the best cause fits best where it is as small as it can be: something outside the catalogue acts like it";
+  return {};
+}
+
 }  // namespace twindeck::diagnosis

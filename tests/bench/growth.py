@@ -18,6 +18,7 @@ import sys
 import tempfile
 import threading
 
+import peers
 import table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -29,64 +30,10 @@ RATE_HZ = 20.0
 MODES_COLUMNS = ["family", "degrees_of_freedom", "program", "cpu_s", "peak_MB", "assemble_s", "apart", "note"]
 RECORDS_COLUMNS = ["channels", "samples", "program", "cpu_s", "peak_MB", "held_MB", "record_MB", "modes_found", "others_found"]
 
-MATRICES = """
-import resource, sys, time
-import numpy as np, scipy.sparse as sp
-def matrix(name):
-    values, rows, begins = (np.load(f"{sys.argv[1]}/{name}_{part}.npy")[:, 0] for part in ("values", "rows", "begins"))
-    n = len(begins) - 1
-    lower = sp.csc_matrix((values, rows.astype(np.int32), begins.astype(np.int32)), (n, n))
-    return (lower + sp.tril(lower, -1).T).tocsc()
-k, m = matrix("K"), matrix("M")
-def show(seconds, values):
-    print("modes_s", seconds)
-    print("peak_MB", resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
-    for i, value in enumerate(sorted(values)[:15]):
-        print(f"frequency_{i + 1}_Hz", value ** 0.5 / 6.283185307179586)
-"""
-SCIPY = MATRICES + """
-import scipy.sparse.linalg
-start = time.process_time()
-show_values = scipy.sparse.linalg.eigsh(k, 15, m, sigma=0.0, which="LM", return_eigenvectors=True)[0]
-show(time.process_time() - start, show_values)
-"""
-SLEPC = MATRICES + """
-from petsc4py import PETSc
-from slepc4py import SLEPc
-def petsc(a):
-    a = a.tocsr()
-    one = PETSc.Mat().createAIJ(a.shape, csr=(a.indptr, a.indices, a.data))
-    one.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-    one.setOption(PETSc.Mat.Option.SPD, True)
-    return one
-k, m = petsc(k), petsc(m)
-start = time.process_time()
-solver = SLEPc.EPS().create()
-solver.setOperators(k, m)
-solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-solver.setDimensions(15)
-solver.setTarget(0.0)
-solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-shift = solver.getST()
-shift.setType(SLEPc.ST.Type.SINVERT)
-shift.getKSP().setType("preonly")
-shift.getKSP().getPC().setType("cholesky")
-shift.getKSP().getPC().setFactorSolverType("mumps")
-solver.setFromOptions()
-solver.solve()
-show(time.process_time() - start, [solver.getEigenvalue(i).real for i in range(solver.getConverged())])
-"""
-
 
 def limits():
     resource.setrlimit(resource.RLIMIT_CPU, (LIMIT_S, LIMIT_S))
     resource.setrlimit(resource.RLIMIT_AS, (LIMIT_GB << 30, LIMIT_GB << 30))
-
-
-def with_slepc():
-    """The environment in which Debian's python3-slepc4py finds itself without the development packages of PETSc and SLEPc."""
-    found = {name: sorted(pathlib.Path("/usr/lib").glob(pattern)) for name, pattern in (("PETSC_DIR", "petscdir/petsc*/*-real"), ("SLEPC_DIR", "slepcdir/slepc*/*-real"))}
-    return table.ONE_THREAD | {name: str(folders[-1]) for name, folders in found.items() if folders}
 
 
 def measured(*command, environment=table.ONE_THREAD):
@@ -125,11 +72,8 @@ def number(text):
 
 
 def modes(binaries, out, sizes):
-    programs = {"twindeck": [binaries / "bench_growth", "modes"], "SciPy eigsh": [sys.executable, "-c", SCIPY]}
-    if subprocess.run([sys.executable, "-c", "import slepc4py"], capture_output=True, env=with_slepc()).returncode == 0:
-        programs["SLEPc, MUMPS"] = [sys.executable, "-c", SLEPC]
-    else:
-        print("growth: SLEPc is not here and left out: apt-get install --no-install-recommends python3-slepc4py python3-mpi4py", file=sys.stderr)
+    programs = {"twindeck": [binaries / "bench_growth", "modes"]}
+    programs |= {name: [sys.executable, "-c", script] for name, script in peers.modes(peers.FROM_NPY).items()}
     for family, asked in (part.split(":") for part in sizes.split(";")):
         beyond = set()
         for dofs in asked.split(","):
@@ -141,7 +85,7 @@ def modes(binaries, out, sizes):
                 for program, command in programs.items():
                     if program in beyond:
                         continue
-                    found, why = measured(*command, folder, environment=with_slepc())
+                    found, why = measured(*command, folder, environment=peers.environment())
                     if why:
                         beyond.add(program)
                     hertz = [found.get(f"frequency_{i}_Hz", math.nan) for i in range(1, 16)]

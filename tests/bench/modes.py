@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 
+import peers
 import table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -15,18 +16,7 @@ sys.path.insert(0, str(ROOT / "tests" / "steps"))
 import exchange_models  # noqa: E402
 
 STUDY = "workflows/ponte_del_mare"
-PEER = """
-import resource, sys, time
-import scipy.io, scipy.sparse.linalg
-folder = sys.argv[1]
-k, m = (scipy.io.mmread(folder + "/" + name).tocsc() for name in ("K.mtx", "M.mtx"))
-start = time.process_time()
-values = scipy.sparse.linalg.eigsh(k, 15, m, sigma=0.0, which="LM", return_eigenvectors=True)[0]
-print("first_solve_s", time.process_time() - start)
-print("peak_MB", resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
-for i, value in enumerate(sorted(values)):
-    print(f"frequency_{i + 1}_Hz", value ** 0.5 / 6.283185307179586)
-"""
+AIMS = {"SciPy eigsh": ">= 2.5", "SLEPc, MUMPS": ">= 1.5"}
 
 
 def medians(runs):
@@ -54,26 +44,33 @@ def whole_step(binaries, runs, folder):
     return rows
 
 
+def against(part, us, program, peer):
+    apart = max(abs(us[f"frequency_{i}_Hz"] / peer[f"frequency_{i}_Hz"] - 1) for i in range(1, 16))
+    return [table.row(part, "15 modes, time", us["first_solve_s"], "s", peer["modes_s"], f"{program}, same K and M", aim=AIMS[program]),
+            table.row(part, "15 modes, peak memory", us["peak_MB"], "MB", peer["peak_MB"], f"{program}; both with reading the files", aim="> 1"),
+            table.row(part, "largest difference of frequencies", apart, "-", beside=f"relative, against {program}", aim="<= 1e-5")]
+
+
 def modes_of_the_bridge(binaries, runs, folder):
     bench = binaries / "bench_modes"
     table.run_child(of_the_study(binaries, folder / "s1_model", "--export-matrices"), cwd=ROOT)
-    ours, peers, bridges = [], [], []
-    for _ in range(runs):  # by turns, so that both meet the same neighbours on the machine
+    scripts = peers.modes(peers.FROM_MATRIX_MARKET)
+    ours, theirs, bridges = [], {program: [] for program in scripts}, []
+    for _ in range(runs):  # by turns, so that all meet the same neighbours on the machine
         ours.append(table.measures(bench, "matrices", folder / "s1_model"))
-        peers.append(table.measures(sys.executable, "-c", PEER, folder / "s1_model"))
+        for program, script in scripts.items():
+            theirs[program].append(table.measures(sys.executable, "-c", script, folder / "s1_model", environment=peers.environment()))
         bridges.append(table.measures(bench, "bridge", ROOT / "data" / "ponte_del_mare" / "bridge.toml"))
-    us, peer, bridge = medians(ours), medians(peers), medians(bridges)
+    us, bridge = medians(ours), medians(bridges)
+    peer_medians = {program: medians(measured) for program, measured in theirs.items()}
     machine = table.measures(bench, "machine")
-    apart = max(abs(us[f"frequency_{i}_Hz"] / peer[f"frequency_{i}_Hz"] - 1) for i in range(1, 16))
     first = us["first_solve_s"]
     arithmetic = us["factor_flops"] / machine["arithmetic_flop_s"]
     # Every solve reads the factor forwards and backwards, once for the four vectors of a block.
     traffic = us["solves"] / 4 * 2 * 8 * us["factor_entries"] / machine["bandwidth_B_s"]
     part = f"modes: {bridge['degrees_of_freedom']:.0f} degrees of freedom, processor time of one thread"
     return [
-        table.row(part, "15 modes, time", first, "s", peer["first_solve_s"], "SciPy eigsh (ARPACK, SuperLU), same K and M", aim=">= 2.5"),
-        table.row(part, "15 modes, peak memory", us["peak_MB"], "MB", peer["peak_MB"], "SciPy; both with reading the files", aim="> 1"),
-        table.row(part, "largest difference of frequencies", apart, "-", beside="relative, against SciPy", aim="<= 1e-5"),
+        *(row for program, peer in peer_medians.items() for row in against(part, us, program, peer)),
         table.row(part, "largest residual", us["residual"], "-", ratio=""),
         table.row(part, "after a 1 % change of all parameters, from the elements on", bridge["resolve_from_parameters_s"], "s",
                   beside="ratio: over assembling, prestress and the first solve",

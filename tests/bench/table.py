@@ -67,9 +67,9 @@ def run_child(command, cwd=None, env=None):
     return tuple(map(float, done.stdout.split()))
 
 
-def measures(*command):
+def measures(*command, environment=ONE_THREAD):
     """`name value` lines that a command prints."""
-    done = subprocess.run(launched(*command), capture_output=True, text=True, env=ONE_THREAD)
+    done = subprocess.run(launched(*command), capture_output=True, text=True, env=environment)
     if done.returncode:
         raise SystemExit(f"bench: {command[0]} failed:\n{done.stderr}")
     return {name: float(value) for name, value in (line.split() for line in done.stdout.splitlines())}

@@ -64,5 +64,25 @@ TEST(MayBeZero, IsAnIntervalOfEitherSignThatHoldsZero) {
   EXPECT_FALSE(may_be_zero(interval(-1.0, 4.0), candidate));
 }
 
+TEST(ObjectionToSize, SaysWhichOfTheTwoItIs) {
+  const Oscillator oscillator;
+  EXPECT_EQ(diagnosis::objection_to_size(oscillator.of(100.0, 20.0), {}), "");
+  EXPECT_NE(diagnosis::objection_to_size(oscillator.of(10.0, 20.0), {}).find("as small as it can be"), std::string::npos);
+
+  diagnosis::Hypothesis hypothesis;
+  hypothesis.unknowns = {{"angle_deg", "deg", {}, {}, false, {}}};
+  Candidate turned;
+  turned.hypothesis = &hypothesis;
+  turned.low = Eigen::VectorXd::Constant(1, -30.0);
+  turned.high = Eigen::VectorXd::Constant(1, 30.0);
+  turned.log = {false};
+  const auto objection = [&](double low, double high) {
+    return diagnosis::objection_to_size({&turned, Eigen::VectorXd::Constant(1, 0.5 * (low + high))},
+                                        {{"angle_deg", "deg", 0.5 * (low + high), low, high, false, false}});
+  };
+  EXPECT_NE(objection(-1.0, 4.0).find("told from zero"), std::string::npos);
+  EXPECT_EQ(objection(1.0, 4.0), "");
+}
+
 }  // namespace
 }  // namespace twindeck::tests
