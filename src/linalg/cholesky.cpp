@@ -155,8 +155,7 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
 Eigen::Index Cholesky::failed_column() const { return impl_->failed; }
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
-  TWINDECK_ASSERT(impl_->factor != nullptr && impl_->failed < 0);
-  TWINDECK_ASSERT(static_cast<std::size_t>(b.rows()) == impl_->factor->n);
+  TWINDECK_ASSERT(impl_->factor != nullptr && impl_->failed < 0 && static_cast<std::size_t>(b.rows()) == impl_->factor->n);
   if (b.cols() == 0) return Eigen::MatrixXd(b.rows(), 0);
   cholmod_dense right = Eigen::viewAsCholmod(b.const_cast_derived());
   thread_local SolveWorkspace work;
@@ -164,9 +163,7 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) cons
   const int solved =
       cholmod_solve2(CHOLMOD_A, impl_->factor, &right, nullptr, &work.solution, nullptr, &work.y, &work.e, &work.common);
   TWINDECK_ASSERT(solved == 1);
-  return Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
-      static_cast<const double*>(work.solution->x), b.rows(), b.cols(),
-      Eigen::OuterStride<>(static_cast<Eigen::Index>(work.solution->d)));
+  return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(work.solution->x), b.rows(), b.cols());
 }
 
 }  // namespace twindeck::linalg

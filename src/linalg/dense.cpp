@@ -52,13 +52,22 @@ template <typename Matrix, typename Gesv>
 Matrix solved_by(Gesv gesv, Matrix a, Matrix b) {
   use_one_thread();
   TWINDECK_ASSERT(a.rows() == a.cols() && a.rows() == b.rows());
-  const int n = as_int(a.rows()), columns = as_int(b.cols());
+  int n = as_int(a.rows()), columns = as_int(b.cols()), info = 0;
   if (n == 0 || columns == 0) return b;
   Eigen::VectorXi pivot(n);
-  int info = 0;
   gesv(&n, &columns, a.data(), &n, pivot.data(), b.data(), &n, &info);
   if (info != 0) b.setConstant(kNaN);
   return b;
+}
+
+/// Calls a LAPACK routine twice: it says how much room it wants in the first number of `work`, then it works there.
+template <typename Routine>
+void with_room(Routine call) {
+  Eigen::VectorXd work(1);
+  int room = -1;
+  call(work.data(), &room);
+  work.resize(room = static_cast<int>(work[0]));
+  call(work.data(), &room);
 }
 
 /// Ascending eigenpairs by DSYEVR: "A" all; "I" the last `n`; "V" those of values from `least` to `most`. @return LAPACK's info
@@ -68,17 +77,12 @@ int eigenpairs(const char* range, Eigen::MatrixXd symmetric, Index n, double lea
   const int size = as_int(symmetric.rows()), first = size - as_int(n) + 1, int_room = 10 * size;  // what DSYEVR asks for
   pairs = {Eigen::VectorXd(size), Eigen::MatrixXd(size, *range == 'I' ? n : size)};
   Eigen::VectorXi support(2 * size), int_work(int_room);
-  Eigen::VectorXd work(1);
   const double tolerance = 0.0;
-  int found = 0, info = 0, room = -1;
-  for (const bool ask : {true, false}) {
+  int found = 0, info = 0;
+  with_room([&](double* work, const int* room) {
     dsyevr_("V", range, "L", &size, symmetric.data(), &size, &least, &most, &first, &size, &tolerance, &found,
-            pairs.values.data(), pairs.vectors.data(), &size, support.data(), work.data(), &room, int_work.data(), &int_room,
-            &info);
-    if (!ask) break;
-    room = static_cast<int>(work[0]);
-    work.resize(room);
-  }
+            pairs.values.data(), pairs.vectors.data(), &size, support.data(), work, room, int_work.data(), &int_room, &info);
+  });
   pairs = {pairs.values.head(found).eval(), pairs.vectors.leftCols(found).eval()};
   return info;
 }
@@ -127,23 +131,18 @@ ThinSvd thin_svd(Eigen::MatrixXd a) {
   TWINDECK_ASSERT(k >= 1);
   ThinSvd svd{Eigen::MatrixXd(m, k), Eigen::VectorXd(k), Eigen::MatrixXd(k, n)};
   Eigen::VectorXi int_work(8 * k);
-  Eigen::VectorXd work(1);
-  int info = 0, room = -1;
-  for (const bool ask : {true, false}) {
-    dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, work.data(), &room,
-            int_work.data(), &info);
-    if (!ask) break;
-    room = static_cast<int>(work[0]);
-    work.resize(room);
-  }
+  int info = 0;
+  with_room([&](double* work, const int* room) {
+    dgesdd_("S", &m, &n, a.data(), &m, svd.values.data(), svd.u.data(), &m, svd.vt.data(), &k, work, room, int_work.data(),
+            &info);
+  });
   TWINDECK_ASSERT(info == 0);
   return svd;
 }
 
 Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a) {
   use_one_thread();
-  const int size = as_int(a.rows());
-  int info = 0;
+  int size = as_int(a.rows()), info = 0;
   dpotrf_("L", &size, a.data(), &size, &info);
   if (info != 0) return {};
   a.triangularView<Eigen::StrictlyUpper>().setZero();
@@ -171,28 +170,21 @@ UnsymmetricEigen unsymmetric_eigen(Eigen::MatrixXd a, bool with_vectors) {
   UnsymmetricEigen out{Eigen::VectorXcd::Constant(n, {kNaN, kNaN}),
                        Eigen::MatrixXcd::Constant(n_vectors, n_vectors, {kNaN, kNaN})};
   if (n == 0 || !a.allFinite()) return out;
-  Eigen::VectorXd re(n), im(n), work(1);
+  Eigen::VectorXd re(n), im(n);
   Eigen::MatrixXd packed(n, n_vectors);  // of a conjugate pair: real parts, then imaginary ones of the first
   double none = 0.0;
-  const int one = 1;
-  int info = 0, room = -1;
-  for (const bool ask : {true, false}) {
-    dgeev_("N", with_vectors ? "V" : "N", &n, a.data(), &n, re.data(), im.data(), &none, &one, packed.data(), &n, work.data(),
-           &room, &info);
-    if (!ask) break;
-    room = static_cast<int>(work[0]);
-    work.resize(room);
-  }
+  int one = 1, info = 0;
+  with_room([&](double* work, const int* room) {
+    dgeev_("N", with_vectors ? "V" : "N", &n, a.data(), &n, re.data(), im.data(), &none, &one, packed.data(), &n, work, room,
+           &info);
+  });
   if (info != 0) return out;
-  out.values.real() = re;
-  out.values.imag() = im;
-  for (Index j = 0; j < n_vectors; ++j) {
-    out.vectors.col(j).real() = packed.col(j);
-    out.vectors.col(j).imag().setZero();
-    if (im[j] == 0.0 || j + 1 == n) continue;
+  out.values = re + std::complex<double>(0.0, 1.0) * im;
+  out.vectors = packed.cast<std::complex<double>>();
+  for (Index j = 0; j + 1 < n_vectors; ++j) {
+    if (!(im[j] > 0.0)) continue;  // the first of a pair has the positive imaginary part
     out.vectors.col(j).imag() = packed.col(j + 1);
     out.vectors.col(j + 1) = out.vectors.col(j).conjugate();
-    ++j;
   }
   return out;
 }

@@ -44,10 +44,10 @@ struct ThinSvd {
 [[nodiscard]] Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b,
                                           bool transposed = false);
 
-/// A⁻¹ B of complex matrices by Gaussian elimination with row exchanges. The result is not finite if A is exactly singular.
+/// A⁻¹ B of complex or real matrices by Gaussian elimination with row exchanges. The result is not finite if A is exactly
+/// singular.
 /// @param a (n × n) @param b (n × columns)
 [[nodiscard]] Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b);
-/// The same for real matrices.
 [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd a, Eigen::MatrixXd b);
 
 /// Eigenvalues and right eigenvectors of a real unsymmetric matrix, in no particular order; not finite if they do not converge.

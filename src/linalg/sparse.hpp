@@ -9,9 +9,7 @@ namespace twindeck::linalg {
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 /// A X of a symmetric matrix.  @param lower  lower triangle of A (n × n) @param x (n × m) @return (n × m)
-[[nodiscard]] inline Eigen::MatrixXd symmetric_product(const SparseMatrix& lower, const Eigen::Ref<const Eigen::MatrixXd>& x) {
-  return lower.selfadjointView<Eigen::Lower>() * x;
-}
+[[nodiscard]] Eigen::MatrixXd symmetric_product(const SparseMatrix& lower, const Eigen::Ref<const Eigen::MatrixXd>& x);
 
 /// The matrix without stored zeros, for many products: on the common pattern of stiffness and mass most entries of the mass are
 /// zero.

@@ -38,7 +38,7 @@ class StepContext : public Reporter {
   [[nodiscard]] std::filesystem::path resolved(const std::string& path) const;
   /// A line for people on stderr, prefixed with the step's token; nothing with --quiet.
   void say(const std::string& line) const override;
-  /// A doubtful input that the step uses unchanged: printed as "warning: …" and kept in the manifest, with --quiet too.
+  /// A doubtful input that the step uses unchanged: printed as "warning: …", except with --quiet, and kept in the manifest.
   void warn(const std::string& line) override;
   /// Progress with remaining time on anything over two seconds (terminal: one line rewritten; otherwise a line every ten
   /// seconds).
