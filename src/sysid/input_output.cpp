@@ -84,12 +84,13 @@ Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<in
 }
 
 /// @throws InputError  if the record is too short for the block rows, or these too few for the orders
-void check_size(const Sizes& size, Index samples, int maximum_order) {
-  const Index columns = samples - 2 * size.block_rows + 1, rows = 2 * size.all() * size.block_rows;
-  if (columns < 2 * rows) {
+void check_size(const Sizes& size, Index samples, int n_blocks, int maximum_order) {
+  // n samples have n - 2p + 1 columns: twice as many as the rows 2p of all channels, and more than 2p in each block.
+  const Index carried = std::min((samples + 1) / (4 * size.all() + 2), (samples + 1 - n_blocks) / (2 * n_blocks + 2));
+  if (size.block_rows > carried) {
     throw InputError({"", 0, "block_rows"},
                      fmt::format("is {}, but a record of {} samples with {} inputs and {} outputs carries at most {}",
-                                 size.block_rows, samples, size.inputs, size.outputs, samples / (4 * size.all() + 2)),
+                                 size.block_rows, samples, size.inputs, size.outputs, std::max<Index>(carried, 0)),
                      "ask for fewer block rows, or give a longer record");
   }
   if (maximum_order > (size.block_rows - 1) * size.outputs) {
@@ -134,7 +135,7 @@ Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen:
   TWINDECK_ASSERT(inputs.rows() == outputs.rows() && inputs.cols() > 0 && outputs.cols() > 0 && n_blocks >= 2);
   const Sizes size{inputs.cols(), outputs.cols(), options.block_rows};
   const std::vector<int> orders = options.orders();
-  check_size(size, inputs.rows(), orders.back());
+  check_size(size, inputs.rows(), n_blocks, orders.back());
   Eigen::MatrixXd data(inputs.rows(), size.all());
   data << inputs, outputs;
   const std::vector<Eigen::MatrixXd> grams = grams_of_blocks(data, size, n_blocks);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <tuple>
 
@@ -130,7 +131,7 @@ StateModes state_space(const StructureState& state, const UndampedModes& undampe
 void refine(const StructureState& state, Complex& s, VectorXcd& phi) {
   MatrixXcd t;
   VectorXcd t_prime_phi;
-  for (int iteration = 0; iteration < 8; ++iteration) {
+  for (int iteration = 0; iteration < 40; ++iteration) {
     dynamic_matrices(state, s, phi, t, t_prime_phi);
     const Complex step = (phi.transpose() * (t * phi))(0) / (phi.transpose() * t_prime_phi)(0);
     s -= step;
@@ -200,6 +201,12 @@ StateModes solve_by_state_space(const StructureState& state, double highest_Hz, 
   }
   return normalised(state, found);
 }
+
+/// [-] parts of a slider's change of stiffness that a step takes, one attempt after another: strokes near the slip swing to and
+/// fro with the whole of it.
+constexpr double kRelaxed[] = {1.0, 0.25, 0.06};
+/// [-] of the root, the last step of its search. With sliders a step shows only the part that it takes of what is left.
+constexpr double kSettled = 1e-10, kSettledStrokes = 1e-8;
 
 /// Damped modes in the coordinates of the undamped ones, phi = Psi z: there T(s) = diag(1 + s² mu) + B D(s) B' for the p
 /// directions B of few attachments, so that a step of residual inverse iteration costs n p² operations where a factorisation of
@@ -281,12 +288,14 @@ class ModalRoots {
   /// @param forces  of sliders [N/m], where the shape is not known: those that s is an eigenvalue with
   bool add(Complex s, VectorXcd z, const VectorXcd& forces, Found& found, bool must_oscillate) const {
     const Complex start = s;
-    if (!root(s, z, forces, 1.0)) {
+    bool converged = root(s, z, forces, kRelaxed[0]);
+    for (std::size_t i = 1; !converged && i < std::size(kRelaxed); ++i) {
       if (!sliders_ || must_oscillate) return false;
       s = start;
       z.resize(0);
-      if (!root(s, z, forces, 0.25)) return false;
+      converged = root(s, z, forces, kRelaxed[i]);
     }
+    if (!converged) return false;
     if (!oscillates(s)) return !must_oscillate;
     for (const auto& other : found)
       if (same_mode(other, s, z)) return sliders_ && !must_oscillate;
@@ -447,7 +456,7 @@ class ModalRoots {
         step *= 0.1 * std::abs(s / step);  // strokes of the shape that the start has: they change with it
       }
       s -= step;
-      const bool small = std::abs(step) < (relax < 1.0 ? 3e-5 : sliders_ ? 1e-8 : 1e-10) * std::abs(s);
+      const bool small = std::abs(step) < (sliders_ ? kSettledStrokes * relax : kSettled) * std::abs(s);
       VectorXcd v = 2.0 * s * z.cwiseProduct(modes_.mu);
       const VectorXcd force = d_prime.cwiseProduct(q);
       v.real() += bm_ * force.real();

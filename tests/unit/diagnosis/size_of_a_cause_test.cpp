@@ -36,6 +36,15 @@ TEST(AtItsLeast, IsASizeOnItsLowerBoundAlone) {
   EXPECT_FALSE(at_its_least(oscillator.of(100.0, 1.0))) << "a low frequency is no small effect";
 }
 
+// A thousandth of its own range of ln(100): 0.0046. The range of another unknown counts for nothing.
+TEST(AtItsLeast, IsAsCloseAsAThousandthOfItsOwnRange) {
+  Oscillator oscillator;
+  oscillator.candidate.low[1] = -100.0;
+  EXPECT_TRUE(at_its_least(oscillator.of(10.0 * std::exp(0.004), 20.0)));
+  EXPECT_FALSE(at_its_least(oscillator.of(10.0 * std::exp(0.006), 20.0)));
+  EXPECT_FALSE(at_its_least(oscillator.of(10.0 * std::exp(0.05), 20.0)));
+}
+
 TEST(AtItsLeast, IsNotSaidOfAFactor) {
   diagnosis::Hypothesis hypothesis;
   hypothesis.unknowns = {{"factor", "-", {}, {}, true, {}}};

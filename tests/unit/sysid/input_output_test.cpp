@@ -53,6 +53,28 @@ TEST(InputOutput, FindsTheSystemAndNotTheExcitation) {
   }
 }
 
+// n - 2p + 1 columns. One input and two outputs: at least twice the 6p rows, n = 14p - 1. In ten blocks, 2p + 1 columns each:
+// n = 22p + 9.
+TEST(InputOutput, AsManyBlockRowsAsTheRecordCarriesAreTaken) {
+  IdentifyOptions options;
+  options.block_rows = 20;
+  options.maximum_order = 8;
+  const auto taken = [&](Eigen::Index samples, int n_blocks) {
+    const Record record = simulated(samples, 0.1);
+    try {
+      static_cast<void>(identify_input_output(record.input, record.output, 25.0, options, n_blocks));
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("carries at most 19"), std::string::npos) << error.what();
+      return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(taken(279, 2));
+  EXPECT_FALSE(taken(278, 2));
+  EXPECT_TRUE(taken(449, 10));
+  EXPECT_FALSE(taken(448, 10));
+}
+
 TEST(InputOutput, TooShortARecordIsRefused) {
   const Record record = simulated(200, 0.1);
   EXPECT_THROW(static_cast<void>(identify_input_output(record.input, record.output, 25.0, {})), InputError);

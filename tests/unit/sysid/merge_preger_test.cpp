@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -96,6 +97,19 @@ TEST(MergePregerExact, EachOrderHasItsPoles) {
   expect_chain(poles[2], {0, 1, 2}, 3);
   for (std::size_t k = 0; k < 3; ++k) {
     for (const Pole& pole : poles[k]) EXPECT_EQ(pole.order, static_cast<int>(2 * (k + 1)));
+  }
+}
+
+// An order of more states than the records have: the pseudo-inverse is of a matrix without full rank, and stays finite.
+TEST(MergePregerExact, ATooHighOrderKeepsThePolesOfTheChain) {
+  const auto poles = merge_preger({exact_setup({0, 1}, 1, 1.0), exact_setup({0, 2}, 1, 1.0)}, 3, kExactRows, {8}, 20.0);
+  ASSERT_EQ(poles.size(), 1U);
+  for (int r = 0; r < 3; ++r) {
+    const Eigen::VectorXcd expected = normalised_shape(kThreeMasses.shape(r).cast<std::complex<double>>());
+    const bool there = std::any_of(poles[0].begin(), poles[0].end(), [&](const Pole& pole) {
+      return std::abs(pole.frequency_Hz / kThreeMasses.frequency_Hz(r) - 1.0) < 1e-4 && (pole.shape - expected).norm() < 1e-3;
+    });
+    EXPECT_TRUE(there) << r;
   }
 }
 

@@ -124,6 +124,25 @@ TEST(StructureFit, RecoversTheSizesThatMadeTheData) {
   for (const double cost : fit.costs()) EXPECT_LT(cost, 1e-12);
 }
 
+// Half the squares of 3 x 2, 1.5 and 0.8 standard deviations, a kind each, times the square of its weight.
+TEST(StructureFit, CostsAreThoseOfEachKindOfData) {
+  const VectorXd part = two(0.3, 0.7);
+  StructureData data = known_at(part);
+  data.frequencies.frequency_Hz /= 1.02;
+  data.forces[0].force_N -= 150.0;
+  data.masses[0].mass_kg_m -= 4.0;
+  std::vector<FittedStructure> one = {{propped, {}, data}};
+  StructureFit fit(one, {{1.0, 2.0, 3.0, 1.0}, 0.01, 0.0, part});
+  VectorXd r;
+  ASSERT_TRUE(fit.residual(part, r));
+  const double unit = 0.01;
+  const auto cost = [&](DataKind kind) { return fit.costs()[static_cast<std::size_t>(kind)] / (unit * unit); };
+  EXPECT_NEAR(cost(DataKind::frequency), 0.5 * 3.0 * 4.0, 1e-6);
+  EXPECT_NEAR(cost(DataKind::cable_force), 0.5 * 4.0 * 2.25, 1e-6);
+  EXPECT_NEAR(cost(DataKind::mass), 0.5 * 9.0 * 0.64, 1e-6);
+  EXPECT_EQ(cost(DataKind::displacement), 0.0);
+}
+
 TEST(StructureFit, FrequenciesAloneLeaveTheMassOpenAndAForceSettlesIt) {
   // With a stay whose modulus follows the girder's, and without geometric stiffness, frequencies depend on E / rho alone:
   // without the pull to the start J has rank one. The force, which depends on rho, gives two.

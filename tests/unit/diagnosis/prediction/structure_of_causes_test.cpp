@@ -305,6 +305,23 @@ TEST(CausesOfSupports, OneThatIsMovedStandsBetweenTwoNodes) {
   moved(2.25, 0.75 * VectorXd::Unit(4, 2) + 0.25 * VectorXd::Unit(4, 3));
   moved(0.5, 0.5 * VectorXd::Unit(4, 0) + 0.5 * VectorXd::Unit(4, 1));
   moved(7.0, VectorXd::Unit(4, 3));
+
+  // A support of two springs: each goes along on directions of its own, the second ones after the first of each station.
+  FourMasses two([](diagnosis::Places& places) {
+    Place pier;
+    pier.id = "support:pier";
+    pier.stiffness = diagnosis::Symmetric(MatrixXd(Eigen::Vector4d(4e5, 3e5, 0.0, 0.0).asDiagonal()).sparseView());
+    pier.directions = MatrixXd::Identity(4, 4).sparseView();
+    pier.attributes = {{"stations", 2.0}, {"k_0", 4e5}, {"k_1", 3e5}, {"x_0", 0.0}, {"x_1", 1.0}};
+    places.sets["support_moves"] = {pier};
+  });
+  MatrixXd bare = two.k;
+  bare(0, 0) -= 4e5;
+  bare(1, 1) -= 3e5;
+  const VectorXd first = 0.75 * VectorXd::Unit(4, 0) + 0.25 * VectorXd::Unit(4, 2);
+  const VectorXd second = 0.75 * VectorXd::Unit(4, 1) + 0.25 * VectorXd::Unit(4, 3);
+  two.expect({HandMade("support.move", {{"position", 0.25}}, {two.model.place("support_moves", "support:pier")}).cause()},
+             bare + 4e5 * first * first.transpose() + 3e5 * second * second.transpose(), two.m);
 }
 
 /// Four masses with one damper at the second, switched on.
