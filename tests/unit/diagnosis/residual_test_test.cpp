@@ -36,6 +36,25 @@ TEST(ResidualTest, BlocksOfSoundDataFollowTheirLaw) {
   EXPECT_NEAR(below_half, 100, 24);  // binomial at one half, 99.9 %
 }
 
+// A shape's scale is free: one row of its block says what it is. A channel has a part of each shape.
+TEST(ResidualTest, AWholeShapeHasARowLessThanItHasChannels) {
+  const Chain chain({.masses = 10, .parameters = false});
+  std::mt19937_64 random(14);
+  const ResidualTest test = tested(chain, chain.measure(chain.scattered(random), &random));
+  int shapes = 0, channels = 0;
+  for (const diagnosis::BlockMisfit& block : test.blocks) {
+    if (block.name.starts_with(name_of(diagnosis::RowType::shape) + " of mode")) {
+      EXPECT_EQ(block.dof, block.rows - 1) << block.name;
+      ++shapes;
+    } else if (block.name.starts_with("channel")) {
+      EXPECT_EQ(block.dof, block.rows) << block.name;
+      ++channels;
+    }
+  }
+  EXPECT_GT(shapes, 3);
+  EXPECT_GT(channels, 3);
+}
+
 TEST(ResidualTest, AFaultOfOneChannelIsSeenInItsBlock) {
   const Chain chain({.masses = 10, .parameters = false});
   int named = 0, sooner = 0;

@@ -20,6 +20,31 @@ Eigen::VectorXcd scattered(const Eigen::VectorXd& shape, double noise, signal::t
   return normalised_shape(result);
 }
 
+// Poles of a mode some 0.06 from those of the order before, poles of the noise 0.5 and more: the boundary lies between, well
+// above the smallest cut of 0.05. Orders: 2 to 60.
+TEST(AutomaticClusters, AModeWhosePolesScatterBeyondTheSmallestCutIsFound) {
+  signal::test::Noise random(3);
+  std::vector<DiagramPole> diagram;
+  std::vector<int> orders;
+  for (int order = 2; order <= 60; order += 2) {
+    orders.push_back(order);
+    Pole mode{}, noise{};
+    mode.order = noise.order = order;
+    mode.frequency_Hz = 2.0;
+    noise.frequency_Hz = 4.0 + random();
+    mode.damping_ratio = noise.damping_ratio = 0.01;
+    mode.shape = scattered(Eigen::VectorXd::Unit(kChannelsOfDiagram, 1), 0.046, random);
+    Eigen::VectorXd any(kChannelsOfDiagram);
+    for (double& x : any) x = random();
+    noise.shape = scattered(any, 0.01, random);
+    diagram.push_back({mode});
+    diagram.push_back({noise});
+  }
+  const std::vector<Cluster> clusters = automatic_clusters(diagram, orders, {});
+  ASSERT_EQ(clusters.size(), 1U);
+  EXPECT_GE(clusters[0].members.size(), 24U);
+}
+
 /// Modes at 2.00 and 2.10 Hz at orders 26 to 60, a pole between them at orders 8 to 36, a mode at 3 Hz at all orders.
 std::size_t modes_with(const Eigen::VectorXd& between) {
   signal::test::Noise random(5);
