@@ -2,21 +2,11 @@
 
 #include <Eigen/Core>
 #include <complex>
-#include <vector>
 
-#include "diagnosis/reduction/attachment_stiffness.hpp"
+#include "diagnosis/reduction/structure_state.hpp"
 #include "diagnosis/reduction/undamped_modes.hpp"
 
 namespace twindeck::diagnosis {
-
-/// One state of the structure: matrices and attachments under one set of circumstances.
-struct StructureState {
-  Eigen::MatrixXd stiffness, mass;  ///< (n × n)
-  std::vector<Attachment> attachments;
-  Eigen::RowVectorXd amplitude_row;  ///< (n) motion at the channel that the amplitude is known at; empty if unknown
-  double amplitude_m = 0.0;          ///< RMS displacement there; 0: small, nothing slips
-  [[nodiscard]] bool damped() const { return !attachments.empty(); }
-};
 
 /// Modes of a state: eigenvalues s = -zeta omega ± i omega sqrt(1 - zeta²) with positive imaginary part.
 struct StateModes {
@@ -25,10 +15,6 @@ struct StateModes {
   [[nodiscard]] double frequency_Hz(Eigen::Index i) const;  ///< |s| / 2 pi
   [[nodiscard]] double damping(Eigen::Index i) const;       ///< -Re s / |s|
 };
-
-/// T(s) of a state with attachments at the amplitudes of the shape phi (n), and T'(s) phi.
-void dynamic_matrices(const StructureState& state, std::complex<double> s, const Eigen::VectorXcd& phi, Eigen::MatrixXcd& t,
-                      Eigen::VectorXcd& t_prime_phi);
 
 /// Modes up to `highest_Hz`. Undamped states by a symmetric eigenproblem; damped ones, T(s) phi = 0 with
 /// T = s² M + K + sum d_k(s, X_k) b_k b_k' and X_k the mode's own amplitude at the element, by Newton on their characteristic
