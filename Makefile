@@ -35,7 +35,7 @@ include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: bench-places check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
-  smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants docs FORCE
+  smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants hold docs FORCE
 
 help: ## this page
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
@@ -171,6 +171,11 @@ reproduce-check: deps ## two clones made from nothing give the same bytes; with 
 SECONDS ?= 300
 fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFuzzer and sanitizers, SECONDS shared out
 	@/usr/bin/python3 tests/fuzz/run.py $(SECONDS) --jobs $(JOBS)
+
+hold: build ## where a change of numbers is meant: hold those of the smoke chain and of diagnoses anew, for the tests that compare them
+	@cmake --build $(BUILD) -j $(JOBS) --target blind_form
+	@TWINDECK_HOLD=1 $(PRODUCT)workflows/python.sh -m unittest tests/steps/test_held_numbers.py
+	@$(BIN)/blind_form 7 9000 --hold tests/blind/form/held_9000.csv
 
 sanitize: ## unit tests, broken inputs and the smoke chain under address, undefined-behaviour and thread sanitizers (ONLY=address or thread)
 	@tests/sanitize/run.sh $(JOBS) $(ONLY)

@@ -59,7 +59,11 @@ class Reach(unittest.TestCase):
 
     def test_tests_of_a_room_its_own_first_then_those_that_use_it(self):
         known = ("test_core", "test_fe", "test_updating", "test_wind")
-        self.assertEqual(run.tests_of("fe", self.USES, known), ["test_fe", "test_updating", "test_laws", "test_verification"])
+        self.assertEqual(run.tests_of("fe", self.USES, known), ["test_fe", "test_updating", "test_laws", "test_verification", run.SMOKE])
+        of_diagnosis = [run.CHAIN_AND_GIRDER, run.DIAGNOSED_SMOKE, run.BLIND]
+        uses = {**self.USES, "diagnosis/causes": ["fe"], "diagnosis": ["diagnosis/causes", "updating"]}
+        self.assertEqual(run.tests_of("updating", uses, known), ["test_updating", "test_laws", "test_verification", run.SMOKE, *of_diagnosis])
+        self.assertEqual(run.tests_of("diagnosis/causes", uses, known), ["test_laws", "test_verification", *of_diagnosis])
 
     def test_every_room_of_numerics_is_a_folder_with_a_library(self):
         uses = tomllib.loads((ROOT / "src/layers.toml").read_text())["uses"]

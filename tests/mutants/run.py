@@ -4,18 +4,21 @@
 
 The faults are drawn by the seed: a kind first (faults.py), then one of its places. The sources are copied to DIR/source, so that nobody's tree
 is touched, and compiled there one by one. A mutant is built as far as the tests that run need it: first the test of its room, then those of
-the rooms that use it, at last the laws and the verification. The first test that fails has caught it; one that takes longer than TOO_LONG
-times what it takes without a fault has caught it too. A fault that does not compile is drawn anew. So is one that equivalent.toml lists: no
-number can tell it from the original, and the entry says why.
+the rooms that use it, then the laws and the verification, at last the numbers of whole runs that `make test` holds where they are: the smoke
+chain and diagnoses. The first test that fails has caught it; one that takes longer than TOO_LONG times what it takes without a fault has
+caught it too. A fault that does not compile is drawn anew. So is one that equivalent.toml lists: no number can tell it from the original,
+and the entry says why.
 
 Results: DIR/mutants.csv (mutant, file, line, kind, before, after, outcome, by, seconds), written after each, so that a run can be broken off.
 The last line says how many were caught. Exit code 1 if LEAST_CAUGHT of them were not, 2 for bad arguments.
 """
 import argparse
 import csv
+import os
 import pathlib
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -32,6 +35,13 @@ TOO_LONG = 5.0        # times what a test takes without a fault: an endless loop
 SLACK_S = 20.0        # beside it, for tests of milliseconds on a busy machine
 # As `make sanitize` compiles the same tests: Eigen and the standard library say where sizes do not match and indices lie outside.
 ASSERTING = ("-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1", "-DCMAKE_CXX_FLAGS=-D_GLIBCXX_ASSERTIONS")
+# Tests of whole runs: what is built for them, and how they are started, from the copy of the sources.
+SMOKE, BLIND = "held numbers of the smoke chain", "held numbers of blind diagnoses"
+CHAIN_AND_GIRDER, DIAGNOSED_SMOKE = "held numbers of two diagnoses", "held numbers of a diagnosis of the smoke chain"
+HELD = [sys.executable, "-m", "unittest", "tests/steps/test_held_numbers.py", "-k"]
+WHOLE_RUNS = {SMOKE: ("executables", [*HELD, "test_the_smoke_chain"]), CHAIN_AND_GIRDER: ("s9_diagnosis", [*HELD, "test_diagnoses_of"]),
+              DIAGNOSED_SMOKE: ("executables", [*HELD, "test_a_diagnosis_of"]),
+              BLIND: ("blind_form", ["blind_form", "7", "9000", "--held", "tests/blind/form/held_9000.csv"])}
 COLUMNS = ("mutant", "file", "line", "kind", "before", "after", "outcome", "by", "seconds")
 
 
@@ -50,9 +60,14 @@ def users(uses, library):
 
 
 def tests_of(library, uses, known):
-    """Names of the test executables that link this library, its own first, the laws and the verification last."""
-    names = ["test_" + name.replace("/", "_") for name in (library, *users(uses, library))]
-    return [name for name in names if name in known] + ["test_laws", "test_verification"]
+    """Names of the test executables that link this library, its own first, the laws, the verification and whole runs last."""
+    higher = users(uses, library)
+    names = ["test_" + name.replace("/", "_") for name in (library, *higher)]
+    of_diagnosis = library.split("/")[0] == "diagnosis"  # the smoke chain ends before the diagnosis
+    whole = [] if of_diagnosis else [SMOKE]
+    if of_diagnosis or "diagnosis" in higher:
+        whole += [CHAIN_AND_GIRDER, DIAGNOSED_SMOKE, BLIND]
+    return [name for name in names if name in known] + ["test_laws", "test_verification"] + whole
 
 
 def library_of(file, uses):
@@ -91,15 +106,24 @@ class Bench:
         self.known = (self.build / "unit_tests.txt").read_text().strip().split(";")
 
     def make(self, test):
-        return subprocess.run(["cmake", "--build", self.build, "-j", str(self.jobs), "--target", test], capture_output=True).returncode == 0
+        target = WHOLE_RUNS[test][0] if test in WHOLE_RUNS else test
+        return subprocess.run(["cmake", "--build", self.build, "-j", str(self.jobs), "--target", target], capture_output=True).returncode == 0
 
     def run(self, test, limit=None):
         """True if the test passes, None if it takes longer than the limit."""
+        binaries = self.build / "bin"
+        command, folder = [binaries / test, "--gtest_brief=1", "--gtest_fail_fast"], self.build
+        if test in WHOLE_RUNS:
+            words, folder = WHOLE_RUNS[test][1], self.source
+            command = [binaries / words[0] if (binaries / words[0]).exists() else words[0], *words[1:]]
+        running = subprocess.Popen(command, cwd=folder, env={**os.environ, "TWINDECK_BIN": str(binaries)}, start_new_session=True,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            done = subprocess.run([self.build / "bin" / test, "--gtest_brief=1", "--gtest_fail_fast"], cwd=self.build, capture_output=True, timeout=limit)
+            return running.wait(limit) == 0
         except subprocess.TimeoutExpired:
+            os.killpg(running.pid, signal.SIGKILL)  # a whole run has children
+            running.wait()
             return None
-        return done.returncode == 0
 
     def without_a_fault(self, tests):
         """Builds and times the tests on the sound sources."""

@@ -108,11 +108,15 @@ class Predictor {
   struct DamperInUse;
   [[nodiscard]] DamperInUse damper_in(const Condition& condition, const ReducedPlace& damper) const;
   void apply_dampers(const Condition& condition, StructureState& state) const;
+
+  // states, each solved once (solved_states.cpp)
   struct Acting;
   [[nodiscard]] Acting acting_in(const Condition& condition) const;
   /// Values of a condition that its state depends on: the key of the state beside the causes.
   [[nodiscard]] std::vector<double> circumstances(const Condition& condition, const Acting& acting) const;
   [[nodiscard]] SolvedState& solved(int condition);
+  /// Matrices of a state in those of the columns that do not depend on each other in it.
+  void build(SolvedState& entry, const Condition& condition, const std::vector<int>& columns) const;
   [[nodiscard]] static Eigen::MatrixXd sliced(const ReducedMatrix& full, const std::vector<int>& columns, Eigen::Index size);
   [[nodiscard]] static Eigen::VectorXd sliced(const ReducedDirections& full, Eigen::Index d, const std::vector<int>& columns,
                                               Eigen::Index size);

@@ -201,6 +201,7 @@ void run_form_case(const FormCase& hidden, FormScore& score, const std::function
   const diagnosis::Diagnosis result = diagnosis::diagnose_with_form(inference, {}, hidden.seed);
   score.seconds = cpu_seconds() - begin;
   score_answer(hidden, result, score);
+  score.numbers = numbers_of(hidden.seed, result);
   if (look) look(result);
 }
 

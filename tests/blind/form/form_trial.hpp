@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blind/form/calibration.hpp"
+#include "blind/form/held_numbers.hpp"
 #include "blind/form/hidden.hpp"
 #include "diagnosis/diagnose.hpp"
 
@@ -45,6 +46,7 @@ struct FormScore {
   bool gain_claimed = false;  ///< a cause is put forward and the interval of the left-out modes' gain lies above zero
   bool sized = false, covered = false;
   double size = 0.0, found_size = 0.0, low = 0.0, high = 0.0;
+  std::vector<HeldNumber> numbers;           ///< of the diagnosis
   double seconds_made = 0.0, seconds = 0.0;  ///< CPU: to make the truth, to diagnose it
 };
 

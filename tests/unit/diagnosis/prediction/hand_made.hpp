@@ -49,11 +49,11 @@ class Predicted {
  public:
   Predicted(const std::vector<fe::DofLabel>& dofs, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
             const std::vector<MatrixModel::Part>& parts = {}, const std::function<void(diagnosis::Places&)>& more = {},
-            const diagnosis::LoadTests& tests = {})
+            const diagnosis::LoadTests& tests = {}, const diagnosis::ReductionOptions& reduction = {})
       : model_(dofs, stiffness, mass, parts), structure_(model_.structure()), places_(find_places(structure_, {})) {
     structure_.load_tests = tests;
     if (more) more(places_);
-    reduced_ = std::make_unique<diagnosis::ReducedModel>(structure_, places_, diagnosis::ReductionOptions{});
+    reduced_ = std::make_unique<diagnosis::ReducedModel>(structure_, places_, reduction);
     for (std::size_t c = 0; c < dofs.size(); ++c) {
       features.channels.push_back("c" + std::to_string(c));
       features.direction.push_back(Eigen::Vector3d::Unit(dofs[c].direction % 3));

@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "diagnosis/prediction/predictor.hpp"
+#include "diagnosis/reduction/independent_coordinates.hpp"
+
+/// States of the structure: which one a condition has, each solved once, and how its modes go with the unknowns.
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+constexpr double kUnknown = -1e300;  ///< in the key of a state: a circumstance that the condition does not tell
+
+}  // namespace
+
+/// What acts in a condition: conditions and causes that agree in it share one solution.
+struct Predictor::Acting {
+  std::vector<double> causes, before_last;  ///< the causes that act here, by entry and magnitudes; without the last of them
+  bool follows = false;                     ///< the last one leaves dampers alone and adds no motion of its own
+  std::vector<int> columns;                 ///< of the reduced model that the state needs
+  bool temperature = false, amplitude = false, wind = false;  ///< on which the state depends
+};
+
+Predictor::Acting Predictor::acting_in(const Condition& condition) const {
+  Acting out;
+  for (int k = 0; k < map_.model().common; ++k) out.columns.push_back(k);
+  for (const Cause& cause : causes_) {
+    bool any = false, alone = false;
+    for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
+      if (!acts(cause, action, condition)) continue;
+      any = true;
+      const bool field = action.kind == "field.stiffness" || action.kind == "soften.stiffness";
+      const auto named = action.text.find("variable");
+      const std::string key = named == action.text.end() ? "temperature_C" : named->second;
+      out.temperature = out.temperature || (field && key == "temperature_C");
+      out.amplitude = out.amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
+      out.wind = out.wind || (field && key == "wind_m_s");
+      alone =
+          alone || action.kind.starts_with("damper.") || action.kind == "element.oscillator" || action.kind == "element.string";
+    }
+    if (!any) continue;
+    out.before_last = out.causes;
+    out.follows = !alone;
+    // The catalogue entry itself and its magnitudes name the cause.
+    out.causes.push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(cause.candidate)));
+    for (Index i = 0; i < cause.a.size(); ++i) out.causes.push_back(cause.a[i]);
+    for (const ReducedPlace* place : cause.candidate->places)
+      for (const int k : place->columns)
+        if (std::find(out.columns.begin(), out.columns.end(), k) == out.columns.end()) out.columns.push_back(k);
+  }
+  const auto dampers = map_.model().sets.find("dampers");
+  if (dampers != map_.model().sets.end() && condition.dampers_on.value_or(false))
+    for (const ReducedPlace& damper : dampers->second) out.amplitude = out.amplitude || damper.attributes.contains("friction");
+  return out;
+}
+
+std::vector<double> Predictor::circumstances(const Condition& condition, const Acting& acting) const {
+  std::vector<double> key = {condition.dampers_on ? (*condition.dampers_on ? 1.0 : 0.0) : kUnknown,
+                             condition.people.value_or(0.0)};
+  key.push_back(acting.temperature ? condition.temperature_C.value_or(kUnknown) : 0.0);
+  key.push_back(acting.amplitude ? condition.amplitude_m.value_or(kUnknown) : 0.0);
+  const auto& channels = map_.features().channels;
+  const auto channel = std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin();
+  key.push_back(acting.amplitude ? static_cast<double>(channel) : 0.0);
+  key.push_back(acting.wind ? condition.wind_m_s.value_or(kUnknown) : 0.0);
+  return key;
+}
+
+void Predictor::build(SolvedState& entry, const Condition& condition, const std::vector<int>& columns) const {
+  const auto build_in = [&](std::vector<int> these) {
+    columns_ = entry.columns = std::move(these);
+    followed_.clear();
+    entry.state = build_state(condition);
+    entry.followed = followed_;
+  };
+  build_in(columns);
+  const Index n = std::ssize(columns), common = map_.model().common;
+  if (n == common) return;
+  const std::vector<Index> kept =
+      independent_coordinates(entry.state.stiffness.topLeftCorner(n, n), entry.state.mass.topLeftCorner(n, n), common);
+  if (std::ssize(kept) == n) return;
+  std::vector<int> fewer;
+  for (const Index k : kept) fewer.push_back(columns[static_cast<std::size_t>(k)]);
+  build_in(std::move(fewer));
+}
+
+namespace {
+
+/// Modes of a state in the coordinates of another that has the same own degrees of freedom; none if it lacks one of its
+/// columns.
+StateModes in_coordinates_of(const SolvedState& state, const SolvedState& near) {
+  const auto shared = static_cast<Index>(near.columns.size()), own = near.modes.shapes.rows() - shared;
+  StateModes out;
+  out.shapes = Eigen::MatrixXcd::Zero(state.state.stiffness.rows(), near.modes.s.size());
+  for (Index k = 0; k < shared; ++k) {
+    const auto at = std::find(state.columns.begin(), state.columns.end(), near.columns[static_cast<std::size_t>(k)]);
+    if (at == state.columns.end()) return {};
+    out.shapes.row(at - state.columns.begin()) = near.modes.shapes.row(k);
+  }
+  out.shapes.bottomRows(own) = near.modes.shapes.bottomRows(own);
+  out.s = near.modes.s;
+  return out;
+}
+
+}  // namespace
+
+SolvedState& Predictor::solved(int c) {
+  if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(c)];
+  const Acting acting = acting_in(condition);
+  const std::vector<double> key = circumstances(condition, acting);
+  auto& states = base_.store->states;
+  const auto known = states.find({acting.causes, key});
+  std::shared_ptr<SolvedState> entry = known == states.end() ? nullptr : known->second;
+  if (const auto mine = own_.find({acting.causes, key}); !entry && mine != own_.end()) entry = mine->second;
+  if (!entry) {
+    entry = std::make_shared<SolvedState>();
+    build(*entry, condition, acting.columns);
+    // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
+    const bool kept = acting.causes.empty() || with_jacobian_ || base_.keeps;
+    // Damped modes follow from those without the last cause.
+    const auto neighbour = acting.follows ? states.find({acting.before_last, key}) : states.end();
+    StateModes from;
+    if (neighbour != states.end() && entry->state.damped()) from = in_coordinates_of(*entry, *neighbour->second);
+    entry->modes = solve_state(entry->state, map_.highest_Hz_, kept ? base_.store->undamped : undamped_,
+                               from.s.size() > 0 ? &from : nullptr);
+    (kept ? states : own_)[{acting.causes, key}] = entry;
+  }
+  of_condition_[c] = entry.get();
+  return *entry;
+}
+
+const std::pair<MatrixXd, MatrixXd>& Predictor::matrices(const std::vector<int>& columns) const {
+  auto& known = base_.keeps ? base_.store->matrices : matrices_;
+  const auto at = known.find(columns);
+  return at != known.end() ? at->second : known.emplace(columns, map_.matrices(base_, columns)).first->second;
+}
+
+const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
+  const std::vector<int>& columns = state.columns;
+  const Index size = state.state.stiffness.rows();
+  const auto [at, is_new] = base_.store->changes.try_emplace({columns, size});
+  StateStore::Changes& out = at->second;
+  if (!is_new) return out;
+  const ReducedModel& model = map_.model();
+  for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
+    const Nuisance& v = map_.nuisances()[j];
+    const auto place = [&](const char* set) -> const ReducedPlace& {
+      return model.sets.at(set)[static_cast<std::size_t>(v.index)];
+    };
+    MatrixChange dk, dm;
+    const auto add = [&](MatrixChange& to, double a, const ReducedMatrix& from) {
+      if (from.is_local() && to.empty()) {  // multiplied out where it is used: a thousand dense ones would fill the memory
+        to.amount = a;
+        to.local = &from;
+        return;
+      }
+      if (to.local != nullptr) to = {to.amount * sliced(*to.local, columns, size), 0.0, nullptr};
+      if (to.dense.size() == 0) to.dense = MatrixXd::Zero(size, size);
+      to.dense += a * sliced(from, columns, size);
+    };
+    if (v.kind == Nuisance::Kind::parameter) {
+      for (const auto& term : model.stiffness)
+        if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dk, v.deviation * a, term.matrix);
+      for (const auto& term : model.mass)
+        if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dm, v.deviation * a, term.matrix);
+    } else if (v.kind == Nuisance::Kind::element_stiffness) {
+      add(dk, v.deviation, place("elements").stiffness);
+    } else if (v.kind == Nuisance::Kind::element_mass) {
+      add(dm, v.deviation, place("elements").mass);
+    } else if (v.kind == Nuisance::Kind::node_mass) {
+      add(dm, v.deviation, place("nodes").mass);
+    } else if (v.kind == Nuisance::Kind::stay) {
+      add(dk, v.deviation, place("stays").stiffness);
+    } else {
+      continue;
+    }
+    out.position.push_back(static_cast<int>(j));
+    out.stiffness.push_back(std::move(dk));
+    out.mass.push_back(std::move(dm));
+  }
+  return out;
+}
+
+const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
+  const auto known = solved.derivatives.find(mode);
+  if (known != solved.derivatives.end()) return known->second;
+  const StateStore::Changes& change = changes(solved);
+  const Eigen::VectorXcd phi = solved.modes.shapes.col(mode);
+  const std::complex<double> square = solved.modes.s[mode] * solved.modes.s[mode];
+  MatrixXd parts(phi.size(), 2);  // real, imaginary
+  parts << phi.real(), phi.imag();
+  const MatrixXd stiffness = changed(solved, false, parts), mass = changed(solved, true, parts);
+  const auto changes = std::ssize(change.position);
+  Eigen::MatrixXcd force(phi.size(), changes);
+  force.real() = -stiffness.leftCols(changes);
+  force.imag() = -stiffness.rightCols(changes);
+  Eigen::MatrixXcd inertia(phi.size(), changes);
+  inertia.real() = mass.leftCols(changes);
+  inertia.imag() = mass.rightCols(changes);
+  force -= square * inertia;
+  ModeDerivative found = differentiate(solved.state, solved.modes, mode, force);
+  found.along = along_the_shape(solved.state, solved.modes, mode, found.s, inertia);
+  return solved.derivatives.emplace(mode, std::move(found)).first->second;
+}
+
+MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd& x) const {
+  const StateStore::Changes& change = changes(state);
+  MatrixXd out = times(state.columns, mass ? change.mass : change.stiffness, x);
+  const auto count = std::ssize(change.position);
+  for (const SolvedState::Followed& followed : state.followed) {
+    if (followed.mass != mass) continue;
+    MatrixXd part = MatrixXd::Zero(x.rows(), x.cols());
+    if (const Index n = followed.spring.size(); n > 0)  // own degrees of freedom of later causes lie below
+      part.topRows(n) = followed.spring * (followed.spring.transpose() * x.topRows(n));
+    else
+      part = sliced(*followed.part, state.columns, x.rows()) * x;
+    for (Index j = 0; j < count; ++j) {
+      const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(change.position[static_cast<std::size_t>(j)])];
+      if (v.kind != Nuisance::Kind::parameter || v.index != followed.parameter) continue;
+      for (Index p = 0; p < x.cols(); ++p) out.col(p * count + j) += v.deviation * followed.amount * part.col(p);
+    }
+  }
+  return out;
+}
+
+MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x) const {
+  const auto count = std::ssize(changes), n = std::ssize(columns);
+  MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols()), own, motion;
+  for (Index p = 0; p < x.cols(); ++p) {
+    if (x.col(p).isZero(0.0)) continue;
+    for (Index j = 0; j < count; ++j) {
+      const MatrixChange& change = changes[static_cast<std::size_t>(j)];
+      auto here = out.col(p * count + j);
+      if (change.dense.size() > 0) here = change.dense * x.col(p);
+      if (change.local == nullptr) continue;
+      if (motion.size() == 0) {
+        own = change.local->basis().own(columns);
+        motion = change.local->basis().motion(own, x.topRows(n));
+      }
+      change.local->add_product(change.amount, own, motion.col(p), here.head(n));
+    }
+  }
+  return out;
+}
+
+}  // namespace twindeck::diagnosis
