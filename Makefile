@@ -172,8 +172,9 @@ SECONDS ?= 300
 fuzz: ## make fuzz SECONDS=1200: fuzz targets of every reader with clang's libFuzzer and sanitizers, SECONDS shared out
 	@/usr/bin/python3 tests/fuzz/run.py $(SECONDS) --jobs $(JOBS)
 
-hold: build ## where a change of numbers is meant: hold those of the smoke chain and of diagnoses anew, for the tests that compare them
-	@cmake --build $(BUILD) -j $(JOBS) --target blind_form
+hold: build ## where a change of numbers is meant: hold those of the smoke chain, of diagnoses and of identified records anew, for the tests that compare them
+	@cmake --build $(BUILD) -j $(JOBS) --target blind_form test_blind_modes
+	@TWINDECK_HOLD=1 $(BIN)/test_blind_modes --gtest_brief=1
 	@TWINDECK_HOLD=1 $(PRODUCT)workflows/python.sh -m unittest tests/steps/test_held_numbers.py
 	@$(BIN)/blind_form 7 9000 --hold tests/blind/form/held_9000.csv
 

@@ -63,6 +63,7 @@ class Reach(unittest.TestCase):
         of_diagnosis = [run.CHAIN_AND_GIRDER, run.DIAGNOSED_SMOKE, run.BLIND]
         uses = {**self.USES, "diagnosis/causes": ["fe"], "diagnosis": ["diagnosis/causes", "updating"]}
         self.assertEqual(run.tests_of("updating", uses, known), ["test_updating", "test_laws", "test_verification", run.SMOKE, *of_diagnosis])
+        self.assertEqual(run.tests_of("wind", {**self.USES, "identification": ["wind"]}, known), ["test_wind", "test_laws", "test_verification", run.RECORDS, run.SMOKE])
         self.assertEqual(run.tests_of("diagnosis/causes", uses, known), ["test_laws", "test_verification", *of_diagnosis])
 
     def test_every_room_of_numerics_is_a_folder_with_a_library(self):

@@ -36,11 +36,11 @@ SLACK_S = 20.0        # beside it, for tests of milliseconds on a busy machine
 # As `make sanitize` compiles the same tests: Eigen and the standard library say where sizes do not match and indices lie outside.
 ASSERTING = ("-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1", "-DCMAKE_CXX_FLAGS=-D_GLIBCXX_ASSERTIONS")
 # Tests of whole runs: what is built for them, and how they are started, from the copy of the sources.
-SMOKE, BLIND = "held numbers of the smoke chain", "held numbers of blind diagnoses"
+SMOKE, BLIND, RECORDS = "held numbers of the smoke chain", "held numbers of blind diagnoses", "held numbers of identified records"
 CHAIN_AND_GIRDER, DIAGNOSED_SMOKE = "held numbers of two diagnoses", "held numbers of a diagnosis of the smoke chain"
 HELD = [sys.executable, "-m", "unittest", "tests/steps/test_held_numbers.py", "-k"]
 WHOLE_RUNS = {SMOKE: ("executables", [*HELD, "test_the_smoke_chain"]), CHAIN_AND_GIRDER: ("s9_diagnosis", [*HELD, "test_diagnoses_of"]),
-              DIAGNOSED_SMOKE: ("executables", [*HELD, "test_a_diagnosis_of"]),
+              RECORDS: ("test_blind_modes", ["test_blind_modes", "--gtest_brief=1"]), DIAGNOSED_SMOKE: ("executables", [*HELD, "test_a_diagnosis_of"]),
               BLIND: ("blind_form", ["blind_form", "7", "9000", "--held", "tests/blind/form/held_9000.csv"])}
 COLUMNS = ("mutant", "file", "line", "kind", "before", "after", "outcome", "by", "seconds")
 
@@ -64,7 +64,8 @@ def tests_of(library, uses, known):
     higher = users(uses, library)
     names = ["test_" + name.replace("/", "_") for name in (library, *higher)]
     of_diagnosis = library.split("/")[0] == "diagnosis"  # the smoke chain ends before the diagnosis
-    whole = [] if of_diagnosis else [SMOKE]
+    whole = [RECORDS] if "identification" in higher else []
+    whole += [] if of_diagnosis else [SMOKE]
     if of_diagnosis or "diagnosis" in higher:
         whole += [CHAIN_AND_GIRDER, DIAGNOSED_SMOKE, BLIND]
     return [name for name in names if name in known] + ["test_laws", "test_verification"] + whole
@@ -100,7 +101,7 @@ class Bench:
             there = self.source / name
             if not there.exists() or there.read_bytes() != (ROOT / name).read_bytes():
                 there.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(ROOT / name, there)
+                shutil.copy(ROOT / name, there)
         subprocess.run(["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DTWINDECK_UNITY=OFF",
                         "-DTWINDECK_WERROR=OFF", *ASSERTING], check=True, stdout=subprocess.DEVNULL)
         self.known = (self.build / "unit_tests.txt").read_text().strip().split(";")

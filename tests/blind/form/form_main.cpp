@@ -125,7 +125,7 @@ int run(int count, std::uint64_t first, const std::string& csv, const Holding& h
 
 int main(int argc, char** argv) {
   using namespace twindeck::blind::form;
-  const Holding holding = holding_of(argc, argv);
+  const twindeck::blind::Holding holding = twindeck::blind::holding_of(argc, argv);
   if (argc > 2 && std::string(argv[1]) == "--explain") {
     for (int i = 2; i < argc; ++i) explain_form_case(static_cast<std::uint64_t>(std::atoll(argv[i])));
     return 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "blind/form/diagnosis_numbers.hpp"
 #include "blind/form/measurement.hpp"
 #include "diagnosis/files/catalogue_files.hpp"
 #include "diagnosis/form_diagnosis.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "blind/form/calibration.hpp"
-#include "blind/form/held_numbers.hpp"
 #include "blind/form/hidden.hpp"
+#include "blind/held_numbers.hpp"
 #include "diagnosis/diagnose.hpp"
 
 /// One trial of the tier of form errors: a truth of another class, its measurement with errors, the diagnosis by the coarse

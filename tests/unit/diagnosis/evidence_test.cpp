@@ -84,6 +84,24 @@ TEST(Evidence, ErrorsThatAllChannelsShareNameNone) {
   EXPECT_TRUE(diagnosis::channel_factors({claims.begin(), claims.begin() + 3}).empty());  // too few to stand off from
 }
 
+// Oracle: Student's law on two degrees of freedom, p = 1 - t / sqrt(2 + t²), times the four channels. A new value has the
+// deviation s sqrt(1 + 1/3) from the mean of three.
+TEST(Evidence, AChannelIsHeldAgainstTheScatterOfTheOthers) {
+  const double s = 0.05, off = 12.0 * s, logarithm[] = {off, -s, 0.0, s};
+  std::vector<diagnosis::Claim> claims;
+  for (int channel = 0; channel < 4; ++channel)
+    claims.push_back({diagnosis::Claim::Kind::rms_error, "c" + std::to_string(channel), "r",
+                      100.0 * std::expm1(logarithm[channel]), 0.0, 0.0, ""});
+  const auto factors = diagnosis::channel_factors(claims);
+  ASSERT_EQ(factors.size(), 4u);
+  const double t = off / (s * std::sqrt(1.0 + 1.0 / 3.0));
+  EXPECT_NEAR(factors[0].p_value, 4.0 * (1.0 - t / std::sqrt(2.0 + t * t)), 1e-9);
+  EXPECT_NEAR(factors[0].others, s, 1e-12);
+  // The record's level is the median of the four.
+  EXPECT_NEAR(std::log(factors[0].factor), off - 0.5 * s, 1e-12);
+  EXPECT_EQ(factors[0].lowest, factors[0].highest);
+}
+
 /// A chain with dampers of one make at its masses 4 and 9, which may also stand the other way round.
 struct TwoDampers {
   TwoDampers() : chain({.masses = 12, .modes = 4}), places(chain.places()) {

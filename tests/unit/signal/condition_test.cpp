@@ -52,6 +52,9 @@ TEST(Decimate, PassesALineAndRefusesAShortRecord) {
   const Eigen::MatrixXd y = decimated(line, 4);
   for (Eigen::Index k = 0; k < y.rows(); ++k) EXPECT_NEAR(y(k, 0), 4.0 * static_cast<double>(k), 1e-9);
   EXPECT_THROW(static_cast<void>(decimated(line.topRows(60), 4)), InputError);
+  // Kaiser: (80 - 8) / (2.285 · 0.2 pi / 4) / 2 = 100.3 samples to either side.
+  EXPECT_THROW(static_cast<void>(decimated(line.topRows(101), 4)), InputError);
+  EXPECT_EQ(decimated(line.topRows(102), 4).rows(), 26);
 }
 
 TEST(Fft, InverseUndoesForwardAtAnyLength) {
