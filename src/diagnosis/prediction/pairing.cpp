@@ -26,6 +26,9 @@ constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distan
 /// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may
 /// have changed so much that frequencies double, where shapes tell more.
 constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
+/// Of the square of that step: frequencies that tell alone are paired in their order. Without it two measured ones above two of
+/// the model cost the same crossed, and rounding would choose.
+constexpr double kUncrossed = 1e-6;
 
 }  // namespace
 
@@ -122,7 +125,7 @@ void Predictor::pair(const std::vector<int>& conditions) {
         const double f = state.modes.frequency_Hz(j);
         if (!(f > 0.0)) continue;
         const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
-        sum[j] += std::min(distance, 4.0) + 0.05 * distance;
+        sum[j] += std::min(distance, 4.0) + 0.05 * distance + kUncrossed * distance * distance;
       }
     // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
     if (measured.damping >= 0 && state.state.damped()) {

@@ -65,6 +65,18 @@ TEST(Pair, ByFrequencyEachIsItself) {
   EXPECT_EQ(five.paired(), (std::vector<int>{2, 0, 4}));
 }
 
+// Both measured frequencies lie above both of the model: the sum of the distances is the same crossed.
+TEST(Pair, FrequenciesAloneArePairedInTheirOrder) {
+  for (int turn = 0; turn < 20; ++turn) {
+    FiveMasses five;
+    const double lower = FiveMasses::hertz(5) * (1.01 + 0.002 * turn), higher = lower * 1.03;
+    const bool swapped = turn % 2 == 1;
+    five.measure("A", swapped ? higher : lower, 0);
+    five.measure("B", swapped ? lower : higher, 0);
+    EXPECT_EQ(five.paired(), swapped ? (std::vector<int>{4, 3}) : (std::vector<int>{3, 4})) << turn;
+  }
+}
+
 TEST(Pair, ShapesDecideAgainstNearerFrequencies) {
   // Both frequencies lie between those of modes 4 and 5, each nearer to the other's mode.
   FiveMasses five;
