@@ -45,9 +45,9 @@ std::string splitting_shape(const FeatureMap& map, const Fit& base, const Scored
     const double difference = (values - other->second).cwiseAbs().maxCoeff(&mode);
     if (difference > largest) {
       largest = difference;
-      const auto space = name.rfind(' ');  // "node:17 z"
-      where = fmt::format("the shape of mode {} at {} along {}", map.measured_modes()[static_cast<std::size_t>(mode)].label,
-                          name.substr(0, space), name.substr(space + 1));
+      const auto space = name.rfind(' ');  // "node:17 z", or "node:17" where it moves in one direction only
+      where = fmt::format("the shape of mode {} at {}{}", map.measured_modes()[static_cast<std::size_t>(mode)].label,
+                          name.substr(0, space), space == std::string::npos ? "" : " along " + name.substr(space + 1));
     }
   }
   return where.empty() ? "" : fmt::format("{} (differs by {:.1f} % of the largest)", where, 100.0 * largest);
