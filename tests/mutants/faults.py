@@ -25,7 +25,7 @@ PATTERNS = [  # (kind, what is looked for, what stands there instead)
     ("index", re.compile(r"(?<=\w)\((\d)\)"), lambda found: f"({1 if found[1] == '0' else int(found[1]) - 1})"),
     ("index", re.compile(r"(?<=[(\[, ])(\w+) [+-] 1(?=[)\],])"), lambda found: found[1]),
     ("factor 2", re.compile(r"(?<![\w.])(\d+\.\d*(?:e[+-]?\d+)?)(?![\w.])"), lambda found: f"(2.0 * {found[1]})" if float(found[1]) else None),
-    ("factor 2", re.compile(rf"(?<=return )({PRODUCT})(?=;)"), lambda found: f"2.0 * ({found[1]})"),
+    ("factor 2", re.compile(rf"(?<=return )({PRODUCT})(?=;)"), lambda found: None if found[1] in ("true", "false") else f"2.0 * ({found[1]})"),
     ("transposition", re.compile(r"\.transpose\(\)"), lambda found: ""),
     ("transposition", re.compile(r"\.adjoint\(\)"), lambda found: ""),
     ("missing term", re.compile(rf"(?<=[\w)\]]) [+-] {PRODUCT}(?=[;,)])"), lambda found: ""),
