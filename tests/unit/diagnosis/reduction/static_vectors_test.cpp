@@ -107,6 +107,20 @@ TEST(StaticVectors, OfANodeHoldTheResponseToAForce) {
   EXPECT_LT(beyond(row.stiffness, beside(row.statics.common(), row.statics.own_vectors(node(17), 3)), response), kOrthonormal);
 }
 
+TEST(StaticVectors, OfMoreForcesThanAreAnsweredAtOnceHoldTheResponses) {
+  RowOfMasses row;
+  row.make_common();
+  Place line;  // 600 unit forces, the last fifty elsewhere
+  line.directions.resize(kRow, 600);
+  for (int k = 0; k < 600; ++k) line.directions.insert(k < 550 ? 17 : 30, k) = 1.0;
+  const MatrixXd own = row.statics.own_vectors(line, 3);
+  EXPECT_EQ(own.cols(), 2);
+  MatrixXd forces = MatrixXd::Zero(kRow, 2);
+  forces(17, 0) = forces(30, 1) = 1.0;
+  const MatrixXd response = row.stiffness.llt().solve(forces);
+  EXPECT_LT(beyond(row.stiffness, beside(row.statics.common(), own), response), 1e-6);
+}
+
 TEST(StaticVectors, OfAFactorHoldTheResponseToItsForces) {
   // A spring has one force, whatever the number of modes; two springs have two.
   RowOfMasses row;
