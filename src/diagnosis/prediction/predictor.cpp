@@ -228,7 +228,7 @@ Predictor::AddedToMode Predictor::added_to(const MeasuredMode& measured, const S
     const Complex transfer = (2.0 * zp * wp * s + wp * wp) / (s * s + 2.0 * zp * wp * s + wp * wp);
     const Complex change = -0.5 * ratio * (transfer - 1.0);  // ds/s for a mass that follows by `transfer` instead of rigidly
     added.frequency += change.real();
-    added.damping_pct += -100.0 * change.imag();
+    added.damping_pct += 100.0 * change.imag();  // ds = s change with s nearly i |s|: -Re ds / |s| is Im change
   });
   return added;
 }

@@ -197,6 +197,19 @@ TEST(AeroNodes, NamedPointsAreTakenWithTheTangentOfTheirCircle) {
   EXPECT_LT((Eigen::MatrixXd(found.motion) - Eigen::MatrixXd::Identity(30, 30)).norm(), 1e-15);
 }
 
+// Two points have no circle: both have the direction of the line between them, and half of its length to either side.
+TEST(AeroNodes, TwoNamedPointsHaveTheDirectionOfTheirLine) {
+  FloorBeams deck;
+  deck.model.monitoring_points["aero_deck_01"] = deck.node({10.0, 4.0, 0.0});
+  deck.model.monitoring_points["aero_deck_02"] = deck.node({18.0, 10.0, 0.0});
+  const aero::AeroNodes found = aero::find_aero_nodes(deck.model, {"deck"}, {"none"}, 2);
+  ASSERT_EQ(found.nodes.size(), 2U);
+  for (const aero::AeroNode& node : found.nodes) {
+    EXPECT_LT((node.tangent - Eigen::Vector3d(0.8, 0.6, 0.0)).norm(), 1e-14);
+    EXPECT_NEAR(node.length_m, 10.0, 1e-13);
+  }
+}
+
 // Names that run from east to west are turned, so that nodes follow the deck from west to east.
 TEST(AeroNodes, NamedPointsAreTurnedToRunFromWestToEast) {
   FloorBeams deck;

@@ -407,6 +407,51 @@ TEST(CausesOfDampers, FrictionGoesByTheAmplitudeOfTheRecord) {
   EXPECT_LT(hertz(d), hertz(spring) - 0.1);  // a change that could have been missed
 }
 
+TEST(Causes, AWalkerOnKneesIsASprungMassInsteadOfARigidOne) {
+  // To first order in the mass of ten grams. At a mode of phi, people stand with the mass of the whole structure.
+  const double part = 1e-5, own_Hz = 8.0, damping = 0.3, omega = 2.0 * kPi * own_Hz;
+  FourMasses four;
+  four.condition().people = 1.0;
+  const diagnosis::ReducedPlace* deck = four.model.place("global", four.model.reduced().sets.at("global")[0].id);
+  const double total = four.m.trace(), walker = part * total;
+  const HandMade person("person.oscillator", {{"mass", walker}, {"frequency", own_Hz}, {"damping", damping}}, {deck});
+  // Each mass carries its share of the walker: as a rigid one the base model has 75 kg.
+  const MatrixXd base = four.m * (1.0 + 75.0 / total);
+  MatrixXd k = MatrixXd::Zero(8, 8), m = k, c = k, relative = MatrixXd::Zero(4, 8);
+  relative << -MatrixXd::Identity(4, 4), MatrixXd::Identity(4, 4);
+  const MatrixXd share = part * four.m;
+  k.topLeftCorner(4, 4) = four.k;
+  k += relative.transpose() * (omega * omega * share) * relative;
+  c = relative.transpose() * (2.0 * damping * omega * share) * relative;
+  m.topLeftCorner(4, 4) = base - share;  // as the walker was part of the rigid ones
+  m.bottomRightCorner(4, 4) = share;
+  const VectorXd hertz = dense_hertz(four.k, base);
+  for (Index i = 0; i < 4; ++i) {
+    four.model.add_row(RowType::frequency, std::to_string(i + 1), -1, hertz[i], 0.01 * hertz[i]);
+    four.model.add_row(RowType::damping, std::to_string(i + 1), -1, 0.5, 0.05);
+  }
+  const auto without = four.model.predict(), with = four.model.predict({person.cause()});
+  ASSERT_TRUE(with.valid);
+  const Eigen::VectorXcd roots = damped_roots(k, m, c);
+  for (Index i = 0; i < 4; ++i) {
+    Index nearest = 0;  // the walkers' own roots are damped by 30 %
+    double least = 1e300;
+    for (Index j = 0; j < roots.size(); ++j) {
+      const double off = std::abs(std::abs(roots[j]) / (2.0 * kPi) - hertz[i]) +
+                         1e3 * std::max(0.0, -roots[j].real() / std::abs(roots[j]) - 0.1);
+      if (off < least) {
+        least = off;
+        nearest = j;
+      }
+    }
+    const double change = std::log(std::abs(roots[nearest]) / (2.0 * kPi * hertz[i])),
+                 zeta_pct = -100.0 * roots[nearest].real() / std::abs(roots[nearest]);
+    EXPECT_NEAR(with.g[2 * i] - without.g[2 * i], change, 1e-3 * part) << i;
+    EXPECT_NEAR(std::exp(with.g[2 * i + 1]) - std::exp(without.g[2 * i + 1]), zeta_pct, 1e-3 * 100.0 * part) << i;
+    EXPECT_GT(zeta_pct, 5.0 * part) << i;  // a change that could have been missed
+  }
+}
+
 TEST(Causes, OfTwoConditionsAreKeptApart) {
   // Temperatures -5 and 20 °C in one measurement: the state of one condition is not that of the other.
   FourMasses four;
