@@ -408,14 +408,15 @@ TEST(CausesOfDampers, FrictionGoesByTheAmplitudeOfTheRecord) {
 }
 
 TEST(Causes, AWalkerOnKneesIsASprungMassInsteadOfARigidOne) {
-  // To first order in the mass of ten grams. At a mode of phi, people stand with the mass of the whole structure.
+  // To first order in the walker's mass, a hundred-thousandth of the structure's. It is spread over the masses in proportion to
+  // them.
   const double part = 1e-5, own_Hz = 8.0, damping = 0.3, omega = 2.0 * kPi * own_Hz;
   FourMasses four;
   four.condition().people = 1.0;
   const diagnosis::ReducedPlace* deck = four.model.place("global", four.model.reduced().sets.at("global")[0].id);
   const double total = four.m.trace(), walker = part * total;
   const HandMade person("person.oscillator", {{"mass", walker}, {"frequency", own_Hz}, {"damping", damping}}, {deck});
-  // Each mass carries its share of the walker: as a rigid one the base model has 75 kg.
+  // The base model has a rigid person of 75 kg, spread in the same way.
   const MatrixXd base = four.m * (1.0 + 75.0 / total);
   MatrixXd k = MatrixXd::Zero(8, 8), m = k, c = k, relative = MatrixXd::Zero(4, 8);
   relative << -MatrixXd::Identity(4, 4), MatrixXd::Identity(4, 4);
@@ -423,7 +424,7 @@ TEST(Causes, AWalkerOnKneesIsASprungMassInsteadOfARigidOne) {
   k.topLeftCorner(4, 4) = four.k;
   k += relative.transpose() * (omega * omega * share) * relative;
   c = relative.transpose() * (2.0 * damping * omega * share) * relative;
-  m.topLeftCorner(4, 4) = base - share;  // as the walker was part of the rigid ones
+  m.topLeftCorner(4, 4) = base - share;  // the walker is part of the rigid person
   m.bottomRightCorner(4, 4) = share;
   const VectorXd hertz = dense_hertz(four.k, base);
   for (Index i = 0; i < 4; ++i) {
