@@ -6,7 +6,12 @@
 
 namespace twindeck::diagnosis {
 
+namespace {
+
 using Complex = std::complex<double>;
+
+}  // namespace
+
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;

@@ -42,6 +42,32 @@ TEST(ExplainedModes, CountsAndWeighsAsWrittenOut) {
   EXPECT_NEAR(found.log_likelihood, expected, 1e-12);
 }
 
+// A mode is explained up to `within` in the logarithm of its frequency, and down to the least MAC.
+TEST(ExplainedModes, TheLimitsAreWhereTheRuleSays) {
+  const diagnosis::ExplanationRule rule{0.6, 0.05};
+  const auto explained = [&](double f, std::vector<double> shape) {
+    return explain({mode("1", 0, f, std::move(shape))}, two_modes(), rule).count;
+  };
+  EXPECT_EQ(explained(std::exp(0.049), {1, 1, 1}), 1);
+  EXPECT_EQ(explained(std::exp(0.051), {1, 1, 1}), 0);
+  EXPECT_EQ(explained(std::exp(-0.051), {1, 1, 1}), 0);
+  // MAC of (1, 1, x) with (1, 1, 1) is (2 + x)²/(3 (2 + x²)): 0.6 at x = (4 - sqrt(17.28))/1.6.
+  const double limit = (4.0 - std::sqrt(17.28)) / 1.6;
+  EXPECT_EQ(explained(1.0, {1, 1, limit + 0.01}), 1);
+  EXPECT_EQ(explained(1.0, {1, 1, limit - 0.01}), 0);
+}
+
+// Oracle: written out. Windows that overlap count once, and what lies beyond the band not at all.
+TEST(ExplainedModes, OverlappingWindowsCountOnce) {
+  VisibleModes modes{Eigen::Vector3d(1.0, 1.05, 3.0), Eigen::MatrixXd::Ones(2, 3)};
+  const std::vector<MeasuredShape> measured = {mode("1", 0, 0.9, {1, 1}), mode("2", 0, 3.0, {1, 1})};
+  const double within = 0.04, low = std::log(0.9) - within, high = std::log(3.0) + within;
+  const double c = (std::log(1.05) - std::log(1.0) + 2 * within + 2 * within) / (high - low);
+  const diagnosis::ExplainedModes found = explain(measured, modes, {0.6, within});
+  EXPECT_EQ(found.explained, (std::vector<bool>{false, true}));
+  EXPECT_NEAR(found.log_likelihood, std::log(0.3 / (1 - c)) + std::log(0.7 / c), 1e-12);
+}
+
 TEST(ExplainedModes, AModeIsGivenAwayOnce) {
   const std::vector<MeasuredShape> measured = {mode("1", 0, 1.0, {1, 1, 1}), mode("2", 0, 1.02, {1, 1, 1})};
   EXPECT_EQ(explain(measured, two_modes(), {0.6, 0.05}).count, 1);
