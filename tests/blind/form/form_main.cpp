@@ -1,5 +1,5 @@
 /// blind_form N [first seed [file.csv]]: sealed trials whose truth is of another model class than the model that diagnoses it
-/// (docs/diagnosis.md section 7). From 400 trials on each line is judged by its point estimate, and a tenth as many trials with
+/// (docs/rates.md section 1). From 400 trials on each line is judged by its point estimate, and a tenth as many trials with
 /// a form error of 4 % are shown beside: exit code 1 when a line is missed. Fewer trials are held against the method's own
 /// rates. blind_form --count N [first seed]: what N trials hide and how far their form errors reach, without a diagnosis.
 /// A run's last two words --held FILE hold the numbers of its diagnoses against a file (exit code 1 when one moved), --hold
