@@ -3,8 +3,6 @@
 #   address, undefined   unit tests, the kept inputs of the fuzz targets, the broken inputs, the steps of the smoke study;
 #   thread               what runs in parallel (core/parallel.hpp on std::thread, which ThreadSanitizer understands): wind, dynamics,
 #                        updating, buffeting, diagnosis, and every step once on a small sound input.
-# Eigen allocates in another way under the address sanitizer (its own alignment). libceres.a is not compiled with it and holds instances of the same
-# templates, so that one allocated and the other freed: the preset tells Eigen that memory is aligned, which it is (16 bytes).
 # A report ends the program that it is about, and with it this script. Reports on libraries that are not ours are left out by the files
 # *.supp, each with its reason.
 #
