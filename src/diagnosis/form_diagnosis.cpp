@@ -36,13 +36,14 @@ std::string message_of(const Diagnosis& out, const Ruling& ruling, const FormRep
   return text;
 }
 
-void add_warnings(FormReport& form) {
-  if (form.frequency.at_end)
-    form.warnings.emplace_back(
-        "the form error of frequencies ends at the end of its grid (8 %): the model is further off than any that was tried");
-  if (form.shape.at_end)
-    form.warnings.emplace_back(
-        "the form error of shapes ends at the end of its grid (10 %): the model is further off than any that was tried");
+void add_warnings(FormReport& form, const ScaleGrid& grid) {
+  const auto warn = [&](const char* rows, const VectorXd& levels) {
+    form.warnings.push_back(fmt::format(
+        "the form error of {} ends at the end of its grid ({:.3g} %): the model is further off than any that was tried", rows,
+        100.0 * levels[levels.size() - 1]));
+  };
+  if (form.frequency.at_end) warn("frequencies", grid.frequency);
+  if (form.shape.at_end) warn("shapes", grid.shape);
 }
 
 /// A fit that starts at x, or else at the model's own values: with other causes the model may not show the measured modes at x.
@@ -393,7 +394,7 @@ Diagnosis diagnose_with_form(const Inference& whole, const DiagnoseOptions& opti
   chain.run();
   out.form->frequency = estimate(setting.grid.frequency, chain.winner().frequency);
   out.form->shape = estimate(setting.grid.shape, chain.winner().shape);
-  add_warnings(*out.form);
+  add_warnings(*out.form, setting.grid);
   if (!strangers.labels.empty())
     out.form->warnings.push_back(fmt::format("no mode of the model resembles the measured mode {}: its rows count for nothing",
                                              fmt::join(strangers.labels, ", ")));
