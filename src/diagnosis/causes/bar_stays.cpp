@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int cable_pieces = 6;            ///< the third frequency is then 1.4 % low, the first two within 0.3 %
-constexpr double least_log_odds = 7.0;     ///< [nats] in all conditions and of many stays (decision 0014)
+constexpr double least_log_odds = 7.0;     ///< [nats] for stays that swing: ln odds of a thousand to one
 constexpr std::size_t least_channels = 3;  ///< a shape of two channels is like half of all others
 constexpr double cable_reach = 2.0;  ///< [-] of the highest measured frequency: a stay that begins above it moves as its ends
                                      ///< do, but for a third of its inertia
