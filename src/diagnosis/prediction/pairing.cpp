@@ -26,9 +26,20 @@ constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distan
 /// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may
 /// have changed so much that frequencies double, where shapes tell more.
 constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
+/// Steps after which a distance of frequencies counts by the share `kFarther` only: where the model is far off, every mode is.
+constexpr double kFarSteps = 4.0, kFarther = 0.05;
 /// Of the square of that step: frequencies that tell alone are paired in their order. Without it two measured ones above two of
 /// the model cost the same crossed, and rounding would choose.
 constexpr double kUncrossed = 1e-6;
+
+/// ln of damping ratios after which a distance counts no more, and the least share of the structural damping that a computed
+/// mode is given where its dampers' part is negative.
+constexpr double kFarDamping = 3.0, kLeastDamping = 1e-3;
+
+/// Steps of frequency that 1 - MAC = 1 weighs: of a shape measured here, of one measured under the same name in another
+/// condition, and of the model's mode that the name is bound to. The last is more than `kFarSteps`: a bound name decides
+/// however far its frequency is off (to 40 steps). The others are less.
+constexpr double kShapeHere = 3.0, kShapeElsewhere = 2.0, kBoundShape = 6.0;
 
 }  // namespace
 
@@ -125,14 +136,14 @@ void Predictor::pair(const std::vector<int>& conditions) {
         const double f = state.modes.frequency_Hz(j);
         if (!(f > 0.0)) continue;
         const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
-        sum[j] += std::min(distance, 4.0) + 0.05 * distance + kUncrossed * distance * distance;
+        sum[j] += std::min(distance, kFarSteps) + kFarther * distance + kUncrossed * distance * distance;
       }
     // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
     if (measured.damping >= 0 && state.state.damped()) {
       const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
       for (Index j = 0; j < n; ++j) {
-        const double total = std::max(own + 100.0 * state.modes.damping(j), 1e-3 * own);
-        sum[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), 3.0);
+        const double total = std::max(own + 100.0 * state.modes.damping(j), kLeastDamping * own);
+        sum[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), kFarDamping);
       }
     }
     // Shapes are known from this condition, or from another in which the label was measured with one.
@@ -140,12 +151,12 @@ void Predictor::pair(const std::vector<int>& conditions) {
     // Names of modes that are bound to the model's are those of the first state.
     const auto bound = first ? map_.bound_modes_.find(measured.label) : map_.bound_modes_.end();
     if (shaped.real_rows.size() >= 2) {
-      sum += (measured.real_rows.size() >= 2 ? 3.0 : 2.0) * unlike_measured(shaped, state);
+      sum += (measured.real_rows.size() >= 2 ? kShapeHere : kShapeElsewhere) * unlike_measured(shaped, state);
     } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
       // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
       VectorXd& unlike = by_shape[measured.label];
       if (unlike.size() == 0) unlike = unlike_bound(bound->second, state);
-      sum += 6.0 * unlike;
+      sum += kBoundShape * unlike;
     }
   }
   Eigen::MatrixXd gain(static_cast<Index>(labels.size()), n);

@@ -140,6 +140,23 @@ TEST(Pair, ABoundNameIsTheModelsMode) {
   EXPECT_EQ(map.predict(base, {}, false).paired, (std::vector<int>{4, 3}));
 }
 
+// Modes 1 and 5 are 16 steps of frequency apart, each measured where the other is.
+TEST(Pair, ABoundNameDecidesHoweverFarTheFrequencyIs) {
+  FiveMasses five;
+  five.measure("a", FiveMasses::hertz(1), 0);
+  five.measure("b", FiveMasses::hertz(5), 0);
+  diagnosis::FeatureMap map = five.model.map();
+  map.bind_modes({{"a", 4}, {"b", 0}});
+  EXPECT_EQ(map.predict(map.base(VectorXd::Zero(std::ssize(map.nuisances()))), {}, false).paired, (std::vector<int>{4, 0}));
+}
+
+TEST(Pair, FarFrequenciesOutweighMeasuredShapes) {
+  FiveMasses five;
+  five.measure("a", FiveMasses::hertz(1), 5);
+  five.measure("b", FiveMasses::hertz(5), 1);
+  EXPECT_EQ(five.paired(), (std::vector<int>{0, 4}));
+}
+
 TEST(Pair, ExchangedNamesHaveEachOthersShapes) {
   // Frequencies are right; the shapes of modes 2 and 3 stand under each other's names. The cause says so.
   FiveMasses five;
