@@ -37,6 +37,17 @@ fs::path git_folder(const fs::path& root) {
   return linked.is_absolute() ? linked : root / linked;
 }
 
+/// The source tree that this program was built in: the nearest folder above the program that holds this file. Not by __FILE__,
+/// which is relative, and so is another tree's where the program is started in one. Empty for an installed program.
+fs::path source_tree() {
+  std::error_code ignored;
+  for (fs::path folder = fs::read_symlink("/proc/self/exe", ignored); folder.has_relative_path();) {
+    folder = folder.parent_path();
+    if (fs::exists(folder / "src/core/build_info.cpp", ignored)) return folder;
+  }
+  return {};
+}
+
 std::string resolve(const fs::path& git, const std::string& reference) {
   fs::path common = git;
   if (const std::string line = first_line(git / "commondir"); !line.empty()) common = git / line;
@@ -69,7 +80,8 @@ int note_library(dl_phdr_info* info, std::size_t, void* target) {
 std::string version() { return TWINDECK_VERSION; }
 
 std::string source_commit() {
-  const fs::path git = git_folder(fs::path(__FILE__).parent_path().parent_path().parent_path());
+  const fs::path root = source_tree();
+  const fs::path git = root.empty() ? root : git_folder(root);
   if (git.empty()) return "";
   const std::string head = first_line(git / "HEAD");
   const std::string hash = head.starts_with("ref: ") ? resolve(git, head.substr(5)) : head;

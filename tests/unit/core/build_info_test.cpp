@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -17,11 +19,27 @@ TEST(BuildInfo, VersionIsTheCitations) {
   EXPECT_NE(text.find("\nversion: " + version() + "\n"), std::string::npos);
 }
 
-// Oracle: a git object name has 40 hexadecimal digits; a tree without git has none.
-TEST(BuildInfo, CommitIsAnObjectNameOrNothing) {
-  const std::string commit = source_commit();
-  EXPECT_TRUE(commit.empty() || commit.size() == 40);
-  EXPECT_EQ(commit.find_first_not_of("0123456789abcdef"), std::string::npos);
+/// What git itself says of the source tree; empty where there is no git or no repository.
+std::string head_by_git() {
+  const std::string command = "git -C '" + std::string(TWINDECK_SOURCE_DIR) + "' rev-parse HEAD 2>/dev/null";
+  std::string hash(40, ' ');
+  FILE* pipe = popen(command.c_str(), "r");
+  const std::size_t read = pipe == nullptr ? 0 : std::fread(hash.data(), 1, hash.size(), pipe);
+  if (pipe != nullptr) pclose(pipe);
+  return read == hash.size() ? hash : "";
+}
+
+// Oracle: git. The folder that the program is started in does not matter: it may be another repository.
+TEST(BuildInfo, CommitIsTheSourceTreesWhereverTheProgramStarts) {
+  if (!std::filesystem::exists(std::string(TWINDECK_SOURCE_DIR) + "/.git/HEAD")) GTEST_SKIP() << "the source tree is no clone";
+  const std::string by_git = head_by_git();
+  if (by_git.empty()) GTEST_SKIP() << "git is not here";
+  EXPECT_EQ(source_commit(), by_git);
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path("/");
+  const std::string elsewhere = source_commit();
+  std::filesystem::current_path(here);
+  EXPECT_EQ(elsewhere, by_git);
 }
 
 // Oracle: Eigen is always there, in the version that CMakeLists.txt asks for at least.
