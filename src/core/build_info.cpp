@@ -37,8 +37,9 @@ fs::path git_folder(const fs::path& root) {
   return linked.is_absolute() ? linked : root / linked;
 }
 
-/// The source tree that this program was built in: the nearest folder above the program that holds this file. Not by __FILE__,
-/// which is relative, and so is another tree's where the program is started in one. Empty for an installed program.
+/// The source tree that this program was built in: the nearest folder above the program that holds this file. Empty for an
+/// installed program. __FILE__ does not tell: the build makes it relative, so that it would name a file below the current
+/// folder.
 fs::path source_tree() {
   std::error_code ignored;
   for (fs::path folder = fs::read_symlink("/proc/self/exe", ignored); folder.has_relative_path();) {
@@ -81,7 +82,8 @@ std::string version() { return TWINDECK_VERSION; }
 
 std::string source_commit() {
   const fs::path root = source_tree();
-  const fs::path git = root.empty() ? root : git_folder(root);
+  if (root.empty()) return "";
+  const fs::path git = git_folder(root);
   if (git.empty()) return "";
   const std::string head = first_line(git / "HEAD");
   const std::string hash = head.starts_with("ref: ") ? resolve(git, head.substr(5)) : head;

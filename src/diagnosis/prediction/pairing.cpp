@@ -26,7 +26,8 @@ constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distan
 /// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may
 /// have changed so much that frequencies double, where shapes tell more.
 constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
-/// Steps after which a distance of frequencies counts by the share `kFarther` only: where the model is far off, every mode is.
+/// Steps up to which a distance of frequencies counts whole, and the share of it that is added at any distance: of two far
+/// modes the nearer one still costs less.
 constexpr double kFarSteps = 4.0, kFarther = 0.05;
 /// Of the square of that step: frequencies that tell alone are paired in their order. Without it two measured ones above two of
 /// the model cost the same crossed, and rounding would choose.
@@ -36,9 +37,9 @@ constexpr double kUncrossed = 1e-6;
 /// mode is given where its dampers' part is negative.
 constexpr double kFarDamping = 3.0, kLeastDamping = 1e-3;
 
-/// Steps of frequency that 1 - MAC = 1 weighs: of a shape measured here, of one measured under the same name in another
-/// condition, and of the model's mode that the name is bound to. The last is more than `kFarSteps`: a bound name decides
-/// however far its frequency is off (to 40 steps). The others are less.
+/// Steps of frequency that 1 - MAC = 1 weighs: of a shape measured in this condition, of one measured under the same name in
+/// another condition, and of the model's mode that the name is bound to. The last is more than `kFarSteps`, so a bound name
+/// decides up to a distance of 40 steps. The others are less, so two far frequencies outweigh two measured shapes.
 constexpr double kShapeHere = 3.0, kShapeElsewhere = 2.0, kBoundShape = 6.0;
 
 }  // namespace
