@@ -237,11 +237,6 @@ std::vector<Change> as_built_changes(const std::filesystem::path& bridge_toml) {
   return read_changes(file);
 }
 
-std::vector<std::string> variants(const std::filesystem::path& bridge_toml) {
-  DefinitionFile file = open(bridge_toml);
-  return names_in(file, "variant");
-}
-
 fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant, const std::string& mesh) {
   DefinitionFile file = open(bridge_toml);
   apply_mesh(file, mesh);

@@ -19,8 +19,6 @@ struct Change {
 
 /// The as-built changes that lead from `preliminary` to `refined`, in the order in which they are applied.
 [[nodiscard]] std::vector<Change> as_built_changes(const std::filesystem::path& bridge_toml);
-/// Names of the variants in bridge.toml.
-[[nodiscard]] std::vector<std::string> variants(const std::filesystem::path& bridge_toml);
 /// A variant of the bridge: preliminary, refined, refined_table8, fitted_to_measured.
 /// @param mesh  a [[mesh_option]] of the file: full, medium, coarse; "": the file's own
 /// @throws InputError for an unknown variant or mesh, or a bad value, naming file, line and key

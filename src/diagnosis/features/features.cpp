@@ -74,12 +74,4 @@ const std::vector<std::string>& row_type_names() {
 
 std::string name_of(RowType type) { return row_type_names()[static_cast<std::size_t>(type)]; }
 
-std::string describe(const FeatureSet& features, const Row& row) {
-  std::string text = name_of(row.type);
-  if (!row.mode.empty()) text += " mode " + row.mode;
-  if (row.channel >= 0) text += " channel " + features.channels[static_cast<std::size_t>(row.channel)];
-  if (!row.stay.empty()) text += " stay " + row.stay;
-  return text + ", " + features.conditions[static_cast<std::size_t>(row.condition)].name;
-}
-
 }  // namespace twindeck::diagnosis

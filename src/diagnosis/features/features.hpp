@@ -82,7 +82,5 @@ void hold_out_by_rule(FeatureSet& features);
 /// "frequency_Hz" and so on, as in rows.csv.
 [[nodiscard]] const std::vector<std::string>& row_type_names();
 [[nodiscard]] std::string name_of(RowType type);
-/// One line for tables: "frequency_Hz mode 3, dampers_low".
-[[nodiscard]] std::string describe(const FeatureSet& features, const Row& row);
 
 }  // namespace twindeck::diagnosis

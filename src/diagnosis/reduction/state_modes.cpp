@@ -158,6 +158,13 @@ constexpr double kRelaxed[] = {1.0, 0.25, 0.06};
 /// [-] of the root, the last step of its search. With sliders a step shows only the part that it takes of what is left.
 constexpr double kSettled = 1e-10, kSettledStrokes = 1e-8;
 
+/// [-] of the dashpot whose force at the lowest frequency is that of the structure's stiffness along it: weaker ones start
+/// their search with this. Their stroke's own rate would swallow the frequencies in the eigenvalues that the search starts
+/// from.
+constexpr double kWeakestStart = 1e-4;
+/// [-] of the highest frequency: a mode below this is the structure's motion as a rigid body.
+constexpr double kRigid = 1e-4;
+
 /// Damped modes in the coordinates of the undamped ones, phi = Psi z: there T(s) = diag(1 + s² mu) + B D(s) B' for the p
 /// directions B of few attachments, so that a step of residual inverse iteration costs n p² operations where a factorisation of
 /// T costs n³. No mode is left out: the roots are those of T. Reference: Neumaier (1985), SIAM Journal on Numerical Analysis
@@ -285,6 +292,9 @@ class ModalRoots {
     const MatrixXd low = modes_.mu.head(m).cwiseSqrt().cwiseInverse().asDiagonal() * bm_.topRows(m);
     MatrixXd flexibility = bm_.bottomRows(bm_.rows() - m).transpose() * bm_.bottomRows(bm_.rows() - m);
     VectorXd rate = VectorXd::Zero(p), back = VectorXd::Zero(p);  // dz/dt = rate f - back z
+    double lowest = highest;
+    for (Index i = m - 1; i >= 0 && modes_.eigenvalue(i) > std::pow(kRigid * highest, 2); --i)
+      lowest = std::sqrt(modes_.eigenvalue(i));
     for (Index k = 0; k < p; ++k) {
       const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];
       flexibility(k, k) += 1e-6 * bm_.col(k).squaredNorm();
@@ -299,7 +309,8 @@ class ModalRoots {
         }
       } else {
         if (a.kind == Attachment::Kind::maxwell) flexibility(k, k) += 1.0 / a.stiffness;
-        rate[k] = 1.0 / std::max(a.damping, 1e-9);
+        const double own = bm_.col(k).squaredNorm();
+        rate[k] = 1.0 / std::max({a.damping, 1e-9, own > 0.0 ? kWeakestStart / (own * lowest) : 0.0});
       }
     }
     const MatrixXd stiff = flexibility.llt().solve(MatrixXd::Identity(p, p));

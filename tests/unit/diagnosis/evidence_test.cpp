@@ -55,6 +55,24 @@ TEST(Evidence, DampersStiffenTheFirstModeByHalfWhichADashpotThatMovesCannot) {
   EXPECT_EQ(dampers.candidates, (std::vector<std::string>{"fric@dampers:C1,C2,C3,C4", "dampk@dampers:C1,C2,C3,C4"}));
 }
 
+// 1.2² - 1 = 44 % more stiffness; 2 · 1.44 · hypot(2.5 %, 2.5 %/1.2) = 9 % is its deviation, 11 % with 3 % of each frequency:
+// a quarter of the change lies between.
+TEST(Evidence, DampersStiffenAModeWhereTheChangeIsFourDeviations) {
+  diagnosis::FeatureSet features;
+  features.conditions.resize(2);
+  features.conditions[0].dampers_on = false;
+  features.conditions[1].dampers_on = true;
+  const auto account_with = [&](double deviation_Hz) {
+    features.rows = {{diagnosis::RowType::frequency, "1", -1, "", 0, 1.0, deviation_Hz, false},
+                     {diagnosis::RowType::frequency, "1", -1, "", 1, 1.2, deviation_Hz, false}};
+    return diagnosis::account_of({}, features, {}, {});
+  };
+  const auto clear = account_with(0.025);
+  ASSERT_EQ(clear.size(), 1u);
+  EXPECT_NE(clear[0].text.find("44 % (+- 9)"), std::string::npos) << clear[0].text;
+  EXPECT_TRUE(account_with(0.030).empty());
+}
+
 TEST(Evidence, OneAccelerometerStandsOffInEveryWindModelAndEvent) {
   const auto all = account();
   std::vector<std::string> channels;

@@ -92,7 +92,8 @@ class TwoNodes {
   static std::vector<fe::DofLabel> dofs_of() {
     std::vector<fe::DofLabel> dofs;
     for (int node = 0; node < 2; ++node)
-      for (int d = 0; d < 3; ++d) dofs.push_back({std::to_string(node + 1), d, Vector3d(3.0 * node, 4.0 * node, 0.0)});
+      for (int d = 0; d < 3; ++d)
+        dofs.push_back({std::to_string(node + 1), d, Vector3d(7.0 + 3.0 * node, 2.0 + 4.0 * node, 1.0)});
     return dofs;
   }
   static MatrixXd stiffness_of() {

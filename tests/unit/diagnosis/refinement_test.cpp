@@ -357,6 +357,26 @@ TEST(Refinement, AMassLeadsWhereAnOscillatorRunsToItsBound) {
   EXPECT_EQ(leader_beside(2.0, 3.0).candidate->id(), "osc@node:5");
 }
 
+// The chain is symmetric about its middle: frequencies have the same signature for a tie and for its mirror image, and that one
+// is listed first. Shapes tell them apart.
+TEST(PromisingTies, ShapesTellATieFromItsMirrorImage) {
+  const Chain chain({.masses = 24, .modes = 10, .parameters = false});
+  for (const auto& [from, to] : {std::pair{14, 20}, {13, 22}, {16, 19}}) {
+    ChainTruth truth = chain.as_modelled();
+    truth.tie_from = from;
+    truth.tie_to = to;
+    truth.tie_N_m = 1e5;
+    const Refined refined(chain.structure(), chain.places(), chain.measure(truth), catalogue({"tie", "mass"}));
+    std::vector<const diagnosis::ReducedPlace*> nodes;
+    for (const auto& place : refined.reduced.sets.at("nodes")) nodes.push_back(&place);
+    ASSERT_EQ(std::ssize(nodes), 24);
+    const auto ties = diagnosis::promising_ties(refined.inference, refined.inference.fit({}, {}), nodes, 3);
+    ASSERT_FALSE(ties.empty());
+    EXPECT_EQ(ties[0].first->id, fmt::format("node:{}", from + 1));
+    EXPECT_EQ(ties[0].second->id, fmt::format("node:{}", to + 1));
+  }
+}
+
 /// Eight ties between any two nodes that are no neighbours, drawn by seeds 1 to 8.
 TEST(Refinement, FindsTiesBetweenAnyTwoNodes) {
   const Chain chain({.masses = 24, .modes = 10});

@@ -87,6 +87,33 @@ TEST(DecayingCoordinate, EndsWhereTheDecayMeetsTheNoise) {
     EXPECT_NEAR(point.damping_ratio, zeta, std::max(4.0 * point.damping_ratio_std, 0.05 * zeta));
 }
 
+// White noise without memory on few samples, so that it matters how many residuals are left when a line is fitted: the stated
+// variances are on average what the values scatter by, within what 3,000 draws tell (1.3 % of a deviation; a count without the
+// line's two is a tenth off).
+TEST(DecayByAmplitude, StatedDeviationsAreWhatValuesOfAShortBandScatterBy) {
+  constexpr int kDraws = 3000;
+  constexpr Eigen::Index kSamples = 12;
+  constexpr double kNoise = 1e-4, kOmega = 2.0 * std::numbers::pi * kFrequency, kDecay = 0.01;
+  test::Noise random(17);
+  Eigen::ArrayXd frequency(kDraws), damping(kDraws);
+  double stated_frequency = 0.0, stated_damping = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Eigen::VectorXcd coordinate(kSamples);
+    for (Eigen::Index t = 0; t < kSamples; ++t)
+      coordinate[t] = std::exp(std::complex<double>(-kDecay * static_cast<double>(t) + kNoise * random(),
+                                                    kOmega * static_cast<double>(t) / kRate + kNoise * random()));
+    const auto points = decay_by_amplitude(coordinate, kRate, 1.0 / kRate, 1, 0.0);
+    ASSERT_EQ(points.size(), 1U);
+    frequency[draw] = points[0].frequency_Hz;
+    damping[draw] = points[0].damping_ratio;
+    stated_frequency += std::pow(points[0].frequency_std_Hz, 2) / kDraws;
+    stated_damping += std::pow(points[0].damping_ratio_std, 2) / kDraws;
+  }
+  const auto scatter = [](const Eigen::ArrayXd& x) { return std::sqrt((x - x.mean()).square().mean()); };
+  EXPECT_NEAR(std::sqrt(stated_frequency) / scatter(frequency), 1.0, 0.05);
+  EXPECT_NEAR(std::sqrt(stated_damping) / scatter(damping), 1.0, 0.05);
+}
+
 TEST(DecayByAmplitude, FollowsAKnownLaw) {
   // Softens and damps more as it swings wider, as a friction damper that starts to slide.
   const auto omega = [](double a) { return 2.0 * std::numbers::pi * kFrequency * (1.0 - 0.05 * a); };

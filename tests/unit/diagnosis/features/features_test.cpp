@@ -92,16 +92,5 @@ TEST(RowTypes, HaveTheirNamesAndScales) {
   }
 }
 
-TEST(Describe, SaysTypeModeChannelAndCondition) {
-  FeatureSet f;
-  f.channels = {"A1", "A2"};
-  f.conditions.resize(1);
-  f.conditions[0].name = "dampers_low";
-  EXPECT_EQ(describe(f, {RowType::frequency, "3", -1, "", 0, 1.0, 0.1, false}), "frequency_Hz mode 3, dampers_low");
-  EXPECT_EQ(describe(f, {RowType::shape, "3", 1, "", 0, 1.0, 0.1, false}), "shape mode 3 channel A2, dampers_low");
-  EXPECT_EQ(describe(f, {RowType::stay_frequency, "2", -1, "S1", 0, 1.0, 0.1, false}),
-            "stay_frequency_Hz mode 2 stay S1, dampers_low");
-}
-
 }  // namespace
 }  // namespace twindeck::tests

@@ -150,6 +150,33 @@ TEST(Pair, ABoundNameDecidesHoweverFarTheFrequencyIs) {
   EXPECT_EQ(map.predict(map.base(VectorXd::Zero(std::ssize(map.nuisances()))), {}, false).paired, (std::vector<int>{4, 0}));
 }
 
+// Two masses on springs of their own, 1 and 1.8 Hz, and a damper between them that mixes their motions a quarter turn apart.
+// The name of each is bound to its undamped mode and measured at the other's frequency, damped 1.12 and 1.61 Hz: 8.5 steps that
+// the names must outweigh, 8.7 undamped. By the undamped modes they are worth 12, by the damped ones 7.2 (dense matrices).
+TEST(Pair, ABoundNameWeighsLessWhereADamperMixesItsMode) {
+  constexpr double kEach = 1000.0, kOmega = 2.0 * std::numbers::pi, kRatio = 1.8, kDamping = 2.0 * 0.33 * kEach * kOmega;
+  const double soft = kEach * kOmega * kOmega, stiff = kRatio * kRatio * soft;
+  for (const bool damped : {false, true}) {
+    Predicted model(
+        nodes_in_a_row(2), springs_in_a_row(Eigen::Vector3d(soft, 0.0, stiff)), kEach * MatrixXd::Identity(2, 2), {},
+        [&](diagnosis::Places& places) {
+          diagnosis::Place damper;
+          damper.id = "damper:D";
+          damper.directions.resize(2, 1);
+          damper.directions.insert(0, 0) = 1.0;
+          damper.directions.insert(1, 0) = -1.0;
+          damper.attributes = {{"damping", damped ? kDamping : 1e-3}, {"stiffness", 0.0}, {"series", 0.0}, {"always_on", 1.0}};
+          places.sets["dampers"] = {damper};
+        });
+    model.add_row(RowType::frequency, "a", -1, damped ? 1.61 : kRatio, 0.01);
+    model.add_row(RowType::frequency, "b", -1, damped ? 1.12 : 1.0, 0.01);
+    diagnosis::FeatureMap map = model.map();
+    map.bind_modes({{"a", 0}, {"b", 1}});
+    EXPECT_EQ(map.predict(map.base(VectorXd::Zero(std::ssize(map.nuisances()))), {}, false).paired,
+              damped ? (std::vector<int>{1, 0}) : (std::vector<int>{0, 1}));
+  }
+}
+
 TEST(Pair, FarFrequenciesOutweighMeasuredShapes) {
   FiveMasses five;
   five.measure("a", FiveMasses::hertz(1), 5);

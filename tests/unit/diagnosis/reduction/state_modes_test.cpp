@@ -149,6 +149,21 @@ TEST(StateModes, OfDashpotsAndSpringsInSeriesAreThoseOfTheStateSpace) {
   expect_roots(state, modes_of(state));
 }
 
+// From nothing to 1e-4 of what is critical: no mode is lost where a dashpot is so weak that its own rate swallows the others.
+TEST(StateModes, OfWeakDashpotsAreThoseOfTheStateSpace) {
+  for (const double damping : {0.0, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
+    StructureState pair;
+    pair.mass = 1000.0 * MatrixXd::Identity(2, 2);
+    pair.stiffness = Eigen::Vector2d(4e4, 13e4).asDiagonal();
+    pair.attachments.push_back({Attachment::Kind::dashpot, Eigen::Vector2d(1.0, -1.0), 0.0, damping, 0.0});
+    SCOPED_TRACE(damping);
+    expect_roots(pair, modes_of(pair, 3.0));
+    StructureState row = row_of(6, 300.0);
+    row.attachments.push_back({Attachment::Kind::dashpot, VectorXd::Unit(6, 2), 0.0, damping, 0.0});
+    expect_roots(row, modes_of(row));
+  }
+}
+
 TEST(StateModes, AreFollowedFromThoseOfANeighbour) {
   StructureState first = row_of(6), second = row_of(6, 250.0);
   second.stiffness(4, 4) += 2e5;
