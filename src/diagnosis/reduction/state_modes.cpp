@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "linalg/dense.hpp"
@@ -78,17 +79,52 @@ StateModes state_space(const StructureState& state, const UndampedModes& undampe
   return out;
 }
 
-void refine(const StructureState& state, Complex& s, VectorXcd& phi) {
-  MatrixXcd t;
+/// [-] parts of a slider's change of stiffness that a step takes, one attempt after another: strokes near the slip swing to and
+/// fro with the whole of it.
+constexpr double kRelaxed[] = {1.0, 0.25, 0.06};
+/// [-] of a root refined from the state space: the last step of its search, and the last step with which it is still a mode.
+/// Where strokes swing about the slip, frequency and damping are right to this, which is below what is measured. Two roots of
+/// one shape that are nearer to each other are one.
+constexpr double kRefined = 1e-9, kStillAMode = 1e-3;
+constexpr double kRefinements = 40.0;  ///< steps of an attempt, for each part that it takes
+
+/// Inverse iteration from s and phi that takes the part `relax` of each change. @return [-] last step of s
+double attempt(const StructureState& state, Complex& s, VectorXcd& phi, double relax) {
+  MatrixXcd t, now;
   VectorXcd t_prime_phi;
-  for (int iteration = 0; iteration < 40; ++iteration) {
-    dynamic_matrices(state, s, phi, t, t_prime_phi);
-    const Complex step = (phi.transpose() * (t * phi))(0) / (phi.transpose() * t_prime_phi)(0);
-    s -= step;
-    if (iteration > 1 && std::abs(step) < 1e-9 * std::abs(s)) break;
+  double last = 1.0;
+  for (int iteration = 0; iteration < kRefinements / relax; ++iteration) {
+    dynamic_matrices(state, s, phi, now, t_prime_phi);
+    const Complex step = (phi.transpose() * (now * phi))(0) / (phi.transpose() * t_prime_phi)(0);
+    if (iteration == 0 || relax == 1.0)
+      t = now;
+    else
+      t = relax * now + (1.0 - relax) * t;
+    s -= relax * step;
+    last = std::abs(step) / std::abs(s);
+    if (iteration > 1 && last < kRefined) break;
     const VectorXcd y = linalg::solve(t, t_prime_phi);
     if (y.allFinite()) phi = y / y.norm();
   }
+  return last;
+}
+
+/// The best of the attempts. @return whether it is a mode
+bool refine(const StructureState& state, Complex& s, VectorXcd& phi) {
+  const Complex start = s;
+  const VectorXcd start_shape = phi;
+  double best = std::numeric_limits<double>::infinity();
+  for (const double relax : kRelaxed) {
+    Complex root = start;
+    VectorXcd shape = start_shape;
+    const double last = attempt(state, root, shape, relax);
+    if (!(last < best)) continue;
+    best = last;
+    s = root;
+    phi = shape;
+    if (best < kRefined) break;
+  }
+  return best < kStillAMode;
 }
 
 bool oscillates(Complex s) {
@@ -96,7 +132,7 @@ bool oscillates(Complex s) {
 }
 
 bool same_mode(const std::pair<Complex, VectorXcd>& other, Complex s, const VectorXcd& phi) {
-  return std::abs(other.first - s) < 1e-6 * std::abs(s) &&
+  return std::abs(other.first - s) < kStillAMode * std::abs(s) &&
          std::abs(other.second.dot(phi)) > 0.999 * other.second.norm() * phi.norm();
 }
 
@@ -144,17 +180,13 @@ StateModes solve_by_state_space(const StructureState& state, double highest_Hz, 
   for (Index i = 0; i < modes.s.size() && modes.frequency_Hz(i) <= 1.1 * highest_Hz; ++i) {
     Complex s = modes.s[i];
     VectorXcd phi = modes.shapes.col(i).normalized();
-    refine(state, s, phi);
-    if (!oscillates(s)) continue;
+    if (!refine(state, s, phi) || !oscillates(s)) continue;
     if (std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); }))
       found.emplace_back(s, phi);
   }
   return normalised(state, found);
 }
 
-/// [-] parts of a slider's change of stiffness that a step takes, one attempt after another: strokes near the slip swing to and
-/// fro with the whole of it.
-constexpr double kRelaxed[] = {1.0, 0.25, 0.06};
 /// [-] of the root, the last step of its search. With sliders a step shows only the part that it takes of what is left.
 constexpr double kSettled = 1e-10, kSettledStrokes = 1e-8;
 

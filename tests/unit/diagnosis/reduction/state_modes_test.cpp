@@ -308,13 +308,13 @@ struct NearSlip {
 };
 
 /// Each mode is one of the sliders' stiffnesses at its own strokes: T(s) phi = 0 with T of this very shape, and phi is scaled.
-void expect_own_strokes(const StructureState& state, const StateModes& modes) {
+void expect_own_strokes(const StructureState& state, const StateModes& modes, double rest = 1e-5) {
   for (Index i = 0; i < modes.s.size(); ++i) {
     const VectorXcd phi = modes.shapes.col(i);
     MatrixXcd t;
     VectorXcd slope;
     diagnosis::dynamic_matrices(state, modes.s[i], phi, t, slope);
-    EXPECT_LT((t * phi).norm(), 1e-5 * (state.stiffness * phi).norm()) << i << ": " << modes.frequency_Hz(i) << " Hz";
+    EXPECT_LT((t * phi).norm(), rest * (state.stiffness * phi).norm()) << i << ": " << modes.frequency_Hz(i) << " Hz";
     EXPECT_LT(std::abs((phi.transpose() * slope)(0) / (2.0 * modes.s[i]) - 1.0), 1e-5) << i;
   }
 }
@@ -331,6 +331,23 @@ TEST(StateModes, SlidersNearTheirSlipAreFollowedToTheEnd) {
   ASSERT_EQ(modes.s.size(), 7);
   expect_own_strokes(second.state(), modes);
   EXPECT_NEAR(modes.damping(3), 0.002076, 2e-6);
+}
+
+// Strokes that swing about the slip and do not settle. The whole of each change ended 6.6 % off in the third mode of the first
+// structure, and twice in the fourth of the second; 5.55 Hz of the third one settles to 4e-4 of it at best, and is kept.
+TEST(StateModes, SlidersThatSwingAboutTheirSlipGiveEachModeOnce) {
+  const NearSlip first{53.9287, 13.204, 2.83612e-4, {3.79736e6, 4.30061e6}, {80.9673, 4600.05}, {3, 1}, {5, 3}};
+  StateModes modes = modes_of(first.state(), first.highest_Hz);
+  ASSERT_EQ(modes.s.size(), 6);
+  expect_own_strokes(first.state(), modes, 1e-3);
+  const NearSlip second{43.6638, 13.4767, 3.32007e-4, {1.94041e6, 4.86175e6}, {363.745, 95.8094}, {7, 3}, {4, 1}};
+  modes = modes_of(second.state(), second.highest_Hz);
+  expect_own_strokes(second.state(), modes, 1e-3);
+  for (Index i = 1; i < modes.s.size(); ++i) EXPECT_GT(modes.frequency_Hz(i), 1.01 * modes.frequency_Hz(i - 1)) << i;
+  const NearSlip third{72.7469, 12.8104, 1.40191e-3, {1.01605e7, 578053.0}, {3362.9, 2379.07}, {2, -1}, {4, 0}};
+  modes = modes_of(third.state(), third.highest_Hz);
+  ASSERT_EQ(modes.s.size(), 7);
+  expect_own_strokes(third.state(), modes, 1e-2);
 }
 
 // The lowest mode lies just above the band with the sliders held, and is found from the state space of the low modes.
