@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 
@@ -105,7 +106,7 @@ TEST(FitStay, BendingIsSeenOnlyWhereItIs) {
 TEST(FitStay, StatedDeviationsAreWhatStiffStringsScatterBy) {
   constexpr int kDraws = 3000;
   const double c = 1.2, b = 1e-3, relative = 2e-4, quantile = 1.96;
-  test::Noise random(23);
+  signal::test::Noise random(23);
   Eigen::ArrayXd string(kDraws), bending(kDraws);
   double stated_string = 0.0, stated_bending = 0.0;
   for (int draw = 0; draw < kDraws; ++draw) {
