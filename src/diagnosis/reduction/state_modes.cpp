@@ -81,9 +81,8 @@ StateModes state_space(const StructureState& state, const UndampedModes& undampe
 /// [-] parts of a slider's change of stiffness that a step takes, one attempt after another: strokes near the slip swing to and
 /// fro with the whole of it.
 constexpr double kRelaxed[] = {1.0, 0.25, 0.06};
-/// [-] of a root refined from the state space: the last step of its search, and the last step with which it is still a mode.
-/// Where strokes swing about the slip, frequency and damping are right to this, which is below what is measured. Two roots of
-/// one shape that are nearer to each other are one.
+/// [-] of a root: the last step of its search, and the largest last step of what is still a mode. Strokes near the slip may
+/// swing for ever; a thousandth is below what is measured. Two roots of one shape that are nearer to each other are one.
 constexpr double kRefined = 1e-9, kStillAMode = 1e-3;
 constexpr double kRefinements = 40.0;  ///< steps of an attempt, for each part that it takes
 
@@ -184,9 +183,8 @@ StateModes solve_by_state_space(const StructureState& state, double highest_Hz, 
 /// [-] of the root, the last step of its search. With sliders a step shows only the part that it takes of what is left.
 constexpr double kSettled = 1e-10, kSettledStrokes = 1e-8;
 
-/// [-] of the dashpot whose force at the lowest frequency is that of the structure's stiffness along it: weaker ones start
-/// their search with this. Their stroke's own rate would swallow the frequencies in the eigenvalues that the search starts
-/// from.
+/// [-] of the dashpot that resists as much at the lowest frequency as the structure along it. The search starts weaker ones
+/// from this: their own rate is so large that the eigensolver would lose the frequencies beside it in rounding.
 constexpr double kWeakestStart = 1e-4;
 /// [-] of the highest frequency: a mode below this is the structure's motion as a rigid body.
 constexpr double kRigid = 1e-4;

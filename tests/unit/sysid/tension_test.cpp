@@ -101,8 +101,8 @@ TEST(FitStay, BendingIsSeenOnlyWhereItIs) {
   EXPECT_NEAR(without.tension_per_mass.value, std::pow(2.0 * 50.0 * c, 2), 1e-6);
 }
 
-// 3,000 stiff strings with errors of the stated deviations: c and b scatter by what is stated of them. What 3,000 draws tell is
-// known to 1.3 %; the line through f² is linear to 1 % here.
+// 3,000 stiff strings with errors of the stated deviations: c and b scatter by what is stated of them. 3,000 draws tell a
+// deviation to 1.3 %; the errors are small enough for the line through f² to be linear in them.
 TEST(FitStay, StatedDeviationsAreWhatStiffStringsScatterBy) {
   constexpr int kDraws = 3000;
   const double c = 1.2, b = 1e-3, relative = 2e-4, quantile = 1.96;

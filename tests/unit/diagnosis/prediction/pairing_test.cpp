@@ -151,8 +151,8 @@ TEST(Pair, ABoundNameDecidesHoweverFarTheFrequencyIs) {
 }
 
 // Two masses on springs of their own, 1 and 1.8 Hz, and a damper between them that mixes their motions a quarter turn apart.
-// The name of each is bound to its undamped mode and measured at the other's frequency, damped 1.12 and 1.61 Hz: 8.5 steps that
-// the names must outweigh, 8.7 undamped. By the undamped modes they are worth 12, by the damped ones 7.2 (dense matrices).
+// Each name is bound to its undamped mode and measured at the other's frequency. The names must outweigh 8.7 steps of frequency
+// undamped, and 8.5 damped (1.12 and 1.61 Hz). They weigh 12 undamped and 7.2 damped, by dense matrices.
 TEST(Pair, ABoundNameWeighsLessWhereADamperMixesItsMode) {
   constexpr double kEach = 1000.0, kOmega = 2.0 * std::numbers::pi, kRatio = 1.8, kDamping = 2.0 * 0.33 * kEach * kOmega;
   const double soft = kEach * kOmega * kOmega, stiff = kRatio * kRatio * soft;
