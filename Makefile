@@ -4,13 +4,14 @@
 MAKEFLAGS += --no-builtin-rules
 SHELL := /bin/sh
 
+# The product's own files lie beside this one. In the source tree that is the current folder (empty); `make install` puts them into
+# <prefix>/share/twindeck/ and the executables into <prefix>/bin, and `twindeck run` reads this file there from a folder of the user's.
+PRODUCT := $(filter-out ./,$(dir $(firstword $(MAKEFILE_LIST))))
+include $(PRODUCT)workflows/names.mk
 STUDY ?= ponte_del_mare
 BUILD ?= build
 THREADS ?= 2
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
-# The product's own files lie beside this one. In the source tree that is the current folder (empty); `make install` puts them into
-# <prefix>/share/twindeck/ and the executables into <prefix>/bin, and `twindeck run` reads this file there from a folder of the user's.
-PRODUCT := $(filter-out ./,$(dir $(firstword $(MAKEFILE_LIST))))
 INSTALLED := $(if $(PRODUCT),$(if $(wildcard $(PRODUCT)CMakeLists.txt),,yes))
 ifeq ($(INSTALLED),)
 BIN := $(BUILD)/bin
@@ -86,13 +87,13 @@ figures: $(RESULTS)/figures/manifest.json ## figures as PDF, PNG and their data
 report: $(RESULTS)/report/report.html ## one self-contained page; refused where a file was changed after it was written
 	@$(REPORT) unchanged $(REPORT_ARGUMENTS)
 
-REPORT_SOURCES := $(shell find $(PRODUCT)paper data/$(STUDY) -type f -not -path '*/__pycache__/*' -not -path '*paper/article/*' 2>/dev/null)
+REPORT_SOURCES := $(wildcard $(call PLAIN,$(shell find $(PRODUCT)paper data/$(STUDY) -type f -not -path '*/__pycache__/*' -not -path '*paper/article/*' 2>/dev/null)))
 REPORT_ARGUMENTS = --study $(STUDY) --results $(RESULTS) --data $(PAPER)
 
 $(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(PRODUCT)workflows/python.sh
 	@$(REPORT) tables $(REPORT_ARGUMENTS)
 
-$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(wildcard results/scoring/*.csv) $(PRODUCT)workflows/python.sh
+$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(call FILES,results/scoring/*.csv) $(PRODUCT)workflows/python.sh
 	@$(REPORT) figures $(REPORT_ARGUMENTS)
 
 $(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json $(wildcard results/check_power/power.csv) $(SCORE)
@@ -109,9 +110,8 @@ verify: $(RESULTS)/report/report.html ## hold the tables, as they lie there, aga
 baseline: ## hold every computed cell of the study where it is now (ratchet_baseline.csv); empties the list of excused moves
 	@$(REPORT) baseline $(REPORT_ARGUMENTS)
 
-REASON ?=
 moves: ## make moves REASON="...": excuse the cells that moved since the baseline, each with its old and new value
-	@$(REPORT) moves $(REPORT_ARGUMENTS) --reason "$(REASON)"
+	@$(REPORT) moves $(REPORT_ARGUMENTS)
 
 checksums: ## list the input files anew in data/SHA256SUMS
 	@$(REPORT) checksums $(REPORT_ARGUMENTS)
@@ -190,7 +190,7 @@ mutants: deps ## make mutants N=40 SEED=7: one fault at a time in the rooms of n
 
 TRIAL ?= all_posts_5m
 calibrate: build ## fit the bridge's unknown sizes within their ranges (data/$(STUDY)/calibration.toml, TRIAL=all_posts_5m, FROM=values.csv of an earlier fit) and write them into bridge.toml
-	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --trial $(TRIAL) $(FROM:%=--from %) --out results/calibration --write
+	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --trial $(TRIAL) $(if $(FROM),--from '$(FROM)') --out results/calibration --write
 
 calibrate-trade: build ## frequencies against cable forces against masses: every trial of data/$(STUDY)/calibration.toml, in $(PAPER)/calibration_trade.csv
 	@$(BIN)/calibrate_bridge --definition $(PAPER)/calibration.toml --bridge $(PAPER)/bridge.toml --mesh quick --search-mesh quick --out results/calibration_trade --trials
@@ -206,7 +206,7 @@ why: ## make why s6: why that step would run again
 	@$(PRODUCT)workflows/why.sh "$(STEP)" $(STUDY) $(PRODUCT)Makefile
 
 new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands
-	@$(PRODUCT)workflows/new.sh $(if $(filter command line environment,$(origin STUDY)),$(STUDY))
+	@$(PRODUCT)workflows/new.sh $(if $(filter STUDY,$(GIVEN)),$(STUDY))
 
 reference: build ## every configuration key and every column of a file, as docs/reference.md
 	@$(PRODUCT)workflows/python.sh -m twindeck_reference --bin $(BIN) --out docs/reference.md
@@ -226,7 +226,7 @@ package: build ## the Debian packages twindeck and twindeck-data, in build/packa
 	@ls $(BUILD)/packages/*.deb
 
 bare-root: ## install the packages of build/packages into a bare Debian 12 and work there without the source tree, or FROM=clone: seconds, exit codes (root; needs debootstrap; BASE=folder)
-	@$(PRODUCT)workflows/python.sh $(if $(filter clone,$(FROM)),tests/package/bare_clone.py,tests/package/bare_root.py $(BUILD)/packages) results/bare_root $(BASE)
+	@$(PRODUCT)workflows/python.sh $(if $(filter clone,$(FROM)),tests/package/bare_clone.py,tests/package/bare_root.py $(BUILD)/packages) results/bare_root $(if $(BASE),'$(BASE)')
 
 RELEASE := $(BUILD)/release
 VERSION = $(shell sed -n 's/^version: //p' CITATION.cff)

@@ -2,10 +2,14 @@
 # What the steps that ran have read, as their manifests list it: one word `target:file` an input, which is a rule of make as it stands.
 # A word `file:` beside it makes a file that is gone count as new, so that the step runs again. What lies in an earlier step's folder stands
 # for that step's manifest. A blank in a name is written {blank}; names with signs that make would take for its own are left out.
-# Usage: recorded_inputs.sh results/my_bridge "s1_model s4_refinement" MANIFEST ...
+# Usage: recorded_inputs.sh results/my_bridge "s1_model s4_refinement"
 set -eu
 results=$1 steps=$2
-shift 2
+set --
+for manifest in "$results"/*/manifest.json "$results"_virtual/s9_diagnosis/manifest.json; do
+  case $manifest in *[!A-Za-z0-9_./-]*) continue ;; esac # no folder that a step or a rule of a study writes
+  [ ! -f "$manifest" ] || set -- "$@" "$manifest"
+done
 [ $# -gt 0 ] || exit 0
 exec awk -v results="$results/" -v steps=" $steps " '
   FNR == 1 { step = ""; inside = 0 }

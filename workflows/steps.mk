@@ -2,7 +2,7 @@
 # study's, its executable, and the manifests of the steps that it reads. A step without a configuration file runs on its defaults.
 
 STEP_MANIFESTS := $(STEPS:%=$(RESULTS)/%/manifest.json)
-STUDY_INPUTS := $(WORKFLOW)/study.toml $(wildcard data/$(STUDY)/bridge.toml data/$(STUDY)/features/* data/$(STUDY)/model/* data/$(STUDY)/*.inp)
+STUDY_INPUTS := $(WORKFLOW)/study.toml $(call FILES,data/$(STUDY)/bridge.toml data/$(STUDY)/features/* data/$(STUDY)/model/* data/$(STUDY)/*.inp)
 
 # What each step reads of earlier ones.
 READS_s1_model :=
@@ -23,24 +23,24 @@ READS_s9_diagnosis += s3_identification
 endif
 
 # What a step reads of the study's data beside STUDY_INPUTS.
-INPUTS_s0_campaign := $(wildcard data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)
-INPUTS_s2_sensors := $(wildcard data/$(STUDY)/layout/*)
-INPUTS_s7_aerodynamics := $(wildcard data/$(STUDY)/aero/*.csv)
+INPUTS_s0_campaign := $(call FILES,data/$(STUDY)/virtual/* data/$(STUDY)/layout/*)
+INPUTS_s2_sensors := $(call FILES, data/$(STUDY)/layout/*)
+INPUTS_s7_aerodynamics := $(call FILES, data/$(STUDY)/aero/*.csv)
 
 # Records of one's own, which step 3 reads by itself: data/<study>/campaign/.
 ifneq ($(wildcard data/$(STUDY)/campaign/campaign.toml),)
-INPUTS_s3_identification := $(wildcard data/$(STUDY)/campaign/* data/$(STUDY)/campaign/records/*)
+INPUTS_s3_identification := $(call FILES,data/$(STUDY)/campaign/* data/$(STUDY)/campaign/records/*)
 endif
 
 # A study of outside records makes its inputs from them once: make s9 STUDY=gt_pedestrian_bridge DATA=dir
 ifneq ($(wildcard $(WORKFLOW)/make_inputs.py),)
 STUDY_INPUTS += $(RESULTS)/inputs/model/model.toml
-$(RESULTS)/inputs/model/model.toml: $(WORKFLOW)/make_inputs.py $(wildcard $(PRODUCT)workflows/common/*.py)
-	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_inputs.py "$(DATA)" $(RESULTS)/inputs
+$(RESULTS)/inputs/model/model.toml: $(WORKFLOW)/make_inputs.py $(call FILES,$(PRODUCT)workflows/common/*.py)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_inputs.py '$(DATA)' $(RESULTS)/inputs
 endif
 
 # Somebody's own measured modes: make s6 MODES=dir
-MEASURED := $(if $(MODES),--modes $(MODES)) $(if $(FEATURES),--features $(FEATURES))
+MEASURED := $(if $(MODES),--modes '$(MODES)') $(if $(FEATURES),--features '$(FEATURES)')
 OPTIONS_s4_refinement := $(MEASURED)
 OPTIONS_s6_updating := $(MEASURED)
 # Which modes the results rest on is kept beside them, so that the steps run again when that changes, and only then. It is written by a
@@ -51,13 +51,13 @@ ifneq ($(strip $(shell cat $(MEASURED_STAMP) 2>/dev/null)),$(strip measured: $(M
 $(MEASURED_STAMP): FORCE
 	@mkdir -p $(@D) && echo "measured: $(strip $(MEASURED))" > $@
 endif
-INPUTS_s4_refinement += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
-INPUTS_s6_updating += $(MEASURED_STAMP) $(wildcard $(MODES:%=%/*) $(FEATURES:%=%/*))
+INPUTS_s4_refinement += $(MEASURED_STAMP) $(call FILES,$(MODES:%=%/*) $(FEATURES:%=%/*))
+INPUTS_s6_updating += $(MEASURED_STAMP) $(call FILES,$(MODES:%=%/*) $(FEATURES:%=%/*))
 endif
 
 # What a study has of its own, such as a campaign made of records that lie elsewhere.
 -include $(WORKFLOW)/study.mk
-OPTIONS_s9_diagnosis += $(if $(FEATURES),--features $(FEATURES))
+OPTIONS_s9_diagnosis += $(if $(FEATURES),--features '$(FEATURES)')
 
 # An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
 # NO_BUILD=1 takes the executables as they are.
@@ -71,7 +71,7 @@ $(STEPS:%=$(BIN)/%):
 endif
 
 # All that a step reads: files of the study, what its scripts make, results of earlier steps.
-INPUTS_OF = $(STUDY_INPUTS) $(INPUTS_$(1)) $(foreach read,$(filter $(READS_$(1)),$(STEPS)),$(RESULTS)/$(read)/manifest.json)
+INPUTS_OF = $(call PLAIN,$(STUDY_INPUTS) $(INPUTS_$(1))) $(foreach read,$(filter $(READS_$(1)),$(STEPS)),$(RESULTS)/$(read)/manifest.json)
 
 define step_rule
 .PHONY: $(firstword $(subst _, ,$(1))) $(1)
@@ -83,12 +83,12 @@ $(foreach step,$(STEPS),$(eval $(call step_rule,$(step))))
 
 # And what it read when it ran, as its manifest lists it: a file that was edited since, wherever it lies, or that is gone makes it run again.
 # In a folder outside the study's own, which its configuration names, a new file does so too.
-RECORDED := $(shell $(PRODUCT)workflows/recorded_inputs.sh $(RESULTS) "$(STEPS)" $(wildcard $(RESULTS)/*/manifest.json $(RESULTS)_virtual/s9_diagnosis/manifest.json))
+RECORDED := $(shell $(PRODUCT)workflows/recorded_inputs.sh $(RESULTS) "$(STEPS)")
 $(foreach rule,$(RECORDED),$(eval $(subst {blank},\ ,$(rule))))
 OWN_FOLDERS := ./ $(WORKFLOW)/% data/$(STUDY)/% $(RESULTS)/%
 FOLDERS_OF = $(filter-out $(OWN_FOLDERS),$(sort $(dir $(patsubst $(1):%,%,$(filter $(1):%,$(RECORDED))))))
 define new_files_rule
-$(1): $(foreach folder,$(call FOLDERS_OF,$(1)),$(wildcard $(folder)*.toml $(folder)*.csv))
+$(1): $(foreach folder,$(call FOLDERS_OF,$(1)),$(call FILES,$(folder)*.toml $(folder)*.csv))
 endef
 $(foreach manifest,$(STEP_MANIFESTS),$(eval $(call new_files_rule,$(manifest))))
 

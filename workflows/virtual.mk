@@ -7,7 +7,7 @@ VIRTUAL_DIAGNOSIS := results/$(VIRTUAL)/s9_diagnosis/manifest.json
 SCORE := results/$(VIRTUAL)/score/score.json
 .PRECIOUS: $(VIRTUAL_DIAGNOSIS)
 
-$(VIRTUAL_DIAGNOSIS): $(wildcard workflows/$(VIRTUAL)/*.toml $(WORKFLOW)/hypotheses/*.toml) $(BIN)/s9_diagnosis \
+$(VIRTUAL_DIAGNOSIS): $(call FILES,workflows/$(VIRTUAL)/*.toml $(WORKFLOW)/hypotheses/*.toml) $(BIN)/s9_diagnosis \
     $(RESULTS)/s3_identification/manifest.json $(RESULTS)/s4_refinement/manifest.json
 	@$(BIN)/s9_diagnosis --study workflows/$(VIRTUAL) --results results/$(VIRTUAL) --out results/$(VIRTUAL)/s9_diagnosis --threads $(THREADS)
 

@@ -1,5 +1,6 @@
 """python3 -m twindeck_report tables|figures|report|unchanged|verify|article|baseline|moves --study S [--results DIR] [--data DIR] [--workflow DIR]"""
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -124,7 +125,7 @@ def _checksums(study: Study) -> int:
 
 def _moves(study: Study, reason: str) -> int:
     if len(reason.split()) < 3:
-        raise InputError("moves: --reason TEXT: say in a sentence why these cells have to move")
+        raise InputError("moves: say in a sentence why these cells have to move: make moves REASON=\"...\", or --reason TEXT")
     result = run_check(study)
     print(f"{study.data / 'ratchet_moves.csv'}: {add_moves(study, result.ratchet, reason)} cells added")
     return 0
@@ -155,6 +156,7 @@ def _parse(arguments):
         if name == "figures":
             command.add_argument("--only", metavar="NAME", help="this figure alone, e.g. fig_05, into results/<study>/look")
         if name == "moves":
-            command.add_argument("--reason", required=True, metavar="TEXT", help="why these cells have to move")
+            command.add_argument("--reason", default=os.environ.get("REASON", ""), metavar="TEXT",
+                                 help="why these cells have to move (default: REASON of the environment, where make puts it)")
         command.add_argument("--workflow", type=Path, help="study.toml and the steps' configs (default workflows/<study>)")
     return parser.parse_args(arguments)

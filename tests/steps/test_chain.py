@@ -92,11 +92,11 @@ class WhatIsCompiled(unittest.TestCase):
             return subprocess.run(["make", "--no-print-directory", "NO_BUILD=1", f"BIN={BIN}", f"RESULTS={results}", *arguments], cwd=ROOT,
                                   capture_output=True, text=True, env=environment).stdout
 
-        self.assertIn(f"--modes {measured}", make("-n", "s4", f"MODES={measured}"))
+        self.assertIn(f"--modes '{measured}'", make("-n", "s4", f"MODES={measured}"))
         self.assertFalse(results.exists())
         make(f"{results}/.measured", f"MODES={measured}")
         stamp = results / ".measured"
-        self.assertEqual(stamp.read_text(), f"measured: --modes {measured}\n")
+        self.assertEqual(stamp.read_text(), f"measured: --modes '{measured}'\n")
         before = stamp.stat().st_mtime_ns
         make(f"{results}/.measured", f"MODES={measured}")
         self.assertEqual(stamp.stat().st_mtime_ns, before, "written again though nothing changed")

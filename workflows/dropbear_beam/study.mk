@@ -3,9 +3,9 @@ CAMPAIGN := $(RESULTS)/campaign
 
 INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
-$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/slow10_test?.npy))
+$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(call FILES,$(DATA)/slow10_test?.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
-	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py '$(DATA)' $(CAMPAIGN)
 
 # Two frequencies of each window and a model of the beam; then one diagnosis a place, each of two states: the reference and that place. The report shows the
 # last one (step5, by study.toml); the others lie beside it.

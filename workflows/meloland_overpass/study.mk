@@ -4,9 +4,9 @@ CAMPAIGN := $(RESULTS)/campaign
 
 INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
-$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/channels.csv $(DATA)/*.npy))
+$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(call FILES,$(DATA)/channels.csv $(DATA)/*.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
-	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py '$(DATA)' $(CAMPAIGN)
 
 # The transverse mode of each earthquake and a model of it; the model fitted to the weak ones, where the strong ones are held out all three;
 # then the diagnosis, which starts from that model and keeps the strongest from the fit.
@@ -15,7 +15,7 @@ WEAK_FIT := $(RESULTS)/weak_fit
 STRONG := nov1987_237 oct1979_484 dec2009_498
 comma := ,
 
-INPUTS_s9_diagnosis += $(WEAK_FIT)/manifest.json $(wildcard $(WORKFLOW)/hypotheses/*)
+INPUTS_s9_diagnosis += $(WEAK_FIT)/manifest.json $(call FILES,$(WORKFLOW)/hypotheses/*)
 
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
 	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)

@@ -4,9 +4,9 @@ CAMPAIGN := $(RESULTS)/campaign
 
 INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
-$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/channels.csv $(DATA)/*.npy))
+$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(call FILES,$(DATA)/channels.csv $(DATA)/*.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
-	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py '$(DATA)' $(CAMPAIGN)
 
 # The transverse mode of each part and a model of it; the model fitted to the weak parts (below 0.3 mm), the parts of December 2022 held out; then the
 # diagnosis, which starts from that model, and beside it the same with every mode left out in turn.
@@ -14,7 +14,7 @@ INPUTS := $(RESULTS)/inputs
 WEAK_FIT := $(RESULTS)/weak_fit
 BESIDE := $(RESULTS)/mode_by_mode
 
-INPUTS_s9_diagnosis += $(WEAK_FIT)/manifest.json $(BESIDE:%=%/manifest.json) $(wildcard workflows/meloland_overpass/hypotheses/*)
+INPUTS_s9_diagnosis += $(WEAK_FIT)/manifest.json $(BESIDE:%=%/manifest.json) $(call FILES,workflows/meloland_overpass/hypotheses/*)
 
 $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLOW)/make_model.py
 	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/make_model.py $(CAMPAIGN) $(RESULTS)/s3_identification/features $(INPUTS)

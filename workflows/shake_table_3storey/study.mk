@@ -3,9 +3,9 @@ CAMPAIGN := $(RESULTS)/campaign
 
 INPUTS_s3_identification += $(CAMPAIGN)/campaign.toml
 
-$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(wildcard $(DATA)/*_northridge_floor?.npy))
+$(CAMPAIGN)/campaign.toml: $(WORKFLOW)/campaign.py $(if $(DATA),$(call FILES,$(DATA)/*_northridge_floor?.npy))
 	@$(if $(DATA),,$(if $(wildcard $(CAMPAIGN)/campaign.toml),,echo "$(STUDY): give the folder of the records, make s3 STUDY=$(STUDY) DATA=dir" >&2; exit 2))
-	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py $(DATA) $(CAMPAIGN)
+	@$(PRODUCT)workflows/python.sh $(WORKFLOW)/campaign.py '$(DATA)' $(CAMPAIGN)
 
 # Three modes a state and a model of them; the model fitted to the flexible state by its parameters alone; then the diagnosis, which starts from that
 # model and asks what changed. with_sensor_scatter: the same with 3 % allowed to shapes (s9_diagnosis.toml).
