@@ -13,6 +13,7 @@ It needs pandas and nothing else of Python's packages. It computes nothing itsel
 | `read_model`, `write_model` | a model folder as data frames, and back |
 | `read_features`, `write_features` | a features folder as data frames, and back |
 | `run_step` | runs a step and returns its results; its message as `StepError` where it fails |
+| `openseespy.write_openseespy`, `openseespy.write_npz` | a live OpenSeesPy model, or matrices of an .npz file, as a matrix model |
 | `compare` | what differs between two runs: options, modes, parameters, predictions, diagnosis |
 
 docs/tutorial_python.md goes through all of them on a small structure.
