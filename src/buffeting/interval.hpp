@@ -4,12 +4,6 @@
 
 namespace twindeck::buffeting {
 
-/// Quantile of Student's t: the value below which a share of the distribution lies.
-/// @param degrees  of freedom, >= 1  @param share  in ]0.5, 1[
-/// Reference: Abramowitz and Stegun (1964), 26.7.3 and 26.7.4 (finite sums for whole degrees of freedom), inverted by
-/// bisection.
-[[nodiscard]] double student_quantile(int degrees, double share);
-
 /// Mean of replicates with its confidence interval, mean ± t s / sqrt(n).
 struct Interval {
   double mean = 0.0, low = 0.0, high = 0.0;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "core/distributions.hpp"
 #include "core/statistics.hpp"
 
 namespace twindeck::diagnosis {
@@ -16,21 +16,6 @@ namespace {
 /// Below this a pair of shapes is no pair (the paper calls 0.6 and less weak).
 constexpr double kWeakMac = 0.6;
 constexpr double kAlpha = 0.05;
-
-/// P(|t| > x) of Student's law, by Simpson's rule in the angle atan(t/sqrt(dof)), where the density is a power of the cosine.
-double student_tail(double x, double dof) {
-  const double end = std::atan(std::abs(x) / std::sqrt(dof));
-  const auto integral = [&](double from, double to) {
-    constexpr int n = 400;
-    double sum = 0.0;
-    for (int i = 0; i <= n; ++i) {
-      const double weight = i == 0 || i == n ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
-      sum += weight * std::pow(std::cos(from + (to - from) * i / n), dof - 1.0);
-    }
-    return sum * (to - from) / (3.0 * n);
-  };
-  return integral(end, 0.5 * std::numbers::pi) / integral(0.0, 0.5 * std::numbers::pi);
-}
 
 /// The support nearest to a channel, "" where coordinates are not known.
 std::string nearest_support(const std::string& name, const std::vector<matching::Channel>& channels, const Places& places) {
@@ -165,7 +150,7 @@ std::vector<ChannelFactor> channel_factors(const std::vector<Claim>& claims) {
     const auto [lowest, highest] = std::minmax_element(rest[name].begin(), rest[name].end());
     const double t = (own - centre) / std::sqrt(std::max(variance, 1e-12) * (1.0 + 1.0 / n));
     out.push_back({name, static_cast<int>(rest[name].size()), std::exp(own), std::exp(*lowest), std::exp(*highest),
-                   std::sqrt(variance), std::min(1.0, student_tail(t, n - 1.0) * static_cast<double>(order.size()))});
+                   std::sqrt(variance), std::min(1.0, student_two_sided_tail(t, n - 1.0) * static_cast<double>(order.size()))});
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/distributions.hpp"
 #include "core/error.hpp"
 
 namespace twindeck::identification {
@@ -10,16 +11,6 @@ namespace twindeck::identification {
 using Eigen::Index;
 
 namespace {
-
-/// Quantile z of the standard normal law with P(|x| < z) = level, by bisection of erf.
-double two_sided_quantile(double level) {
-  double low = 0.0, high = 10.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (std::erf(middle / std::sqrt(2.0)) < level ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 const StaySettings* settings_of(const Conditioned& conditioned, const IdentificationSettings& config) {
   const auto at = std::find_if(config.stays.begin(), config.stays.end(), [&](const StaySettings& stay) {
@@ -70,7 +61,7 @@ std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records, 
       sysid::StayModel model;
       model.known_length = result.length_m > 0.0;
       result.fit =
-          sysid::fit_stay(harmonics, model.known_length ? result.length_m : 1.0, two_sided_quantile(config.stay_level), model);
+          sysid::fit_stay(harmonics, model.known_length ? result.length_m : 1.0, two_sided_normal_quantile(config.stay_level), model);
     }
     stays.push_back(std::move(result));
   }

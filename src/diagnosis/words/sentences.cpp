@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "core/distributions.hpp"
+
 namespace twindeck::diagnosis {
 
 namespace {
@@ -326,12 +328,7 @@ std::string effect_words(const Effect& effect, const PlaceWords& places) {
 
 }  // namespace
 
-double sidak_limit(std::size_t n) {
-  const double each = std::pow(0.99, 1.0 / static_cast<double>(n));
-  double low = 0.0, high = 10.0;
-  for (int i = 0; i < 80; ++i) (std::erf(0.5 * (low + high) / std::sqrt(2.0)) < each ? low : high) = 0.5 * (low + high);
-  return high;
-}
+double sidak_limit(std::size_t n) { return two_sided_normal_quantile(std::pow(0.99, 1.0 / static_cast<double>(n))); }
 
 IdsInWords ids_in_words(const PlaceWords& places, const Inference& inference, const std::vector<Scored>& ranking) {
   IdsInWords ids;

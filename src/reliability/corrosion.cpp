@@ -1,0 +1,44 @@
+#include "reliability/corrosion.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace twindeck::reliability {
+
+namespace {
+
+/// Years to which the power law is measured (ISO 9224:2012, 6).
+constexpr double kPowerLawYears = 20.0;
+
+[[noreturn]] void eaten(double thickness_m, double loss_m) {
+  throw InputError(
+      {"", 0, "corrosion"},
+      fmt::format("takes {:.2f} mm of a wall of {:.2f} mm, and nothing is left of it", 1e3 * loss_m, 1e3 * thickness_m),
+      "end the years before that, give the coating's life, or choose the category of the place");
+}
+
+}  // namespace
+
+double Corrosion::loss_m(double years) const {
+  const double exposed = std::max(0.0, years - coating_life_years);
+  if (exposed <= kPowerLawYears) return first_year_m * std::pow(exposed, exponent);
+  return first_year_m * (std::pow(kPowerLawYears, exponent) +
+                         exponent * std::pow(kPowerLawYears, exponent - 1.0) * (exposed - kPowerLawYears));
+}
+
+double remaining_share(double thickness_m, double loss_m, int exposed_sides) {
+  const double lost = loss_m * exposed_sides;
+  if (!(lost < thickness_m)) eaten(thickness_m, lost);
+  return 1.0 - lost / thickness_m;
+}
+
+double remaining_round_share(double diameter_m, double loss_m) {
+  if (!(2.0 * loss_m < diameter_m)) eaten(diameter_m, 2.0 * loss_m);
+  const double share = 1.0 - 2.0 * loss_m / diameter_m;
+  return share * share;
+}
+
+}  // namespace twindeck::reliability

@@ -1,0 +1,92 @@
+#include "reliability/fatigue.hpp"
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace twindeck::reliability {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Cycles at the category's range (EN 1993-1-11, 9.2).
+constexpr double kCategoryCycles = 2e6;
+/// Ranges beyond so many deviations hold less than 1e-12 of any damage.
+constexpr double kLargestRange = 20.0;
+
+std::vector<double> turning_points(const Eigen::Ref<const VectorXd>& history) {
+  std::vector<double> points;
+  for (const double value : history) {
+    if (!points.empty() && value == points.back()) continue;
+    const std::size_t n = points.size();
+    if (n >= 2 && (points[n - 1] - points[n - 2]) * (value - points[n - 1]) > 0.0) {
+      points.back() = value;
+    } else {
+      points.push_back(value);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Cycle> rainflow(const Eigen::Ref<const VectorXd>& history) {
+  std::vector<Cycle> cycles;
+  std::vector<double> stack;  // points not yet counted; the first is the start of the count
+  for (const double point : turning_points(history)) {
+    stack.push_back(point);
+    while (stack.size() >= 3) {
+      const std::size_t n = stack.size();
+      const double latest = std::abs(stack[n - 1] - stack[n - 2]), before = std::abs(stack[n - 2] - stack[n - 3]);
+      if (latest < before) break;
+      if (n == 3) {  // the range holds the start: half a cycle
+        cycles.push_back({before, 0.5});
+        stack.erase(stack.begin());
+      } else {
+        cycles.push_back({before, 1.0});
+        stack.erase(stack.end() - 3, stack.end() - 1);
+      }
+    }
+  }
+  for (std::size_t i = 0; i + 1 < stack.size(); ++i) cycles.push_back({std::abs(stack[i + 1] - stack[i]), 0.5});
+  return cycles;
+}
+
+double FatigueCurve::damage(double range_Pa) const {
+  const double ratio = range_Pa / category_Pa;
+  return std::pow(ratio, ratio >= 1.0 ? slope_above : slope_below) / kCategoryCycles;
+}
+
+double damage(const std::vector<Cycle>& cycles, const FatigueCurve& curve) {
+  double sum = 0.0;
+  for (const Cycle& cycle : cycles) sum += cycle.count * curve.damage(cycle.range);
+  return sum;
+}
+
+double dirlik_density(const SpectralMoments& moments, double range) {
+  const double l0 = moments.variance, l1 = moments.first, l2 = moments.second, l4 = moments.fourth;
+  if (!(l0 > 0.0 && l2 > 0.0 && l4 > 0.0)) return 0.0;
+  const double mean_frequency = l1 / l0 * std::sqrt(l2 / l4), irregularity = l2 / std::sqrt(l0 * l4);
+  const double d1 = 2.0 * (mean_frequency - irregularity * irregularity) / (1.0 + irregularity * irregularity);
+  const double r = (irregularity - mean_frequency - d1 * d1) / (1.0 - irregularity - d1 + d1 * d1);
+  const double d2 = (1.0 - irregularity - d1 + d1 * d1) / (1.0 - r), d3 = 1.0 - d1 - d2;
+  const double q = 1.25 * (irregularity - d3 - d2 * r) / d1;
+  const double half = 2.0 * std::sqrt(l0), z = range / half;
+  double density = d3 * z * std::exp(-0.5 * z * z);
+  if (d1 > 0.0 && q > 0.0) density += d1 / q * std::exp(-z / q);
+  if (r != 0.0 && std::isfinite(r)) density += d2 * z / (r * r) * std::exp(-0.5 * z * z / (r * r));
+  return density / half;
+}
+
+double damage_rate_Hz(const SpectralMoments& moments, const FatigueCurve& curve) {
+  if (!(moments.variance > 0.0 && moments.second > 0.0)) return 0.0;
+  const double peaks = std::sqrt(moments.fourth / moments.second) / (2.0 * std::numbers::pi);
+  const auto each = [&](double range) { return dirlik_density(moments, range) * curve.damage(range); };
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
+  const double end = kLargestRange * std::sqrt(moments.variance), knee = std::min(curve.category_Pa, end);
+  return peaks * (Rule::integrate(each, 0.0, knee, 12, 1e-9) + (knee < end ? Rule::integrate(each, knee, end, 12, 1e-9) : 0.0));
+}
+
+}  // namespace twindeck::reliability

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/error.hpp"
+#include "reliability/limit_state.hpp"
+
+namespace twindeck::reliability {
+
+/// Design point: the point of g = 0 nearest to the origin of standard normal space.
+struct DesignPoint {
+  Eigen::VectorXd u;  ///< (n)
+  double beta = 0.0;  ///< [-] its distance, negative where the origin itself exceeds the limit
+  Eigen::VectorXd
+      alpha;  ///< (n) u/beta; alpha_i² is input i's share of the variance of the linearised limit state (they sum to 1)
+};
+
+struct FormOptions {
+  int starts = 8;                 ///< random starts beside the origin
+  int iterations = 200;           ///< of one search
+  double tolerance = 1e-6;        ///< [-] on |u - (alpha'u) alpha| and on |g|/|g(0)|
+  double importance_level = 0.1;  ///< the test looks for further points that would add this share or more of Phi(-beta)
+  double test_level = 0.95;       ///< probability with which it finds one
+  int largest_test = 10000;       ///< calls that the test may use
+  double step = 1e-4;             ///< [-] of the central differences of g, in standard deviations
+  std::uint64_t seed = 1;
+};
+
+struct FormResult {
+  Status status;                    ///< not converged: no start reached g = 0 with its gradient along u
+  std::vector<DesignPoint> points;  ///< all that were found, nearest first
+  double probability = 0.0;         ///< Phi(-beta) of the nearest
+  int calls = 0;                    ///< of g
+  bool strong_maximum = false;      ///< one point alone has that importance, as far as the test can tell
+  double level_reached = 0.0;       ///< probability with which the test would have found one, given the calls that it used
+};
+
+/// First-order reliability method: beta by the improved Hasofer-Lind-Rackwitz-Fiessler iteration with Armijo's rule on the
+/// merit 0.5 |u|² + c |g|, from several starts. Then the strong-maximum test: points on a sphere a little farther than beta,
+/// away from the design points, are asked whether they exceed the limit; from one that does a search starts.
+/// @param n  dimension of u
+/// @throws InputError  if the limit is exceeded, or is not, at the origin and at every start
+/// References: Zhang and Der Kiureghian (1995), IFIP WG 7.5, 297-304; Dutfoy and Lebrun (2007), Comptes Rendus Mecanique 335,
+/// 297-304.
+[[nodiscard]] FormResult form(const LimitState& g, Eigen::Index n, const FormOptions& options = {});
+
+}  // namespace twindeck::reliability

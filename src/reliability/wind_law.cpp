@@ -1,0 +1,89 @@
+#include "reliability/wind_law.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+
+namespace twindeck::reliability {
+
+namespace {
+
+/// EN 1991-1-4:2005, 4.2 (2) note 4: parameters of the probability factor.
+constexpr double kCodeK = 0.2, kCodeN = 0.5, kCodeAnnual = 0.98;
+/// Classes of a Weibull law go on until this share of the time is left.
+constexpr double kLeftOut = 1e-12;
+/// [-] printed tables are rounded to three digits.
+constexpr double kSumTolerance = 1e-3;
+
+}  // namespace
+
+double WindLaw::exceedance(double speed) const {
+  switch (kind) {
+    case Kind::weibull:
+      return speed <= 0.0 ? 1.0 : std::exp(-std::pow(speed / scale_m_s, shape));
+    case Kind::table: {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < speed_m_s.size(); ++i) sum += speed_m_s[i] > speed ? probability[i] : 0.0;
+      return sum;
+    }
+    case Kind::gumbel:
+      return -std::expm1(-std::exp(-(speed - mode_m_s) / gumbel_scale_m_s));
+    case Kind::code: {
+      // c_prob² = (1 - K ln(-ln F)) / (1 - K ln(-ln 0.98)), solved for the annual probability F.
+      const double factor = std::pow(speed / (exposure * basic_m_s), 1.0 / kCodeN);
+      const double of_basic = 1.0 - kCodeK * std::log(-std::log(kCodeAnnual));
+      return -std::expm1(-std::exp((1.0 - factor * of_basic) / kCodeK));
+    }
+  }
+  return 0.0;
+}
+
+double WindLaw::average(const std::function<double(double)>& of_speed, double step_m_s) const {
+  TWINDECK_ASSERT(of_all_means() && step_m_s > 0.0);
+  double sum = 0.0;
+  if (kind == Kind::table) {
+    for (std::size_t i = 0; i < speed_m_s.size(); ++i) sum += probability[i] * of_speed(speed_m_s[i]);
+    return sum;
+  }
+  for (double low = 0.0; exceedance(low) > kLeftOut; low += step_m_s) {
+    sum += (exceedance(low) - exceedance(low + step_m_s)) * of_speed(low + 0.5 * step_m_s);
+  }
+  return sum;
+}
+
+void check_wind_law(const WindLaw& law) {
+  const auto positive = [](double value, const char* key) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw InputError({"", 0, key}, fmt::format("is {}, expected a positive number", value), "");
+  };
+  switch (law.kind) {
+    case WindLaw::Kind::weibull:
+      positive(law.scale_m_s, "scale_m_s");
+      positive(law.shape, "shape");
+      return;
+    case WindLaw::Kind::gumbel:
+      positive(law.gumbel_scale_m_s, "gumbel_scale_m_s");
+      return;
+    case WindLaw::Kind::code:
+      positive(law.basic_m_s, "basic_m_s");
+      positive(law.exposure, "exposure");
+      return;
+    case WindLaw::Kind::table:
+      break;
+  }
+  for (std::size_t i = 0; i < law.probability.size(); ++i) {
+    if (!(law.probability[i] >= 0.0))
+      throw InputError({"", 0, "probability"},
+                       fmt::format("is {} at {} m/s, expected zero or more", law.probability[i], law.speed_m_s[i]), "");
+  }
+  const double sum = std::accumulate(law.probability.begin(), law.probability.end(), 0.0);
+  if (std::abs(sum - 1.0) > kSumTolerance) {
+    throw InputError({"", 0, "probability"}, fmt::format("sums to {:.6g} over all classes, expected 1", sum),
+                     "give each class its share of the time; divide all by their sum");
+  }
+}
+
+}  // namespace twindeck::reliability
