@@ -123,14 +123,19 @@ check-power: build ## change the inputs one at a time and see what the check not
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
 
-N ?= 400
+N ?= $(if $(filter exam,$(TIER)),45,400)
 TIER ?= features
 SEED ?= 1
 BLIND = $(if $(filter features,$(TIER)),blind_trials,$(if $(filter form,$(TIER)),blind_form,blind_records))
 BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))$(if $(filter on,$(FORM)),--form)
-blind-trials: build ## make blind-trials N=400 TIER=features, form, records or time (FORM=on: features, and the model's form may be wrong): hidden effects looked for on another mesh or by a model of another class, scored with intervals
+ifeq ($(TIER),exam)
+blind-trials: build
+	@$(PRODUCT)workflows/python.sh tests/blind/exam/exam.py $(BIN) results/exam $(N) $(SEED) $(EXAM)
+else
+blind-trials: build ## make blind-trials N=400 TIER=features, form, exam, records or time (FORM=on: features, and the model's form may be wrong): hidden effects looked for on another mesh or by a model of another class, scored with intervals
 	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
 	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(BLIND_LAST)
+endif
 
 blind-modes: build ## make blind-modes N=200 SEED=1: records of random structures identified by the automatic rule, scored with exact intervals (results/blind/modes_SEED_N.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target blind_modes
