@@ -15,9 +15,9 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 import made_up_answer  # noqa: E402
 from made_up_case import MadeUpCase  # noqa: E402
 from twindeck_report.errors import InputError  # noqa: E402
-from twindeck_report.page import answer, diagnosis  # noqa: E402
+from twindeck_report.page import answer, diagnosis, headline, telling  # noqa: E402
 from twindeck_report.page.numbers import physical, span  # noqa: E402
-from twindeck_report.page.pieces import render  # noqa: E402
+from twindeck_report.page.pieces import environment, render  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
 
 
@@ -43,17 +43,20 @@ class FirstScreen(unittest.TestCase):
         for part in words:
             self.assertIn(part, err)
 
-    def test_the_page_opens_with_the_virtual_campaign_and_its_score(self):
+    def test_the_page_opens_with_the_studys_own_answer(self):
+        """It has no step 9: the mean error of its frequencies. The virtual campaign's answer stands below, with its score."""
         page = (self.case.results / "report/report.html").read_text(encoding="utf-8")
-        first = words_of(page[page.index('id="overview"'):page.index('id="steps"')])
-        order = [first.index(part) for part in (
-            "Made-up bridge, virtual campaign (its truth is known)", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
+        first = words_of(page[page.index('id="overview"'):page.index('id="answer"')])
+        self.assertIn("The model misses 8 measured frequencies by 4 % in the mean", first)
+        virtual = words_of(page[page.index('id="virtual"'):page.index('id="account"')])
+        order = [virtual.index(part) for part in (
+            "Made-up bridge, virtual campaign its truth is known", "The dampers C1 and C2 do not move below 434 N each; likely, 6.7 to 1; error on unfitted data 25 % smaller.",
+            "mode 1 windy 0.7480 Hz 0.6900 Hz 0.7400 Hz", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
             "How much better", made_up_answer.SENTENCES["how_much_better"], "What next", made_up_answer.SENTENCES["next"], "What was hidden",
             "In the set. Friction: the dampers C1 and C2 stand still below 500 N each.", "hidden 500 N, found 434 N (181 N to 608 N, 90 %); the interval holds it",
-            "hidden 10 MN/m, found 5.4 MN/m (4.7 MN/m to 6.4 MN/m, 90 %); the interval misses it", "Missed. The stays S1 and S2 vibrate.",
-            "Every number on this page")]
+            "hidden 10 MN/m, found 5.4 MN/m (4.7 MN/m to 6.4 MN/m, 90 %); the interval misses it", "Missed. The stays S1 and S2 vibrate.")]
         self.assertEqual(order, sorted(order))
-        self.assertNotIn("node:725", first, "a place has words on the first screen")
+        self.assertNotIn("node:725", virtual, "a place has words on the first screen")
 
     def test_a_score_of_another_run_is_refused(self):
         path = self.virtual / "score/score.json"
@@ -86,17 +89,16 @@ class OneStudy(unittest.TestCase):
 
     def answer(self, told):
         made_up_answer.write_diagnosis(self.results / "s9_diagnosis", told)
-        return words_of(render("parts/answers.html.j2", answers=answer.answers(self.study)))
+        return words_of(environment().get_template("parts/first.html.j2").module.in_sentences(answer.answers(self.study)[0]))
 
     def test_five_sentences_and_no_word_of_a_truth(self):
         text = self.answer(made_up_answer.diagnosis())
         for part in (*made_up_answer.SENTENCES.values(), "Verdict: named"):
             self.assertIn(part, text)
-        self.assertNotIn("Made-up frame", text, "the page's heading says it already")
         self.assertNotIn("hidden", text)
         self.assertNotIn("published", text, "measurements of one's own are not published")
         self.study.data.joinpath("paper").mkdir(parents=True)
-        self.assertIn("Made-up frame (published measurements)", self.answer(made_up_answer.diagnosis()))
+        self.assertEqual(answer.answers(self.study)[0]["kind"], "published measurements")
 
     def test_a_campaign_that_was_not_scored_says_nothing_of_the_truth(self):
         (self.results / "score").mkdir(parents=True)
@@ -115,10 +117,10 @@ class OneStudy(unittest.TestCase):
         text = self.account(made_up_answer.diagnosis())
         self.assertIn("Log odds of something missing against nothing: 53.2", text)
         self.assertRegex(text, r"fric dampers:C1,C2 53\.2")
-        self.assertIn("The likeliest of 2 entries that were fitted", text, "two more were screened out or have no row that shows them")
-        card = text[text.index("How sure: likelier"):text.index("The likeliest of")]
+        self.assertIn("log odds of the likeliest of 2 entries that were fitted", text, "two more were screened out or have no row that shows them")
+        card = text[text.index("How sure: likely"):text.index("For experts: log odds of the likeliest of 2")]
         self.assertNotIn("log odds", card)
-        self.assertIn("mass that the model does not have (the deck at x = 34 m), probability 0.11: mass 800 kg (600 kg … 1,100 kg)", card)
+        self.assertIn("mass that the model does not have (the deck at x = 34 m), 1 to 8.1: mass 800 kg (600 kg … 1,100 kg)", card)
         self.assertIn("E_s 210 GPa (205 GPa to 216 GPa) 204 GPa (200 GPa to 209 GPa)", text)
         self.assertIn("the deck at x = 34 m (node 725) node:725", text)
 
@@ -126,7 +128,7 @@ class OneStudy(unittest.TestCase):
         told = made_up_answer.diagnosis()
         for side, words in (("open", "mass not known"), ("lower limit", "mass at least 600 kg"), ("upper limit", "mass at most 1,100 kg")):
             told["effects"][0]["rivals"][0]["parameters"][0]["one_sided"] = side
-            self.assertIn(f"probability 0.11: {words}", self.account(told))
+            self.assertIn(f"1 to 8.1: {words}", self.account(told))
         own = told["effects"][0]["parameters"][0]
         own["one_sided"] = "open"
         self.assertRegex(self.account(told), r"How big: Fc not known \(90 %\)")
@@ -144,6 +146,77 @@ class OneStudy(unittest.TestCase):
     def test_what_cannot_be_asked_is_one_line(self):
         text = self.account(made_up_answer.diagnosis())
         self.assertEqual(text.count("Cannot be asked with these rows"), 1)
+
+
+class Headline(unittest.TestCase):
+    """The first sentence. Oracle: arithmetic of odds, p / (1 - p), and the made-up diagnosis; 25 words are the limit by the page's own rule."""
+
+    def sentence(self, rows=40, beyond=0, updating=(6.946, 0.0312), **changes):
+        text = headline.of_diagnosis(made_up_answer.diagnosis(**changes), rows, beyond, updating)
+        self.assertLessEqual(len(text.split()), headline.MOST_WORDS, text)
+        return text
+
+    def test_odds_in_words(self):
+        for ratio, text in ((1.0, "1 to 1"), (40.0, "40 to 1"), (0.25, "1 to 4"), (6.69, "6.7 to 1"), (123.0, "120 to 1"), (45678.0, "46,000 to 1"), (1e9, "over a million to 1"),
+                            (0.0, "0 to 1"), (9.96, "10 to 1"), (1e-9, "1 to over a million")):
+            self.assertEqual(headline.odds(ratio), text)
+        self.assertEqual(headline.odds_of(0.8), "4 to 1")
+        self.assertEqual(headline.odds_of(1.0), "over a million to 1")
+
+    def test_none_is_said_as_none(self):
+        odds = made_up_answer.diagnosis()["detection"] | {"log_odds": -4.0}
+        self.assertEqual(self.sentence(verdict="none", effects=[], detection=odds),
+                         "None of the 40 measured values contradicts the fitted model; no cause needed: 55 to 1; mean frequency error 0.031 %, before updating 6.9 %.")
+        text = self.sentence(verdict="none", effects=[], beyond=10)
+        self.assertTrue(text.startswith("None of the known causes is named, though 10 of 40 measured values stand out;"), text)
+        tone, title, _ = diagnosis.verdict_in_words({"verdict": "none", "effects": []}, 10)
+        self.assertEqual((tone, title), ("warn", "No cause is named, and the model does not explain all that was measured"))
+
+    def test_unknown_names_no_cause(self):
+        text = self.sentence(verdict="unknown")
+        self.assertTrue(text.startswith("None of the known causes explains the 40 measured values; that something is missing: over a million to 1"), text)
+        self.assertNotIn("damper", text)
+
+    def test_equally_well_only_within_a_factor_of_three(self):
+        effect = made_up_answer.diagnosis()["effects"][0]
+        for probability, alike in ((0.3, True), (0.28, False)):
+            effect["rivals"][0]["probability"] = probability
+            told = {"verdict": "ambiguous", "effects": [effect]}
+            self.assertEqual("equally well" in diagnosis.verdict_in_words(told)[1], alike)
+            self.assertEqual("not told apart from 1 other" in self.sentence(**told), alike)
+
+    def test_a_long_cause_is_told_by_its_title(self):
+        effect = made_up_answer.diagnosis()["effects"][0] | {"sentence": "A sentence " + "that goes on and on " * 5}
+        self.assertTrue(self.sentence(effects=[effect]).startswith("Damper held by friction below a threshold force: the dampers C1 and C2;"))
+        gain = made_up_answer.diagnosis()["gain"]
+        self.assertIn("no gain shown", self.sentence(gain=gain | {"interval_pct": [-8.0, 66.0]}))
+        self.assertIn("gain not measured", self.sentence(gain=gain | {"rows": 0}))
+
+    def test_held_out_predictions_are_drawn_where_step_9_tells_them(self):
+        """gain.raw: -6 % and -1 % of a measured 0.748 Hz."""
+        root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        told = made_up_answer.diagnosis()
+        told["gain"]["raw"] = [{"mode": "1", "condition": "windy", "frequency_error_pct_before": -6.0, "frequency_error_pct_after": -1.0, "mac_before": 0.5, "mac_after": 0.9}]
+        made_up_answer.write_diagnosis(root / "s9_diagnosis", told)
+        row = telling._of_rows(Study("frame", root, root, root), told).rows[0]
+        self.assertAlmostEqual(row.before, 0.748 * 0.94)
+        self.assertAlmostEqual(row.error("after"), -1.0)
+        self.assertEqual((row.mac_before, row.mac_after), (0.5, 0.9))
+
+    def test_bars_of_equal_errors_are_equally_long(self):
+        """2 % below at 1 Hz and at 10 Hz; bars begin 2.5 % below (a quarter more than the largest error) and end 2.5 % above."""
+        drawn = telling.bars(telling.Telling([telling.Told("1", "", 1.0, 0.98, 1.0), telling.Told("2", "", 10.0, 9.8, 10.1)], "before", "after"))
+        self.assertEqual(drawn["from_pct"], 97.5)
+        self.assertEqual([[b["share"] for b in m["bars"]] for m in drawn["modes"]], [[50.0, 10.0, 50.0], [50.0, 10.0, 70.0]])
+
+    def test_mac_of_the_rows(self):
+        """Shapes (1, 1) and (1, 0) have MAC 1/2; with an imaginary part that turns the one into the other's multiple, 1."""
+        import pandas as pd
+
+        rows = [["shape", "1", c, "calm", v, b, a] for c, v, b, a in (("p", 1.0, 1.0, 2.0), ("q", 1.0, 0.0, 2.0))]
+        found = telling._shapes(pd.DataFrame(rows, columns=["type", "mode", "channel", "condition", "value", "before", "after"]))
+        self.assertAlmostEqual(found["1", "calm"][0], 0.5)
+        self.assertAlmostEqual(found["1", "calm"][1], 1.0)
 
 
 class Numbers(unittest.TestCase):

@@ -21,7 +21,7 @@ import browser  # noqa: E402
 import made_up_study  # noqa: E402
 from made_up_case import MadeUpCase  # noqa: E402
 from twindeck_report.figures import updating_history  # noqa: E402
-from twindeck_report.page import answer, chart, complexity, mac, marks, spectra  # noqa: E402
+from twindeck_report.page import answer, chart, complexity, mac, marks, quality, spectra  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
 
 STEPS = ["s1_model", "s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating"]
@@ -223,6 +223,12 @@ class Numbers(unittest.TestCase):
             margin = 0.12 * (high - low)
             np.testing.assert_allclose(axes.get_ylim(), (low - margin, high + margin), err_msg=f"of {axes.get_title(loc='left')}")
             self.assertAlmostEqual(axes.lines[0].get_ydata()[0], initial)
+
+    def test_rms_values_have_the_units_they_are_written_in(self):
+        """Step 3 multiplies by the gain: what a logger recorded in mg stands in quality.csv in m/s²; volts without a scale stay volts."""
+        self.write("s3_identification/channels.csv", ["channel", "quantity", "unit", "gain"],
+                   [["a", "acceleration", "mg", 9.80665e-3], ["v", "velocity", "mm/s", 1e-3], ["u", "acceleration", "V", 1], ["n", "", "g", 9.80665]])
+        self.assertEqual(quality._units(self.study), {"a": "m/s²", "v": "m/s", "u": "V", "n": "m/s²"})
 
     def test_a_channel_may_be_called_na(self):
         """NA, nan and null are names too: a channel at the north abutment, for one."""

@@ -1,10 +1,11 @@
-"""The first screen of a report: what a diagnosis says in a sentence each, the virtual campaign's first, scored against what was hidden in it."""
+"""The first screen of a report, and below it what a diagnosis says in a sentence each; a virtual campaign's is scored against what was hidden in it."""
 import json
 
 from ..errors import InputError
 from ..manifests import sha256
 from ..study import Study
-from .diagnosis import verdict_in_words
+from . import headline, picture, telling
+from .diagnosis import residual_counts, verdict_in_words
 from .numbers import physical
 
 QUESTIONS = (("what", "What is wrong"), ("why", "Why"), ("how_sure", "How sure"), ("how_much_better", "How much better"), ("next", "What next"))
@@ -15,22 +16,63 @@ ANSWERS = {"named": "good", "in the set": "good", "missed": "bad"}
 
 
 def answers(study: Study) -> list:
-    """One a diagnosis: that of the study's virtual campaign, where there is one, then the study's own."""
-    return [found for each in (study.virtual(), study) if each is not None and (found := _answer(each)) is not None]
+    """The first screen of the study, then that of its virtual campaign, where there is one with a diagnosis."""
+    virtual = study.virtual()
+    told = _diagnosis(virtual) if virtual is not None else None
+    return [screen(study, _diagnosis(study)), *([screen(virtual, told)] if told is not None else [])]
 
 
-def _answer(study: Study) -> dict | None:
-    path = study.results / "s9_diagnosis" / "diagnosis.json"
+def _diagnosis(study: Study) -> dict | None:
+    path = _path(study)
     if "s9_diagnosis" not in study.steps() or not path.is_file():
         return None
     told = json.loads(path.read_text(encoding="utf-8"))
     if not isinstance(told.get("sentences"), dict):
         raise InputError(f"{path}: sentences: missing; it was written by an earlier version: run `make s9 STUDY={study.name}`")
+    return told
+
+
+def _path(study: Study):
+    return study.results / "s9_diagnosis" / "diagnosis.json"
+
+
+def screen(study: Study, told: dict | None) -> dict:
+    """Sentence, picture with the place marked, bars of the modes that tell it, states side by side; below them the account in sentences."""
     settings = study.read_toml(study.workflow / "study.toml")
-    tone, title, _ = verdict_in_words(told)
-    return {"title": settings.get("title", study.name), "kind": _kind(study, settings), "verdict": told["verdict"],
-            "tone": tone, "heading": title, "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS],
-            "updating": None if study.has_paper() else _updating(study), "score": _score(study, path)}
+    for_bars, for_table = telling.telling(study, told)
+    found = {"title": settings.get("title", study.name), "kind": _kind(study, settings), "picture": picture.marked(study, settings, told),
+             "bars": telling.bars(for_bars), "states": telling.table(for_table), "updating": None if study.has_paper() else _updating(study), "sentences": [],
+             "score": None, "told": told, "tone": "", "sentence": _without_diagnosis(study, for_table)}
+    if told is not None:
+        rows, beyond = residual_counts(study)
+        tone, title, _ = verdict_in_words(told, beyond)
+        found |= {"tone": tone, "heading": title, "sentence": headline.of_diagnosis(told, rows, beyond, _mean_errors(study)),
+                  "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS], "score": _score(study, _path(study))}
+    return found
+
+
+def _without_diagnosis(study: Study, told) -> str:
+    """The first sentence where step 9 is not among the steps."""
+    errors = _mean_errors(study)
+    if errors is not None:
+        return f"Updating took the mean frequency error from {errors[0]:.2g} to {errors[1]:.2g} %; no step looked for a cause of the rest."
+    if told is None:
+        return "No step has found a mode yet."
+    if not told.before:
+        return f"{len(told.rows)} modes were identified from the records; no model was compared with them."
+    if any(r.measured == r.measured for r in told.rows):
+        mean = sum(abs(r.error("before")) for r in told.rows) / len(told.rows)
+        return f"The model misses {len(told.rows)} measured frequencies by {mean:.2g} % in the mean; it was not updated."
+    return f"The model has {len(told.rows)} modes; nothing measured was compared with them."
+
+
+def _mean_errors(study: Study) -> tuple | None:
+    """Mean error of the frequencies [%] before and after updating; None where step 6 did not run."""
+    if "s6_updating" not in study.steps() or not (study.results / "s6_updating/summary.csv").is_file():
+        return None
+    summary = study.step_csv("s6_updating/summary.csv", ["quantity", "value"]).set_index("quantity")["value"]
+    names = ("mean_abs_error_before_pct", "mean_abs_error_after_pct")
+    return tuple(float(summary[n]) for n in names) if set(names) <= set(summary.index) else None
 
 
 def _updating(study: Study) -> str | None:

@@ -4,6 +4,7 @@ import json
 import pandas as pd
 
 from ..study import Study
+from .headline import equally_well, odds_of, odds_of_log, sure
 from .heatmap import NAMES, heatmaps
 from .numbers import physical, span
 from .places import places
@@ -17,11 +18,16 @@ VERDICTS = {
 }
 
 
-def verdict_in_words(told: dict) -> tuple:
-    """Tone, heading and meaning of a verdict."""
+def verdict_in_words(told: dict, beyond: int = 0) -> tuple:
+    """Tone, heading and meaning of a verdict. `beyond`: measured values that the model fitted within its bounds misses by more than it may."""
     tone, title, meaning = VERDICTS.get(told["verdict"], ("warn", told["verdict"], ""))
+    if told["verdict"] == "none" and beyond:
+        tone, title = "warn", "No cause is named, and the model does not explain all that was measured"
+        meaning = f"{beyond} measured value{'s stand' if beyond > 1 else ' stands'} out; no cause of the catalogue explains enough of that to be named."
     if told["verdict"] == "named" and len(told["effects"]) > 1:
         title = f"{len(told['effects'])} causes explain it together"
+    if told["verdict"] == "ambiguous" and told["effects"] and not any(equally_well(e) for e in told["effects"]):
+        title = "One cause is likelier than the others, which stay possible"
     return tone, title, meaning
 
 
@@ -31,15 +37,21 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
         return None
     study.used.add(path)
     told = json.loads(path.read_text(encoding="utf-8"))
-    tone, title, meaning = verdict_in_words(told)
     rows = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "residual_before", "residual_after"])
     beyond = {side: _beyond(rows, side) for side in ("before", "after")}
+    tone, title, meaning = verdict_in_words(told, beyond["before"])
     fitted = _fitted(study)
     folder = "s6_updating/model" if "s6_updating" in study.steps() else None
     where = places(study, settings, folder, told.get("localisation", []))
     return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "beyond_held_out": _beyond(rows[rows["held_out"] == 1], "before"), "kind": _kind, "block": _block, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": _tried(fitted), "causes_tried": len(fitted), "places": where[:12], "where": where, "folder": folder,
-            "gain_of": _kinds(study), "sure": _sure, "quantity": _quantity, "size": _size, "physical": physical, "parameters": _parameters(told)}
+            "gain_of": _kinds(study), "sure": sure, "odds": odds_of_log, "odds_of": odds_of, "quantity": _quantity, "size": _size, "physical": physical, "parameters": _parameters(told)}
+
+
+def residual_counts(study: Study) -> tuple:
+    """How many measured rows step 9 used, and how many of them the model fitted within its bounds misses by more than it may."""
+    rows = study.step_csv("s9_diagnosis/residuals.csv", ["residual_before"])
+    return len(rows), _beyond(rows, "before")
 
 
 def _parameters(told: dict) -> list:
@@ -57,15 +69,6 @@ def _block(name: str) -> str:
     """A block of rows in words: "damping_ratio_pct in still_air"."""
     kind, inside, condition = name.partition(" in ")
     return (_kind(kind).lower() if kind in NAMES else kind) + inside + condition.replace("_", " ")
-
-
-def _sure(probability: float) -> str:
-    """A posterior probability in words, over the causes that the catalogue knows and none of them."""
-    for least, words in ((0.99, "practically certain among the causes that the catalogue knows"), (0.9, "very likely"),
-                         (0.5, "likelier than all others together, but not by much"), (0.0, "one of several that are about as likely")):
-        if probability >= least:
-            return words
-    return "unknown"
 
 
 def _size(parameter: dict) -> str:

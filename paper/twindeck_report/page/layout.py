@@ -7,19 +7,16 @@ from ..study import Study
 from .drawing import read_drawing
 from .marks import marks
 from .measured import read_measured
-from .still import view
+from .picture import WIDTH, Projection, drawn_model, model_folder
 
-WIDTH, MARGIN = 480, 34  # of the view box: legible on a telephone
-TALLEST = 0.85  # height of the structure at most, in widths of the picture
 ARROW = 26.0  # [px]
-MODELS = ("s6_updating", "s4_refinement", "s1_model")
-MOST_LINES, MOST_NAMES, FEW_POINTS = 5000, 40, 12
+MOST_NAMES, FEW_POINTS = 40, 12
 LETTER = 5.6  # [px] width of a letter of the names, on the safe side
 
 
 def layout(study: Study, settings: dict) -> dict | None:
     """{svg, drawn (whether a model is), channels, points, supports, springs}; None where there is neither a drawn model nor a sensor with a place."""
-    folder = next((f"{t}/model" for t in MODELS if t in study.steps() and (study.results / t / "model/elements.csv").is_file()), None)
+    folder = model_folder(study)
     drawing = read_drawing(study, folder) if folder else None
     held = marks(study, folder) if drawing is not None else []
     measured = read_measured(study, settings)
@@ -27,30 +24,14 @@ def layout(study: Study, settings: dict) -> dict | None:
         return None
     placed = measured.channels if measured is not None else None
     points = np.vstack([part for part in (drawing.points if drawing is not None else None, measured.positions if measured is not None else None) if part is not None])
-    across, up = view(points)
-    flat = np.column_stack([points @ across, -(points @ up)])
-    low, extent = flat.min(axis=0), np.maximum(np.ptp(flat, axis=0), 1e-9)
-    scale = min((WIDTH - 2 * MARGIN) / extent[0], TALLEST * WIDTH / extent[1])
-    height = 2 * MARGIN + scale * extent[1]
-
-    def place(where):
-        where = np.atleast_2d(np.asarray(where, float))
-        return np.array([(WIDTH - scale * extent[0]) / 2, MARGIN]) + scale * (np.column_stack([where @ across, -(where @ up)]) - low)
-
-    body = _model(drawing, place) if drawing is not None else ""
+    place = Projection(points)
+    body = drawn_model(drawing, place) if drawing is not None else ""
     for mark in held:
         body += _mark(mark, *place(mark["at"])[0])
-    body += _sensors(placed, place, across, up) if placed is not None else ""
-    svg = f'<svg class="layout" viewBox="0 0 {WIDTH} {height:.0f}" width="{WIDTH}" height="{height:.0f}" role="img" aria-label="Sensors, supports and springs on the model">{body}</svg>'
+    body += _sensors(placed, place) if placed is not None else ""
+    svg = place.svg(body, "layout", "Sensors, supports and springs on the model")
     return {"svg": svg, "drawn": drawing is not None, "channels": 0 if placed is None else len(placed), "points": 0 if measured is None else len(measured.points),
             "supports": sum(m["kind"] == "support" for m in held), "springs": len({tuple(m["at"]) for m in held if m["kind"] != "support"})}
-
-
-def _model(drawing, place) -> str:
-    at = place(drawing.points)
-    body = "".join(f"M{a[0]:.1f} {a[1]:.1f}L{b[0]:.1f} {b[1]:.1f}L{c[0]:.1f} {c[1]:.1f}z" for a, b, c in at[drawing.faces[:MOST_LINES]]) if len(drawing.faces) else ""
-    lines = "".join(f"M{a[0]:.1f} {a[1]:.1f}L{b[0]:.1f} {b[1]:.1f}" for a, b in at[drawing.lines[:: max(1, len(drawing.lines) // MOST_LINES)]])
-    return (f'<path class="plate" d="{body}"/>' if body else "") + f'<path class="member" d="{lines}"/>'
 
 
 def _mark(mark: dict, x: float, y: float) -> str:
@@ -63,7 +44,7 @@ def _mark(mark: dict, x: float, y: float) -> str:
     return f'<g><title>{html.escape(mark["words"])}</title>{shape}</g>'
 
 
-def _sensors(channels, place, across, up) -> str:
+def _sensors(channels, place) -> str:
     """An arrow a channel along its direction, and the points' names where there is room."""
     body, points, taken = "", [], []
     reach = ARROW if channels["point"].nunique() <= FEW_POINTS else 0.6 * ARROW
@@ -74,7 +55,7 @@ def _sensors(channels, place, across, up) -> str:
         names = ", ".join(rows["channel"])
         body += f'<g class="sensor"><title>{html.escape(f"{point}: {names}")}</title>'
         for d in rows[["dx", "dy", "dz"]].to_numpy(float):
-            dx, dy = reach * (d @ across), -reach * (d @ up)
+            dx, dy = reach * (d @ place.across), -reach * (d @ place.up)
             body += f'<path d="M{x:.1f} {y:.1f}l{dx:.1f} {dy:.1f}{_head(dx, dy)}"/>'
         body += f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3"/></g>'
     return body + "".join(_named(name, x, y, taken) for name, x, y in points if len(points) <= MOST_NAMES)

@@ -12,12 +12,16 @@ from ..study import Study
 TEMPLATES = Path(__file__).resolve().parents[1] / "templates"
 
 
-def render(template: str, **values) -> str:
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+def environment() -> jinja2.Environment:
+    found = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
-    environment.globals["sized"] = sized
-    environment.tests["cannot_be_asked"] = lambda words: words.startswith("Cannot be asked")
-    return environment.get_template(template).render(**values)
+    found.globals["sized"] = sized
+    found.tests["cannot_be_asked"] = lambda words: words.startswith("Cannot be asked")
+    return found
+
+
+def render(template: str, **values) -> str:
+    return environment().get_template(template).render(**values)
 
 
 def text(study: Study, name: str) -> str:

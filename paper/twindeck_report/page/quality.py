@@ -7,6 +7,8 @@ LEAST_CLIPPED = 1e-3  # [-] share of the samples; a few samples at the largest v
 LEAST_DRIFT = 1.0  # [-] change of the fitted line over the record, in RMS of the motion: as large as the motion itself
 LEAST_LAG = 5.0  # in its own standard deviations, which are themselves estimates: where modes mix, so do phases
 LEAST_TURN_DEG = 2.0  # [deg] phase that a lag makes at the highest identified mode; below it no shape is the worse for it
+SI_UNITS = {"acceleration": "m/s²", "velocity": "m/s", "displacement": "m", "force": "N", "strain": "-", "rotation": "rad", "": "m/s²"}
+WITHOUT_SCALE = ("V", "mV", "counts", "count")
 NAMED = 4  # channels that one warning names
 
 
@@ -72,10 +74,13 @@ def _highest_mode(study: Study) -> float:
 
 
 def _units(study: Study) -> dict:
+    """Units of the RMS values. Step 3 writes them in SI units, whatever unit the logger recorded (channels.csv `unit`); what was recorded without a
+    scale (volts, counts) keeps its own."""
     if not (study.results / "s3_identification/channels.csv").is_file():
         return {}
-    table = study.step_csv("s3_identification/channels.csv", ["channel"])
-    return {str(r["channel"]): str(r["unit"]).replace("s2", "s²") for r in table.to_dict("records") if r.get("unit") == r.get("unit") and "unit" in r}
+    table = study.step_csv("s3_identification/channels.csv", ["channel"]).to_dict("records")
+    return {str(r["channel"]): _text(r.get("unit", "")) if _text(r.get("unit", "")) in WITHOUT_SCALE else SI_UNITS.get(_text(r.get("quantity", "acceleration")), "")
+            for r in table}
 
 
 def _lag(row: dict) -> str:

@@ -6,6 +6,23 @@ if (modesAt && data.modes) page.modes = new ModeShapes(modesAt, data.modes);
 if (whereAt && data.where) page.where = new Where(whereAt, data.where, data.modes.meshes[data.where.mesh]);
 if (polesAt && data.poles) page.poles = new Stabilisation(polesAt, data.poles);
 
+// Sections load folded. A link to one opens it, and printing opens all.
+const unfold = () => {
+  const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (!target) return;
+  for (let at = target.querySelector(':scope > details') || target; at; at = at.parentElement) if (at.tagName === 'DETAILS') at.open = true;
+  target.scrollIntoView();
+};
+window.addEventListener('hashchange', unfold);
+for (const a of document.querySelectorAll('a[href^="#"]')) a.addEventListener('click', () => { if (a.hash === location.hash) unfold(); });
+unfold();
+let folded = [];
+window.addEventListener('beforeprint', () => {
+  folded = [...document.querySelectorAll('section > details:not([open])')];
+  for (const d of folded) d.open = true;
+});
+window.addEventListener('afterprint', () => { for (const d of folded) d.open = false; });
+
 const links = new Map([...document.querySelectorAll('nav.contents a')].map(a => [a.hash.slice(1), a]));
 const inView = new Set();
 const watch = new IntersectionObserver(entries => {
