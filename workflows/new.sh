@@ -1,5 +1,6 @@
 #!/bin/sh
-# make new STUDY=name, twindeck new name: a study of one's own, copied from the template (a small frame that runs as it stands).
+# make new STUDY=name, twindeck new name: a study of one's own, copied from the template (a small frame that runs as it stands), or with
+# --from FILES out of records, a table of sensors and a model.
 set -eu
 name=${1:-}
 home=$(dirname "$0")/..
@@ -12,6 +13,12 @@ esac
 for place in "workflows/$name" "data/$name"; do
   [ ! -e "$place" ] || { echo "new: $place is there already; choose another name, or remove it yourself" >&2; exit 2; }
 done
+if [ $# -gt 1 ]; then
+  [ "$2" = --from ] && [ $# -gt 2 ] || { echo "new: expected files after the name: ${new}$name ${TWINDECK_FROM:-FROM=\"records.csv sensors.csv bridge.inp\"}" >&2; exit 2; }
+  bin=${TWINDECK_BIN:-build/bin}
+  [ -x "$bin/s3_identification" ] || { echo "new: $bin/s3_identification is not there: run 'make build' first" >&2; exit 2; }
+  exec "$home/workflows/python.sh" -m twindeck_new --bin "$bin" "$@"
+fi
 mkdir -p "workflows/$name" "data/$name"
 cp -R "$home/workflows/template/." "workflows/$name/"
 cp -R "$home/data/template/." "data/$name/"

@@ -49,7 +49,7 @@ class OwnStudy(unittest.TestCase):
             self.assertIn(f'<section id="{section}">', page)
         self.assertIn("Nothing odd in 4 channels", page)
         words = re.sub(r"<(script|style|pre)\b.*?</\1>|<[^>]+>", " ", page, flags=re.S)
-        first = " ".join(words[words.index("Verdict:"):words.index("All files were")].split())
+        first = " ".join(words[words.index("The answer in sentences"):words.index("All files were")].split())
         self.assertIn("What is wrong Nothing beyond what the error of the model&#39;s form allows.", first)
         self.assertRegex(first, r"What updating did Mean error of 4 frequencies: 6\.9\d % before, 0\.0\d % after\. Changed: k_base -4\d\.\d %, m_floor \+9\.\d %\.")
         self.assertNotRegex(words, r"the paper|Eq\.|[Ss]ection \d|Fig\. ?\d|[Pp]ublished|not run|preliminary", "nothing of the paper")

@@ -1,0 +1,74 @@
+"""The model as step 1 reads it: a model folder, or a deck, which gets a file of parameters beside it."""
+import shutil
+import subprocess
+import tempfile
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from .errors import InputError
+
+DECKS = (".inp", ".bdf", ".nas", ".dat", ".cdb")
+STIFFNESS_RANGE, DENSITY_RANGE = 0.2, 0.1  # [-] either way: what a modulus of elasticity and a density of a usual material may be off; stated as a start
+
+
+@dataclass(frozen=True)
+class Model:
+    source: Path
+    is_folder: bool
+    parameters: str  # text of the file beside a deck; empty where the model has its own
+    missing: list  # lines of what the engineer has to state
+
+
+def is_deck(path: Path) -> bool:
+    return path.suffix.lower() in DECKS
+
+
+def read_model(bin_folder: Path, source: Path, title: str) -> Model:
+    """@throws InputError  with step 1's own line where it cannot read the model"""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "s1_model"
+        run = subprocess.run([str(bin_folder / "s1_model"), "--model", str(source), "--out", str(out), "--quiet"], capture_output=True, text=True, check=False)
+        if run.returncode not in (0, 1):
+            raise InputError((run.stderr.strip().splitlines() or [f"{source}: step 1 cannot read it"])[-1])
+        has_own = source.is_dir() and (source / "model.toml").is_file() or source.with_suffix(".toml").is_file()
+        if has_own:
+            toml = source / "model.toml" if source.is_dir() else source.with_suffix(".toml")
+            named = tomllib.loads(toml.read_text(encoding="utf-8")).get("parameter", [])
+            return Model(source, source.is_dir(), "", [] if named else [f"parameters with bounds in {toml.name}: without them steps 5 and 6 have nothing to update"])
+        materials = out / "model/materials.csv"
+        names = pd.read_csv(materials) if materials.is_file() else pd.DataFrame()
+    return Model(source, source.is_dir(), *_parameters(names, title))
+
+
+def _parameters(materials, title: str) -> tuple:
+    text = f'title = "{title}"\n'
+    column = next((c for c in materials.columns if c.startswith("youngs_modulus") or c.startswith("E_")), None)
+    density = next((c for c in materials.columns if c.startswith("density")), None)
+    missing = []
+    for row in materials.to_dict("records"):
+        for target, key, share, unit in (("youngs_modulus", column, STIFFNESS_RANGE, "Pa"), ("density", density, DENSITY_RANGE, "kg/m3")):
+            if key and row[key] == row[key] and row[key] > 0:
+                name = f"{'E' if target == 'youngs_modulus' else 'rho'}_{row['material']}"
+                text += (f'\n[[parameter]]\nname = "{name}"\ntarget = "{target}"\nof = ["{row["material"]}"]\nunit = "{unit}"\n'
+                         f"initial = {row[key]:.12g}\nlower = {row[key] * (1 - share):.12g}  # a start: state your own bounds\nupper = {row[key] * (1 + share):.12g}\n")
+    missing.append("bounds of the parameters: those of materials are a start (modulus ±20 %, density ±10 %); add supports, joints, masses that may be wrong")
+    return text, missing
+
+
+def copy_model(model: Model, target: Path) -> str:
+    """Copies the model below `target` (data/NAME). @return the line of study.toml's [model] table, with {data} for that folder"""
+    if model.is_folder:
+        shutil.copytree(model.source, target / "model")
+        if model.parameters:
+            (target / "model/model.toml").write_text(model.parameters, encoding="utf-8")
+        return 'folder = "{data}/model"'
+    shutil.copy2(model.source, target / model.source.name)
+    beside = model.source.with_suffix(".toml")
+    if beside.is_file():
+        shutil.copy2(beside, target / beside.name)
+    else:
+        (target / beside.name).write_text(model.parameters, encoding="utf-8")
+    return f'inp = "{{data}}/{model.source.name}"'

@@ -1,0 +1,140 @@
+"""`twindeck new NAME --from FILES`: reading what the step tells of a record, tables of sensors, nodes of a universal file, settings out of peaks; and a
+whole study out of a logger's text file, where the executables are built.
+
+Oracle: files as they are written here; closed forms of the settings (two periods of the lowest mode in a block, the highest mode below 0.4 of the rate).
+"""
+import os
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "paper"))
+
+from twindeck_new import campaign, inspection, sensors, settings  # noqa: E402
+from twindeck_new.errors import InputError  # noqa: E402
+
+BIN = Path(os.environ.get("TWINDECK_BIN", ROOT / "build/bin"))
+INSPECTED = """format    text, separated by ';', decimal comma, latin-1, 3 header lines
+channels  2, 30000 samples, 600 s
+rate      50 Hz, from the time column
+channel                  unit            samples   missing   longest  clipped         mean          rms
+Acc A                    m/s²              30000         0         0        0  -0.00015969       1.1307
+a name of more than twenty-four letters ?                 30000         0         0        0   0.00037108       5.4223  unit not given: m/s² or V, by the size
+missing   positions and directions of the sensors (channels.csv)""".splitlines()
+UNIVERSAL = """    -1
+    15
+         7         0         0        11  1.00000e+00  2.00000e+00  3.50000e+00
+    -1
+    -1
+    58
+title
+
+
+date
+
+    1         0    1         0 P1                 7  -3 NONE               0   0
+    -1
+"""
+
+
+class Pieces(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return self.folder / name
+
+    def test_what_the_step_tells_of_a_record(self):
+        record = inspection.read(Path("x.csv"), INSPECTED)
+        self.assertEqual((record.rate_Hz, record.samples), (50.0, 30000))
+        self.assertEqual(record.columns, ("Acc A", "a name of more than twenty-four letters"))
+        self.assertEqual(record.units, ("m/s²", "?"))
+        self.assertTrue(record.named)
+        self.assertIsNone(inspection.read(Path("x.npy"), [line.replace("rate      50 Hz, from the time column", "rate      unknown") for line in INSPECTED]).rate_Hz)
+
+    def test_a_table_of_sensors(self):
+        found = sensors.table_of_sensors(self.write("s.csv", "Sensor;x;y;z;direction\nA;0;0;3,5;x\nB;1;;;-z\n"))
+        self.assertEqual(found.rows["A"], {"x_m": "0", "y_m": "0", "z_m": "3.5", "dx": "1", "dy": "0", "dz": "0"})
+        self.assertEqual(found.rows["B"], {"x_m": "1", "dx": "0", "dy": "0", "dz": "-1"})
+        self.assertIsNone(sensors.table_of_sensors(self.write("r.csv", "time;A;B\n0;1;2\n0.1;2;3\n")), "a record is no table of sensors")
+        for text, words in (("Sensor,x,direction\nA,0,sideways\n", "line 2: direction is 'sideways', expected x, y, z"), ("Sensor,x,y,z\nA,about 3,0,0\n", "line 2: x_m is 'about 3'")):
+            with self.assertRaisesRegex(InputError, words):
+                sensors.table_of_sensors(self.write("bad.csv", text))
+
+    def test_nodes_of_a_universal_file(self):
+        found = sensors.of_universal_file(self.write("r.unv", UNIVERSAL), ("P1",))
+        self.assertEqual({k: float(v) for k, v in found.rows["P1"].items() if k != "point"}, {"x_m": 1.0, "y_m": 2.0, "z_m": 3.5, "dx": 0.0, "dy": 0.0, "dz": -1.0})
+        self.assertEqual(found.rows["P1"]["point"], "N7")
+        self.assertIsNone(sensors.of_universal_file(self.folder / "r.unv", ("P1", "P2")), "another number of functions: nobody knows which is which")
+
+    def test_settings_out_of_peaks(self):
+        """Peaks at 2 and 8 Hz of 100 Hz, common motion up to 10 Hz: 0.4 * 100 / 10 = every fourth sample; two periods of 2 Hz at 25 Hz are 25 samples."""
+        found = settings.from_peaks([2.0, 8.0], 100.0, 60000, 10.0)
+        self.assertEqual((found.decimation, found.block_rows, found.blocks), (4, 25, 12))
+        self.assertEqual(found.maximum_order % 2, 0)
+        self.assertEqual(settings.from_peaks([2.0, 8.0], 100.0, 60000).decimation, 5)
+
+    def test_a_lone_peak_and_noise(self):
+        """A resonance over flat noise is one peak; noise whose level scatters by a third has none."""
+        f = np.arange(1000) * 0.02
+        noise = 1.0 + 0.3 * np.sin(37.0 * np.arange(1000))
+        self.assertEqual(settings.peaks_of(f, noise), [])
+        self.assertEqual([round(p, 2) for p in settings.peaks_of(f, noise + 50.0 / (1.0 + ((f - 7.0) / 0.04) ** 2))], [7.0])
+
+    def test_names_of_columns_become_names_of_channels(self):
+        self.assertEqual([campaign.channel_name(c, i) for i, c in enumerate(("Acc A [g]", "column 2", "ok_3", "µ"), 1)], ["Acc_A_g", "c2", "ok_3", "c4"])
+
+
+@unittest.skipUnless((BIN / "s1_model").is_file(), f"no executables in {BIN}: set TWINDECK_BIN")
+class Study(unittest.TestCase):
+    """The template's frame and record as an engineer has them: a logger's text file, a table of sensors, a model folder."""
+
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        samples = np.load(ROOT / "data/template/campaign/records/wind.npy")[:12000]
+        rows = ["Zeit [s];Acc A [m/s²];Acc B [m/s²];Acc C [m/s²];Acc D [m/s²]"]
+        rows += [";".join(f"{v:.6g}".replace(".", ",") for v in (i / 50.0, *r)) for i, r in enumerate(samples)]
+        (self.folder / "logger.csv").write_text("\n".join(rows) + "\n", encoding="latin-1")
+        (self.folder / "sensors.csv").write_text("Sensor;x;y;z;direction\nAcc A;0;0;3;x\nAcc B;0;0;6;x\nAcc C;2,5;0;3;z\nAcc D;2,5;0;6;\n", encoding="utf-8")
+
+    def new(self, *arguments, **environment):
+        return subprocess.run([str(ROOT / "workflows/new.sh"), *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              env={**os.environ, "TWINDECK_BIN": str(BIN), **environment}, check=False)
+
+    def test_files_become_a_study_that_checks(self):
+        run = self.new("mill_bridge", "--from", "logger.csv", "sensors.csv", ROOT / "data/template/model")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual([line for line in run.stdout.splitlines() if line.startswith("missing")], ["missing  channels.csv line 5: Acc_D: direction dx, dy, dz"])
+        self.assertIn("50 Hz", run.stdout)
+        told = tomllib.loads((self.folder / "workflows/mill_bridge/study.toml").read_text(encoding="utf-8"))
+        self.assertEqual(told["title"], "Mill bridge")
+        self.assertEqual(told["model"]["folder"], "data/mill_bridge/model")
+        left = [p for p in (*self.folder.glob("workflows/mill_bridge/*"), *self.folder.glob("data/mill_bridge/campaign/*")) if p.is_file() and "template" in p.read_text(encoding="utf-8")]
+        self.assertEqual(left + list(self.folder.rglob("frame.py")) + list(self.folder.rglob("README*")), [], "nothing of the template is left")
+        record = tomllib.loads((self.folder / "data/mill_bridge/campaign/campaign.toml").read_text(encoding="utf-8"))["record"][0]
+        self.assertEqual((record["sampling_rate_Hz"], record["columns"][0]), (50, "Acc A"))
+        check = subprocess.run([str(BIN / "s3_identification"), "--study", "workflows/mill_bridge", "--results", "results/mill_bridge", "--out", "results/mill_bridge/s3_identification", "--check"],
+                               cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        again = self.new("mill_bridge", "--from", "logger.csv")
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("workflows/mill_bridge is there already", again.stderr)
+
+    def test_what_cannot_be_read_writes_nothing(self):
+        (self.folder / "prose.csv").write_text("Dear all,\nnothing here is a number.\n", encoding="utf-8")
+        for arguments in (("--from", "prose.csv"), ("--from", "gone.csv"), ("--from",), ("logger.csv",), ("--from", "logger.csv", "logger.csv")):
+            run = self.new("mill_bridge", *arguments)
+            self.assertEqual(run.returncode, 2, arguments)
+            self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+            self.assertEqual([p.name for p in self.folder.iterdir() if p.is_dir() and any(p.iterdir())], [], arguments)
+
+
+if __name__ == "__main__":
+    unittest.main()
