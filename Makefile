@@ -1,4 +1,4 @@
-# twindeck: `make all` reproduces the study, `make test` checks the product. `make` alone prints this page's targets.
+# twindeck: `make all` reproduces the study, `make test` checks the product. `make` alone prints the targets that a user needs.
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 MAKEFLAGS += --no-builtin-rules
@@ -35,17 +35,24 @@ include $(PRODUCT)workflows/steps.mk
 include $(PRODUCT)workflows/virtual.mk
 endif
 
-.PHONY: bench-places check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help all look deps build test unit steps tables figures report verify \
+.PHONY: bench-places check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
   smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants hold docs FORCE
 
-help: ## this page
+# What one needs who uses the product; `make help-all` lists what its developers need as well.
+FOR_USERS := look all new check report verify compare why install test
+LISTED = sed -n $(foreach target,$(1),-e 's/^\($(target)\):.*$(hash)$(hash) \(.*\)/  make \1 |\2/p') $(firstword $(MAKEFILE_LIST)) | { column -t -s '|' 2>/dev/null || cat; }
+
+help: ## the targets that a user needs
 	@echo "twindeck: what does the model get wrong, why, and how much better is it with the cause in the model?"
 	@echo
-	@sed -n 's/^\([a-z_-]*\):.*## \(.*\)/  make \1 |\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|' 2>/dev/null \
-	  || sed -n 's/^\([a-z_-]*\):.*## \(.*\)/  make \1: \2/p' $(firstword $(MAKEFILE_LIST))
+	@$(call LISTED,$(FOR_USERS))
 	@echo
 	@echo "  make sN          step N of the study (s1_model … ): $(STEPS)"
 	@echo "  STUDY=$(STUDY)   the study; MODES=dir  measured modes of your own for s4 and s6; THREADS=$(THREADS)"
+	@echo "  make help-all    every target"
+
+help-all: ## every target
+	@$(call LISTED,[a-z_-]*)
 
 all: report verify ## everything of the study and its virtual campaign: install, build, steps, tables, figures, report, check against the paper
 

@@ -92,6 +92,17 @@ class Pieces(unittest.TestCase):
         self.assertEqual([campaign.channel_name(c, i) for i, c in enumerate(("Acc A [g]", "column 2", "ok_3", "µ"), 1)], ["Acc_A_g", "c2", "ok_3", "c4"])
 
 
+class Help(unittest.TestCase):
+    def test_make_lists_ten_targets_and_the_rest_on_request(self):
+        def listed(*arguments):
+            run = subprocess.run(["make", "--no-print-directory", *arguments], cwd=ROOT, capture_output=True, text=True, check=True)
+            return [line.split()[1] for line in run.stdout.splitlines() if line.startswith("  make ") and line.split()[1] not in ("sN", "help-all")]
+
+        users, every = listed(), listed("help-all")
+        self.assertEqual(len(users), 10)
+        self.assertLess(set(users), set(every))
+
+
 @unittest.skipUnless((BIN / "s1_model").is_file(), f"no executables in {BIN}: set TWINDECK_BIN")
 class Study(unittest.TestCase):
     """The template's frame and record as an engineer has them: a logger's text file, a table of sensors, a model folder."""
