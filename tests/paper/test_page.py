@@ -6,6 +6,7 @@ for, what stands in its console, whether pictures hold more than one colour and 
 import os
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 from contextlib import redirect_stdout
@@ -69,6 +70,7 @@ class Page(unittest.TestCase):
             self.drawn_and_moving(b)
             self.stands_still_for_print(b)
             self.poles_tell_their_numbers(b)
+            self.modes_are_chosen_by_hand(b)
             self.rows_are_found(b)
             shot = Path(self.folder) / f"page_{renderer}.png"
             self.assertGreater(len(set(pixels_of(b.screenshot(shot)))), 20, "the screenshot is not blank")
@@ -125,6 +127,38 @@ class Page(unittest.TestCase):
         order, frequency, damping = told[2][:3]
         for part in (f"{frequency:.4f} Hz", f"{damping:.2f} %", f"order {order}", "stable: frequency, damping, shape"):
             self.assertIn(part, told[1])
+
+    def modes_are_chosen_by_hand(self, b):
+        """A click on a pole of a mode deletes the mode, on another pole keeps it; the file names both by all their digits; dragging zooms."""
+        click = """(s => { const p = twindeck.poles, at = new DOMPoint(s.x, s.y).matrixTransform(p.picture.getScreenCTM());
+          for (const kind of ['pointerdown', 'pointerup']) p.picture.dispatchEvent(new PointerEvent(kind, { clientX: at.x, clientY: at.y })); return s.p; })"""
+        deleted = b.run(f"{click}(twindeck.poles.seen.find(s => s.p[4] === 2))")
+        kept = b.run(f"{click}(twindeck.poles.seen.find(s => s.p[4] === null))")
+        header, *lines = b.run("twindeck.poles.choices.csv()").strip().split("\n")
+        self.assertEqual(header, "setup,order,frequency_Hz,damping_ratio_pct,action")
+        cells = [line.split(",") for line in lines]
+        self.assertEqual([(c[0], int(c[1]), float(c[2]), float(c[3]), c[4]) for c in cells],
+                         [("ST1", *deleted[:3], "delete"), ("ST1", *kept[:3], "keep")])
+        self.assertEqual(b.run("document.querySelectorAll('#poles .mode.gone').length"), 1, "the deleted mode's line")
+        self.assertEqual(b.run("document.querySelectorAll('#poles .choices li').length"), 2)
+        folder = Path(self.folder) / "downloads"
+        folder.mkdir(exist_ok=True)
+        b.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder.resolve()))
+        b.run("document.querySelector('#poles [name=download]').click()")
+        deadline = time.monotonic() + 30
+        while not (folder / "modes_kept.csv").is_file() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        self.assertEqual((folder / "modes_kept.csv").read_text(encoding="utf-8").strip().split("\n"), [header, *lines], "from a page on disk, with no server")
+        (folder / "modes_kept.csv").unlink()
+        b.run(f"{click}(twindeck.poles.seen.find(s => s.p[4] === 2))")
+        self.assertEqual(len(b.run("twindeck.poles.choices.csv()").strip().split("\n")), 2, "a second click takes the choice back")
+        low, high = b.run("""(() => { const p = twindeck.poles, box = p.picture.getBoundingClientRect(), y = box.top + 100;
+          const at = f => new DOMPoint(p.x(f), 100).matrixTransform(p.picture.getScreenCTM()).x;
+          const send = (kind, f) => p.picture.dispatchEvent(new PointerEvent(kind, { clientX: at(f), clientY: y }));
+          send('pointerdown', 1.0); send('pointermove', 1.5); send('pointerup', 1.5); return p.zooms.get(p.panel); })()""")
+        self.assertAlmostEqual(low, 1.0, places=2)
+        self.assertAlmostEqual(high, 1.5, places=2)
+        self.assertTrue(all(0.99 < f < 1.51 for f in b.run("twindeck.poles.seen.map(s => s.p[1])")), "only poles of the zoomed band are drawn")
 
     def rows_are_found(self, b):
         """Worst first, the first rows only; a search shows every row that holds its words."""

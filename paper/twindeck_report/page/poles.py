@@ -50,8 +50,8 @@ def _pole(row: dict) -> list:
     mode = row.get("mode")
     return [
         int(row["order"]),
-        round(row["frequency_Hz"], 5),
-        round(row["damping_ratio_pct"], 3),
+        row["frequency_Hz"],  # all digits: the picker's file names a pole by them
+        row["damping_ratio_pct"],
         met,
         None if mode is None or mode != mode else int(mode),
     ]

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 ASSETS = Path(__file__).parent / "assets"
-SCRIPTS = ("orbit.js", "flat.js", "solid.js", "viewer.js", "modes.js", "where.js", "poles.js", "page.js")
+SCRIPTS = ("orbit.js", "flat.js", "solid.js", "viewer.js", "modes.js", "where.js", "choices.js", "poles.js", "page.js")
 THREE = ("/usr/share/javascript/three/three.min.js", "/usr/share/javascript/three/build/three.min.js")
 
 
