@@ -146,6 +146,11 @@ class OwnReport(unittest.TestCase):
         self.assertEqual(layout.count('class="support"'), 2, "what all nodes have held is the plane, not a support")
         self.assertIn("<title>support foot: holds x, z</title>", layout)
 
+    def test_shapes_of_every_condition_move(self):
+        told = json.loads(re.search(r'id="twindeck-data">(.*?)</script>', self.page, flags=re.S).group(1))["modes"]
+        self.assertEqual([s["title"] for s in told["sets"]], ["Identified, without dampers", "Identified, with dampers", "Updated model", "Model as designed"])
+        self.assertEqual([len(s["modes"]) for s in told["sets"][:2]], [10, 10])
+
     def test_pictures_have_sizes_and_links_have_places(self):
         pictures = re.findall(r"<img[^>]*>", self.page)
         self.assertTrue(all(re.search(r'width="\d+" height="\d+"', p) for p in pictures if "src=" in p))

@@ -22,17 +22,14 @@ class MeasuredSet:
     values: np.ndarray  # (modes x channels) complex; NaN where a channel has none
 
 
-def read_measured(study: Study, settings: dict) -> MeasuredSet | None:
-    """From s3_identification, else from the folder of features that study.toml names, if it says where the sensors are."""
-    identified = study.results / "s3_identification"
-    if (
-        "s3_identification" in study.steps()
-        and (identified / "shapes.csv").is_file()
-        and (identified / "channels.csv").is_file()
-    ):
-        channels = study.step_csv("s3_identification/channels.csv")
-        shapes = study.step_csv("s3_identification/shapes.csv", ["mode", "direction", "value"])
-        modes = study.step_csv("s3_identification/modes.csv", ["mode", "frequency_Hz"])
+def read_measured(study: Study, settings: dict, step: str = "s3_identification") -> MeasuredSet | None:
+    """From s3_identification (`step`: it, or the folder of one of its conditions), else from the folder of features that study.toml names, if it says where
+    the sensors are."""
+    identified = study.results / step
+    if "s3_identification" in study.steps() and (identified / "shapes.csv").is_file() and (study.results / "s3_identification/channels.csv").is_file():
+        channels = study.step_csv(f"{step}/channels.csv" if (identified / "channels.csv").is_file() else "s3_identification/channels.csv")
+        shapes = study.step_csv(f"{step}/shapes.csv", ["mode", "direction", "value"])
+        modes = study.step_csv(f"{step}/modes.csv", ["mode", "frequency_Hz"])
         imaginary = shapes["value_imag"] if "value_imag" in shapes else 0.0
         table = pd.DataFrame(
             {"mode": shapes["mode"], "channel": shapes["direction"].astype(str), "value": shapes["value"] + 1j * imaginary}

@@ -1,15 +1,15 @@
 """What every report page shows, ready for templates/parts/."""
 from ..figures.flow import flow
 from ..study import Study
-from . import answer, diagnosis, flowchart, model_facts, places, poles, processors, provenance, scripts, shapes, still
+from . import answer, diagnosis, flowchart, model_facts, picture, places, poles, processors, provenance, scripts, shapes, still
 from . import warnings as warned
 
 
 def common_parts(study: Study, settings: dict) -> dict:
     """The variables of templates/base.html.j2 and of every part that it includes."""
     steps = flow(study)
-    modes = shapes.shape_data(study, settings)
     told = diagnosis.diagnosis_data(study, settings)
+    modes = shapes.shape_data(study, settings, picture.causes(study, settings, picture.model_folder(study), told and told["told"]))
     data = {"modes": modes, "poles": poles.pole_data(study), "where": None}
     if (
         told

@@ -68,14 +68,14 @@ def marked(study: Study, settings: dict, told: dict | None) -> dict | None:
     else:
         at = place(measured.positions)
         body = f'<path class="member" d="{_lines(at, measured.lines)}"/>' + "".join(f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in at)
-    found = _causes(study, settings, folder, told)
+    found = causes(study, settings, folder, told)
     for number, cause in enumerate((c for c in found if c["spots"] or c["nodes"]), 1):
         body += _mark(cause, drawing, place, number if len(found) > 1 else None)
     return {"svg": place.svg(body, "layout first", "The structure" + (", the place marked" if found else "")),
             "marks": [c["words"] for c in found if c["spots"] or c["nodes"]], "unplaced": [c["words"] for c in found if not c["spots"] and not c["nodes"]]}
 
 
-def _causes(study: Study, settings: dict, folder, told: dict | None) -> list:
+def causes(study: Study, settings: dict, folder, told: dict | None) -> list:
     """Places of the causes; where none is named, of the highest score, if the verdict is that something is missing."""
     if told is None or told["verdict"] == "none":
         return []

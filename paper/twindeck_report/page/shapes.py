@@ -16,9 +16,10 @@ def packed(values: np.ndarray, kind: str) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<")).tobytes()).decode("ascii")
 
 
-def shape_data(study: Study, settings: dict) -> dict | None:
-    """None when there is neither a model with elements nor a measured shape whose sensors have places."""
+def shape_data(study: Study, settings: dict, causes: list = ()) -> dict | None:
+    """None when there is neither a model with elements nor a measured shape whose sensors have places. `causes`: [{words, spots}] to mark on the models."""
     meshes, sets, first = [], [], None
+    marked = [{"kind": "cause", "at": [float(x) for x in spot], "words": cause["words"]} for cause in causes for spot in cause["spots"]]
     models = [m for m in MODELS if m[0] in study.steps() and (study.results / m[0] / "shapes.csv").is_file()]
     if any(token == "s6_updating" for token, _ in models):
         models = [m for m in models if m[0] != "s4_refinement"]
@@ -29,7 +30,7 @@ def shape_data(study: Study, settings: dict) -> dict | None:
         modes, shapes = _model_modes(study, token, drawing, MOST_BYTES // len(models))
         if not modes:
             continue
-        meshes.append({**mesh_data(drawing), "marks": by_node(marks(study, f"{token}/model"))})
+        meshes.append({**mesh_data(drawing), "marks": by_node(marks(study, f"{token}/model")) + marked})
         sets.append(
             {
                 "id": token,
@@ -40,13 +41,22 @@ def shape_data(study: Study, settings: dict) -> dict | None:
             }
         )
         first = first or (drawing, shapes)
-    measured = read_measured(study, settings)
-    if measured is not None and len(measured.points) > 1:
-        virtual = "s0_campaign" in study.steps()
-        sets.insert(0, _measured_set(measured, first, "Identified, virtual campaign" if virtual else "Identified"))
+    title = "Identified, virtual campaign" if "s0_campaign" in study.steps() else "Identified"
+    identified = [(read_measured(study, settings, step), words) for step, words in _conditions(study)]
+    sets[:0] = [_measured_set(found, first, title + words, i) for i, (found, words) in enumerate(identified) if found is not None and len(found.points) > 1]
     if not sets:
         return None
     return {"meshes": meshes, "sets": sets}
+
+
+def _conditions(study: Study) -> list:
+    """(folder of step 3's results, words behind the title) of each condition; one alone has no words."""
+    others = sorted(p.parent.name for p in (study.results / "s3_identification/conditions").glob("*/shapes.csv"))
+    if "s3_identification" not in study.steps() or not others:
+        return [("s3_identification", "")]
+    poles = study.results / "s3_identification/poles.csv"
+    first = study.step_csv("s3_identification/poles.csv")["condition"].iloc[0] if poles.is_file() and "condition" in study.step_csv("s3_identification/poles.csv") else "first"
+    return [("s3_identification", f", {first}".replace("_", " ")), *((f"s3_identification/conditions/{name}", f", {name}".replace("_", " ")) for name in others)]
 
 
 def mesh_data(drawing) -> dict:
@@ -73,7 +83,7 @@ def _model_modes(study: Study, token: str, drawing, budget: int):
     return modes, shapes
 
 
-def _measured_set(measured, first, title: str) -> dict:
+def _measured_set(measured, first, title: str, number: int) -> dict:
     pairs = partners(measured, first[0].points, first[1]) if first else []
     modes = []
     for i, ((label, frequency, damping), shape) in enumerate(zip(measured.modes, measured.shapes)):
@@ -89,7 +99,7 @@ def _measured_set(measured, first, title: str) -> dict:
         modes.append(mode)
     # the first mesh lies under the sensors only if they stand on it
     return {
-        "id": "measured",
+        "id": f"measured_{number}" if number else "measured",
         "title": title,
         "kind": "points",
         "mesh": 0 if pairs else None,

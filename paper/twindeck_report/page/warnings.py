@@ -10,7 +10,7 @@ from .quality import flaws
 # judged yet is taken seriously.
 STOPPED, WRONG, CARE = 0, 1, 2
 TITLES = {STOPPED: ("bad", "not finished"), WRONG: ("bad", "numbers may be wrong"), CARE: ("warn", "read with care")}
-WORDS_OF_CARE = ("cannot tell", "are not used", "passed over", "no row in use", "ends at the end of its grid")
+WORDS_OF_CARE = ("on a bound", "cannot tell", "are not used", "passed over", "no row in use", "ends at the end of its grid")
 
 
 @dataclass(frozen=True)

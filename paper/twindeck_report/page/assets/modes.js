@@ -1,6 +1,8 @@
 // Mode shapes of the models and of the measurement, moving.
 const SWAY = 0.07;  // largest displacement as a share of the structure's size, at the middle of the slider
 
+const MARKS = { support: [GREEN, GREEN], cause: [RED, RED] };
+
 const fewMembers = mesh => mesh.faces.length === 0 && mesh.lines.length < 4000;
 
 class ModeShapes {
@@ -52,7 +54,8 @@ class ModeShapes {
     const next = this.data.sets[this.sets.value], shown = this.mode, model = this.data.sets.find(s => s.kind === 'model');
     if (!this.set || !shown || next === this.set) return 0;
     if (shown.partner !== undefined && next === model) return shown.partner;
-    if (next.kind === 'points') return Math.max(0, next.modes.findIndex(m => m.partner === this.set.modes.indexOf(shown)));
+    const same = this.set.kind === 'model' ? this.set.modes.indexOf(shown) : shown.partner;
+    if (next.kind === 'points' && same !== undefined) return Math.max(0, next.modes.findIndex(m => m.partner === same));
     return Math.min(this.set.modes.indexOf(shown), next.modes.length - 1);
   }
 
@@ -128,7 +131,7 @@ class ModeShapes {
     }
     if (!this.real) {  // supports and springs: where they are held, nothing moves
       v.spots.set(v.scene.spots);
-      this.shown.marks.forEach((k, i) => blend(k.kind === 'support' ? [GREEN, GREEN] : [VIOLET, VIOLET], 0, v.spotColours, 3 * i));
+      this.shown.marks.forEach((k, i) => blend(MARKS[k.kind] || [VIOLET, VIOLET], 0, v.spotColours, 3 * i));
       return;
     }
     for (let i = 0; i < v.spots.length; ++i) v.spots[i] = v.scene.spots[i] + sway * (this.real[i] * c - this.imaginary[i] * s);
