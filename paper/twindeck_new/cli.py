@@ -95,8 +95,8 @@ def _told(name: str, targets: list, records: list, settings: Settings | None, mi
     for record in records:
         print(f"record   {record.file.name}: {len(record.columns)} channels, {record.samples} samples, " + (f"{record.rate_Hz:.6g} Hz" if record.rate_Hz else "rate unknown"))
     if settings is not None and settings.peaks_Hz:
-        print(f"band     {len(settings.peaks_Hz)} peaks from {settings.peaks_Hz[0]:.4g} to {settings.peaks_Hz[-1]:.4g} Hz: decimation {settings.decimation}, "
-              f"block_rows {settings.block_rows}, maximum_order {settings.maximum_order}")
+        sampling = "step 3 chooses decimation and block length" if settings.by_step else f"decimation {settings.decimation}, block_rows {settings.block_rows}"
+        print(f"band     {len(settings.peaks_Hz)} peaks from {settings.peaks_Hz[0]:.4g} to {settings.peaks_Hz[-1]:.4g} Hz: {sampling}, maximum_order {settings.maximum_order}")
     print(f"written  {targets[0]}/, {targets[1]}/")
     for line in missing:
         print(f"missing  {line}")

@@ -28,6 +28,7 @@ class Settings:
     block_rows: int
     maximum_order: int
     blocks: int
+    by_step: bool = False  # step 3 chooses decimation and block length itself
 
     @property
     def modes(self) -> int:
@@ -45,8 +46,9 @@ def chosen(bin_folder: Path, campaign: Path, rate_Hz: float, samples: int) -> Se
             raise InputError((run.stderr.strip().splitlines() or ["step 3 refuses the records"])[-1])
         table = pd.read_csv(out / "singular_values.csv")
     peaks = sorted({round(f, 6) for _, part in table.groupby("setup") for f in peaks_of(part["frequency_Hz"].to_numpy(), part["sv1"].to_numpy())})
+    own = subprocess.run([str(bin_folder / "s3_identification"), "--print-config"], capture_output=True, text=True, check=False).stdout
     common = [float(found[1]) for found in COMMON.finditer(run.stdout + run.stderr)]
-    return from_peaks([p for p in peaks if not common or p <= max(common)], rate_Hz, samples, max(common, default=0.0))
+    return from_peaks([p for p in peaks if not common or p <= max(common)], rate_Hz, samples, max(common, default=0.0), re.search(r"^block_rows *= *0$", own, flags=re.M) is not None)
 
 
 def peaks_of(frequency, values) -> list:
@@ -59,13 +61,13 @@ def peaks_of(frequency, values) -> list:
     return found
 
 
-def from_peaks(peaks: list, rate_Hz: float, samples: int, common_Hz: float = 0.0) -> Settings:
+def from_peaks(peaks: list, rate_Hz: float, samples: int, common_Hz: float = 0.0, by_step: bool = False) -> Settings:
     """`common_Hz`: up to where the sensors move together, 0 where step 3 did not tell."""
     lowest, highest = (peaks[0], peaks[-1]) if peaks else (0.05 * rate_Hz, KEPT_BAND * rate_Hz)
     decimation = max(1, int(KEPT_BAND * rate_Hz / max(common_Hz, highest)))
     rate = rate_Hz / decimation
     return Settings(peaks, decimation, _within(np.ceil(PERIODS * rate / lowest), BLOCK_ROWS), 2 * _within(ORDERS_A_MODE * len(peaks) / 2, (ORDERS[0] // 2, ORDERS[1] // 2)),
-                    _within(samples / rate_Hz * lowest / BLOCK_PERIODS, BLOCKS))
+                    _within(samples / rate_Hz * lowest / BLOCK_PERIODS, BLOCKS), by_step)
 
 
 def _within(value: float, limits: tuple) -> int:

@@ -28,6 +28,7 @@ def _configurations(settings: Settings | None) -> dict:
     modes = settings.modes if settings else 8
     identification = ['kind = "ambient"']
     if settings:
-        identification += [f"decimation = {settings.decimation}", f"block_rows = {settings.block_rows}", f"maximum_order = {settings.maximum_order}", f"blocks = {settings.blocks}"]
+        identification += [] if settings.by_step else [f"decimation = {settings.decimation}", f"block_rows = {settings.block_rows}"]
+        identification += [f"maximum_order = {settings.maximum_order}", f"blocks = {settings.blocks}"]
     return {"s1_model": [f"n_modes = {2 * modes}"], "s3_identification": identification, "s4_refinement": [f"n_modes = {2 * modes}", "maximum_frequency_error = 0.35"],
             "s5_sensitivity": [f"n_modes = {modes}"], "s6_updating": ['parameters_from = "s5_sensitivity"', f"n_modes = {2 * modes}"], "s9_diagnosis": []}
