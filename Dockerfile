@@ -12,6 +12,8 @@ COPY . .
 RUN make package
 
 FROM debian:12
+# Sources BSD-3-Clause; executables with CHOLMOD's supernodal module and FFTW GPL-2+ (packaging/copyright).
+LABEL org.opencontainers.image.licenses="BSD-3-Clause AND GPL-2.0-or-later"
 COPY --from=build /source/build/packages/ /packages/
 RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends /packages/twindeck_*.deb /packages/twindeck-data_*.deb && rm -rf /packages /var/lib/apt/lists/*
 # Any user may run it: matplotlib keeps its cache of fonts where everybody may write.

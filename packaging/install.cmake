@@ -32,7 +32,7 @@ install(DIRECTORY paper DESTINATION ${share} COMPONENT twindeck PATTERN __pycach
 install(DIRECTORY python/twindeck DESTINATION lib/python3/dist-packages COMPONENT twindeck PATTERN __pycache__ EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION share/doc/twindeck COMPONENT twindeck)
 install(DIRECTORY docs DESTINATION share/doc/twindeck COMPONENT twindeck PATTERN reference.md EXCLUDE)
-install(FILES LICENSE DESTINATION share/doc/twindeck RENAME copyright COMPONENT twindeck)
+install(FILES packaging/copyright DESTINATION share/doc/twindeck COMPONENT twindeck)
 
 # The studies: those with a study.toml and the scripts of one without; not the template and what all share, which are above.
 file(GLOB studies CONFIGURE_DEPENDS LIST_DIRECTORIES true ${CMAKE_SOURCE_DIR}/workflows/*)
