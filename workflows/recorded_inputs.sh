@@ -13,7 +13,7 @@ done
 [ $# -gt 0 ] || exit 0
 exec awk -v results="$results/" -v steps=" $steps " '
   FNR == 1 { step = ""; inside = 0 }
-  /^ *"step": "s[0-9]_[a-z]*"/ { split($0, word, "\""); step = word[4] }
+  /^ *"step": "s[0-9]+_[a-z]*"/ { split($0, word, "\""); step = word[4] }
   /^ *"inputs": *\{/ { inside = !/\}/; next }
   inside && /^ *\}/ { inside = 0 }
   inside && step != "" {

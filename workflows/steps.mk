@@ -14,6 +14,7 @@ READS_s6_updating := s4_refinement s5_sensitivity
 READS_s7_aerodynamics := s6_updating
 READS_s8_validation := s0_campaign s6_updating s7_aerodynamics
 READS_s9_diagnosis := s4_refinement s6_updating
+READS_s10_reliability := s6_updating s7_aerodynamics
 
 # Measured modes that step 3 of the study identifies: the steps that compare with them wait for it.
 ifneq ($(shell grep -s '^features *=.*s3_identification/features' $(WORKFLOW)/study.toml),)

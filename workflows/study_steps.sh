@@ -9,7 +9,7 @@ if [ ! -f "$file" ]; then
   echo "there is no study '$(basename "$workflow")' ($file); there are:${here:- none}" >&2
   exit 2
 fi
-awk -v file="$file" -v known="s0_campaign s1_model s2_sensors s3_identification s4_refinement s5_sensitivity s6_updating s7_aerodynamics s8_validation s9_diagnosis" '
+awk -v file="$file" -v known="s0_campaign s1_model s2_sensors s3_identification s4_refinement s5_sensitivity s6_updating s7_aerodynamics s8_validation s9_diagnosis s10_reliability" '
   function fault(what) { print file ":" NR ": steps: " what | "cat >&2"; failed = 1; exit 2 }
   !inside && /^[ \t]*steps[ \t]*=/ {
     sub(/^[^=]*=[ \t]*/, "")

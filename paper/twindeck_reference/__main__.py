@@ -57,7 +57,7 @@ def _parameters(folder: Path) -> set:
 
 
 def page(bin_folder: Path) -> str:
-    steps = sorted(p for p in bin_folder.glob("s[0-9]_*") if p.is_file())
+    steps = sorted(p for p in bin_folder.glob("s[0-9]*_*") if p.is_file())
     if not steps:
         raise SystemExit(f"twindeck_reference: no step in {bin_folder}; build first (make build)")
     lines = ["# Reference: configuration keys and columns of files", "",

@@ -6,7 +6,7 @@ from .study import Study
 
 def step_folders(study: Study) -> list:
     """The finished folders of steps; not what a step is writing (s4_refinement.partial-17) or could not finish (.unconverged)."""
-    return [folder for folder in sorted(study.results.glob("s[0-9]_*")) if folder.is_dir() and not folder.suffix]
+    return [folder for folder in sorted(study.results.glob("s[0-9]*_*")) if folder.is_dir() and not folder.suffix]
 
 
 def changed_steps(study: Study) -> list:

@@ -131,7 +131,7 @@ class Run:
             one = StepResults(self.folder)
             self._steps, self.unfinished = {one.step: one}, []
             return
-        folders = sorted(p for p in self.folder.glob("s[0-9]_*") if p.is_dir() and "." not in p.name)  # not s6_updating.unconverged
+        folders = sorted(p for p in self.folder.glob("s[0-9]*_*") if p.is_dir() and "." not in p.name)  # not s6_updating.unconverged
         self._steps = {p.name: StepResults(p) for p in folders if (p / "manifest.json").is_file()}
         self.unfinished = [p.name for p in folders if p.name not in self._steps]
         if not self._steps:

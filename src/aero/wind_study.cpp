@@ -14,30 +14,6 @@ std::vector<double> speeds_up_to(const WindSettings& config, double limit) {
   return speeds;
 }
 
-// The lowest instability of the first modes, and what is to be said of modes that could not be followed so far. A later mode
-// only matters below what was found.
-struct Instability {
-  std::optional<CriticalPoint> point;
-  std::string lost;
-};
-Instability first_instability(const WindSettings& config, const AeroelasticSystem& system) {
-  Instability lowest;
-  const auto tell = [&](const std::string& line) { lowest.lost += (lowest.lost.empty() ? "" : "; ") + line; };
-  int mode = 0;
-  for (const ComplexMode& start : aero::still_air_modes(system.structure())) {
-    if (++mode > config.followed_modes) break;
-    const double limit = lowest.point ? lowest.point->speed_m_s : config.max_speed_m_s;
-    const Branch branch = aero::follow_mode(system, start, mode, speeds_up_to(config, limit));
-    const auto found = aero::critical_point(system, branch);
-    if (found && (!lowest.point || found->speed_m_s < lowest.point->speed_m_s)) lowest.point = found;
-    if (found && found->bracket_m_s > 2.0 * relative_bracket * found->speed_m_s)
-      tell(fmt::format("mode {} loses its damping at {:.6g} m/s or up to {:.6g} m/s below", mode, found->speed_m_s,
-                       found->bracket_m_s));
-    if (!branch.status.converged && !found) tell(branch.status.message);
-  }
-  return lowest;
-}
-
 /// The lowest instability of the followed modes, and what speaks of its cause. Mode 1 alone and Den Hartog's speed without
 /// dampers.
 CriticalRow critical_row(const WindSettings& config, const std::string& set, const AeroelasticSystem& system, bool dampers,
@@ -79,6 +55,24 @@ DampingCurves damping_curves(const WindSettings& config, const std::string& set,
 }
 
 }  // namespace
+
+Instability first_instability(const WindSettings& config, const AeroelasticSystem& system) {
+  Instability lowest;
+  const auto tell = [&](const std::string& line) { lowest.lost += (lowest.lost.empty() ? "" : "; ") + line; };
+  int mode = 0;
+  for (const ComplexMode& start : aero::still_air_modes(system.structure())) {
+    if (++mode > config.followed_modes) break;
+    const double limit = lowest.point ? lowest.point->speed_m_s : config.max_speed_m_s;
+    const Branch branch = aero::follow_mode(system, start, mode, speeds_up_to(config, limit));
+    const auto found = aero::critical_point(system, branch);
+    if (found && (!lowest.point || found->speed_m_s < lowest.point->speed_m_s)) lowest.point = found;
+    if (found && found->bracket_m_s > 2.0 * relative_bracket * found->speed_m_s)
+      tell(fmt::format("mode {} loses its damping at {:.6g} m/s or up to {:.6g} m/s below", mode, found->speed_m_s,
+                       found->bracket_m_s));
+    if (!branch.status.converged && !found) tell(branch.status.message);
+  }
+  return lowest;
+}
 
 Instabilities find_instabilities(const WindSettings& config, const std::vector<FittedSet>& sets, const WindModel& model,
                                  const DampedModel& damped) {

@@ -21,6 +21,14 @@ struct FittedSet {
   std::vector<SectionAero> sections;
 };
 
+/// The lowest instability of the first modes, and the modes that could not be followed so far: a later mode only matters below
+/// the speed that was found.
+struct Instability {
+  std::optional<CriticalPoint> point;
+  std::string lost;
+};
+[[nodiscard]] Instability first_instability(const WindSettings& config, const AeroelasticSystem& system);
+
 /// One row of critical.csv: a set, a rule, a structure.
 struct CriticalRow {
   std::string set, model, group, description;

@@ -29,17 +29,6 @@ struct Prepared {
 
 constexpr double kLowestDerivatives_Hz = 0.2;  ///< derivatives are those of this frequency below it, well below the first mode
 
-/// Spacing of frequencies where the bridge has its modes, and above them.
-constexpr double kFine_Hz = 4e-3, kFineUpTo_Hz = 3.0, kCoarse_Hz = 4e-2;
-
-/// Frequencies to the cutoff. The trapezoid rule over a resonance of damping xi errs by exp(-2 pi xi f / spacing): 0.3 % for
-/// the first mode at 0.5 %, and less for the wider ones above it.
-Eigen::VectorXd spectral_frequencies(double cutoff_Hz) {
-  std::vector<double> f;
-  for (double x = kFine_Hz; x < cutoff_Hz; x += x < kFineUpTo_Hz ? kFine_Hz : kCoarse_Hz) f.push_back(x);
-  return Eigen::Map<const Eigen::VectorXd>(f.data(), static_cast<Index>(f.size()));
-}
-
 /// Whether the response in this wind is stationary, both as it is integrated in time and in the frequency domain.
 Status stability(const BridgeInWind& bridge, const WindEventSettings& config, const WindEvent& event, const ValidationRun& run,
                  const aero::AeroelasticSystem& system) {

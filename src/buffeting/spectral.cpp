@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/parallel.hpp"
 
@@ -32,7 +33,16 @@ MatrixXcd impedance(const aero::AeroelasticSystem& system, const aero::Aeroelast
   return z;
 }
 
+/// Spacing of frequencies where the bridge has its modes, and above them.
+constexpr double kFine_Hz = 4e-3, kFineUpTo_Hz = 3.0, kCoarse_Hz = 4e-2;
+
 }  // namespace
+
+VectorXd spectral_frequencies(double cutoff_Hz) {
+  std::vector<double> f;
+  for (double x = kFine_Hz; x < cutoff_Hz; x += x < kFineUpTo_Hz ? kFine_Hz : kCoarse_Hz) f.push_back(x);
+  return Eigen::Map<const VectorXd>(f.data(), static_cast<Index>(f.size()));
+}
 
 MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_s, const Eigen::Ref<const MatrixXd>& load,
                           const wind::FieldDefinition& along, const wind::FieldDefinition& vertical,

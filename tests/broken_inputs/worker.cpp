@@ -28,6 +28,7 @@ int s6_updating_main(int argc, char** argv);
 int s7_aerodynamics_main(int argc, char** argv);
 int s8_validation_main(int argc, char** argv);
 int s9_diagnosis_main(int argc, char** argv);
+int s10_reliability_main(int argc, char** argv);
 
 namespace twindeck::broken {
 namespace {
@@ -48,11 +49,12 @@ using Entry = int (*)(int, char**);
 
 Entry entry_of(const std::string& step) {
   static const std::map<std::string, Entry> entries = {
-      {"s0_campaign", s0_campaign_main},     {"s1_model", s1_model_main},
-      {"s2_sensors", s2_sensors_main},       {"s3_identification", s3_identification_main},
-      {"s4_refinement", s4_refinement_main}, {"s5_sensitivity", s5_sensitivity_main},
-      {"s6_updating", s6_updating_main},     {"s7_aerodynamics", s7_aerodynamics_main},
-      {"s8_validation", s8_validation_main}, {"s9_diagnosis", s9_diagnosis_main}};
+      {"s0_campaign", s0_campaign_main},        {"s1_model", s1_model_main},
+      {"s2_sensors", s2_sensors_main},          {"s3_identification", s3_identification_main},
+      {"s4_refinement", s4_refinement_main},    {"s5_sensitivity", s5_sensitivity_main},
+      {"s6_updating", s6_updating_main},        {"s7_aerodynamics", s7_aerodynamics_main},
+      {"s8_validation", s8_validation_main},    {"s9_diagnosis", s9_diagnosis_main},
+      {"s10_reliability", s10_reliability_main}};
   const auto found = entries.find(step);
   if (found == entries.end()) throw std::runtime_error("there is no step " + step);
   return found->second;

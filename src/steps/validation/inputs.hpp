@@ -5,8 +5,8 @@
 #include "dynamics/loaded_model.hpp"
 #include "runner/run_step.hpp"
 #include "steps/validation/measured.hpp"
-#include "steps/validation/validation_config.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
+#include "steps/wind/validation_config.hpp"
 #include "wind/turbulence.hpp"
 
 namespace twindeck::steps {

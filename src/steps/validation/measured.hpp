@@ -7,7 +7,7 @@
 #include "buffeting/paper_statements.hpp"
 #include "fe/model.hpp"
 #include "runner/run_step.hpp"
-#include "steps/validation/validation_config.hpp"
+#include "steps/wind/validation_config.hpp"
 
 namespace twindeck::steps {
 

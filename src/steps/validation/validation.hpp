@@ -2,7 +2,7 @@
 
 #include "runner/run_step.hpp"
 #include "steps/validation/inputs.hpp"
-#include "steps/validation/validation_config.hpp"
+#include "steps/wind/validation_config.hpp"
 
 /// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21).
 namespace twindeck::steps {

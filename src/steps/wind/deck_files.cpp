@@ -1,5 +1,8 @@
 #include "steps/wind/deck_files.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -10,6 +13,7 @@
 #include "aero/laws.hpp"
 #include "aero_io/aero_data.hpp"
 #include "core/error.hpp"
+#include "io/csv.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -63,6 +67,35 @@ std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSetti
     check_laws(deck, data.back());
   }
   return data;
+}
+
+AerodynamicsConfig read_step_7(const std::string& file, runner::StepContext& context) {
+  if (file.empty() && context.study.empty()) {
+    throw InputError({"", 0, "aerodynamics"}, "neither a study nor a configuration of step 7 was given",
+                     "give --study, or --set aerodynamics=s7_aerodynamics.toml");
+  }
+  AerodynamicsConfig out;
+  io::FieldTable fields = out.fields();
+  fields.load(context.input(file.empty() ? context.study / "s7_aerodynamics.toml" : std::filesystem::path(file)));
+  fields.require();
+  return out;
+}
+
+double fitted_level(runner::StepContext& context, const std::string& set) {
+  const std::filesystem::path file = context.input(context.results / "s7_aerodynamics" / "sets.csv");
+  const io::CsvTable table = io::CsvTable::read(file, {"set", "level"}, {}, true);
+  std::vector<std::string> known;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "set") == set) {
+      const double level = table.number(row, "level");
+      if (level > 0.0) return level;
+      table.fail(row, "level", fmt::format("is {}, expected a factor above 0", table.text(row, "level")),
+                 "run step 7 again, which writes this file");
+    }
+    known.push_back(table.text(row, "set"));
+  }
+  throw InputError({file.string(), 0, "set"}, "has no set '" + set + "'" + did_you_mean(set, known),
+                   fmt::format("choose one of {}", fmt::join(known, ", ")));
 }
 
 }  // namespace twindeck::steps

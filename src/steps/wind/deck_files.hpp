@@ -6,7 +6,7 @@
 #include "runner/run_step.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
 
-/// The files of aerodynamic data that a configuration of step 7 names; steps 0, 7 and 8 read them.
+/// The files of aerodynamic data that a configuration of step 7 names; steps 0, 7, 8 and 10 read them.
 namespace twindeck::steps {
 
 /// @param context  registers the files as inputs
@@ -14,5 +14,13 @@ namespace twindeck::steps {
 ///                     whose law holds
 [[nodiscard]] std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSettings& config,
                                                                          runner::StepContext& context);
+
+/// Step 7's configuration: the file that is named, or the study's s7_aerodynamics.toml where `file` is empty.
+/// @throws InputError  where neither is given
+[[nodiscard]] AerodynamicsConfig read_step_7(const std::string& file, runner::StepContext& context);
+
+/// The level that step 7 fitted for a set, from its sets.csv.
+/// @throws InputError  for a set that it does not have, with those that it has
+[[nodiscard]] double fitted_level(runner::StepContext& context, const std::string& set);
 
 }  // namespace twindeck::steps

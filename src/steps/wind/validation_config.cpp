@@ -1,4 +1,4 @@
-#include "steps/validation/validation_config.hpp"
+#include "steps/wind/validation_config.hpp"
 
 #include "io/limits.hpp"
 

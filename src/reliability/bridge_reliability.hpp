@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aero/wind_study.hpp"
+#include "buffeting/bridge_in_wind.hpp"
+#include "reliability/crossings.hpp"
+#include "reliability/random_inputs.hpp"
+#include "reliability/varied_structure.hpp"
+
+namespace twindeck::reliability {
+
+/// Names of the random inputs beside the model's parameters, which are called "parameter:NAME".
+inline const std::string kDamping = "structural_damping", kSlope = "aerodynamic_level", kDampers = "damper_constants",
+                         kTurbulence = "turbulence_intensity";
+
+/// A bridge in wind whose random inputs are x.
+struct UncertainBridge {
+  RandomVector random;
+  const dynamics::LoadedModel& loaded;
+  std::vector<int> parameters;  ///< of the model, in the order of the inputs "parameter:NAME"
+  std::function<std::vector<aero::SectionAero>(double factor)> sections;  ///< of the set at a factor of its level
+  double damping_ratio = 0.0;                                             ///< where it is not random
+
+  /// What the inputs' values change. @param u (dimension) standard normal numbers
+  [[nodiscard]] WindVariation variation(const Eigen::VectorXd& u) const;
+};
+
+/// A quantity as a function of u, by its value and its slopes in u = 0 of its logarithm (central differences over one standard
+/// deviation to either side). Quantities of vibration depend on dampings and stiffnesses by powers, so that the logarithm is
+/// close to linear.
+struct LogLinear {
+  double value = 0.0;     ///< at u = 0
+  Eigen::VectorXd slope;  ///< (dimension) d ln(value) / d u_i
+  [[nodiscard]] double at(const Eigen::VectorXd& u) const;
+  [[nodiscard]] double deviation() const { return slope.norm(); }  ///< of the logarithm
+};
+
+/// Critical speed of one deployment.
+struct CriticalSpeed {
+  std::string model;
+  bool dampers = false;
+  std::optional<LogLinear>
+      speed_m_s;  ///< empty: stable to the highest speed at the mean of all inputs, or at one of the differences
+  /// P(V_cr < V): Phi((ln V - ln V_cr)/deviation), the first-order reliability method on the logarithm.
+  [[nodiscard]] double probability_below(double speed_m_s) const;
+};
+[[nodiscard]] CriticalSpeed critical_speed(const UncertainBridge& bridge, const aero::WindSettings& settings,
+                                           const aero::WindModel& model, const VariedStructure& structure,
+                                           const aero::Deployment& deployment, bool dampers);
+
+/// Spectral moments of responses in a mean wind: of all rows at u = 0, of some of them as functions of u.
+struct UncertainMoments {
+  bool stable = true;  ///< at u = 0 and one standard deviation of each input to either side; else nothing but this holds
+  std::vector<SpectralMoments> mean;  ///< (n_rows) at u = 0
+  std::vector<std::size_t> varied;    ///< (n_varied) the rows that the following are of
+  std::vector<Eigen::VectorXd> variance_slope, rate_slope,
+      bandwidth_slope;  ///< (n_varied) (dimension) of ln lambda_0, ln nu, ln delta
+  /// @param k  position in `varied`  @param u (dimension)
+  [[nodiscard]] SpectralMoments at(std::size_t k, const Eigen::VectorXd& u) const;
+};
+
+/// What a response is asked of: the reduced bridge, its turbulence, a deployment, rows of sensors.
+struct WindResponse {
+  const buffeting::BridgeInWind& bridge;
+  const VariedStructure& structure;
+  const buffeting::WindEventSettings& settings;
+  const wind::TurbulenceSet& turbulence;
+  aero::Deployment deployment;
+  Eigen::MatrixXd rows;  ///< (n_rows × m) motion of each sensor per unit of each coordinate
+  int derivative = 2;    ///< 2: accelerations
+};
+/// @param choose  the rows whose spread is asked for, from the moments of all rows at u = 0
+[[nodiscard]] UncertainMoments uncertain_moments(
+    const UncertainBridge& bridge, const WindResponse& response, double speed_m_s,
+    const std::function<std::vector<std::size_t>(const std::vector<SpectralMoments>& mean)>& choose);
+
+/// Probability of a first excursion with its spread over the random inputs.
+struct Excursion {
+  double mean = 0.0, low = 0.0, high = 0.0;      ///< over the inputs; low and high are the 5 and 95 % quantiles
+  double poisson = 0.0, crossing_rate_Hz = 0.0;  ///< at u = 0, of |x| and of x
+};
+/// @param k        position in `moments.varied`
+/// @param samples  of u that spread is taken over  @param seed  of these samples
+[[nodiscard]] Excursion excursion(const UncertainMoments& moments, std::size_t k, double limit, double duration_s, int samples,
+                                  std::uint64_t seed);
+
+}  // namespace twindeck::reliability

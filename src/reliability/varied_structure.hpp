@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "aero/aeroelastic_system.hpp"
+#include "dynamics/loaded_model.hpp"
+
+namespace twindeck::reliability {
+
+/// What random inputs change of a bridge in wind.
+struct WindVariation {
+  Eigen::VectorXd parameter_change;  ///< (n_parameters) from the model's values, in the parameters' units
+  double damping_ratio = 0.0;        ///< [-] structural, of every mode
+  double aerodynamic_factor = 1.0;   ///< [-] of the aerodynamic set's level
+  double damper_factor = 1.0;        ///< [-] of each damper's stiffness and damping
+  double turbulence_factor = 1.0;    ///< [-] of the standard deviations of v' and w'
+};
+
+/// A reduced structure whose parameters change within its own basis V:
+///   K(p) = Lambda + sum p_i V' (dK/dtheta_i) V,   M(p) = I + sum p_i V' (dM/dtheta_i) V,
+/// made diagonal again. Modes may change their shape within the span of V; the static shape under dead load stays.
+class VariedStructure {
+ public:
+  /// @param structure   of the coordinates V, @param motions  of its strips
+  /// @param vectors     (n × m) V over the free degrees of freedom, M-orthonormal
+  /// @param parameters  positions of the parameters that vary
+  VariedStructure(const dynamics::LoadedModel& loaded, aero::ReducedStructure structure, std::vector<aero::StripMotion> motions,
+                  const Eigen::MatrixXd& vectors, const std::vector<int>& parameters);
+
+  struct Varied {
+    aero::ReducedStructure structure;
+    std::vector<aero::StripMotion> motions;
+    Eigen::MatrixXd turn;  ///< (m × m) old coordinates by the new ones: rows of sensors are multiplied by it
+  };
+  [[nodiscard]] Varied at(const WindVariation& variation) const;
+
+ private:
+  aero::ReducedStructure structure_;
+  std::vector<aero::StripMotion> motions_;
+  std::vector<Eigen::MatrixXd> stiffness_, mass_;  ///< (m × m) per unit of each parameter
+};
+
+}  // namespace twindeck::reliability
