@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -56,6 +57,11 @@ struct CholmodSession {
   CholmodSession& operator=(const CholmodSession&) = delete;
 };
 
+/// @throws std::bad_alloc  where CHOLMOD was refused memory
+static void check_memory(const cholmod_common& common) {
+  if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+}
+
 /// A symbolic factorisation with the pattern that it is of.
 struct Symbolic : CholmodSession {
   std::vector<int> outer, inner;
@@ -67,6 +73,7 @@ struct Symbolic : CholmodSession {
     const SerialScope serial;
     cholmod_sparse a = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
     factor = cholmod_analyze(&a, &common);
+    check_memory(common);
     TWINDECK_ASSERT(factor != nullptr);
   }
   ~Symbolic() { cholmod_free_factor(&factor, &common); }
@@ -115,6 +122,7 @@ struct Cholesky::Impl : CholmodSession {
     cholmod_free_factor(&factor, &common);
     symbolic = std::move(pattern);
     factor = cholmod_copy_factor(symbolic->factor, &common);
+    check_memory(common);
     TWINDECK_ASSERT(factor != nullptr);
   }
   Eigen::Index row_of(std::size_t column) const { return static_cast<const int*>(factor->Perm)[column]; }
@@ -132,6 +140,7 @@ Status Cholesky::factorize(const SparseMatrix& lower) {
   const SerialScope serial;
   cholmod_sparse a = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
   cholmod_factorize(&a, impl_->factor, &impl_->common);
+  check_memory(impl_->common);
   const cholmod_factor& factor = *impl_->factor;
   if (impl_->common.status == CHOLMOD_NOT_POSDEF) {
     impl_->failed = impl_->row_of(std::min(factor.minor, factor.n - 1));
@@ -162,6 +171,7 @@ Eigen::MatrixXd Cholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) cons
   const SerialScope serial;
   const int solved =
       cholmod_solve2(CHOLMOD_A, impl_->factor, &right, nullptr, &work.solution, nullptr, &work.y, &work.e, &work.common);
+  check_memory(work.common);
   TWINDECK_ASSERT(solved == 1);
   return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(work.solution->x), b.rows(), b.cols());
 }

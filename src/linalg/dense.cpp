@@ -63,10 +63,10 @@ Matrix solved_by(Gesv gesv, Matrix a, Matrix b) {
 /// Calls a LAPACK routine twice: it says how much room it wants in the first number of `work`, then it works there.
 template <typename Routine>
 void with_room(Routine call) {
-  Eigen::VectorXd work(1);
+  double wanted = 0.0;
   int room = -1;
-  call(work.data(), &room);
-  work.resize(room = static_cast<int>(work[0]));
+  call(&wanted, &room);
+  Eigen::VectorXd work(room = static_cast<int>(wanted));
   call(work.data(), &room);
 }
 

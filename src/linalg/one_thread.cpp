@@ -1,6 +1,10 @@
 #include "linalg/one_thread.hpp"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <vector>
 
 namespace twindeck::linalg {
 
@@ -12,6 +16,22 @@ void use_one_thread() {
     if (symbol != nullptr) reinterpret_cast<void (*)(int)>(symbol)(1);
     return symbol != nullptr;
   }();
+}
+
+bool reserve_blas_memory(int threads) {
+  static const auto take = reinterpret_cast<void* (*)(int)>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
+  static const auto give_back = reinterpret_cast<void (*)(void*)>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
+  if (take == nullptr || give_back == nullptr) return true;
+  constexpr std::size_t most = 64;                      // OpenBLAS of Debian has places for twice as many threads
+  constexpr std::size_t rest = std::size_t{16} << 20U;  // [bytes] for what else it needs to begin
+  const std::size_t count = std::min(static_cast<std::size_t>(threads), most), bytes = count * blas_memory_bytes + rest;
+  void* const trial = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (trial == MAP_FAILED) return false;
+  ::munmap(trial, bytes);
+  std::vector<void*> taken(count);
+  for (void*& one : taken) one = take(0);
+  for (void* const one : taken) give_back(one);
+  return true;
 }
 
 namespace {

@@ -124,17 +124,25 @@ std::vector<std::string> notes_of(const Campaign& campaign, const CampaignRecord
   return notes;
 }
 
-/// Numbers beyond this are no record of a motion or force in any unit; their squares would be beyond what a number can hold.
-constexpr double kLargestValue = 1e100;
+/// Numbers beyond this are no record of a motion or force in any unit; their squares would be beyond what a number can hold. A
+/// channel that stays below the second one all the time has squares that a number takes for zero.
+constexpr double kLargestValue = 1e100, kSmallestPeak = 1e-100;
 
 void refuse_absurd(const RecordSamples& samples, const CampaignRecord& record) {
   for (Index c = 0; c < samples.values.cols(); ++c) {
+    double peak = 0.0;
     for (Index t = 0; t < samples.values.rows(); ++t) {
       const double value = std::abs(samples.values(t, c));
+      peak = std::fmax(peak, value);
       if (!(value > kLargestValue) || std::isnan(value)) continue;
       throw InputError({record.file.string(), 0, record.channels[static_cast<std::size_t>(c)]},
                        fmt::format("holds {:.6g} in sample {}, which no sensor gives", samples.values(t, c), t + 1),
                        "check the file and its type of numbers");
+    }
+    if (peak > 0.0 && peak < kSmallestPeak) {
+      throw InputError({record.file.string(), 0, record.channels[static_cast<std::size_t>(c)]},
+                       fmt::format("holds nothing above {:.6g}, which no sensor gives", peak),
+                       "check the file, its type of numbers and the channel's gain");
     }
   }
 }

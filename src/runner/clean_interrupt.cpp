@@ -31,10 +31,13 @@ void install(void (*handler)(int)) {
     if (present.sa_handler == SIG_IGN) continue;  // nohup and background jobs stay as they were started
     ::sigaction(number, &action, nullptr);
   }
+  ::signal(SIGPIPE, handler == SIG_DFL ? SIG_IGN : handler);
 }
 
 void end_by(int number, const std::filesystem::path& partial) {
   const auto nothing_is_published = io::abandon_partial(partial);
+  constexpr int failed_write = 2;
+  if (number == SIGPIPE) ::_exit(failed_write);  // whoever read what is printed has gone, and a line cannot be read either
   ::signal(number, SIG_DFL);
   ::kill(::getpid(), number);
   ::pause();  // until the signal ends the program
@@ -46,7 +49,9 @@ CleanInterrupt::CleanInterrupt(std::filesystem::path partial) {
   if (::pipe2(g_pipe.data(), O_CLOEXEC) != 0) return;
   g_watcher = std::thread([partial = std::move(partial)] {
     unsigned char byte = 0;
-    while (::read(g_pipe[0], &byte, 1) < 0) {
+    std::error_code ignored;
+    // Without results that are being written, a progress line that nobody reads ends nothing.
+    while (::read(g_pipe[0], &byte, 1) < 0 || (byte == SIGPIPE && !std::filesystem::exists(partial, ignored))) {
     }
     if (byte != 0) end_by(byte, partial);
   });

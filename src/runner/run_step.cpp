@@ -4,11 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "core/build_info.hpp"
 #include "core/printable.hpp"
@@ -36,6 +39,19 @@ namespace {
 int failure(const std::string& token, const std::string& kind, const std::string& message, int code) {
   std::fputs(fmt::format("{}: {}{}\n", token, kind, printable(message)).c_str(), stderr);
   return code;
+}
+
+/// Prints what was asked for. @throws InputError  where it cannot be written (a full disk, a reader that has gone)
+void print(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return;
+  throw InputError({"standard output", 0, ""}, "cannot be written: " + std::generic_category().message(errno),
+                   "make room, or print to another place");
+}
+
+/// Writing beyond a limit of the system (ulimit -f), or to a reader that has gone, fails as any writing does.
+void let_writing_fail() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 /// Makes the C library keep freed memory for the next allocation. By default it returns large blocks to the system at once. A
@@ -161,7 +177,7 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
   const CleanInterrupt interrupt(io::FolderReplacement::partial_place(out));  // first, so that no moment is uncovered
   const Computation computation = step.read(context);
   if (line.check) {
-    if (!line.quiet) std::fputs(plan_of(step, context, out).c_str(), stdout);
+    if (!line.quiet) print(plan_of(step, context, out));
     return 0;
   }
 
@@ -237,6 +253,7 @@ fs::path StepContext::input(const fs::path& asked) {
 }
 
 int run_step(int argc, char** argv, Step step) {
+  let_writing_fail();
   StepContext context;
   context.token_ = step.token;
   try {
@@ -245,20 +262,18 @@ int run_step(int argc, char** argv, Step step) {
     context.quiet = line.quiet;
     switch (line.action) {
       case CommandLine::Action::help:
-        std::fputs(line.text.c_str(), stdout);
-        return 0;
       case CommandLine::Action::print:
-        std::fputs(line.text.c_str(), stdout);
+        print(line.text);
         return 0;
       case CommandLine::Action::version:
-        std::fputs((line.text + "\n").c_str(), stdout);
+        print(line.text + "\n");
         return 0;
       case CommandLine::Action::describe:
-        std::fputs(describe(step, line.text).c_str(), stdout);
+        print(describe(step, line.text));
         return 0;
       case CommandLine::Action::print_config:
         read_configuration(line, step, context);
-        std::fputs(step.fields.print().c_str(), stdout);
+        print(step.fields.print());
         return 0;
       case CommandLine::Action::run:
         return compute(argc, argv, line, step, configured, context);
@@ -266,7 +281,7 @@ int run_step(int argc, char** argv, Step step) {
     throw InternalError("the command line asks for nothing known");
   } catch (const InputError& error) {
     return failure(step.token, "", located(error, step, context), 2);
-  } catch (const fs::filesystem_error& error) {
+  } catch (const std::system_error& error) {  // of the file system too: what the machine or its limits do not allow
     return failure(step.token, "", error.what(), 2);
   } catch (const std::bad_alloc&) {
     return failure(step.token, "", located(too_large(), step, context), 2);
