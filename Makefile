@@ -130,16 +130,16 @@ check-power: build ## change the inputs one at a time and see what the check not
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
 
-N ?= $(if $(filter exam,$(TIER)),45,400)
+N ?= $(if $(filter exam,$(TIER)),45,$(if $(filter chain,$(TIER)),40,400))
 TIER ?= features
 SEED ?= 1
+WITH ?=
 BLIND = $(if $(filter features,$(TIER)),blind_trials,$(if $(filter form,$(TIER)),blind_form,blind_records))
 BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))$(if $(filter on,$(FORM)),--form)
-ifeq ($(TIER),exam)
-blind-trials: build
-	@$(PRODUCT)workflows/python.sh tests/blind/exam/exam.py $(BIN) results/exam $(N) $(SEED) $(EXAM)
+blind-trials: build ## make blind-trials N=400 TIER=features, form, exam, chain or time (FORM=on: features, and the model's form may be wrong; exam and chain: from raw records, WITH="…" for their options): hidden effects looked for, scored with intervals
+ifneq ($(filter exam chain,$(TIER)),)
+	@$(PRODUCT)workflows/python.sh tests/blind/$(TIER)/$(TIER).py $(BIN) results/$(TIER) $(N) $(SEED) $(WITH)
 else
-blind-trials: build ## make blind-trials N=400 TIER=features, form, exam, records or time (FORM=on: features, and the model's form may be wrong): hidden effects looked for on another mesh or by a model of another class, scored with intervals
 	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
 	@$(BUILD)/bin/$(BLIND) $(N) $(SEED) $(BLIND_LAST)
 endif

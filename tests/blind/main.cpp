@@ -263,7 +263,7 @@ int score_trials(const twindeck::blind::Bench& bench, const std::vector<std::str
   // Fewer trials settle no target: of 19 effects the family of 16 is named once in six runs of a method that names 93 %.
   const auto judge = scores.size() < 400 ? twindeck::blind::Judge::own_rates : twindeck::blind::Judge::targets;
   fmt::print("\nscore, exact 95 % intervals\n");
-  bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(0.0), scores, judge) && shared_out;
+  bool held = twindeck::blind::print_scores(twindeck::blind::score_lines(), scores, judge) && shared_out;
   print_what_limits_families(scores);
   held = print_sets(scores, judge) && held;
   print_seconds(scores);

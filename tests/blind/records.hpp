@@ -15,17 +15,12 @@ struct Campaign {
   double rate_Hz = 10.0;
 };
 
-/// Linear records: each condition's modes of the truth, damped and complex, driven by independent white noise, with noise of
-/// sensors. Exact for white forces; ten minutes long. Empty where the truth has no modes.
-[[nodiscard]] Campaign linear_records(const Bench& bench, const Hidden& hidden);
-
 /// The truth integrated in time: modes of its own mesh with static corrections, dampers as they are (a dashpot that friction
 /// holds, on its mount), white forces of the size that gives each condition its amplitude; 200 steps a second, decimated.
 /// Nothing in it knows of harmonic balance or of the diagnosis' primitives.
 [[nodiscard]] Campaign integrated_records(const Bench& bench, const Hidden& hidden);
 
-/// Families whose effects those records can carry.
-[[nodiscard]] const std::set<std::string>& families_of_linear_records();
+/// Families whose effects these records can carry.
 [[nodiscard]] const std::set<std::string>& families_of_integrated_records();
 
 /// Rows by own identification (covariance-driven subspace, automatic selection): frequencies, damping ratios, shapes with their

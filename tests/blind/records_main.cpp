@@ -1,6 +1,6 @@
-/// blind_records N [first seed [records|time]]: sealed cases as records, identified and then diagnosed. `records`: linear
-/// records of the truth; `time`: the truth integrated in time. Prints the score with 95 % intervals; exit code 1 when an
-/// interval lies wholly on the wrong side of its target, 2 for a tier that is none.
+/// blind_records N [first seed [time]]: sealed cases as records of the truth integrated in time, identified and then diagnosed.
+/// Prints the score with 95 % intervals; exit code 1 when an interval lies wholly on the wrong side of its target, 2 for a tier
+/// that is none.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -32,32 +32,27 @@ std::vector<ScoreLine> time_lines() {
 
 int main(int argc, char** argv) {
   using namespace twindeck::blind;
-  const std::string tier = argc > 3 ? argv[3] : "records";
-  if (tier != "records" && tier != "time") {
-    fmt::print(stderr, "blind_records: '{}' is no tier, expected records or time\n", tier);
+  if (argc > 3 && std::string(argv[3]) != "time") {
+    fmt::print(stderr, "blind_records: '{}' is no tier, expected time\n", argv[3]);
     return 2;
   }
   const int count = argc > 1 ? std::atoi(argv[1]) : 20;
   const auto first = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
   const auto bench = make_bench();
-  const auto& families = tier == "time" ? families_of_integrated_records() : families_of_linear_records();
+  const auto& families = families_of_integrated_records();
   fmt::print("truth on {} dofs, diagnosis on {} dofs, {} families\n", bench.truth.model->loaded.system.size(),
              bench.diagnosing.model->loaded.system.size(), families.size());
   std::vector<Score> scores;
-  // Of the records, kinds and sizes as in the tier of features. Integrated in time, N effects from six sigma up, for there the
-  // question is other physics and not power, every second family in turn, then two nulls and one outside the catalogue.
-  const int cases = tier == "time" ? count + 3 : count;
+  // N effects from six sigma up, for the question is other physics and not power, every second family in turn, then two nulls
+  // and one outside the catalogue.
+  const int cases = count + 3;
   for (int i = 0; i < cases; ++i) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
-    HideOptions options{families, 3.0, 0, -1};
-    if (tier == "time") {
-      options.least_sigma = 6.0;
-      options.kind = i < count ? 'e' : i < count + 2 ? 'n' : 'o';
-      options.family = static_cast<int>((2 * seed - 1) % families.size());
-    }
+    HideOptions options{families, 6.0, 0, -1};
+    options.kind = i < count ? 'e' : i < count + 2 ? 'n' : 'o';
+    options.family = static_cast<int>((2 * seed - 1) % families.size());
     const Hidden hidden = hide(bench, seed, options);
-    const Score s =
-        run_records(bench, hidden, tier == "time" ? integrated_records(bench, hidden) : linear_records(bench, hidden));
+    const Score s = run_records(bench, hidden, integrated_records(bench, hidden));
     fmt::print("{:>4} {:<9} D {:>7.1f} chi2/dof {:.2f} p {:.3g} s {:>5.1f} held out {:.2f} {:>5.1f} s | {} | found {}\n", seed,
                s.verdict, s.log_odds, s.chi_squared_ratio, s.p_value, s.sigma, s.held_out_ratio, s.seconds, s.seal,
                s.found.empty() ? "nothing" : s.found);
@@ -65,7 +60,7 @@ int main(int argc, char** argv) {
     scores.push_back(s);
   }
   fmt::print("\nscore, exact 95 % intervals; sigma is that of the rows of the tier of features\n");
-  const bool held = print_scores(tier == "time" ? time_lines() : score_lines(0.05), scores);
+  const bool held = print_scores(time_lines(), scores);
   fmt::print("{}\n", held ? "targets held" : "a target is missed");
   return held ? 0 : 1;
 }

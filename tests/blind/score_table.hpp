@@ -18,9 +18,9 @@ struct ScoreLine {
   double rate = -1.0;  ///< the method's own, from long runs; below 0 where none was measured
 };
 
-/// What is asked of the tier of features; `eased` by so much for tiers that see less. Rates: seeds 2001 to 2200 on the present
+/// What is asked of the tier of features. Rates: seeds 2001 to 2200 on the present
 /// bridge.toml.
-[[nodiscard]] std::vector<ScoreLine> score_lines(double eased);
+[[nodiscard]] std::vector<ScoreLine> score_lines();
 
 /// What a run is held against.
 enum class Judge {
