@@ -134,4 +134,37 @@ PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const 
   return out;
 }
 
+PredictiveGain gain_of_odds(const std::vector<std::vector<int>>& blocks, const Explanation& none,
+                            const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed) {
+  PredictiveGain out;
+  if (entries.empty()) return out;
+  std::vector<const Explanation*> all = {&none};
+  for (const Explanation& e : entries) all.push_back(&e);
+  std::vector<MatrixXd> u;
+  std::vector<VectorXd> chi_squared;
+  for (const Explanation* e : all) {
+    u.push_back(linalg::product(e->precision->matrix, e->left));
+    chi_squared.emplace_back(u.back().cwiseProduct(e->left).colwise().sum());
+  }
+  for (const std::vector<int>& block : blocks) {
+    BlockGain gain;
+    gain.rows = static_cast<int>(block.size());
+    std::vector<double> rest, whole, square;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Fold fold = fold_of(*all[k], u[k], chi_squared[k], block);
+      rest.push_back(fold.log_evidence);
+      whole.push_back(fold.log_evidence + fold.log_density);
+      square.push_back(fold.square);
+    }
+    gain.before = square.front();
+    const double sum = log_sum(rest);
+    for (std::size_t k = 0; k < all.size(); ++k) gain.after += std::exp(rest[k] - sum) * square[k];
+    gain.chosen = static_cast<int>(std::max_element(rest.begin(), rest.end()) - rest.begin()) - 1;
+    gain.log_gain = (log_sum(whole) - whole.front()) - (sum - rest.front());
+    out.blocks.push_back(gain);
+  }
+  resample(out, bootstrap, seed);
+  return out;
+}
+
 }  // namespace twindeck::diagnosis

@@ -168,5 +168,31 @@ TEST(LeaveOneOut, TwoBlocksDecideNothing) {
   EXPECT_LE(gain.low_pct, 0.0);
 }
 
+TEST(GainOfOdds, IsWhatTheBlockAddsToTheOdds) {
+  // ln odds of a cause of one magnitude, from all rows and from those but the block's, by the dense covariance of each.
+  Rows rows(6);
+  const VectorXd r = rows.draw() + rows.cause;
+  Explanation with = rows.none(r - rows.cause);
+  with.log_weight.array() += 0.7;
+  const auto gain = diagnosis::gain_of_odds(rows.blocks, rows.none(r), {with}, 100, 1);
+  const MatrixXd sigma = rows.factor * rows.factor.transpose() + rows.columns * rows.columns.transpose();
+  const auto log_odds = [&](const std::vector<int>& seen) {
+    const MatrixXd inverse = MatrixXd(sigma(seen, seen)).inverse();
+    const VectorXd a = r(seen), b = (r - rows.cause)(seen);
+    return std::log1p(std::exp(0.7 + 0.5 * (a.dot(inverse * a) - b.dot(inverse * b))));
+  };
+  std::vector<int> all(static_cast<std::size_t>(r.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  double sum = 0.0;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
+    std::vector<int> seen;
+    for (const int i : all)
+      if (std::find(rows.blocks[b].begin(), rows.blocks[b].end(), i) == rows.blocks[b].end()) seen.push_back(i);
+    EXPECT_NEAR(gain.blocks[b].log_gain, log_odds(all) - log_odds(seen), 1e-8);
+    sum += gain.blocks[b].log_gain;
+  }
+  EXPECT_NEAR(gain.log_gain, sum, 1e-9);
+}
+
 }  // namespace
 }  // namespace twindeck::tests

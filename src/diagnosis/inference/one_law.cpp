@@ -1,0 +1,203 @@
+#include "diagnosis/inference/one_law.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRidge = 0.3;        // of H in a step: a class that the data do not show moves slowly
+constexpr double kLongestStep = 1.5;  // of ln tau
+constexpr int kIterations = 25, kHalvings = 5;
+constexpr double kSettled = 1e-3;  // nats that a further step promises: less decides nothing
+
+double log_of_sum(const VectorXd& v, VectorXd& weight) {
+  const double top = v.maxCoeff();
+  weight = (v.array() - top).exp();
+  const double sum = weight.sum();
+  weight /= sum;
+  return top + std::log(sum);
+}
+
+}  // namespace
+
+double log_half_t(double log_tau, double scale) {
+  const double q = std::exp(2.0 * (log_tau - std::log(scale))) / 3.0;
+  return std::log(4.0 / (std::numbers::pi * std::sqrt(3.0) * scale)) + log_tau - 2.0 * std::log1p(q);
+}
+
+double log_width(const MatrixXd& precision, const VectorXd& range) {
+  if (range.size() == 0) return 0.0;
+  MatrixXd h = precision;
+  h.diagonal().array() += 2.0 * std::numbers::pi / range.array().square();  // no wider than the prior
+  const VectorXd d = h.ldlt().vectorD();
+  const double log_det = d.array().max(1e-300).log().sum();
+  return std::min(
+      0.5 * static_cast<double>(range.size()) * std::log(2.0 * std::numbers::pi) - 0.5 * log_det - range.array().log().sum(),
+      0.0);
+}
+
+/// A hypothesis at scales of its active classes.
+struct OneLaw::Look {
+  VectorXd log_tau, tau;  // (n_active), (n_classes)
+  Point point;
+  double value = -1e300;  // ln (likelihood × prior)
+  double chi_squared = 0.0;
+  VectorXd shift, weight;
+  MatrixXd solved;  // L^-1 (r - s)
+  VectorXd gradient;
+  MatrixXd curvature;
+};
+
+OneLaw::OneLaw(const LawSystem& system) : whitener_(linalg::cholesky_factor(system.sigma)) {
+  if (whitener_.size() == 0) return;
+  log_determinant_ = 2.0 * whitener_.diagonal().array().log().sum();
+  for (const MatrixXd& columns : system.classes) {
+    columns_.push_back(linalg::lower_solve(whitener_, columns));
+    products_.push_back(linalg::product(columns_.back(), columns_.back().transpose()));
+  }
+}
+
+MatrixXd OneLaw::whitened(const MatrixXd& rows) const {
+  return rows.size() > 0 ? linalg::lower_solve(whitener_, rows) : MatrixXd(whitener_.rows(), 0);
+}
+
+OneLaw::Point OneLaw::at(const VectorXd& tau) const {
+  Point out;
+  out.tau = tau;
+  MatrixXd sigma = MatrixXd::Identity(whitener_.rows(), whitener_.rows());
+  for (std::size_t c = 0; c < products_.size(); ++c)
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0) sigma += t * t * products_[c];
+  out.lower = linalg::cholesky_factor(std::move(sigma));
+  out.log_determinant =
+      out.lower.size() > 0 ? log_determinant_ + 2.0 * out.lower.diagonal().array().log().sum() : -1e300;  // refused
+  return out;
+}
+
+MatrixXd OneLaw::precision(const Point& point) const {
+  const MatrixXd identity = MatrixXd::Identity(whitener_.rows(), whitener_.rows());
+  const MatrixXd half = linalg::lower_solve(point.lower, linalg::lower_solve(whitener_, identity));
+  return linalg::product(half, half, true);
+}
+
+OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) const {
+  Look out;
+  out.log_tau = log_tau;
+  out.tau = VectorXd::Zero(classes());
+  double prior = 0.0;
+  for (std::size_t k = 0; k < white.active.size(); ++k) {
+    const double t = log_tau[static_cast<Index>(k)];
+    out.tau[white.active[k].index] = std::exp(t);
+    prior += log_half_t(t, white.active[k].scale);
+  }
+  out.point = at(out.tau);
+  if (out.point.lower.size() == 0) return out;
+  out.solved = linalg::lower_solve(out.point.lower, white.left);
+  double width = 0.0;
+  if (white.slopes.cols() > 0) {
+    const MatrixXd slopes = linalg::lower_solve(out.point.lower, white.slopes);
+    MatrixXd products = linalg::product(slopes, slopes, true);
+    width = log_width(products, white.high - white.low);
+    products.diagonal().array() += 1e-12 * (1.0 + products.diagonal().array().abs());
+    out.shift = products.ldlt().solve(slopes.transpose() * out.solved.col(0));
+    out.shift = out.shift.cwiseMax(white.low).cwiseMin(white.high);
+    out.solved.col(0) -= slopes * out.shift;
+  }
+  const VectorXd chi_squared = out.solved.colwise().squaredNorm();
+  out.chi_squared = chi_squared.minCoeff();
+  const double log_likelihood = log_of_sum(white.log_weight - 0.5 * chi_squared, out.weight);
+  out.value = log_likelihood - 0.5 * out.point.log_determinant + width + prior;
+  return out;
+}
+
+void OneLaw::slope_of(const LawHypothesis& white, Look& look) const {
+  const auto count = static_cast<Index>(white.active.size());
+  const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved, true);
+  look.gradient.resize(count);
+  look.curvature.resize(count, count);
+  std::vector<MatrixXd> half;  // L^-1 D_c, so that |D_c' Sigma^-1 D_d|² is that of their product
+  for (const ActiveClass& active : white.active)
+    half.push_back(linalg::lower_solve(look.point.lower, columns_[static_cast<std::size_t>(active.index)]));
+  for (Index k = 0; k < count; ++k) {
+    const ActiveClass& active = white.active[static_cast<std::size_t>(k)];
+    const MatrixXd& columns = columns_[static_cast<std::size_t>(active.index)];
+    const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
+    const VectorXd along = linalg::product(columns, alpha, true).colwise().squaredNorm();
+    look.gradient[k] =
+        tau * tau * (along.dot(look.weight) - half[static_cast<std::size_t>(k)].squaredNorm()) + 1.0 - 4.0 * q / (1.0 + q);
+    for (Index l = 0; l <= k; ++l) {
+      const double other = look.tau[white.active[static_cast<std::size_t>(l)].index];
+      const double square =
+          linalg::product(half[static_cast<std::size_t>(l)], half[static_cast<std::size_t>(k)], true).squaredNorm();
+      look.curvature(k, l) = look.curvature(l, k) = 2.0 * tau * tau * other * other * square;
+    }
+    look.curvature(k, k) += 8.0 * q / ((1.0 + q) * (1.0 + q));
+  }
+}
+
+double OneLaw::log_posterior(const LawHypothesis& hypothesis, const VectorXd& tau) const {
+  LawHypothesis white = hypothesis;
+  white.left = whitened(hypothesis.left);
+  white.slopes = whitened(hypothesis.slopes);
+  VectorXd log_tau(std::ssize(hypothesis.active));
+  for (Index k = 0; k < log_tau.size(); ++k) log_tau[k] = std::log(tau[hypothesis.active[static_cast<std::size_t>(k)].index]);
+  return look(white, log_tau).value;
+}
+
+LawEvidence OneLaw::scored(const LawHypothesis& hypothesis, const VectorXd& start) const {
+  LawHypothesis white = hypothesis;
+  white.left = whitened(hypothesis.left);
+  white.slopes = whitened(hypothesis.slopes);
+  const auto count = static_cast<Index>(white.active.size());
+  VectorXd log_tau(count);
+  for (Index k = 0; k < count; ++k) {
+    const ActiveClass& active = white.active[static_cast<std::size_t>(k)];
+    log_tau[k] = std::log(start[active.index] > 0.0 ? start[active.index] : active.scale);
+  }
+  Look now = look(white, log_tau);
+  LawEvidence out;
+  out.tau = out.deviation = VectorXd::Zero(classes());
+  if (now.point.lower.size() == 0) return out;
+  slope_of(white, now);
+  for (int i = 0; i < kIterations && !out.converged; ++i) {
+    MatrixXd damped = now.curvature;
+    damped.diagonal().array() += kRidge;
+    VectorXd step = damped.ldlt().solve(now.gradient);
+    out.converged = 0.5 * now.gradient.dot(step) < kSettled;
+    if (out.converged) break;
+    step = step.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
+    bool moved = false;
+    for (int halving = 0; halving < kHalvings && !moved; ++halving, step *= 0.5) {
+      Look next = look(white, now.log_tau + step);
+      moved = next.value > now.value;
+      if (moved) now = std::move(next);
+    }
+    if (!moved) break;
+    slope_of(white, now);
+  }
+  const MatrixXd lower = linalg::cholesky_factor(now.curvature);
+  if (count > 0 && lower.size() == 0) return out;
+  const double log_volume = 0.5 * static_cast<double>(count) * std::log(2.0 * std::numbers::pi) -
+                            (count > 0 ? lower.diagonal().array().log().sum() : 0.0);
+  out.log_evidence = now.value + log_volume;
+  out.chi_squared = now.chi_squared;
+  out.tau = now.tau;
+  out.shift = now.shift;
+  out.weight = now.weight;
+  if (count > 0) {
+    const MatrixXd inverse = linalg::lower_solve(lower, MatrixXd::Identity(count, count));
+    for (Index k = 0; k < count; ++k) out.deviation[white.active[static_cast<std::size_t>(k)].index] = inverse.col(k).norm();
+  }
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace twindeck::diagnosis {
+
+/// The law of a residual. Under a hypothesis h
+///   r - s_h(a) ~ N(0, Sigma(tau)),   Sigma(tau) = Sigma_0 + sum_c tau_c² D_c D_c'.
+/// Sigma_0 holds what is known beforehand. Each class c of errors has columns D_c of unit scale and a scale tau_c that the data
+/// tell: tau_c ~ half-t of three degrees of freedom. A hypothesis says which classes are active.
+struct LawSystem {
+  Eigen::MatrixXd sigma;                 ///< Sigma_0 (n_rows × n_rows)
+  std::vector<Eigen::MatrixXd> classes;  ///< D_c (n_rows × n_c each)
+  Eigen::VectorXd residual;              ///< r (n_rows)
+  Eigen::MatrixXd signatures;            ///< of causes, one column each (n_rows × n_signatures)
+};
+
+/// A class that is active under a hypothesis, and the scale of its half-t law.
+struct ActiveClass {
+  int index = 0;  ///< position among the classes
+  double scale = 1.0;
+};
+
+/// Hypothesis on the rows of a system: effects at the magnitudes of a grid, or effects linear in k magnitudes about one point.
+struct LawHypothesis {
+  Eigen::MatrixXd left;             ///< r - s (n_rows × n_magnitudes); one column if the magnitudes are linear
+  Eigen::VectorXd log_weight;       ///< ln prior of each magnitude (n_magnitudes)
+  Eigen::MatrixXd slopes;           ///< of linear magnitudes (n_rows × k), or no column
+  Eigen::VectorXd low, high;        ///< (k) bounds of their shifts from the point; the prior between is uniform
+  std::vector<ActiveClass> active;  ///< classes with a scale; the others are absent
+};
+
+/// Laplace's approximation of a hypothesis' evidence about the mode of its scales in ln tau.
+struct LawEvidence {
+  double log_evidence = -1e300;  ///< -n/2 ln 2 pi left out
+  double chi_squared = 0.0;      ///< e' Sigma^-1 e at the mode, at the best magnitude
+  Eigen::VectorXd tau;           ///< (n_classes) at the mode; 0 where absent
+  Eigen::VectorXd deviation;     ///< (n_classes) of ln tau
+  Eigen::VectorXd shift;         ///< of linear magnitudes at the mode (k)
+  Eigen::VectorXd weight;        ///< posterior of the grid's magnitudes at the mode (n_magnitudes)
+  bool converged = false;
+};
+
+/// ln p(ln tau) of a half-t law of three degrees of freedom.
+[[nodiscard]] double log_half_t(double log_tau, double scale);
+
+/// ln of posterior over prior width of k unknowns with a uniform prior of given ranges, never a gain.
+/// @param precision  in the likelihood (k × k)
+[[nodiscard]] double log_width(const Eigen::MatrixXd& precision, const Eigen::VectorXd& range);
+
+/// Sigma(tau) of a system, whitened by Sigma_0. Each hypothesis' scales are found by Fisher scoring in ln tau: with
+/// alpha = Sigma^-1 e, q_c = tau_c² / (3 s_c²)
+///   gradient  tau_c² (|D_c' alpha|² - tr D_c' Sigma^-1 D_c) + 1 - 4 q_c / (1 + q_c),
+///   H_cd = 2 tau_c² tau_d² |D_c' Sigma^-1 D_d|² + delta_cd 8 q_c / (1 + q_c)².
+/// Reference: Harville (1977), J. Am. Stat. Assoc. 72, 320-338 (scoring of variance components).
+class OneLaw {
+ public:
+  /// @throws nothing; `sound()` is false if Sigma_0 is not positive definite
+  explicit OneLaw(const LawSystem& system);
+  [[nodiscard]] bool sound() const { return whitener_.size() > 0; }
+  [[nodiscard]] Eigen::Index classes() const { return static_cast<Eigen::Index>(columns_.size()); }
+  [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows) const;
+
+  /// Sigma at some scales, in whitened rows.
+  struct Point {
+    Eigen::VectorXd tau;
+    Eigen::MatrixXd lower;  ///< L, L L' = L_0^-1 Sigma L_0^-T
+    double log_determinant = 0.0;
+  };
+  [[nodiscard]] Point at(const Eigen::VectorXd& tau) const;
+  /// Sigma^-1 of the rows as they are (n_rows × n_rows).
+  [[nodiscard]] Eigen::MatrixXd precision(const Point& point) const;
+
+  /// The mode of the scales from a start (n_classes; where an active class starts at 0 it starts at its half-t scale), and the
+  /// evidence there.
+  [[nodiscard]] LawEvidence scored(const LawHypothesis& hypothesis, const Eigen::VectorXd& start) const;
+  /// ln (likelihood × prior of ln tau) at scales, magnitudes summed over.
+  [[nodiscard]] double log_posterior(const LawHypothesis& hypothesis, const Eigen::VectorXd& tau) const;
+
+ private:
+  struct Look;
+  [[nodiscard]] Look look(const LawHypothesis& white, const Eigen::VectorXd& log_tau) const;
+  void slope_of(const LawHypothesis& white, Look& look) const;
+
+  Eigen::MatrixXd whitener_;  // L_0
+  double log_determinant_ = 0.0;
+  std::vector<Eigen::MatrixXd> columns_, products_;  // L_0^-1 D_c, and times its transpose
+};
+
+}  // namespace twindeck::diagnosis
