@@ -38,6 +38,9 @@ struct DiagnoseOptions {
   /// follow one mode through all conditions. It can therefore hide the misfit that a wrong first cause leaves. On seeds 4001 to
   /// 4400 and 5001 to 5400, wrong causes of this kind had 4 to 23 nats, the one right cause had 16.
   double further_tuned = 25.0;
+  /// [nats] Prior odds against nothing of all causes together that act in all conditions alike: such a cause looks like an
+  /// error of the model's form.
+  double static_odds = -13.0;
   int most_causes = 4;
   int bootstrap = 2000;  ///< resamples of held-out blocks
   SearchOptions search;

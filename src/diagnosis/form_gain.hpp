@@ -13,4 +13,8 @@ namespace twindeck::diagnosis {
 [[nodiscard]] PredictiveGain predictive_gain(const FormSetting& setting, const FormSearch& search, const Leftover& leftover,
                                              int bootstrap, std::uint64_t seed);
 
+/// Rows of whole modes, as positions among the training rows: those of one model mode in all conditions. Of fewer than three
+/// modes each condition's part is a block of its own: with the form error in the model these leak little.
+[[nodiscard]] std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit, bool by_condition = false);
+
 }  // namespace twindeck::diagnosis

@@ -37,9 +37,10 @@ io::FieldTable DiagnosisConfig::fields() {
       .integer("nodes", nodes, {2, 10000}, "nodes at which masses, oscillators and ties are looked for")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
-      .choice("form", form, {"on", "off"},
-              "on: the model's form may be wrong, its error is estimated and competes with every cause; off: the model is "
-              "exact but for scatter")
+      .choice(
+          "form", form, {"on", "off", "one"},
+          "on: the model's form may be wrong, its error is estimated and competes with every cause; one: the same by one law "
+          "of the residual and one table of verdicts; off: the model is exact but for scatter")
       .boolean(
           "refine_locations", refine_locations,
           "look at the nodes, ties and halves of zones round the leading cause before it is named; takes about three times "
@@ -74,7 +75,7 @@ io::FieldTable DiagnosisConfig::fields() {
 }
 
 bool DiagnosisConfig::with_form(const diagnosis::FeatureSet& features) const {
-  return form == "on" && diagnosis::has_rows_of_modes(features);
+  return form != "off" && diagnosis::has_rows_of_modes(features);
 }
 
 }  // namespace twindeck::steps

@@ -6,6 +6,7 @@
 
 #include "diagnosis/files/measurement_corrections.hpp"
 #include "diagnosis/form_diagnosis.hpp"
+#include "diagnosis/law_diagnosis.hpp"
 #include "diagnosis/paired_check.hpp"
 #include "diagnosis/refinement.hpp"
 #include "steps/diagnosis/extension.hpp"
@@ -94,6 +95,13 @@ void say_check(const diagnosis::FullCheck& check, double allowed_pct, long modes
                     check.largest_pct, allowed_pct, modes));
 }
 
+diagnosis::Diagnosis diagnosed(const diagnosis::Inference& inference, const diagnosis::DiagnoseOptions& options,
+                               const std::string& form, std::uint64_t seed) {
+  if (form == "off") return diagnosis::diagnose(inference, options, seed);
+  return form == "one" ? diagnosis::diagnose_by_law(inference, options, seed)
+                       : diagnosis::diagnose_with_form(inference, options, seed);
+}
+
 Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   DiagnosisInputs inputs = prepare_diagnosis(config, files, context);
@@ -118,8 +126,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
   diagnosis::Refinement refinement(inputs.structure, inputs.places, *inputs.reduced, inputs.features);
   diagnosis::DiagnoseOptions options = options_of(config, threshold);
   if (config.refine_locations) options.refinement = &refinement;
-  diagnosis::Diagnosis result = form ? diagnosis::diagnose_with_form(inference, options, context.seed + 1)
-                                     : diagnosis::diagnose(inference, options, context.seed + 1);
+  diagnosis::Diagnosis result = diagnosed(inference, options, form ? config.form : "off", context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
   const diagnosis::PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 
 #include "blind/form/diagnosis_numbers.hpp"
 #include "blind/form/measurement.hpp"
 #include "diagnosis/files/catalogue_files.hpp"
 #include "diagnosis/form_diagnosis.hpp"
+#include "diagnosis/law_diagnosis.hpp"
 #include "diagnosis/reduction/diagnosed_model.hpp"
 #include "test_places.hpp"
 
@@ -199,7 +201,11 @@ void run_form_case(const FormCase& hidden, FormScore& score, const std::function
   const diagnosis::FeatureMap map(reduced, hidden.features, {});
   const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue(), reduced, hidden.features);
   const diagnosis::Inference inference(map, entries.candidates);
-  const diagnosis::Diagnosis result = diagnosis::diagnose_with_form(inference, {}, hidden.seed);
+  diagnosis::DiagnoseOptions options;
+  if (const char* odds = std::getenv("TWINDECK_STATIC_ODDS")) options.static_odds = std::atof(odds);
+  const char* law = std::getenv("TWINDECK_LAW");
+  const diagnosis::Diagnosis result = law != nullptr ? diagnosis::diagnose_by_law(inference, options, hidden.seed)
+                                                     : diagnosis::diagnose_with_form(inference, options, hidden.seed);
   score.seconds = cpu_seconds() - begin;
   score_answer(hidden, result, score);
   score.numbers = numbers_of(hidden.seed, result);

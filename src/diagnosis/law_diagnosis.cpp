@@ -1,0 +1,354 @@
+#include "diagnosis/law_diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/statistics.hpp"
+#include "diagnosis/diagnose_parts.hpp"
+#include "diagnosis/form_base.hpp"
+#include "diagnosis/form_frame.hpp"
+#include "diagnosis/form_gain.hpp"
+#include "diagnosis/form_weighing.hpp"
+#include "diagnosis/inference/one_verdict.hpp"
+#include "diagnosis/law_search.hpp"
+#include "diagnosis/size_of_a_cause.hpp"
+#include "diagnosis/splitting_measurement.hpp"
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kGuarded = 15.0;  // nats of the leader: accounts whose predictions are weighed
+
+Scored as_scored(const LawSearch& search, const LawAccount& account, const Inference& informed) {
+  const LawEntry& entry = search.entries[static_cast<std::size_t>(account.members.front())];
+  Scored out;
+  out.candidate = entry.candidate;
+  out.a = account.causes.front().a;
+  out.log_odds = account.log_weight - search.none.log_evidence;
+  out.screen = std::max(0.0, 2.0 * (account.log_weight - account.log_prior - search.none.log_evidence));
+  out.chi_squared = out.remaining = account.evidence.chi_squared;
+  out.stage = account.refined() ? 3 : 1;
+  if (out.a.size() == entry.candidate->low.size()) out.signature = informed.signature(search.base, *entry.candidate, out.a);
+  if (out.signature.size() == 0) out.signature = VectorXd::Zero(std::ssize(informed.training()));
+  if (account.refined()) out.x = account.with.map.x.head(static_cast<Index>(informed.map().nuisances().size()));
+  return out;
+}
+
+/// Sigma^-1 at an account's scales; linear magnitudes are unknowns as wide as their range.
+std::shared_ptr<const Precision> precision_at(const LawSystem& system, const VectorXd& tau, const MatrixXd& further) {
+  MatrixXd sigma = system.sigma + linalg::product(further, further.transpose());
+  for (std::size_t c = 0; c < system.classes.size(); ++c)
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0)
+      sigma += t * t * linalg::product(system.classes[c], system.classes[c].transpose());
+  const MatrixXd lower = linalg::cholesky_factor(sigma);
+  TWINDECK_ASSERT(lower.size() > 0);
+  const MatrixXd inverse = linalg::lower_solve(lower, MatrixXd::Identity(sigma.rows(), sigma.rows()));
+  auto out = std::make_shared<Precision>();
+  out->matrix = linalg::product(inverse, inverse, true);
+  out->log_determinant = 2.0 * lower.diagonal().array().log().sum();
+  return out;
+}
+
+/// An account as a law of the rows, its weight from all rows being the account's own.
+Explanation explanation_by_law(const LawSearch& search, const LawAccount& account) {
+  const LawHypothesis& h = account.hypothesis;
+  const LawSystem& system = account.refined() ? *account.system : search.system;
+  const VectorXd deviation = (h.high - h.low) / std::sqrt(12.0);
+  Explanation out{precision_at(system, account.evidence.tau, h.slopes * deviation.asDiagonal()), h.left, h.log_weight};
+  if (h.slopes.cols() > 0) out.left.colwise() -= h.slopes * (0.5 * (h.high + h.low));
+  std::vector<double> terms;
+  for (Index k = 0; k < out.left.cols(); ++k)
+    terms.push_back(out.log_weight[k] -
+                    0.5 * (out.left.col(k).dot(out.precision->matrix * out.left.col(k)) + out.precision->log_determinant));
+  out.log_weight.array() += account.log_weight - log_sum(terms);
+  return out;
+}
+
+PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, int bootstrap, std::uint64_t seed) {
+  LawAccount nothing;
+  nothing.evidence = search.none;
+  nothing.log_weight = search.none.log_evidence;
+  nothing.hypothesis = {search.system.residual, VectorXd::Zero(1), MatrixXd(search.system.residual.size(), 0), {}, {}, {}};
+  std::vector<Explanation> entries;
+  for (const LawAccount& account : search.accounts)
+    if (account.scored && account.log_weight > search.accounts.front().log_weight - kGuarded)
+      entries.push_back(explanation_by_law(search, account));
+  return gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, nothing), entries, bootstrap, seed);
+}
+
+/// Posterior of a scale: its mode in ln tau and two quantiles of Laplace's approximation.
+ScaleEstimate estimate_of(const LawEvidence& evidence, int index) {
+  constexpr double kUnitOfClasses = 0.01;
+  const double level = kUnitOfClasses * evidence.tau[index], reach = std::exp(kReachOfNinety * evidence.deviation[index]);
+  return {level, level / reach, level * reach, false};
+}
+
+/// A fit that starts at x, or else at the model's own values.
+Fit fit_near(const Inference& inference, const std::vector<Cause>& causes, const VectorXd& x) {
+  Fit fit = inference.fit(causes, x);
+  return fit.made() ? fit : inference.fit(causes, {});
+}
+
+class ByLaw {
+ public:
+  ByLaw(const LawSetting& setting, const DiagnoseOptions& options, std::uint64_t seed, Diagnosis& out)
+      : setting_(setting), options_(options), seed_(seed), out_(out) {}
+
+  void run() {
+    search_ = search_by_law(setting_, out_.before);
+    if (!search_.weighed)
+      throw InputError({"", 0, "scatter"},
+                       "rows are measured more exactly than 16 digits can weigh against what the model leaves open",
+                       "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
+    std::vector<PossibleAnswer> answers;
+    for (const LawAccount& account : search_.accounts) answers.push_back({account.log_weight, false});
+    for (const double w : search_.else_weight) answers.push_back({w, true});
+    judgement_ = judge(search_.none.log_evidence, answers);
+    for (const LawAccount& account : search_.accounts)
+      if (account.members.size() == 1) out_.ranking.push_back(as_scored(search_, account, setting_.informed));
+    out_.log_odds = judgement_.log_odds;
+    out_.threshold = std::log(kSetProbability / (1.0 - kSetProbability));
+    out_.verdict = judgement_.verdict;
+    winner_ = search_.none;
+    reason_ = reason_of_verdict();
+    guard();
+    if (out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) accept();
+    out_.form->frequency = estimate_of(winner_, kFrequencies);
+    out_.form->shape = estimate_of(winner_, kShapes);
+  }
+  [[nodiscard]] const LawSearch& search() const { return search_; }
+  [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
+  [[nodiscard]] const Fit& fitted() const { return fitted_; }
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+  /// What the last fit says of the sizes may refuse the name.
+  void refuse_sizes() {
+    if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
+    for (const Effect& effect : out_.effects)
+      if (const std::string objection = objection_to_size(effect.cause, effect.parameters); !objection.empty()) {
+        out_.verdict = Verdict::unknown;
+        reason_ = objection;
+      }
+  }
+
+ private:
+  [[nodiscard]] std::string reason_of_verdict() const {
+    if (out_.verdict == Verdict::none) return "nothing stands out of the form error";
+    if (out_.verdict == Verdict::unknown) return "something changed that no cause of the catalogue explains";
+    return "one cause or a set of causes stands out";
+  }
+
+  void guard() {
+    if (search_.accounts.empty() || !search_.accounts.front().scored) return;
+    out_.form->gain = gain_by_law(setting_, search_, options_.bootstrap, seed_);
+    if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
+    if (out_.form->gain.low > 0.0) return;
+    const std::vector<int>& members = search_.accounts.front().members;
+    const bool in_all = std::all_of(members.begin(), members.end(),
+                                    [&](int m) { return search_.entries[static_cast<std::size_t>(m)].contrast < 0; });
+    out_.verdict = in_all ? Verdict::none : Verdict::unknown;
+    reason_ = "the best cause does not predict modes that it was not fitted to";
+  }
+
+  /// Puts the leading set into the answer: one effect for each of its causes, with the other causes that may stand in its
+  /// place.
+  void accept() {
+    std::vector<const LawAccount*> set;
+    std::vector<double> probability;
+    double something_else = 0.0;
+    for (const int i : judgement_.set) {
+      const double p = judgement_.probability[static_cast<std::size_t>(i)];
+      if (i < static_cast<int>(search_.accounts.size())) {
+        set.push_back(&search_.accounts[static_cast<std::size_t>(i)]);
+        probability.push_back(p);
+      } else {
+        something_else += p;
+      }
+    }
+    // What the smallest of the sets can do without is no part of the answer.
+    const auto fewer = [](const LawAccount* a, const LawAccount* b) { return a->members.size() < b->members.size(); };
+    const LawAccount& leader = **std::min_element(set.begin(), set.end(), fewer);
+    if (!put_into_model(leader)) return;
+    std::vector<Slot> slots;
+    for (const int m : leader.members) slots.push_back({{m}, {0.0}});
+    for (std::size_t k = 0; k < set.size(); ++k) place(*set[k], probability[k], slots);
+    for (std::size_t c = 0; c < slots.size(); ++c) out_.effects.push_back(effect_of_slot(slots[c], c, set));
+    if (judgement_.something_else_in_set)
+      for (Effect& effect : out_.effects) {
+        effect.cluster.emplace_back("other@global");
+        effect.rivals.push_back({"other@global", nullptr, something_else, {}});
+      }
+    if (std::all_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.members.size() == 1; }) &&
+        !judgement_.something_else_in_set)
+      out_.verdict = Verdict::named;
+  }
+
+  [[nodiscard]] bool put_into_model(const LawAccount& leader) {
+    const auto n = static_cast<Index>(setting_.plain.map().nuisances().size());
+    Fit with =
+        fit_near(setting_.informed, leader.causes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
+    if (!with.made()) {
+      out_.verdict = Verdict::unknown;
+      reason_ = "the best cause cannot be put into the model";
+      return false;
+    }
+    winner_ = leader.evidence;
+    causes_ = with.causes;
+    fitted_ = std::move(with);
+    return true;
+  }
+
+  /// A cause of the answer: entries that may be it, the leader's first, and the probability of each.
+  struct Slot {
+    std::vector<int> members;
+    std::vector<double> probability;
+  };
+
+  /// Counts a set for the slots of its members; a member without a slot goes to one that the set leaves open.
+  static void place(const LawAccount& account, double probability, std::vector<Slot>& slots) {
+    std::vector<bool> taken(slots.size(), false);
+    std::vector<int> strange;
+    for (const int m : account.members) {
+      bool found = false;
+      for (std::size_t s = 0; s < slots.size() && !found; ++s) {
+        const auto at = std::find(slots[s].members.begin(), slots[s].members.end(), m);
+        if (at == slots[s].members.end() || taken[s]) continue;
+        slots[s].probability[static_cast<std::size_t>(at - slots[s].members.begin())] += probability;
+        taken[s] = found = true;
+      }
+      if (!found) strange.push_back(m);
+    }
+    std::size_t next = 0;
+    for (std::size_t s = 0; s < slots.size() && next < strange.size(); ++s) {
+      if (taken[s]) continue;
+      slots[s].members.push_back(strange[next++]);
+      slots[s].probability.push_back(probability);
+    }
+  }
+
+  [[nodiscard]] Effect effect_of_slot(const Slot& slot, std::size_t which, const std::vector<const LawAccount*>& set) const {
+    Effect effect;
+    effect.cause = causes_[which];
+    effect.state = effect.cause.candidate->state;
+    effect.log_odds = judgement_.log_odds;
+    effect.probability = slot.probability.front();
+    std::vector<const Scored*> members;
+    for (std::size_t i = 0; i < slot.members.size(); ++i) {
+      const Candidate* candidate = search_.entries[static_cast<std::size_t>(slot.members[i])].candidate;
+      const auto scored =
+          std::find_if(out_.ranking.begin(), out_.ranking.end(), [&](const Scored& s) { return s.candidate == candidate; });
+      if (scored != out_.ranking.end()) members.push_back(&*scored);
+      effect.cluster.push_back(candidate->id());
+      if (i == 0) continue;
+      Rival rival{candidate->id(), candidate, slot.probability[i], {}};
+      for (const LawAccount* account : set) {
+        if (!account->refined() || !rival.parameters.empty()) continue;
+        for (std::size_t c = 0; c < account->with.causes.size(); ++c)
+          if (account->with.causes[c].candidate == candidate)
+            rival.parameters = effect_parameters(setting_.informed, account->with, c);
+      }
+      effect.rivals.push_back(std::move(rival));
+    }
+    effect.split_by = splitting_measurement(setting_.plain, search_.base, members);
+    return effect;
+  }
+
+  const LawSetting& setting_;
+  const DiagnoseOptions& options_;
+  std::uint64_t seed_;
+  Diagnosis& out_;
+  LawSearch search_;
+  Judgement judgement_;
+  LawEvidence winner_;
+  std::vector<Cause> causes_;
+  Fit fitted_;
+  std::string reason_;
+};
+
+/// Fits, intervals, residual test and gain at the level of the form error that the winning hypothesis has.
+void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOptions& options, std::uint64_t seed,
+                   Diagnosis& out) {
+  out.with_form = std::make_shared<FeatureMap>(
+      with_form_error(plain.map(), out.before.base, out.before.all.g, {out.form->frequency.level, out.form->shape.level}));
+  const FeatureMap& levelled = *out.with_form;
+  const Inference inference(levelled, plain.candidates());
+  const auto n = static_cast<Index>(plain.map().nuisances().size());
+  if (Fit before = fit_near(inference, {}, out.before.map.x.head(n)); before.made()) out.before = std::move(before);
+  out.after = out.before;
+  if (!engine.causes().empty()) {
+    Fit after = fit_near(inference, engine.causes(), engine.fitted().map.x.head(n));
+    out.after = after.made() ? std::move(after) : engine.fitted();
+  }
+  for (std::size_t i = 0; i < out.effects.size(); ++i) {
+    out.effects[i].cause = out.after.causes[i];
+    out.effects[i].parameters = effect_parameters(inference, out.after, i);
+    widen_for_form(out.effects[i].parameters, 0.02);
+    for (Rival& rival : out.effects[i].rivals) widen_for_form(rival.parameters, 0.02);
+    out.effects[i].sentence = sentence_of(out.effects[i]);
+    out.effects[i].remedy = out.effects[i].cause.candidate->hypothesis->remedy;
+  }
+  out.after_extension = !out.effects.empty();
+  out.localisation = location_map(inference, out.after, out.ranking);
+  out.residual = residual_test(inference, out.after);
+  out.on_bounds = parameters_on_bounds(levelled, out.before);
+  out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
+}
+
+std::string message_by_law(const Diagnosis& out, const ByLaw& engine) {
+  if (out.verdict == Verdict::named || out.verdict == Verdict::ambiguous) return out.effects.front().sentence;
+  const std::string scales = fmt::format("the model's form is off by about {:.1f} % in frequency and {:.1f} % in shape",
+                                         100.0 * out.form->frequency.level, 100.0 * out.form->shape.level);
+  if (out.verdict == Verdict::none)
+    return fmt::format("nothing found: {} ({}); causes smaller than that which act in every condition cannot be seen",
+                       engine.reason(), scales);
+  std::string text = engine.reason() + " (" + scales + ")";
+  if (!out.effects.empty())
+    text += "; it acts like " + out.effects.front().cluster.front();
+  else if (!out.ranking.empty() && out.ranking.front().log_odds > out.threshold)
+    text += "; it acts like " + out.ranking.front().candidate->id();
+  return text;
+}
+
+}  // namespace
+
+Diagnosis diagnose_by_law(const Inference& whole, const DiagnoseOptions& options, std::uint64_t seed) {
+  Diagnosis out;
+  out.alpha = options.alpha;
+  const FeatureMap& map = whole.map();
+  const FeatureMap::Base prior = map.base(VectorXd::Zero(static_cast<Index>(map.nuisances().size())));
+  const Prediction nominal = map.predict(prior, {}, false);
+  out.verdict = Verdict::unknown;
+  out.message = "the model predicts none of these rows";
+  if (!nominal.valid) return out;
+  const FitGround ground = ground_of_fits(whole, prior, nominal.g);
+  const Inference plain(ground.known, whole.candidates());
+  const FeatureMap informed_map = with_form_error(ground.known, prior, nominal.g, ground.level);
+  const Inference informed(informed_map, plain.candidates());
+  const LawSetting setting{plain, informed, contrasts_of(map.features()), options.static_odds};
+  out.before = first_fit(informed);
+  if (!out.before.made()) {
+    out.message += ": " + out.before.map.status.message;
+    return out;
+  }
+  out.form.emplace();
+  ByLaw engine(setting, options, seed, out);
+  engine.run();
+  if (!ground.strangers.labels.empty())
+    out.form->warnings.push_back(fmt::format("no mode of the model resembles the measured mode {}: its rows count for nothing",
+                                             fmt::join(ground.strangers.labels, ", ")));
+  finish_by_law(plain, engine, options, seed, out);
+  engine.refuse_sizes();
+  out.message = message_by_law(out, engine);
+  return out;
+}
+
+}  // namespace twindeck::diagnosis

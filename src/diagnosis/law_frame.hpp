@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/features/form_columns.hpp"
+#include "diagnosis/inference.hpp"
+#include "diagnosis/inference/one_law.hpp"
+
+/// Private to src/diagnosis: the residual of a fit under the one law (diagnosis/inference/one_law.hpp).
+namespace twindeck::diagnosis {
+
+/// Classes of errors in their order in a LawSystem; behind them one for each contrast.
+enum LawClass : int { kFrequencies, kShapes, kKinks, kGains, kFirstContrast };
+
+/// Residual y - g + J x and classes of the training rows at a fit. Unit scale of a class: 1 % of each model mode's frequency;
+/// a random symmetric stiffness of 1 % in the model's modes; 0.25 % of a shape's norm at each mode and channel; 1 % of each
+/// channel's gain. A contrast has those of frequencies, shapes and kinks together, weighted by it. Sigma_0 holds the errors of
+/// identification, free scales of shapes, parameters and element scatter with their priors, rotations of close modes, and
+/// accepted causes. The coordinates of the last `tested` causes of the fit become the signatures (per unit of their
+/// coordinates) and leave the residual.
+/// @param plain  with the covariance of identification alone
+[[nodiscard]] LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
+                                   std::size_t tested = 0);
+
+/// Whether 16 digits suffice for a system (form_evidence.hpp's can_be_weighed).
+[[nodiscard]] bool can_be_weighed(const LawSystem& system);
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "diagnosis/inference.hpp"
+#include "diagnosis/law_frame.hpp"
+
+/// Private to src/diagnosis. Evidence of every hypothesis under the one law: nothing but the model's errors, "something else
+/// changed" in each contrast, each entry of the catalogue, and sets of two or three of them.
+namespace twindeck::diagnosis {
+
+/// Input of a search. `informed` has a form error in the covariance of its rows, so that it does not bias a fit. `plain` has
+/// the covariance of the identification alone.
+struct LawSetting {
+  const Inference& plain;
+  const Inference& informed;
+  std::vector<Contrast> contrasts;
+  double static_odds;  ///< [nats] prior odds against nothing of all causes that act in all conditions alike, together
+};
+
+/// An entry of the catalogue with what the screen tries of it.
+struct LawEntry {
+  const Candidate* candidate = nullptr;
+  int contrast = -1;                    ///< in which it acts; -1: in all conditions alike
+  double log_prior = 0.0;               ///< ln prior odds against nothing
+  std::vector<Inference::Tried> tried;  ///< magnitudes
+  std::vector<double> effects;          ///< of each, RMS change of ln f where the entry acts
+  Eigen::Index first_signature = 0;     ///< column of the base's signatures that belongs to the first of them
+};
+
+/// A set of causes that act together, one or more.
+struct LawAccount {
+  std::vector<int> members;  ///< positions among the entries
+  double log_prior = 0.0;
+  double log_weight = -1e300;  ///< ln evidence plus ln prior
+  LawEvidence evidence;
+  LawHypothesis hypothesis;  ///< as it was scored, at the base or, if refined, in `system`
+  std::vector<Cause> causes;
+  double effect = 0.0;  ///< RMS change of frequencies, ln
+  bool scored = false;  ///< at the mode of its own scales
+  Fit with;             ///< the fit with the causes in the model, made() if refined
+  std::shared_ptr<const LawSystem> system;
+  [[nodiscard]] bool refined() const { return system != nullptr; }
+};
+
+struct LawSearch {
+  Fit base;
+  bool weighed = true;  ///< false: the columns at the base are too large for 16 digits
+  LawSystem system;     ///< at the base, with the signatures of all entries at all their magnitudes
+  LawEvidence none;
+  std::vector<LawEvidence> something_else;  ///< (n_contrasts)
+  std::vector<double> else_weight;          ///< ln evidence, prior odds 1
+  std::vector<LawEntry> entries;
+  std::vector<LawAccount> accounts;  ///< the best first
+};
+
+[[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
+
+/// Classes that are active in a system whichever causes act: those that have columns, without the contrasts.
+[[nodiscard]] std::vector<ActiveClass> lasting_classes(const LawSystem& system);
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,177 @@
+#include "diagnosis/law_sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/parallel.hpp"
+#include "diagnosis/form_magnitudes.hpp"
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kMembersOfSets = 40;  ///< entries that sets are made of: the leading ones
+constexpr std::size_t kScalesOfSets = 3;    ///< accounts whose scales sets are looked at with
+constexpr std::size_t kScoredSets = 3;      ///< sets of each size that get scales and a fit of their own
+constexpr std::size_t kMostInASet = 3;
+constexpr double kPromises = 3.0;  ///< nats that a set may be behind the best smaller one on the linearised base
+
+/// Entries at one choice of scales: products of their signatures with the residual and with one another.
+struct LookAtSets {
+  std::set<int> contrasts;  // whose class is active
+  VectorXd along;
+  MatrixXd products;
+};
+
+class SetScreen {
+ public:
+  SetScreen(const LawSearch& search, const OneLaw& law) : search_(search) {
+    for (const LawAccount& account : search.accounts) {
+      if (members_.size() == kMembersOfSets) break;
+      if (account.members.size() == 1) members_.push_back(account.members.front());
+    }
+    std::vector<int> columns;
+    for (const int m : members_) {
+      const LawEntry& entry = search.entries[static_cast<std::size_t>(m)];
+      first_.push_back(std::ssize(columns));
+      for (std::size_t i = 0; i < entry.tried.size(); ++i)
+        columns.push_back(static_cast<int>(entry.first_signature + static_cast<Index>(i)));
+    }
+    const MatrixXd signatures = law.whitened(search.system.signatures(Eigen::all, columns));
+    const VectorXd residual = law.whitened(search.system.residual);
+    std::size_t looked = 0;
+    for (const LawAccount& account : search.accounts) {
+      if (!account.scored) continue;
+      if (looked++ == kScalesOfSets) break;
+      const OneLaw::Point at = law.at(account.evidence.tau);
+      if (at.lower.size() == 0) continue;
+      const MatrixXd s = linalg::lower_solve(at.lower, signatures);
+      LookAtSets look;
+      for (Index c = kFirstContrast; c < account.evidence.tau.size(); ++c)
+        if (account.evidence.tau[c] > 0.0) look.contrasts.insert(static_cast<int>(c) - kFirstContrast);
+      look.along = s.transpose() * linalg::lower_solve(at.lower, residual);
+      look.products = linalg::product(s, s, true);
+      looks_.push_back(std::move(look));
+    }
+  }
+  [[nodiscard]] std::size_t size() const { return members_.size(); }
+  [[nodiscard]] int entry(std::size_t local) const { return members_[local]; }
+
+  /// ln likelihood of a set over that of no cause, magnitudes summed over, prior included, at the best of the scales.
+  [[nodiscard]] double promise(const std::vector<std::size_t>& set) const {
+    double best = -1e300, prior = 0.0;
+    std::set<int> contrasts;
+    for (const std::size_t m : set) {
+      const LawEntry& entry = search_.entries[static_cast<std::size_t>(members_[m])];
+      prior += entry.log_prior;
+      if (entry.contrast >= 0) contrasts.insert(entry.contrast);
+    }
+    for (const LookAtSets& look : looks_)
+      if (look.contrasts == contrasts) best = std::max(best, prior + summed_over(look, set, 0, {}, 0.0));
+    return best;
+  }
+
+ private:
+  struct Chosen {
+    Index column;
+    double factor;
+  };
+  double summed_over(const LookAtSets& look, const std::vector<std::size_t>& set, std::size_t at, std::vector<Chosen> chosen,
+                     double value) const {
+    if (at == set.size()) return value;
+    const LawEntry& entry = search_.entries[static_cast<std::size_t>(members_[set[at]])];
+    const std::vector<double> factors = magnitude_factors(*entry.candidate);
+    chosen.push_back({});
+    double top = -1e300, sum = 0.0;
+    for (std::size_t i = 0; i < entry.tried.size(); ++i)
+      for (const double t : factors) {
+        const Index column = first_[set[at]] + static_cast<Index>(i);
+        double here = value + t * look.along[column] - 0.5 * t * t * look.products(column, column);
+        for (std::size_t k = 0; k < at; ++k) here -= t * chosen[k].factor * look.products(column, chosen[k].column);
+        chosen.back() = {column, t};
+        const double term = summed_over(look, set, at + 1, chosen, here);
+        if (term > top) {
+          sum = sum * std::exp(top - term) + 1.0;
+          top = term;
+        } else {
+          sum += std::exp(term - top);
+        }
+      }
+    return top + std::log(sum / static_cast<double>(entry.tried.size() * factors.size()));
+  }
+
+  const LawSearch& search_;
+  std::vector<int> members_;
+  std::vector<Index> first_;
+  std::vector<LookAtSets> looks_;
+};
+
+struct Promising {
+  std::vector<std::size_t> set;
+  double value = 0.0;
+};
+
+void keep_best(std::vector<Promising>& found) {
+  std::stable_sort(found.begin(), found.end(), [](const Promising& a, const Promising& b) { return a.value > b.value; });
+  if (found.size() > kScoredSets) found.resize(kScoredSets);
+}
+
+/// Sets of one more than those given.
+std::vector<Promising> larger_sets(const SetScreen& screen, const std::vector<Promising>& smaller) {
+  std::set<std::vector<std::size_t>> sets;
+  for (const Promising& from : smaller)
+    for (std::size_t m = 0; m < screen.size(); ++m) {
+      std::vector<std::size_t> set = from.set;
+      if (std::find(set.begin(), set.end(), m) != set.end()) continue;
+      set.push_back(m);
+      std::sort(set.begin(), set.end());
+      sets.insert(std::move(set));
+    }
+  std::vector<Promising> out;
+  for (const auto& set : sets) out.push_back({set, 0.0});
+  parallel_for(out.size(), [&](std::size_t i) { out[i].value = screen.promise(out[i].set); });
+  return out;
+}
+
+}  // namespace
+
+void add_sets(const LawSearch& search, const OneLaw& law, const std::function<void(LawAccount&)>& weigh,
+              std::vector<LawAccount>& found) {
+  const SetScreen screen(search, law);
+  std::vector<Promising> smaller;
+  for (std::size_t m = 0; m < screen.size(); ++m) smaller.push_back({{m}, screen.promise({m})});
+  double best = search.accounts.front().log_weight;
+  for (std::size_t size = 2; size <= kMostInASet; ++size) {
+    double most = -1e300;
+    for (const Promising& s : smaller) most = std::max(most, s.value);
+    std::vector<Promising> larger = larger_sets(screen, smaller);
+    keep_best(larger);
+    std::erase_if(larger, [&](const Promising& l) { return l.value < most - kPromises; });
+    std::vector<LawAccount> accounts(larger.size());
+    parallel_for(larger.size(), [&](std::size_t i) {
+      for (const std::size_t m : larger[i].set) {
+        accounts[i].members.push_back(screen.entry(m));
+        accounts[i].log_prior += search.entries[static_cast<std::size_t>(accounts[i].members.back())].log_prior;
+      }
+      weigh(accounts[i]);
+    });
+    std::erase_if(accounts, [](const LawAccount& a) { return !a.scored; });
+    double leading = -1e300;
+    for (LawAccount& account : accounts) {
+      leading = std::max(leading, account.log_weight);
+      found.push_back(std::move(account));
+    }
+    if (!(leading > best)) return;  // no larger one leads either
+    best = leading;
+    smaller = std::move(larger);
+  }
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,178 @@
+// Diagnosis by the one law. Oracles: data of the model itself; what was put into a chain by dense matrices of its own;
+// exchanged channels are the same rows under other names.
+#include "diagnosis/law_diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include "chain.hpp"
+#include "core/error.hpp"
+#include "diagnosis/form_frame.hpp"
+#include "diagnosis/law_search.hpp"
+
+namespace twindeck::tests {
+namespace {
+
+using diagnosis::Verdict;
+
+diagnosis::FeatureSet no_row_held_out(diagnosis::FeatureSet f) {
+  for (auto& row : f.rows) row.held_out = false;
+  return f;
+}
+
+diagnosis::Diagnosis by_law(const Examined& e) { return diagnosis::diagnose_by_law(*e.inference, {}, 1); }
+
+diagnosis::LawSearch law_searched(const Examined& e) {
+  const diagnosis::LawSetting setting{*e.inference, *e.inference, diagnosis::contrasts_of(e.map->features()),
+                                      diagnosis::DiagnoseOptions{}.static_odds};
+  return diagnosis::search_by_law(setting, e.inference->fit({}, {}));
+}
+
+bool is_in_a_set(const diagnosis::Diagnosis& result, const std::string& id) {
+  return std::any_of(result.effects.begin(), result.effects.end(), [&](const diagnosis::Effect& effect) {
+    return std::find(effect.cluster.begin(), effect.cluster.end(), id) != effect.cluster.end();
+  });
+}
+
+/// Rows of two measurements, the second in state "after".
+diagnosis::FeatureSet before_and_after(diagnosis::FeatureSet before, const diagnosis::FeatureSet& after) {
+  before.conditions.push_back(before.conditions.front());
+  before.conditions.back().name = "later";
+  before.conditions.back().state = "after";
+  for (auto row : after.rows) {
+    row.condition = 1;
+    before.rows.push_back(row);
+  }
+  return no_row_held_out(before);
+}
+
+TEST(LawSearch, PriorOddsOfEachClassOfCausesAreShared) {
+  const Chain chain({.masses = 8, .modes = 5});
+  const Examined e =
+      examine(chain, no_row_held_out(chain.measure(chain.as_modelled())), catalogue({"mass", "stiffness", "gain", "pol"}));
+  const auto search = law_searched(e);
+  double everywhere = 0.0, channels = 0.0, masses = 0.0;
+  for (const auto& entry : search.entries) {
+    (entry.candidate->hypothesis->measurement ? channels : everywhere) += std::exp(entry.log_prior);
+    if (entry.candidate->hypothesis->id == "mass") masses += std::exp(entry.log_prior);
+  }
+  EXPECT_NEAR(std::log(channels), 0.0, 1e-9);
+  EXPECT_NEAR(std::log(everywhere), diagnosis::DiagnoseOptions{}.static_odds, 1e-9);
+  EXPECT_NEAR(masses / everywhere, 0.5, 1e-9);  // two families
+}
+
+TEST(LawSearch, ExchangedChannelsAreTheSameRowsUnderOtherNamesToTheLaw) {
+  const Chain chain({.masses = 10, .modes = 5});
+  std::mt19937_64 random(12);
+  ChainTruth truth = chain.scattered(random);
+  auto right = no_row_held_out(chain.measure(truth, &random)), wrong = right;
+  for (auto& row : wrong.rows)
+    if (row.channel == 2 || row.channel == 6) row.channel = 8 - row.channel;
+  const Examined a = examine(chain, right, catalogue({"swap", "gain"})), b = examine(chain, wrong, catalogue({"swap", "gain"}));
+  const auto of_right = law_searched(a), of_wrong = law_searched(b);
+  const auto& leader = of_wrong.accounts.front();
+  ASSERT_EQ(leader.causes.size(), 1U);
+  EXPECT_EQ(leader.causes.front().candidate->id(), "swap@channels:c3,c7");
+  EXPECT_TRUE(leader.refined());
+  EXPECT_NEAR(leader.evidence.log_evidence, of_right.none.log_evidence, 0.05);
+  EXPECT_GT(leader.log_weight, of_wrong.none.log_evidence + 20.0);
+}
+
+TEST(DiagnoseByLaw, SaysNoneOfDataOfTheModelItself) {
+  const Chain chain({.masses = 10});
+  for (unsigned i = 0; i < 6; ++i) {
+    std::mt19937_64 random(40 + i);
+    const auto result = by_law(examine(chain, no_row_held_out(chain.measure(chain.scattered(random), &random)), catalogue()));
+    EXPECT_EQ(result.verdict, Verdict::none) << i << ": " << result.message;
+    ASSERT_TRUE(result.form);
+    EXPECT_LT(result.form->frequency.level, 0.01) << i;  // the model is exact but for scatter
+    EXPECT_GT(result.form->frequency.high, result.form->frequency.level);
+  }
+}
+
+TEST(DiagnoseByLaw, AReversedChannelIsNamed) {
+  const Chain chain({.masses = 10, .modes = 5});
+  std::mt19937_64 random(4);
+  ChainTruth truth = chain.scattered(random);
+  truth.gain[3] = -1.0;
+  const auto result = by_law(examine(chain, no_row_held_out(chain.measure(truth, &random)), catalogue()));
+  EXPECT_EQ(result.verdict, Verdict::named) << result.message;
+  EXPECT_TRUE(is_in_a_set(result, "pol@channel:c4"));
+}
+
+TEST(DiagnoseByLaw, TwoFaultsOfChannelsAreASetOfTwo) {
+  const Chain chain({.masses = 10, .modes = 5});
+  std::mt19937_64 random(4);
+  ChainTruth truth = chain.scattered(random);
+  truth.gain[3] = -1.0;
+  truth.gain[7] = -1.0;
+  const auto result =
+      by_law(examine(chain, no_row_held_out(chain.measure(truth, &random)), catalogue({"pol", "gain", "swap"})));
+  EXPECT_EQ(result.effects.size(), 2U) << result.message;
+  EXPECT_TRUE(is_in_a_set(result, "pol@channel:c4"));
+  EXPECT_TRUE(is_in_a_set(result, "pol@channel:c8"));
+}
+
+TEST(DiagnoseByLaw, FindsWhatWasCutBetweenTwoStatesWithItsSize) {
+  const Chain chain({.masses = 10, .modes = 6});
+  std::mt19937_64 random(7);
+  const ChainTruth before = chain.scattered(random);
+  ChainTruth after = before;
+  after.spring[6] *= 0.4;
+  const auto result =
+      by_law(examine(chain, before_and_after(chain.measure(before, &random), chain.measure(after, &random)), catalogue()));
+  ASSERT_FALSE(result.effects.empty()) << result.message;
+  EXPECT_TRUE(is_in_a_set(result, "stiffness@group:g6"));
+  EXPECT_EQ(result.effects.front().cause.candidate->state, "after");
+  if (result.effects.front().cause.candidate->id() == "stiffness@group:g6") {
+    EXPECT_LT(result.effects.front().parameters[0].low, 0.4);
+    EXPECT_GT(result.effects.front().parameters[0].high, 0.4);
+  }
+}
+
+TEST(DiagnoseByLaw, NothingThatChangedIsNone) {
+  const Chain chain({.masses = 10, .modes = 6});
+  for (unsigned i = 0; i < 4; ++i) {
+    std::mt19937_64 random(60 + i);
+    const ChainTruth truth = chain.scattered(random);
+    const auto result =
+        by_law(examine(chain, before_and_after(chain.measure(truth, &random), chain.measure(truth, &random)), catalogue()));
+    EXPECT_EQ(result.verdict, Verdict::none) << i << ": " << result.message;
+  }
+}
+
+// Two springs cut at once, at places that do not look alike.
+TEST(DiagnoseByLaw, FindsTwoPartsThatChangedTogether) {
+  const Chain chain({.masses = 10, .modes = 8, .frequency_std = 0.001, .shape_std = 0.01});
+  std::mt19937_64 random(9);
+  const ChainTruth before = chain.scattered(random);
+  ChainTruth after = before;
+  after.spring[2] *= 0.4;
+  after.spring[7] *= 0.5;
+  const auto result = by_law(examine(chain, before_and_after(chain.measure(before, &random), chain.measure(after, &random)),
+                                     catalogue({"stiffness", "gain"})));
+  EXPECT_EQ(result.effects.size(), 2U) << result.message;
+  EXPECT_TRUE(is_in_a_set(result, "stiffness@group:g2"));
+  EXPECT_TRUE(is_in_a_set(result, "stiffness@group:g7"));
+}
+
+TEST(DiagnoseByLaw, RowsThatAreTooExactAreRefusedByTheLaw) {
+  const Chain chain({.masses = 10, .modes = 5, .frequency_std = 1e-9, .shape_std = 1e-9});
+  diagnosis::ScatterOptions no_floors;
+  no_floors.frequency_floor = no_floors.shape_floor = 0.0;
+  const Examined e = examine(chain, no_row_held_out(chain.measure(chain.as_modelled())), catalogue({"mass"}), no_floors);
+  EXPECT_THROW((void)by_law(e), InputError);
+}
+
+TEST(DiagnoseByLaw, GivesTheSameTwice) {
+  const Chain chain({.masses = 8, .modes = 5});
+  std::mt19937_64 random(5);
+  const auto features = no_row_held_out(chain.measure(chain.scattered(random), &random));
+  const auto a = by_law(examine(chain, features, catalogue({"stiffness", "gain"})));
+  const auto b = by_law(examine(chain, features, catalogue({"stiffness", "gain"})));
+  EXPECT_EQ(a.log_odds, b.log_odds);
+  EXPECT_EQ(a.form->gain.low, b.form->gain.low);
+  EXPECT_EQ(a.form->frequency.level, b.form->frequency.level);
+}
+
+}  // namespace
+}  // namespace twindeck::tests
