@@ -129,7 +129,11 @@ Effect effect_from(const FormSearch& search, const std::vector<Scored>& ranking,
 }
 
 void widen_for_form(std::vector<EffectParameter>& parameters, double form_error) {
-  const double reach = kReachOfNinety * size_error(form_error, kSizeErrorOfIntervals);
+  widen_sizes(parameters, size_error(form_error, kSizeErrorOfIntervals));
+}
+
+void widen_sizes(std::vector<EffectParameter>& parameters, double deviation) {
+  const double reach = kReachOfNinety * deviation;
   static const std::set<std::string> no_size = {"Hz", "deg", "degC", "C", "s", "m"};
   for (EffectParameter& p : parameters) {
     if (no_size.contains(p.unit)) continue;

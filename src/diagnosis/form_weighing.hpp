@@ -29,5 +29,7 @@ struct Weighing {
 /// wrong.
 /// @param form_error  of frequencies, relative
 void widen_for_form(std::vector<EffectParameter>& parameters, double form_error);
+/// The same by a given standard deviation of ln of the size.
+void widen_sizes(std::vector<EffectParameter>& parameters, double deviation);
 
 }  // namespace twindeck::diagnosis

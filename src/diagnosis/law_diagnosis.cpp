@@ -26,7 +26,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kGuarded = 15.0;  // nats of the leader: accounts whose predictions are weighed
+constexpr double kFarOff = 0.08;        // of frequencies: a person is told
+constexpr double kErrorOfSizes = 0.25;  // deviation of ln(size): a law of the rows does not know the units of a wrong model
+constexpr double kGuarded = 15.0;       // nats of the leader: accounts whose predictions are weighed
 
 Scored as_scored(const LawSearch& search, const LawAccount& account, const Inference& informed) {
   const LawEntry& entry = search.entries[static_cast<std::size_t>(account.members.front())];
@@ -109,12 +111,9 @@ class ByLaw {
       throw InputError({"", 0, "scatter"},
                        "rows are measured more exactly than 16 digits can weigh against what the model leaves open",
                        "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
-    std::vector<PossibleAnswer> answers;
-    for (const LawAccount& account : search_.accounts) answers.push_back({account.log_weight, false});
-    for (const double w : search_.else_weight) answers.push_back({w, true});
-    judgement_ = judge(search_.none.log_evidence, answers);
     for (const LawAccount& account : search_.accounts)
       if (account.members.size() == 1) out_.ranking.push_back(as_scored(search_, account, setting_.informed));
+    leave_out_refused_sets();
     out_.log_odds = judgement_.log_odds;
     out_.threshold = std::log(kSetProbability / (1.0 - kSetProbability));
     out_.verdict = judgement_.verdict;
@@ -124,6 +123,9 @@ class ByLaw {
     if (out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) accept();
     out_.form->frequency = estimate_of(winner_, kFrequencies);
     out_.form->shape = estimate_of(winner_, kShapes);
+    if (out_.form->frequency.level > kFarOff)
+      out_.form->warnings.push_back(fmt::format("the model is {:.0f} % off in frequency: too far to see small causes",
+                                                100.0 * out_.form->frequency.level));
   }
   [[nodiscard]] const LawSearch& search() const { return search_; }
   [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
@@ -141,6 +143,32 @@ class ByLaw {
   }
 
  private:
+  void judge_accounts() {
+    std::vector<PossibleAnswer> answers;
+    for (const LawAccount& account : search_.accounts) answers.push_back({account.log_weight, false});
+    for (const double w : search_.else_weight) answers.push_back({w, true});
+    judgement_ = judge(search_.none.log_evidence, answers);
+  }
+
+  /// A set of causes of which one has no size of its own is none: the next ones are judged without it. One cause alone that is
+  /// refused makes the verdict `unknown` (refuse_sizes).
+  void leave_out_refused_sets() {
+    judge_accounts();
+    const auto refused = [&] {
+      if (search_.accounts.empty() || judgement_.verdict == Verdict::none) return false;
+      const LawAccount& leader = search_.accounts.front();
+      if (leader.members.size() < 2 || !leader.refined()) return false;
+      for (std::size_t c = 0; c < leader.with.causes.size(); ++c)
+        if (!objection_to_size(leader.with.causes[c], effect_parameters(setting_.informed, leader.with, c)).empty())
+          return true;
+      return false;
+    };
+    while (refused()) {
+      search_.accounts.erase(search_.accounts.begin());
+      judge_accounts();
+    }
+  }
+
   [[nodiscard]] std::string reason_of_verdict() const {
     if (out_.verdict == Verdict::none) return "nothing stands out of the form error";
     if (out_.verdict == Verdict::unknown) return "something changed that no cause of the catalogue explains";
@@ -291,8 +319,8 @@ void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOp
   for (std::size_t i = 0; i < out.effects.size(); ++i) {
     out.effects[i].cause = out.after.causes[i];
     out.effects[i].parameters = effect_parameters(inference, out.after, i);
-    widen_for_form(out.effects[i].parameters, 0.02);
-    for (Rival& rival : out.effects[i].rivals) widen_for_form(rival.parameters, 0.02);
+    widen_sizes(out.effects[i].parameters, kErrorOfSizes);
+    for (Rival& rival : out.effects[i].rivals) widen_sizes(rival.parameters, kErrorOfSizes);
     out.effects[i].sentence = sentence_of(out.effects[i]);
     out.effects[i].remedy = out.effects[i].cause.candidate->hypothesis->remedy;
   }

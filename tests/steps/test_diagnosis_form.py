@@ -1,7 +1,8 @@
 """Step 9 on a girder whose truth is of another class than its model: the truth is a Timoshenko beam with a haunch and uneven mass on
 bearings that turn stiffly, computed here with NumPy on 96 elements; the model is a folder of twelve Euler-Bernoulli beams.
 
-Oracles: what was put in. On the sound girder `form = "on"` says none where "off" says unknown; a support that stiffens in the cold is found with it.
+Oracles: what was put in. On the sound girder `form = "on"` says none where "off" says unknown; a support that stiffens in the cold is found with it,
+and with `form = "one"` too.
 """
 import csv
 import json
@@ -181,6 +182,18 @@ class FormOfTheModel(unittest.TestCase):
         self.assertGreater(gain["log_gain_interval"][0], 0.0)
         self.assertGreater(gain["reduction_pct"], 0.0)
         self.assertLess(gain["after"], gain["before"])
+
+    def test_the_one_law_says_so_too(self):
+        sound = self.diagnose("sound", "one")
+        self.assertEqual(sound["verdict"], "none", sound["message"])
+        self.assertEqual(sound["effects"], [])
+        self.assertLess(sound["form"]["frequency_pct"]["low"], sound["form"]["frequency_pct"]["high"])
+        frozen = self.diagnose("frozen", "one")
+        self.assertIn(frozen["verdict"], ("named", "ambiguous"), frozen["message"])
+        self.assertEqual(frozen["effects"][0]["cause"], "freeze")
+        self.assertGreater(frozen["gain"]["log_gain_interval"][0], 0.0)
+        exchanged = self.diagnose("exchanged", "one")
+        self.assertEqual([effect["cluster"] for effect in exchanged["effects"]], [["swap@channels:c3,c5"]], exchanged["message"])
 
     def test_another_word_for_the_key_is_refused(self):
         done = subprocess.run([BIN / "s9_diagnosis", "--model", self.folder / "model", "--features", self.folder / "sound", "--out",

@@ -46,8 +46,7 @@ struct PredictiveGain {
                                            const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed);
 
 /// Leave-one-block-out gain of the odds against nothing: of each block, ln odds from all rows less ln odds from all rows but
-/// the block's, where the odds are those of nothing and all entries together to nothing. `after` weighs the entries by the
-/// other rows.
+/// the block's. The odds are of nothing and all entries together to nothing. `after` weighs entries by the other rows.
 /// @param entries  their log_weight holds all that does not depend on rows
 [[nodiscard]] PredictiveGain gain_of_odds(const std::vector<std::vector<int>>& blocks, const Explanation& none,
                                           const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed);

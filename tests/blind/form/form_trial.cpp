@@ -201,11 +201,10 @@ void run_form_case(const FormCase& hidden, FormScore& score, const std::function
   const diagnosis::FeatureMap map(reduced, hidden.features, {});
   const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue(), reduced, hidden.features);
   const diagnosis::Inference inference(map, entries.candidates);
-  diagnosis::DiagnoseOptions options;
-  if (const char* odds = std::getenv("TWINDECK_STATIC_ODDS")) options.static_odds = std::atof(odds);
-  const char* law = std::getenv("TWINDECK_LAW");
-  const diagnosis::Diagnosis result = law != nullptr ? diagnosis::diagnose_by_law(inference, options, hidden.seed)
-                                                     : diagnosis::diagnose_with_form(inference, options, hidden.seed);
+  const char* form = std::getenv("TWINDECK_BLIND_FORM");
+  const bool by_law = form != nullptr && std::string(form) == "one";
+  const diagnosis::Diagnosis result = by_law ? diagnosis::diagnose_by_law(inference, {}, hidden.seed)
+                                             : diagnosis::diagnose_with_form(inference, {}, hidden.seed);
   score.seconds = cpu_seconds() - begin;
   score_answer(hidden, result, score);
   score.numbers = numbers_of(hidden.seed, result);

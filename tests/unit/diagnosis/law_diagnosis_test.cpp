@@ -12,8 +12,6 @@
 namespace twindeck::tests {
 namespace {
 
-using diagnosis::Verdict;
-
 diagnosis::FeatureSet no_row_held_out(diagnosis::FeatureSet f) {
   for (auto& row : f.rows) row.held_out = false;
   return f;
@@ -82,7 +80,7 @@ TEST(DiagnoseByLaw, SaysNoneOfDataOfTheModelItself) {
   for (unsigned i = 0; i < 6; ++i) {
     std::mt19937_64 random(40 + i);
     const auto result = by_law(examine(chain, no_row_held_out(chain.measure(chain.scattered(random), &random)), catalogue()));
-    EXPECT_EQ(result.verdict, Verdict::none) << i << ": " << result.message;
+    EXPECT_EQ(result.verdict, diagnosis::Verdict::none) << i << ": " << result.message;
     ASSERT_TRUE(result.form);
     EXPECT_LT(result.form->frequency.level, 0.01) << i;  // the model is exact but for scatter
     EXPECT_GT(result.form->frequency.high, result.form->frequency.level);
@@ -95,7 +93,7 @@ TEST(DiagnoseByLaw, AReversedChannelIsNamed) {
   ChainTruth truth = chain.scattered(random);
   truth.gain[3] = -1.0;
   const auto result = by_law(examine(chain, no_row_held_out(chain.measure(truth, &random)), catalogue()));
-  EXPECT_EQ(result.verdict, Verdict::named) << result.message;
+  EXPECT_EQ(result.verdict, diagnosis::Verdict::named) << result.message;
   EXPECT_TRUE(is_in_a_set(result, "pol@channel:c4"));
 }
 
@@ -136,7 +134,7 @@ TEST(DiagnoseByLaw, NothingThatChangedIsNone) {
     const ChainTruth truth = chain.scattered(random);
     const auto result =
         by_law(examine(chain, before_and_after(chain.measure(truth, &random), chain.measure(truth, &random)), catalogue()));
-    EXPECT_EQ(result.verdict, Verdict::none) << i << ": " << result.message;
+    EXPECT_EQ(result.verdict, diagnosis::Verdict::none) << i << ": " << result.message;
   }
 }
 
