@@ -176,6 +176,8 @@ class Headline(unittest.TestCase):
         text = self.sentence(verdict="unknown")
         self.assertTrue(text.startswith("None of the known causes explains the 40 measured values; that something is missing: over a million to 1"), text)
         self.assertNotIn("damper", text)
+        at = [{"location": "stay:NW3", "score": 4.0, "words": "the stay NW3, anchored at x = 27 m, y = 23 m, z = 13 m"}]
+        self.assertTrue(self.sentence(verdict="unknown", localisation=at).endswith("; look at the stay NW3."))
 
     def test_equally_well_only_within_a_factor_of_three(self):
         effect = made_up_answer.diagnosis()["effects"][0]

@@ -76,7 +76,7 @@ def of_diagnosis(told: dict, rows: int, beyond: int, updating: tuple | None) -> 
         against = told["detection"]["log_odds"]
         return _joined(first, [f"no cause needed: {odds_of_log(-against)}" if against < 0 and not beyond else "", _updated(updating)])
     if told["verdict"] == "unknown":
-        near = re.sub(r"\s*\([^()]*\)", "", (told.get("localisation") or [{}])[0].get("words", ""))
+        near = re.sub(r"\s*\([^()]*\)", "", (told.get("localisation") or [{}])[0].get("words", "")).split(",")[0]
         first = f"None of the known causes explains the {rows} measured values"
         return _joined(first, [f"that something is missing: {odds_of_log(told['detection']['log_odds'])}", f"look at {near}" if near else ""])
     leader, alike = effects[0], equally_well(effects[0])

@@ -56,7 +56,8 @@ def _lines(at, lines) -> str:
 
 
 def marked(study: Study, settings: dict, told: dict | None) -> dict | None:
-    """{svg, marks: [words of each marked place], unplaced: [words of causes without a place]}; None where there is nothing to draw."""
+    """{svg, marks: [words of each marked place], unplaced: [words of causes without a place], guessed: no cause is named there, a change would explain most};
+    None where there is nothing to draw."""
     folder = model_folder(study)
     drawing = read_drawing(study, folder) if folder else None
     measured = read_measured(study, settings) if drawing is None else None
@@ -72,7 +73,7 @@ def marked(study: Study, settings: dict, told: dict | None) -> dict | None:
     for number, cause in enumerate((c for c in found if c["spots"] or c["nodes"]), 1):
         body += _mark(cause, drawing, place, number if len(found) > 1 else None)
     return {"svg": place.svg(body, "layout first", "The structure" + (", the place marked" if found else "")),
-            "marks": [c["words"] for c in found if c["spots"] or c["nodes"]], "unplaced": [c["words"] for c in found if not c["spots"] and not c["nodes"]]}
+            "guessed": bool(found) and not (told["effects"] and told["verdict"] != "unknown"), "marks": [c["words"] for c in found if c["spots"] or c["nodes"]], "unplaced": [c["words"] for c in found if not c["spots"] and not c["nodes"]]}
 
 
 def causes(study: Study, settings: dict, folder, told: dict | None) -> list:
