@@ -19,7 +19,6 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   const auto& [model, measured, active, published] = read;
   const dynamics::LoadedModel before = dynamics::solvable(model);
   if (!before.state.status.converged) return before.state.status;
-  const std::vector<fe::Parameter>& parameters = before.system.parameters;
 
   // 2. Which measured mode belongs to which computed one.
   const dynamics::EigenModes modes_before =
@@ -50,12 +49,13 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   for (auto& row : matching::compare("after", measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
 
   // 5. Tables, the model, and the outcome in words.
-  steps::write_updating(parameters, active, comparison, config.common_pairs, result, context.out);
+  steps::write_updating(before.system.parameters, active, comparison, config.common_pairs, result, context.out);
   steps::write_mac(measured, followed, context.out);
   model_io::write_modes(model_io::published_modes(after.fe_model(), after.system, modes_after), context.out);
   model_io::save_model(before, result.theta, context.out / "model");
-  for (const std::string& line : steps::report_lines(parameters, active, result)) context.say(line);
+  for (const std::string& line : steps::report_lines(before.system.parameters, active, result)) context.say(line);
   steps::report_weighing(context, {before, active, measured, pairing, rows, result});
+  steps::warn_of_fit(context, measured, comparison, before.system.parameters, active, result);
   context.say(updating::summary_line(comparison, account));
   return result.status.converged ? matching::outcome(modes_after.status, account) : result.status;
 }

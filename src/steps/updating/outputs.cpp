@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "io/csv.hpp"
+#include "matching/hollow_fit.hpp"
 #include "steps/measured/comparison_tables.hpp"
 
 namespace twindeck::steps {
@@ -184,6 +185,16 @@ void write_updating(const std::vector<fe::Parameter>& parameters, const std::vec
   write_costs(result, folder / "costs.csv");
   write_leave_one_out(comparison, comparison.size() / 2, result, folder / "leave_one_out.csv");
   write_updating_summary(comparison, common, result, folder / "summary.csv");
+}
+
+void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,
+                 const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                 const updating::UpdatingResult& result) {
+  std::vector<std::string> on_bounds;
+  for (std::size_t j = 0; j < active.size(); ++j)
+    if (result.on_bound.at(j) != 0)
+      on_bounds.push_back(fmt::format("{} ({})", parameter_at(parameters, active, j).name, bound_name(result.on_bound[j])));
+  matching::warn_of_hollow_fit(reporter, measured, comparison, on_bounds);
 }
 
 std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,

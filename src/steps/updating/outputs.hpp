@@ -35,6 +35,11 @@ void write_updating(const std::vector<fe::Parameter>& parameters, const std::vec
                     const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                     const updating::UpdatingResult& result, const std::filesystem::path& folder);
 
+/// Warns of what a good fit of frequencies hides (matching/hollow_fit.hpp), parameters on their bounds among it.
+void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,
+                 const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
+                 const updating::UpdatingResult& result);
+
 /// What was found, for people: values before and after, bounds hit, cost and optimality of each start.
 [[nodiscard]] std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters,
                                                     const std::vector<int>& active, const updating::UpdatingResult& result);
