@@ -66,7 +66,7 @@ void StepContext::progress(const std::string& what, double done, double total) c
   }
   if (elapsed < 2.0 || seconds_since(activity.shown) < (terminal ? 0.2 : 10.0)) return;
   const double left = done > 0.0 ? elapsed * (total - done) / done : 0.0;
-  const std::string text = fmt::format("{}: {} {:.0f} %{}", token_, what, 100.0 * done / total,
+  const std::string text = fmt::format("{}: {}, {:.0f} of {:.0f}{}", token_, what, done, total,
                                        done > 0.0 ? fmt::format(", about {:.0f} s left", left) : "");
   std::fputs((terminal ? "\r\033[K" + text : text + "\n").c_str(), stderr);
   std::fflush(stderr);
