@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -199,6 +200,7 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
                               const IdentificationSettings& config, Index decimation) {
   IdentificationSettings without = config;
   std::map<std::string, std::string> reasons;  // of the channels that are left out
+  std::optional<LyingChannel> first;
   for (;;) {
     try {
       Conditioned conditioned = condition_with(campaign, group, without, decimation);
@@ -209,12 +211,14 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
         conditioned.warnings.push_back(fmt::format("setup {}: channel {} is left out: {}", conditioned.setup, name, reason));
       return conditioned;
     } catch (const LyingChannel& lie) {
+      if (!first) first = lie;
       const std::string& name = lie.place().key;
       const auto& names = group.records.front().channels;
       const auto responses = std::count_if(names.begin(), names.end(), [&](const std::string& n) {
         return !campaign.channel(n).is_input && !listed(without.exclude, n);
       });
-      if (campaign.channel(name).reference || listed(config.references, name) || responses < 2) throw;
+      if (campaign.channel(name).reference || listed(config.references, name)) throw;
+      if (responses < 2) throw LyingChannel(*first);
       without.exclude.push_back(name);
       reasons[name] = lie.what();
     }

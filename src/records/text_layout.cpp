@@ -239,12 +239,20 @@ std::vector<std::vector<std::string_view>> first_rows(const std::vector<std::str
   return rows;
 }
 
-/// A column of numbers that is time: by its name if it rises, without a name if it is the first and runs like time.
-void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
-  std::size_t finest = 0;
+/// The columns of the time stamps that are found, which another column replaces as the record's clock.
+void leave_stamps(TextLayout& layout) {
+  if (layout.time_column >= 0) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column));
+  if (layout.date_and_time) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column) + 1);
+  layout.stamps = layout.date_and_time = false;
+}
+
+/// Columns of numbers that are time: by name if they rise, without a name the first if it runs like time. The finest is the
+/// record's clock.
+/// @param finest  stamps that differ, in the column that is found so far
+void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows, std::size_t finest, TextLayout& layout) {
   for (std::size_t c = 0; c < layout.columns; ++c) {
     const bool named = !layout.names.empty() && is_time_name(layout.names[c]);
-    if (!named && (c > 0 || !layout.names.empty())) continue;
+    if (!number_in(rows.front()[c], layout.decimal_comma) || (!named && (c > 0 || !layout.names.empty()))) continue;
     const double unit = header_time_unit_s(layout, c);
     const bool other_unit = unit == 0.0 && !layout.names.empty() && !layout.units[c].empty();
     StampedRows stamps;
@@ -262,7 +270,7 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
       layout.other_times.push_back(c);
       continue;
     }
-    if (layout.time_column >= 0) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column));
+    leave_stamps(layout);
     layout.time_column = static_cast<int>(c);
     layout.time_unit_s = unit;
     finest = stamps.distinct();
@@ -279,12 +287,15 @@ void find_time(const std::vector<std::string>& lines, std::size_t first, TextLay
     layout.stamps = true;
     layout.date_and_time = is_date(cell) && c + 1 < layout.columns && !time_stamp_meanings(rows.front()[c + 1]).empty();
   }
-  if (layout.time_column < 0) return find_numbers_of_time(rows, layout);
-  for (std::size_t c = 0; c < layout.columns; ++c) {
-    const int from = layout.time_column, to = from + (layout.date_and_time ? 1 : 0), at = static_cast<int>(c);
-    const bool stamps = !number_in(rows.front()[c], layout.decimal_comma).has_value();
-    if ((at < from || at > to) && stamps) layout.other_times.push_back(c);
+  std::size_t distinct = 0;
+  if (layout.time_column >= 0) {
+    const auto from = static_cast<std::size_t>(layout.time_column), last = from + (layout.date_and_time ? 1 : 0);
+    for (std::size_t r = 1; r < rows.size(); ++r) distinct += rows[r][last] != rows[r - 1][last] ? 1 : 0;
+    for (std::size_t c = last + 1; c < layout.columns; ++c) {
+      if (!number_in(rows.front()[c], layout.decimal_comma)) layout.other_times.push_back(c);
+    }
   }
+  find_numbers_of_time(rows, distinct + 1, layout);
 }
 
 /// A row whose last cells are missing, or whose cells are words for missing values: it belongs to the rows below it.

@@ -172,7 +172,7 @@ class Channels(Records):
         self.same_as_in_order("mg_table", "channels.csv is taken, as unit_from says")
         self.csv(self.campaign("mg_file", "record.csv", 'unit_from = "file"\n'), [f"{c} [mg]" for c in CHANNELS], [0, 1, 2, 3])
         self.assertEqual(self.run_step("mg_file").returncode, 0)
-        rms = [[float(q["rms"]) for q in csv.DictReader((self.folder / out / "features/quality.csv").open())] for out in ("mg_file_out", "in_order_out")]
+        rms = [[float(q["rms"]) for q in csv.DictReader((self.folder / out / "features/quality.csv").read_text().splitlines())] for out in ("mg_file_out", "in_order_out")]
         np.testing.assert_allclose(rms[0], 9.80665e-3 * np.array(rms[1]), rtol=1e-9)
 
 
@@ -197,7 +197,7 @@ class Lies(Records):
                 warning, = [w for w in json.loads((out / "manifest.json").read_text())["warnings"] if "left out" in w]
                 self.assertIn("setup ST1: channel c03 is left out: ", warning)
                 self.assertIn(reason, warning)
-                quality = {q["channel"]: q["left_out"] for q in csv.DictReader((out / "features/quality.csv").open())}
+                quality = {q["channel"]: q["left_out"] for q in csv.DictReader((out / "features/quality.csv").read_text().splitlines())}
                 self.assertIn(reason, quality["c03"])
                 self.assertEqual({quality[c] for c in CHANNELS if c != "c03"}, {""})
 

@@ -122,6 +122,12 @@ TEST(ExportedTable, ColumnsOfTimeAreNoChannels) {
   const Record record = read(scratch.write("a.csv", text));
   EXPECT_EQ(record.info.channels.front().name, "t");  // counts: no time
   EXPECT_NEAR(record.info.rate_Hz, 100.0, 1e-6);
+  // Whole seconds beside milliseconds: the finer column is the clock.
+  std::string coarse = "Date,Time,time_ms,P1\n";
+  for (int t = 0; t < 200; ++t) coarse += fmt::format("2024-05-17,10:00:{:02},{},{}\n", t / 100, 10 * t, cell(wave(t, 0)));
+  const Record fine = read(scratch.write("c.csv", coarse));
+  expect_waves(fine, 200, 1, "coarse");
+  EXPECT_EQ(fine.info.rate_source, "time column 'time_ms'");
   // A name that says time above what is none is told.
   std::string none = "time,P1\n";
   for (int t = 0; t < 200; ++t) none += cell(wave(t, 1)) + "," + cell(wave(t, 0)) + "\n";
