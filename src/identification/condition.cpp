@@ -156,6 +156,7 @@ SetupResult read_setup(const records::Campaign& campaign, const records::RecordG
   SetupResult setup;
   setup.conditioned = condition_records(campaign, group, config, config.decimation);
   for (const std::string& note : setup.conditioned.notes) reporter.say(note);
+  for (const std::string& warning : setup.conditioned.warnings) reporter.warn(warning);
   auto [limits, note] = carried_by(setup.conditioned, config);
   setup.limits = std::move(limits);
   if (!note.empty()) reporter.warn(note);

@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 #include "core/error.hpp"
+#include "identification/lying_channels.hpp"
 #include "signal/condition.hpp"
 #include "sysid/input_output.hpp"
 
@@ -97,6 +102,7 @@ void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vect
     const auto channel = std::find_if(used.begin(), used.end(), [&](const auto& c) { return c.name == q.channel; });
     if (channel == used.end()) continue;
     const std::string without = "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'";
+    if (!q.left_out.empty()) throw LyingChannel({q.record, 0, q.channel}, q.left_out, without);
     if (q.dead) {
       throw UnusableRecord({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples),
                            without);
@@ -106,10 +112,31 @@ void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vect
   }
 }
 
-}  // namespace
+/// The responses that are used, for judge_channels.
+JudgedChannels judged_channels(const std::vector<Index>& columns, const Conditioned& conditioned,
+                               const records::CampaignRecord& record) {
+  JudgedChannels judged{columns, {}, {}, record.kind == "free_decay" || record.kind == "earthquake"};
+  for (const records::CampaignChannel& channel : conditioned.channels) {
+    judged.gain.push_back(channel.gain);
+    judged.reference.push_back(channel.reference);
+  }
+  return judged;
+}
 
-Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
-                              const IdentificationSettings& config, Index decimation) {
+/// Two records with the same samples would count as two measurements. @param seen  hash of the samples of each file so far
+void refuse_second_copy(const Samples& raw, const records::CampaignRecord& record, std::map<std::size_t, std::string>& seen) {
+  const std::string_view bytes(reinterpret_cast<const char*>(raw.data()),
+                               sizeof(double) * static_cast<std::size_t>(raw.size()));
+  const auto [at, is_new] = seen.emplace(std::hash<std::string_view>()(bytes), record.file.string());
+  if (is_new) return;
+  throw InputError(
+      {record.file.string(), 0, ""}, "holds the same samples as " + at->second + ", which the setup has too",
+      fmt::format("remove the [[record]] on line {} of campaign.toml: counted twice, deviations are too small", record.line));
+}
+
+/// As condition_records, with all channels that are not excluded.
+Conditioned condition_with(const records::Campaign& campaign, const records::RecordGroup& group,
+                           const IdentificationSettings& config, Index decimation) {
   const records::CampaignRecord& first = group.records.front();
   const std::vector<Index> columns = used_columns(campaign, first, config), input_columns = inputs_of(campaign, first, config);
   Conditioned conditioned;
@@ -141,10 +168,13 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
     }
     return out;
   };
+  std::map<std::size_t, std::string> seen;
   for (const records::CampaignRecord& record : group.records) {
     const auto [raw, notes] = records::read_record(campaign, record);
     const std::string file = record.file.lexically_relative(campaign.folder).generic_string();
-    const auto quality = channel_quality(raw, record.channels, record.setup, file);
+    refuse_second_copy(raw, record, seen);
+    auto quality = channel_quality(raw, record.channels, record.setup, file);
+    judge_channels(raw, judged_channels(columns, conditioned, record), quality);
     try {
       refuse_unusable(quality, conditioned.channels, config);
       refuse_unusable(quality, conditioned.inputs, config);
@@ -162,6 +192,37 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
   }
   return conditioned;
+}
+
+}  // namespace
+
+Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
+                              const IdentificationSettings& config, Index decimation) {
+  IdentificationSettings without = config;
+  std::map<std::string, std::string> reasons;  // of the channels that are left out
+  std::optional<LyingChannel> first;
+  for (;;) {
+    try {
+      Conditioned conditioned = condition_with(campaign, group, without, decimation);
+      for (ChannelQuality& q : conditioned.quality) {
+        if (reasons.contains(q.channel)) q.left_out = reasons.at(q.channel);
+      }
+      for (const auto& [name, reason] : reasons)
+        conditioned.warnings.push_back(fmt::format("setup {}: channel {} is left out: {}", conditioned.setup, name, reason));
+      return conditioned;
+    } catch (const LyingChannel& lie) {
+      if (!first) first = lie;
+      const std::string& name = lie.place().key;
+      const auto& names = group.records.front().channels;
+      const auto responses = std::count_if(names.begin(), names.end(), [&](const std::string& n) {
+        return !campaign.channel(n).is_input && !listed(without.exclude, n);
+      });
+      if (campaign.channel(name).reference || listed(config.references, name)) throw;
+      if (responses < 2) throw LyingChannel(*first);
+      without.exclude.push_back(name);
+      reasons[name] = lie.what();
+    }
+  }
 }
 
 Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {

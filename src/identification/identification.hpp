@@ -28,12 +28,15 @@ struct Conditioned {
   std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
   std::vector<std::string> notes;       ///< what the user should know of how the records were read
+  std::vector<std::string> warnings;    ///< channels that are left out, and why
 };
 
 /// Reads, judges, repairs as asked, detrends and decimates. A record that cannot be used is left out with a note, as long as
-/// another of the group is left.
+/// another of the group is left. A channel that is dead, stuck or a copy in all of them (judge_channels) is left out with a
+/// warning, unless it is a reference or the only response.
 /// @throws UnusableRecord  if none is left: a gap that is not to be filled, a dead or clipped channel
-/// @throws InputError  for an unknown reference, no response channel, a band beyond the records'
+/// @throws InputError  for two records of the same samples, an unknown reference, no response channel, a band beyond the
+/// records'
 [[nodiscard]] Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
                                             const IdentificationSettings& config, Eigen::Index decimation);
 

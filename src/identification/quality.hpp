@@ -18,6 +18,12 @@ class UnusableRecord : public InputError {
   using InputError::InputError;
 };
 
+/// A record whose channel cannot be what it says; where all records of a setup have it, the channel may be left out.
+class LyingChannel : public UnusableRecord {
+ public:
+  using UnusableRecord::UnusableRecord;
+};
+
 /// What is wrong with a channel of a record as it was read.
 struct ChannelQuality {
   std::string setup, record, channel;
@@ -29,6 +35,7 @@ struct ChannelQuality {
   double drift = 0.0;                      ///< change of the fitted straight line from begin to end, in units of the rms
   bool dead = false;                       ///< constant
   std::optional<LoneSample> lone;          ///< the sample that stands furthest off, alone
+  std::string left_out;                    ///< why the channel is not used, "" where it is
   std::optional<double> lag_s, lag_std_s;  ///< of its clock behind the first channel's, where it could be told
 };
 

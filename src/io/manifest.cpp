@@ -105,6 +105,7 @@ void write_manifest(const Manifest& manifest, const fs::path& folder) {
   json["status"] = manifest.status;
   json["message"] = manifest.message;
   json["warnings"] = manifest.warnings;
+  json["notes"] = manifest.notes;
   if (!manifest.corrections.empty()) json["corrections"] = manifest.corrections;
   json["seed"] = manifest.seed;
   json["threads"] = manifest.threads;

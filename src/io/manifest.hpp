@@ -14,6 +14,7 @@ struct Manifest {
   std::string status = "converged";      ///< "converged" | "unconverged"
   std::string message;                   ///< one line
   std::vector<std::string> warnings;     ///< doubtful inputs that the step used unchanged
+  std::vector<std::string> notes;        ///< what the step noticed of its inputs beside that
   std::vector<std::string> corrections;  ///< corrections applied to the measurement, in words; may be empty
   std::string config_toml;               ///< resolved configuration
   std::vector<std::string> command_line;

@@ -149,6 +149,11 @@ double value_of(const std::string& type, const char* at) {
 
 }  // namespace
 
+std::pair<Index, Index> shape_of_npy(const fs::path& file) {
+  const Header header = open_array(file).header;
+  return {header.rows, header.columns};
+}
+
 std::pair<Index, Index> visit_npy(const fs::path& file, const BlockVisitor& visit) {
   OpenArray array = open_array(file);
   std::ifstream& in = array.in;

@@ -9,6 +9,9 @@ namespace twindeck::io {
 /// A part of an array: its first row and column, and its values.
 using BlockVisitor = std::function<void(Eigen::Index first_row, Eigen::Index first_column, const Eigen::MatrixXd& block)>;
 
+/// Rows and columns of an NPY file. @throws InputError  as read_npy
+[[nodiscard]] std::pair<Eigen::Index, Eigen::Index> shape_of_npy(const std::filesystem::path& file);
+
 /// Walks through an NPY file in parts of about one megabyte: whole rows in C order, pieces of columns in Fortran order. Types
 /// as in read_npy. @return rows and columns
 /// @throws InputError  as read_npy

@@ -1,6 +1,7 @@
 #include "records/array_choice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,8 @@ bool is_step(const std::string& name) {
 
 }  // namespace
 
-ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::string& file) {
+ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::vector<std::string>& others,
+                          const std::string& file) {
   ArrayChoice choice;
   double largest = 0.0;  // a damaged file may say sizes whose product is beyond whole numbers
   std::size_t best = 0;
@@ -76,8 +78,10 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::stri
     }
   }
   if (largest < 16.0) {
-    throw InputError({file, 0, ""}, "holds no array of numbers of sixteen values or more",
-                     "store the samples as a two-dimensional array of real numbers");
+    throw InputError({file, 0, ""},
+                     fmt::format("holds no array of numbers of sixteen values or more{}{}", others.empty() ? "" : ": ",
+                                 fmt::join(others, ", ")),
+                     "store the samples of each measurement as a two-dimensional array of real numbers, samples x channels");
   }
   const Index samples = arrays[best].longer();
   if (arrays[best].shorter() > 1) {
@@ -114,40 +118,18 @@ void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& cho
   }
 }
 
+void name_channels(const std::vector<std::string>& texts, Index columns, RecordInfo& info) {
+  const bool with_time = std::ssize(texts) == columns && columns == std::ssize(info.channels) + 1;
+  if (std::ssize(texts) != std::ssize(info.channels) && !with_time) return;
+  for (std::size_t c = 0; c < info.channels.size(); ++c) info.channels[c].name = texts[c + (with_time ? 1 : 0)];
+  info.names_channels = info.has_header = true;
+}
+
 double rate_of(const std::string& name, double value) {
   if (!(value > 0.0) || !std::isfinite(value)) return 0.0;
   const std::string text = bare(name);
   if (is_step(text)) return 1.0 / value;
   return is_rate(text) ? value : 0.0;
-}
-
-double rate_of_times(const Eigen::VectorXd& times) {
-  const Index n = times.size();
-  if (n < 3) return 0.0;
-  const double step = (times[n - 1] - times[0]) / static_cast<double>(n - 1);
-  if (!(step > 0.0)) return 0.0;
-  for (Index i = 1; i < n; ++i) {
-    if (std::abs(times[i] - times[i - 1] - step) > 0.1 * step) return 0.0;
-  }
-  const double rate = 1.0 / step, round = std::round(rate * 1000.0) / 1000.0;
-  return std::abs(round / rate - 1.0) < 1e-6 ? round : rate;
-}
-
-void take_times(const std::string& name, const Eigen::VectorXd& times, RecordInfo& info) {
-  info.rate_Hz = rate_of_times(times);
-  info.rate_source = "'" + name + "'";
-  if (info.rate_Hz == 0.0) info.notes.push_back(info.rate_source + " does not run evenly");
-}
-
-void take_scalar(const std::string& name, double value, RecordInfo& info) {
-  const double rate = rate_of(name, value);
-  if (rate <= 0.0) return;
-  if (info.rate_Hz == 0.0) {
-    info.rate_Hz = rate;
-    info.rate_source = "'" + name + "'";
-  } else if (std::abs(rate / info.rate_Hz - 1.0) > 0.01) {
-    info.notes.push_back(fmt::format("'{}' says {} Hz, {} {} Hz", name, rate, info.rate_source, info.rate_Hz));
-  }
 }
 
 }  // namespace twindeck::records

@@ -27,19 +27,18 @@ struct ArrayChoice {
 
 /// The largest matrix is the record, its longer side the samples; vectors of one length are channels of their own. A vector of
 /// that length that is named t or time is the time.
+/// @param others  what the file holds besides, "'acc' has 3 dimensions", for the message
 /// @throws InputError  if no array has sixteen values or more
-[[nodiscard]] ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::string& file);
+[[nodiscard]] ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::vector<std::string>& others,
+                                        const std::string& file);
 
 /// The channels of the chosen arrays, and notes on further matrices.
 void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& choice, RecordInfo& info);
 
+/// Names the channels by the texts of a cell array, if there is one for each; one for the time's column may stand before them.
+/// @param columns  of the matrix
+void name_channels(const std::vector<std::string>& texts, Eigen::Index columns, RecordInfo& info);
+
 /// Rate that a scalar of this name and value says; 0 for none: fs, rate, sampling frequency …, dt, ts …
 [[nodiscard]] double rate_of(const std::string& name, double value);
-/// Rate of a vector of times; 0 if it does not run evenly.
-[[nodiscard]] double rate_of_times(const Eigen::VectorXd& times);
-/// Enters the rate of a vector of times, or notes that it does not run evenly.
-void take_times(const std::string& name, const Eigen::VectorXd& times, RecordInfo& info);
-/// Enters the rate that a scalar says, or notes that it contradicts the one that is known.
-void take_scalar(const std::string& name, double value, RecordInfo& info);
-
 }  // namespace twindeck::records

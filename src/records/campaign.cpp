@@ -16,6 +16,7 @@
 #include "records/column_match.hpp"
 #include "records/record.hpp"
 #include "records/recorded_unit.hpp"
+#include "records/take_clock.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -89,39 +90,102 @@ void check_record(const Campaign& campaign, const CampaignRecord& record, const 
   }
 }
 
-void check_rate(const Campaign& campaign, const CampaignRecord& record, const RecordInfo& info) {
-  if (info.rate_Hz > 0.0 && std::abs(info.rate_Hz / record.sampling_rate_Hz - 1.0) > 1e-3) {
-    throw InputError({(campaign.folder / "campaign.toml").string(), record.line_of("sampling_rate_Hz"), "sampling_rate_Hz"},
-                     fmt::format("is {}, but {} runs at {:.6g} Hz ({})", record.sampling_rate_Hz, record.file.string(),
-                                 info.rate_Hz, info.rate_source),
-                     "correct one of them; two clocks or a mixed rate show so");
+/// The rate that the file's stamps say. Where their unit is not known, it is the one that comes nearest to the rate stated.
+double rate_beside(const RecordInfo& info, double stated_Hz) {
+  double nearest = info.rate_Hz;
+  if (info.clock_unit_known || info.rate_Hz != info.clock.rate_Hz) return nearest;
+  for (const double factor : {1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9}) {
+    const double rate = info.rate_Hz * factor;
+    if (std::abs(std::log(rate / stated_Hz)) < std::abs(std::log(nearest / stated_Hz))) nearest = rate;
   }
-  for (const std::string& note : info.notes) {
-    if (note.find("backwards") != std::string::npos || note.find("different rates") != std::string::npos) {
-      throw InputError({record.file.string(), 0, ""}, note,
-                       "split the record where its clock jumps, or give each rate its own record");
-    }
-  }
+  return nearest;
 }
 
-/// What the file says of itself, for people: its notes, the names it was not read by, units other than those of channels.csv.
-std::vector<std::string> notes_of(const Campaign& campaign, const CampaignRecord& record, const RecordInfo& info,
-                                  const ColumnMatch& match) {
+/// A clock that is none, and a rate other than the one stated, are refused.
+/// @return "" or a note on a rate that differs by less than what counts
+std::string check_rate(const Campaign& campaign, const CampaignRecord& record, const RecordInfo& info) {
+  const RecordClock& clock = info.clock;
+  const Place place{record.file.string(), line_of(info, std::max(clock.steps_back, clock.changes_rate)), ""};
+  if (clock.reversed) {
+    throw InputError({record.file.string(), 0, ""}, "the time runs backwards throughout",
+                     "turn the order of its rows round, so that the first sample comes first");
+  }
+  if (clock.steps_back >= 0) {
+    throw InputError(place, "the time runs backwards at " + place_of(info, clock.steps_back),
+                     "split the record there, or put its rows in the order of their time");
+  }
+  if (clock.changes_rate >= 0) {
+    throw InputError(
+        place, fmt::format("the time stamps run at different rates, at another from {} on", place_of(info, clock.changes_rate)),
+        "give each rate its own record");
+  }
+  for (const std::string& note : info.notes) {
+    if (note.find("different rates") != std::string::npos)
+      throw InputError({record.file.string(), 0, ""}, note, "give each rate its own record");
+  }
+  if (info.rate_Hz <= 0.0) return "";
+  const double stated = record.sampling_rate_Hz, rate = rate_beside(info, stated);
+  const double share = info.rate_Hz == clock.rate_Hz ? clock.deviation_Hz / info.rate_Hz : 0.0,
+               off = std::abs(stated / rate - 1.0);
+  const std::string said =
+      fmt::format("{:.9g} Hz{} ({})", rate,
+                  share > 0.0 ? fmt::format(" with a standard deviation of {:.2g} Hz", share * rate) : "", info.rate_source);
+  if (off > std::max(kSameRate, kDeviationsOfARate * share)) {
+    throw InputError({(campaign.folder / "campaign.toml").string(), record.line_of("sampling_rate_Hz"), "sampling_rate_Hz"},
+                     fmt::format("is {}, but {} runs at {}", stated, record.file.string(), said),
+                     fmt::format("write sampling_rate_Hz = {:.9g}, or correct the times in the file", rate));
+  }
+  if (off <= std::max(kDeviationsOfARate * share, 1e-6)) return "";
+  return fmt::format("{}: runs at {}; sampling_rate_Hz = {}, which differs by {:.2g} %, is used", record.file.string(), said,
+                     stated, 100.0 * off);
+}
+
+/// What the file says of itself, for people: its notes, and the names that it was not read by.
+std::vector<std::string> notes_of(const CampaignRecord& record, const RecordInfo& info, const ColumnMatch& match) {
   std::vector<std::string> notes;
   for (const std::string& note : info.notes) notes.push_back(record.file.string() + ": " + note);
   if (!match.warning.empty()) notes.push_back(match.warning);
-  for (std::size_t c = 0; c < match.columns.size(); ++c) {
-    const CampaignChannel& channel = campaign.channel(record.channels[c]);
-    const std::string& unit = info.channels[static_cast<std::size_t>(match.columns[c])].unit;
-    const double stated = records::si_factor(unit), used = std::abs(channel.gain);
-    constexpr double other_unit = 2.0;  // two units of a quantity lie a factor of 9.8 apart or more; a calibration stays below
-    if (stated > 0.0 && (used > other_unit * stated || used < stated / other_unit)) {
-      notes.push_back(
-          fmt::format("{}: says that {} is in {}, but channels.csv has the unit {} and the gain {:.6g}, which is used",
-                      record.file.string(), channel.name, unit, channel.unit, channel.gain));
-    }
-  }
   return notes;
+}
+
+/// The gain of a channel. A unit in the file that contradicts channels.csv is refused, unless unit_from says which is right.
+/// @param notes  gets a line where the two contradict each other
+double gain_of(const Campaign& campaign, const CampaignRecord& record, std::size_t c, const std::string& unit,
+               std::vector<std::string>& notes) {
+  const CampaignChannel& channel = campaign.channel(record.channels[c]);
+  const auto known = recorded_unit(unit);
+  if (!known || known->si_factor <= 0.0) return channel.gain;
+  constexpr double other_unit = 2.0;  // two units of a quantity lie a factor of 9.8 apart or more; a calibration stays below
+  const double stated = known->si_factor, used = std::abs(channel.gain);
+  const bool other_quantity = known->quantity != channel.quantity;
+  if (!other_quantity && used <= other_unit * stated && used >= stated / other_unit) return channel.gain;
+  const std::string says =
+      fmt::format("says that {} is in {}, but channels.csv has the quantity {}, the unit {} and the gain {:.6g}", channel.name,
+                  unit, channel.quantity, channel.unit, channel.gain);
+  if (record.unit_from.empty() || (other_quantity && record.unit_from == "file")) {
+    throw InputError({record.file.string(), 0, channel.name}, says,
+                     "correct the one that is wrong, or say that channels.csv is right: unit_from = \"channels.csv\" in its "
+                     "[[record]] of campaign.toml (unit_from = \"file\" takes the file's unit)");
+  }
+  notes.push_back(fmt::format("{}: {}; {} is taken, as unit_from says", record.file.string(), says, record.unit_from));
+  if (record.unit_from == "channels.csv") return channel.gain;
+  const double own = si_factor(channel.unit);
+  return stated * (own > 0.0 ? channel.gain / own : channel.gain < 0.0 ? -1.0 : 1.0);
+}
+
+/// The same samples of the same channels, listed as two records of a kind, would count as two measurements.
+void refuse_twice(const std::vector<CampaignRecord>& records, const CampaignRecord& record, const fs::path& file) {
+  for (const CampaignRecord& other : records) {
+    std::error_code gone;
+    const bool same =
+        other.kind == record.kind && other.channels == record.channels && other.columns == record.columns &&
+        (other.file.lexically_normal() == record.file.lexically_normal() || fs::equivalent(other.file, record.file, gone));
+    if (!same) continue;
+    throw InputError({file.string(), record.line_of("file"), "file"},
+                     fmt::format("lists {} again, which the record on line {} has too: counted twice, deviations are too small",
+                                 record.file.lexically_relative(file.parent_path()).string(), other.line),
+                     "remove one of the two [[record]] tables");
+  }
 }
 
 /// Numbers beyond this are no record of a motion or force in any unit; their squares would be beyond what a number can hold. A
@@ -145,6 +209,35 @@ void refuse_absurd(const RecordSamples& samples, const CampaignRecord& record) {
                        "check the file, its type of numbers and the channel's gain");
     }
   }
+}
+
+/// A table [[record]] as it stands.
+struct ListedRecord {
+  CampaignRecord record;
+  std::string file;
+};
+
+io::FieldTable record_fields(ListedRecord& r) {
+  r.record.condition = "as_measured";
+  r.record.kind = "ambient";
+  io::FieldTable table;
+  table.path_name("setup", r.record.setup, "setup", "name of the setup", true)
+      .choice("kind", r.record.kind, kKinds, "what was recorded")
+      .text("file", r.file,
+            "samples: CSV as loggers write it, NPY, MAT 4, 5 or 7.3, HDF5, universal file; relative to campaign.toml", true)
+      .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", {io::lowest_rate_Hz, kNoLimit},
+              "samples a second of each channel", true)
+      .texts("channels", r.record.channels,
+             "what is recorded, names of channels.csv; the columns' order where the file has no names")
+      .texts("columns", r.record.columns,
+             "what the file calls each of `channels` (\"column 3\": the third); empty: it calls them so itself")
+      .boolean("skip_stray_lines", r.record.skip_stray_lines,
+               "leave out and count lines of a text file that are no rows of its table, instead of refusing them")
+      .choice("unit_from", r.record.unit_from, {"", "channels.csv", "file"},
+              "which is right where the file and channels.csv give a channel different units; empty: such a record is "
+              "refused")
+      .path_name("condition", r.record.condition, "condition", "table of conditions.toml");
+  return table;
 }
 
 }  // namespace
@@ -173,36 +266,14 @@ Campaign read_campaign(const fs::path& folder) {
   const std::vector<RecordLines> lines = record_lines(file);
 
   // The list is reserved, so that the fields bound to an element stay where they are.
-  struct Raw {
-    CampaignRecord record;
-    std::string file;
-  };
-  std::vector<Raw> raw;
+  std::vector<ListedRecord> raw;
   raw.reserve(lines.size() + 1);
   io::FieldTable fields;
   fields.tables(
       "record",
       [&raw] {
         raw.push_back({});
-        Raw& r = raw.back();
-        r.record.condition = "as_measured";
-        r.record.kind = "ambient";
-        io::FieldTable table;
-        table.path_name("setup", r.record.setup, "setup", "name of the setup", true)
-            .choice("kind", r.record.kind, kKinds, "what was recorded")
-            .text("file", r.file,
-                  "samples: CSV as loggers write it, NPY, MAT 4, 5 or 7.3, HDF5, universal file; relative to campaign.toml",
-                  true)
-            .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", {io::lowest_rate_Hz, kNoLimit},
-                    "samples a second of each channel", true)
-            .texts("channels", r.record.channels,
-                   "what is recorded, names of channels.csv; the columns' order where the file has no names")
-            .texts("columns", r.record.columns,
-                   "what the file calls each of `channels` (\"column 3\": the third); empty: it calls them so itself")
-            .boolean("skip_stray_lines", r.record.skip_stray_lines,
-                     "leave out and count lines of a text file that are no rows of its table, instead of refusing them")
-            .path_name("condition", r.record.condition, "condition", "table of conditions.toml");
-        return table;
+        return record_fields(raw.back());
       },
       "a record");
   fields.load(file);
@@ -214,6 +285,7 @@ Campaign read_campaign(const fs::path& folder) {
       record.lines = lines[i].keys;
     }
     check_record(campaign, record, file);
+    refuse_twice(campaign.records, record, file);
     campaign.records.push_back(record);
   }
   if (campaign.records.empty()) throw InputError({file.string(), 0, "record"}, "lists no record", "add a table [[record]]");
@@ -275,10 +347,16 @@ RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record
   const ReadOptions options{record.skip_stray_lines};
   constexpr std::uintmax_t large = std::uintmax_t{64} << 20U;  // bytes
   RecordSamples samples;
+  std::vector<double> gains;
   const auto match = [&](const RecordInfo& info) {
-    check_rate(campaign, record, info);
+    const std::string rate = check_rate(campaign, record, info);
     const ColumnMatch found = records::match_columns(info, record.channels, record.columns, record.file);
-    samples.notes = notes_of(campaign, record, info, found);
+    samples.notes = notes_of(record, info, found);
+    for (std::size_t c = 0; c < found.columns.size(); ++c) {
+      const std::string& unit = info.channels[static_cast<std::size_t>(found.columns[c])].unit;
+      gains.push_back(gain_of(campaign, record, c, unit, samples.notes));
+    }
+    if (!rate.empty()) samples.notes.push_back(rate);
     return found.columns;
   };
   // What the file's columns are called is known at its end only: a large file is walked through twice, so that columns that
@@ -294,8 +372,7 @@ RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record
     samples.values = file.samples(Eigen::all, match(file.info));
   }
   refuse_absurd(samples, record);
-  for (Index c = 0; c < samples.values.cols(); ++c)
-    samples.values.col(c) *= campaign.channel(record.channels[static_cast<std::size_t>(c)]).gain;
+  for (Index c = 0; c < samples.values.cols(); ++c) samples.values.col(c) *= gains[static_cast<std::size_t>(c)];
   return samples;
 }
 

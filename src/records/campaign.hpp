@@ -18,6 +18,7 @@ struct CampaignRecord {
   std::vector<std::string> channels;  ///< names of channels.csv
   std::vector<std::string> columns;   ///< what the file calls each of them; empty where it calls them so itself
   bool skip_stray_lines = false;      ///< leave out and count lines of a text file that are no rows, instead of refusing them
+  std::string unit_from;              ///< "channels.csv" | "file": which is right where their units differ; "": refuse
   long line = 0;                      ///< of campaign.toml
   std::map<std::string, long> lines;  ///< of each key there
   [[nodiscard]] long line_of(const std::string& key) const;
@@ -63,9 +64,9 @@ struct RecordSamples {
 
 /// The samples of a record, gains applied. A file's own names of its channels bind (records::match_columns); a key `columns` in
 /// campaign.toml says otherwise. NaN where a sample is missing (an empty cell, a gap of the time stamps, NaN in the file).
-/// @throws InputError  as records::read and match_columns; for a rate other than campaign.toml's by more than 0.1 %, a clock
-/// that runs
-///                     backwards, a value that no sensor gives
+/// @throws InputError  as records::read and match_columns; for a rate other than campaign.toml's by more than 0.1 % and
+/// three standard deviations, a clock that runs backwards or at two rates, a unit that contradicts channels.csv, a value that
+/// no sensor gives
 [[nodiscard]] RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record);
 
 }  // namespace twindeck::records

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "records/text_cells.hpp"
 
 namespace twindeck::records {
 using Eigen::Index;
@@ -20,6 +21,46 @@ std::vector<std::string> names_of(const RecordInfo& info) {
   std::vector<std::string> names;
   for (const ChannelInfo& channel : info.channels) names.push_back(channel.name);
   return names;
+}
+
+/// Letters and digits in lower case: "Acc 1", "ACC_1" and "acc1" are one name.
+std::string folded(const std::string& name) {
+  std::string text = lower(name);
+  std::erase_if(text, [](char c) { return c == ' ' || c == '_' || c == '-' || c == '.'; });
+  return text;
+}
+
+/// Position of the only channel of another name like that, by `same`; -1 for none or several.
+template <typename Same>
+Index only_one(const RecordInfo& info, const Same& same) {
+  Index found = -1;
+  for (std::size_t c = 0; c < info.channels.size(); ++c) {
+    const std::vector<std::string>& more = info.channels[c].other_names;
+    if (!same(info.channels[c].name) && std::none_of(more.begin(), more.end(), same)) continue;
+    if (found >= 0) return -1;
+    found = static_cast<Index>(c);
+  }
+  return found;
+}
+
+/// The channels by a further name of theirs, or by their names in another spelling, each once; with a note. Empty if not all
+/// are found.
+ColumnMatch by_other_names(const RecordInfo& info, const std::vector<std::string>& channels,
+                           const std::filesystem::path& file) {
+  ColumnMatch match;
+  std::vector<std::string> pairs;
+  for (const std::string& name : channels) {
+    Index at = only_one(info, [&](const std::string& other) { return other == name; });
+    if (at < 0) at = only_one(info, [&](const std::string& other) { return folded(other) == folded(name); });
+    if (at < 0 || std::find(match.columns.begin(), match.columns.end(), at) != match.columns.end()) return {};
+    match.columns.push_back(at);
+    const std::string& own = info.channels[static_cast<std::size_t>(at)].name;
+    if (own != name) pairs.push_back(fmt::format("{} is its '{}'", name, own));
+  }
+  constexpr std::size_t most = 4;  // pairs that are told
+  if (pairs.size() > most) pairs.resize(most);
+  match.warning = fmt::format("{}: names the channels in another way: {}", file.string(), fmt::join(pairs, ", "));
+  return match;
 }
 
 /// Position of the only channel of that name, or -1. @throws InputError  if there are several
@@ -90,6 +131,7 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
     if (at < 0 && misplaced.empty() && std::find(line.begin(), line.end(), name) != line.end()) misplaced = name;
   }
   if (match.columns.size() == channels.size()) return match;
+  if (ColumnMatch other = by_other_names(info, channels, file); !other.columns.empty()) return other;
   if (!misplaced.empty()) {
     throw InputError(
         {file.string(), info.unaligned_line, misplaced},

@@ -162,9 +162,10 @@ std::optional<double> rate_in_header_line(std::string_view text) {
 
 bool is_time_name(std::string_view text) {
   const std::string name = lower(text);
-  static constexpr std::array<std::string_view, 13> words = {"timestamp", "time stamp", "time_stamp", "time",     "zeit",
-                                                             "tempo",     "datum",      "date",       "data/ora", "elapsed",
-                                                             "seconds",   "sec",        "t"};
+  if (name.find("timestamp") != std::string::npos) return true;  // "sensorTimestamp_since1970"
+  static constexpr std::array<std::string_view, 19> words = {
+      "time stamp", "time_stamp", "time",    "zeit", "zeitstempel", "uhrzeit", "tempo", "tiempo", "datum", "date",
+      "datetime",   "data/ora",   "elapsed", "sec",  "seconds",     "epoch",   "utc",   "millis", "t"};
   const auto ends = [&](std::size_t at) { return at >= name.size() || !small_letter(name[at]); };
   for (std::size_t at = 0; at < name.size(); ++at) {
     if (at > 0 && small_letter(name[at - 1])) continue;

@@ -8,6 +8,7 @@
 
 #include "core/printable.hpp"
 #include "records/recorded_unit.hpp"
+#include "records/take_clock.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -80,7 +81,16 @@ Inspection inspect(const fs::path& file) {
   };
   // Whoever asks what a file holds is told of stray lines, not turned away.
   result.info = scan(file, look, {.skip_stray_lines = true});
-  for (const ChannelStatistics& channel : statistics) result.channels.push_back(channel.summary(samples));
+  const Index lost = result.info.clock.missing();
+  Index longest = 0;
+  for (const ClockGap& gap : result.info.clock.gaps) longest = std::max(longest, gap.samples);
+  for (const ChannelStatistics& channel : statistics) {
+    result.channels.push_back(channel.summary(samples));
+    ChannelSummary& s = result.channels.back();
+    s.samples += lost;
+    s.missing += lost;
+    s.longest_gap = std::max(s.longest_gap, longest);
+  }
   result.channels.resize(result.info.channels.size());
   return result;
 }
@@ -108,6 +118,26 @@ std::string guess(const ChannelSummary& channel) {
   return "mg, mV, µm or counts, by the size";
 }
 
+std::string deviation_of(const RecordInfo& info) {
+  return info.clock.deviation_Hz > 1e-9 * info.rate_Hz ? fmt::format(" +- {:.2g} Hz", info.clock.deviation_Hz) : "";
+}
+
+/// How the time stamps lie about even ones, and where samples are missing or there twice.
+std::string stamps_of(const RecordInfo& info) {
+  constexpr std::size_t most = 10;  // places that are told
+  const RecordClock& clock = info.clock;
+  std::string text = fmt::format("{:.4g} sample{} each, {:.2g} s about even ones (robust deviation){}", clock.shared_by,
+                                 clock.shared_by == 1.0 ? "" : "s", clock.scatter_s,
+                                 info.clock_unit_known ? "" : "; their unit is not given, the likely one is taken");
+  text += clock.gaps.empty() ? "; no gaps, no repeats" : "";
+  for (std::size_t k = 0; k < std::min(clock.gaps.size(), most); ++k) {
+    const ClockGap& gap = clock.gaps[k];
+    text += gap.samples > 0 ? fmt::format("; {} missing from {} on", gap.samples, place_of(info, gap.row))
+                            : fmt::format("; {} there twice from {} on", -gap.samples, place_of(info, gap.row));
+  }
+  return text + (clock.gaps.size() > most ? fmt::format("; {} more", clock.gaps.size() - most) : "");
+}
+
 }  // namespace
 
 std::vector<std::string> describe(const Inspection& inspection) {
@@ -118,9 +148,10 @@ std::vector<std::string> describe(const Inspection& inspection) {
   lines.push_back(
       fmt::format("channels  {}, {} samples{}", info.channels.size(), samples,
                   info.rate_Hz > 0.0 ? fmt::format(", {:.6g} s", static_cast<double>(samples) / info.rate_Hz) : ""));
-  lines.push_back(info.rate_Hz > 0.0
-                      ? fmt::format("rate      {:.9g} Hz, from the {}", info.rate_Hz, printable(info.rate_source))
-                      : "rate      unknown");
+  lines.push_back(info.rate_Hz > 0.0 ? fmt::format("rate      {:.9g} Hz{}, from the {}", info.rate_Hz, deviation_of(info),
+                                                   printable(info.rate_source))
+                                     : "rate      unknown");
+  if (info.clock.rate_Hz > 0.0) lines.push_back("stamps    " + stamps_of(info));
   lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12} {:>12}", "channel", "unit", "samples", "missing",
                               "longest", "clipped", "mean", "rms"));
   std::vector<std::string> missing;

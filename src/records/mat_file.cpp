@@ -86,7 +86,7 @@ MatFile level_4(const fs::path& file, std::uint64_t size) {
     const std::uint64_t data = at + kLevel4Header + header->name;
     const NamedArray shape{name, static_cast<Index>(header->rows), static_cast<Index>(header->columns)};
     if (header->imaginary == 1 || header->kind() == 2) {
-      mat.notes.push_back(fmt::format("'{}' is {}, left out", name, header->kind() == 2 ? "sparse" : "complex"));
+      mat.notes.push_back(fmt::format("'{}' is {}", name, header->kind() == 2 ? "sparse" : "complex"));
     } else if (header->kind() == 0 && values > 0) {
       mat.arrays.push_back({shape, storage, data, values * item, false, 0, true});
     }

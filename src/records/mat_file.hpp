@@ -30,7 +30,7 @@ struct MatFile {
   bool swapped = false;  ///< the other order of bytes than this machine's
   std::vector<MatArray> arrays;
   std::vector<std::vector<std::string>> texts;  ///< of each cell array that holds texts only
-  std::vector<std::string> notes;               ///< arrays that were left out, and why
+  std::vector<std::string> notes;               ///< arrays that are left out, and why: "'acc' is complex"
 };
 
 /// First bytes of a file of that version.

@@ -1,6 +1,7 @@
 #include "records/mat_level_5.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -122,22 +123,30 @@ class Variable {
     if (dimensions.size() < 8 || dimensions.size() % 4 != 0) fail("has a damaged header");
     const Tag name_tag = tag();
     const std::string own = data(name_tag, end, kLongestName), name = outer.empty() ? own : outer;
-    const std::uint64_t rows = word_of(dimensions, 0), columns = word_of(dimensions, 1);
+    // Dimensions of length 1 are none.
+    std::vector<std::uint64_t> lengths;
+    for (std::size_t k = 0; k < dimensions.size() / 4; ++k) {
+      if (dimensions.size() == 8 || word_of(dimensions, k) != 1) lengths.push_back(word_of(dimensions, k));
+    }
+    lengths.resize(std::max<std::size_t>(lengths.size(), 2), 1);
+    const std::uint64_t rows = lengths[0], columns = lengths[1];
     if (texts != nullptr && kind != kText) texts->all = false;
-    if (dimensions.size() > 8) {
+    if (lengths.size() > 2) {
       if (kind >= kFirstNumber)
-        mat_.notes.push_back(fmt::format("'{}' has {} dimensions, left out", name, dimensions.size() / 4));
+        mat_.notes.push_back(fmt::format("'{}' has {} dimensions ({})", name, lengths.size(), fmt::join(lengths, " x ")));
     } else if (kind == kStructure && rows == 1 && columns == 1 && depth < kDeepest) {
       fields(end, name, depth);
     } else if (kind == kCell && depth < kDeepest) {
-      cells(end, rows * columns, depth);
+      cells(end, name, rows * columns, depth);
     } else if (kind == kText && texts != nullptr) {
       texts->texts.push_back(text(end));
     } else if (kind >= kFirstNumber) {
       numbers(end, name, rows, columns, (word_of(flags, 0) & kComplexFlag) != 0);
       if (depth == 0) return;  // the data are read later, by those who want them
     } else if (kind == kSparse) {
-      mat_.notes.push_back(fmt::format("'{}' is sparse, left out", name));
+      mat_.notes.push_back(fmt::format("'{}' is sparse", name));
+    } else if (kind == kStructure) {
+      mat_.notes.push_back(fmt::format("'{}' is an array of {} structures", name, rows * columns));
     }
     skip_to(end);
   }
@@ -165,10 +174,11 @@ class Variable {
     }
   }
 
-  void cells(std::uint64_t end, std::uint64_t count, int depth) {
+  void cells(std::uint64_t end, const std::string& name, std::uint64_t count, int depth) {
     part_.alone = false;
     CellTexts texts;
-    for (std::uint64_t k = 0; k < count && source_.position() < end; ++k) inner(end, "", depth + 1, &texts);
+    for (std::uint64_t k = 0; k < count && source_.position() < end; ++k)
+      inner(end, fmt::format("{}{{{}}}", name, k + 1), depth + 1, &texts);
     if (texts.all && texts.texts.size() == count) mat_.texts.push_back(texts.texts);
   }
 
@@ -189,7 +199,7 @@ class Variable {
 
   void numbers(std::uint64_t end, const std::string& name, std::uint64_t rows, std::uint64_t columns, bool complex) {
     if (complex) {
-      mat_.notes.push_back(fmt::format("'{}' is complex, left out", name));
+      mat_.notes.push_back(fmt::format("'{}' is complex", name));
       return;
     }
     if (rows == 0 || columns == 0) return;

@@ -9,11 +9,13 @@
 #include "core/error.hpp"
 #include "io/npy.hpp"
 #include "io/regular_file.hpp"
+#include "records/first_column.hpp"
 #include "records/mat_file.hpp"
 #include "records/scan_hdf5.hpp"
 #include "records/scan_mat.hpp"
 #include "records/scan_text.hpp"
 #include "records/scan_universal.hpp"
+#include "records/take_clock.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -60,15 +62,22 @@ RecordInfo scan_npy(const fs::path& file, const Visitor& visit) {
   RecordInfo info;
   info.format = "NPY";
   info.has_header = false;
-  const auto [rows, columns] = io::visit_npy(file, visit);
-  for (Index c = 0; c < columns; ++c) {
+  const auto [rows, columns] = io::shape_of_npy(file);
+  const bool along_rows = columns > rows;
+  FirstColumn first_column(visit, std::min(rows, columns));
+  io::visit_npy(file, [&](Index row, Index column, const Eigen::MatrixXd& block) {
+    if (along_rows) return first_column(column, row, block.transpose());
+    first_column(row, column, block);
+  });
+  for (Index c = 0; c < std::min(rows, columns); ++c) {
     ChannelInfo channel;
     channel.position = c + 1;
     channel.name = "column " + std::to_string(c + 1);
-    channel.samples = rows;
+    channel.samples = std::max(rows, columns);
     info.channels.push_back(channel);
   }
-  if (columns > rows) info.notes.push_back("more columns than rows: samples x channels is expected, transpose the array");
+  if (along_rows) info.notes.emplace_back("channels run along the rows");
+  first_column.finish(info);
   return info;
 }
 
@@ -119,6 +128,7 @@ Record read(const fs::path& file, const ReadOptions& options) {
   const auto gather = [&](Index row, Index column, const Eigen::MatrixXd& block) { gathered.add(row, column, block); };
   record.info = scan(file, gather, options);
   record.samples = gathered.take();
+  if (!record.info.clock.gaps.empty()) record.samples = on_the_clock(Samples(record.samples), record.info, file);
   return record;
 }
 
@@ -132,8 +142,8 @@ Samples read(const fs::path& file, const std::vector<Index>& columns, Index n_sa
       if (at >= 0 && at < block.cols()) samples.col(static_cast<Index>(k)).segment(row, block.rows()) = block.col(at);
     }
   };
-  scan(file, put, options);
-  return samples;
+  const RecordInfo info = scan(file, put, options);
+  return on_the_clock(std::move(samples), info, file);
 }
 
 }  // namespace twindeck::records

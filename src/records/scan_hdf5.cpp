@@ -9,7 +9,9 @@
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
+#include "records/first_column.hpp"
 #include "records/survives.hpp"
+#include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
@@ -116,6 +118,23 @@ bool shape_of(hid_t dataset, bool matlab, NamedArray& array, std::string& proble
   return true;
 }
 
+/// What a dataset is that is no array of numbers of one or two dimensions; "" for texts and the like.
+std::string what_else(hid_t dataset) {
+  const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  const H5T_class_t kind = H5Tget_class(type.get());
+  if (kind == H5T_COMPOUND) {
+    std::string members;
+    for (unsigned k = 0; k < static_cast<unsigned>(std::max(H5Tget_nmembers(type.get()), 0)) && k < 8; ++k) {
+      char* member = H5Tget_member_name(type.get(), k);
+      members += (k > 0 ? ", " : "") + std::string(member);
+      H5free_memory(member);
+    }
+    return fmt::format("is a table of compound rows ({}): save its columns as an array, in pandas by to_csv", members);
+  }
+  return (kind == H5T_FLOAT || kind == H5T_INTEGER) && rank > 2 ? fmt::format("has {} dimensions", rank) : "";
+}
+
 /// Values of a part, in C order.
 Eigen::MatrixXd part(hid_t dataset, Index row, Index column, Index rows, Index columns, const std::string& file) {
   const Handle space(H5Dget_space(dataset), H5Sclose);
@@ -135,6 +154,7 @@ struct Found {
   std::vector<NamedArray> arrays;
   std::vector<std::string> problems;  ///< of each array: why its values cannot be had, "" for none
   std::vector<std::string> cells;     ///< MATLAB's cell arrays
+  std::vector<std::string> others;    ///< what is no array of numbers of two dimensions, and why
   std::vector<std::pair<std::string, double>> attributes;
 };
 
@@ -164,6 +184,8 @@ herr_t visit_object(hid_t file, const char* name, const H5O_info_t* info, void* 
   if (shape_of(object.get(), found.matlab, array, problem)) {
     found.arrays.push_back(array);
     found.problems.push_back(problem);
+  } else if (const std::string other = what_else(object.get()); !other.empty()) {
+    found.others.push_back(fmt::format("'{}' {}", name, other));
   } else if (found.matlab && text_attribute(object.get(), "MATLAB_class") == "cell") {
     found.cells.emplace_back(name);
   }
@@ -201,11 +223,15 @@ void read_rate(const std::function<Eigen::MatrixXd(std::size_t)>& whole, const A
                RecordInfo& info) {
   if (choice.time >= 0) {
     const auto at = static_cast<std::size_t>(choice.time);
-    take_times(found.arrays[at].name, whole(at).reshaped(), info);
+    StampedRows stamps;
+    const Eigen::MatrixXd times = whole(at);
+    for (const double time : times.reshaped()) stamps.add(time);
+    take_clock(stamps, 0.0, "'" + found.arrays[at].name + "'", info);
   }
-  for (const auto& [name, value] : found.attributes) take_scalar(name, value, info);
+  for (const auto& [name, value] : found.attributes) take_stated_rate(rate_of(name, value), "'" + name + "'", info);
   for (const std::size_t at : choice.scalars) {
-    if (found.problems[at].empty()) take_scalar(found.arrays[at].name, whole(at)(0, 0), info);
+    const std::string& name = found.arrays[at].name;
+    if (found.problems[at].empty()) take_stated_rate(rate_of(name, whole(at)(0, 0)), "'" + name + "'", info);
   }
 }
 
@@ -228,6 +254,7 @@ RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
                        : fmt::format("{}, {} {}", kind, channels, found.matlab ? "vectors" : "datasets");
   list_channels(found.arrays, choice, info);
   if (matrix && columns > rows) info.notes.emplace_back("channels run along the rows");
+  for (const std::string& other : found.others) info.notes.push_back(other + ", left out");
   for (ChannelInfo& channel : info.channels) channel.name = called(channel.name, found.matlab);
   return info;
 }
@@ -255,7 +282,7 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
   std::ifstream(file, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   found.matlab = beginning == "MATLAB 7.3";
   look_through(handle.get(), found);
-  const ArrayChoice choice = choose_arrays(found.arrays, file.string());
+  const ArrayChoice choice = choose_arrays(found.arrays, found.others, file.string());
   for (const std::size_t at : choice.data) {
     if (found.problems[at].empty()) continue;
     throw InputError({file.string(), 0, found.arrays[at].name}, found.problems[at],
@@ -265,6 +292,7 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
   const auto open = [&](std::size_t at) { return H5Dopen(handle.get(), found.arrays[at].name.c_str(), H5P_DEFAULT); };
   const Index samples = found.arrays[choice.data.front()].longer();
   const bool matrix = choice.data.size() == 1;
+  FirstColumn first_column(visit, matrix ? std::ssize(info.channels) : 1);
   const Index chunk = std::max<Index>(1, 131072 / (matrix ? std::ssize(info.channels) : 1));
   for (std::size_t k = 0; k < choice.data.size(); ++k) {
     const Handle dataset(open(choice.data[k]), H5Dclose);
@@ -274,18 +302,15 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
     for (Index at = 0; at < samples; at += chunk) {
       const Index n = std::min(chunk, samples - at);
       if (along_rows) {
-        visit(at, first_channel, part(dataset.get(), 0, at, array.rows, n, file.string()).transpose());
+        first_column(at, first_channel, part(dataset.get(), 0, at, array.rows, n, file.string()).transpose());
       } else {
-        visit(at, first_channel, part(dataset.get(), at, 0, n, array.columns, file.string()));
+        first_column(at, first_channel, part(dataset.get(), at, 0, n, array.columns, file.string()));
       }
     }
   }
-  for (const std::string& cell : found.cells) {
-    const std::vector<std::string> texts = texts_of(handle.get(), cell);
-    if (texts.size() != info.channels.size()) continue;
-    for (std::size_t c = 0; c < texts.size(); ++c) info.channels[c].name = texts[c];
-    info.names_channels = info.has_header = true;
-  }
+  const Index columns = std::ssize(info.channels);
+  first_column.finish(info);
+  for (const std::string& cell : found.cells) name_channels(texts_of(handle.get(), cell), columns, info);
   const auto whole = [&](std::size_t at) {
     const Handle dataset(open(at), H5Dclose);
     if (!found.problems[at].empty()) throw InputError({file.string(), 0, found.arrays[at].name}, found.problems[at]);

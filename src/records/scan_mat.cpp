@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
+#include "records/first_column.hpp"
 #include "records/mat_file.hpp"
+#include "records/take_clock.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -41,9 +44,15 @@ void visit_matrix(const MatFile& mat, const MatArray& array, bool transposed, co
 void read_rate(const MatFile& mat, const ArrayChoice& choice, RecordInfo& info) {
   if (choice.time >= 0) {
     const MatArray& times = mat.arrays[static_cast<std::size_t>(choice.time)];
-    take_times(times.shape.name, values_of(mat, times), info);
+    StampedRows stamps;
+    const Eigen::VectorXd values = values_of(mat, times);
+    for (const double time : values) stamps.add(time);
+    take_clock(stamps, 0.0, "'" + times.shape.name + "'", info);
   }
-  for (const std::size_t at : choice.scalars) take_scalar(mat.arrays[at].shape.name, values_of(mat, mat.arrays[at])[0], info);
+  for (const std::size_t at : choice.scalars) {
+    const std::string& name = mat.arrays[at].shape.name;
+    take_stated_rate(rate_of(name, values_of(mat, mat.arrays[at])[0]), "'" + name + "'", info);
+  }
 }
 
 }  // namespace
@@ -52,31 +61,29 @@ RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
   const MatFile mat = read_mat_contents(file);
   std::vector<NamedArray> shapes;
   for (const MatArray& array : mat.arrays) shapes.push_back(array.shape);
-  const ArrayChoice choice = choose_arrays(shapes, file.string());
+  const ArrayChoice choice = choose_arrays(shapes, mat.notes, file.string());
   const NamedArray& first = shapes[choice.data.front()];
   const bool matrix = choice.data.size() == 1;
   const Index channels = matrix ? first.shorter() : static_cast<Index>(choice.data.size());
   RecordInfo info;
-  info.notes = mat.notes;
+  for (const std::string& other : mat.notes) info.notes.push_back(other + ", left out");
   info.format =
       fmt::format("MAT {}, ", mat.version) +
       (matrix ? fmt::format("array '{}' {} x {}", first.name, first.rows, first.columns) : fmt::format("{} vectors", channels));
   list_channels(shapes, choice, info);
   if (choice.transposed) info.notes.push_back("channels run along the rows");
 
+  FirstColumn first_column(visit, channels);
   if (matrix) {
-    visit_matrix(mat, mat.arrays[choice.data.front()], choice.transposed, visit);
+    visit_matrix(mat, mat.arrays[choice.data.front()], choice.transposed, std::ref(first_column));
+    first_column.finish(info);
   } else {
     for (std::size_t c = 0; c < choice.data.size(); ++c) {
       visit_values(mat, mat.arrays[choice.data[c]], kValues,
                    [&](Index sample, const Eigen::VectorXd& values) { visit(sample, static_cast<Index>(c), values); });
     }
   }
-  for (const auto& texts : mat.texts) {
-    if (static_cast<Index>(texts.size()) != channels) continue;
-    for (std::size_t c = 0; c < texts.size(); ++c) info.channels[c].name = texts[c];
-    info.names_channels = info.has_header = true;
-  }
+  for (const auto& texts : mat.texts) name_channels(texts, channels, info);
   read_rate(mat, choice, info);
   return info;
 }

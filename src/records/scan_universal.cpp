@@ -11,8 +11,10 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 #include "records/universal_lines.hpp"
+#include "records/universal_names.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -70,6 +72,8 @@ struct Series {
   Index values = 0;
   bool even = true, binary = false, swapped = false;
   double step = 0.0;
+  double unit_s = 1.0;  ///< of the abscissa
+  StampedRows stamps;   ///< where it is uneven
   std::size_t bytes = 0;
   ChannelInfo channel;
   [[nodiscard]] bool is_complex() const { return data_type == 5 || data_type == 6; }
@@ -99,15 +103,14 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
     if (!numbers.empty()) series.swapped = numbers[0] == 2.0;
     if (numbers.size() >= 4) series.bytes = static_cast<std::size_t>(count_in(numbers[3], in.size()).value_or(0));
   }
-  std::string title;
-  for (int i = 0; i < 5; ++i) {
-    const std::string line = need_inside(in, what);
-    if (i == 0) title = field(line, 0, 80);
-  }
-  const std::string identity = need_inside(in, what);
+  std::vector<std::string>& names = series.channel.other_names;
+  for (int i = 0; i < 5; ++i) names.push_back(field(need_inside(in, what), 0, 80));
+  const std::string identity = need_inside(in, what), entity = field(identity, 31, 10);
   series.function = static_cast<int>(integer_or(field(identity, 0, 5), 0));
   series.channel.point = field(identity, 41, 10);
   series.channel.direction = direction_name(integer_or(field(identity, 51, 4), 0));
+  if (entity != "NONE" && !entity.empty()) names.insert(names.end(), {entity + series.channel.direction, entity});
+  names.push_back(series.channel.point + series.channel.direction);
   const std::string form = need_inside(in, what);
   const auto numbers = form_of(form);
   if (numbers.size() < 5)
@@ -128,15 +131,14 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
             "write the set again");
   const std::string axis = need_inside(in, what);
   series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
+  if (const double unit = time_unit_s(field(axis, 47, 20)); unit > 0.0) series.unit_s = unit;
   const std::string ordinate = need_inside(in, what);
   series.channel.unit = field(ordinate, 47, 20);
   if (series.channel.unit == "NONE") series.channel.unit.clear();
   need_inside(in, what);
   need_inside(in, what);
   series.channel.samples = series.values;
-  if (series.even && series.step > 0.0) series.channel.rate_Hz = 1.0 / series.step;
-  const bool named = !title.empty() && title != "NONE";
-  series.channel.name = named ? title : fmt::format("{}{}", series.channel.point, series.channel.direction);
+  if (series.even && series.step > 0.0) series.channel.rate_Hz = 1.0 / (series.step * series.unit_s);
   return series;
 }
 
@@ -190,26 +192,23 @@ std::vector<double> series_numbers(UniversalLines& in, const std::string& line) 
   return values;
 }
 
-void read_text_values(UniversalLines& in, const Series& series, const std::string& what, Parts& parts, double& step) {
+void read_text_values(UniversalLines& in, Series& series, const std::string& what, Parts& parts) {
   const Index each = width(series), wanted = series.values * each;
-  double first = 0.0;
   for (Index k = 0; k < wanted;) {
     const std::string line = in.need(fmt::format("{} after {} of {} values", what, k / each, series.values));
     if (is_delimiter(line))
       in.fail(fmt::format("{} ends after {} of {} values", what, k / each, series.values), "write the set again");
     for (const double value : series_numbers(in, line)) {
       if (k >= wanted) break;
-      const Index within = k % each, sample = k / each;
-      if (!series.even && within == 0 && sample == 0) first = value;
-      if (!series.even && within == 0 && sample == 1) step = value - first;
+      const Index within = k % each;
+      if (!series.even && within == 0) series.stamps.add(value);
       if (within == (series.even ? 0 : 1)) parts.add(value);
       ++k;
     }
   }
 }
 
-void read_binary_values(UniversalLines& in, const Series& series, const std::string& what, Parts& parts, double& step,
-                        RecordInfo& info) {
+void read_binary_values(UniversalLines& in, Series& series, const std::string& what, Parts& parts, RecordInfo& info) {
   const std::size_t size = series.is_double() ? 8 : 4;
   // An uneven abscissa is single in set 58, whatever the ordinate is.
   const std::size_t abscissa = series.even ? 0 : 4, ordinate = size * (series.is_complex() ? 2 : 1);
@@ -227,7 +226,6 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
     in.take(1);
     info.notes.push_back(what + " has a newline before its binary data");
   }
-  double first = 0.0;
   Index done = 0;
   while (done < series.values) {
     const Index n = std::min(kValuesOfAPart, series.values - done);
@@ -235,11 +233,7 @@ void read_binary_values(UniversalLines& in, const Series& series, const std::str
     const auto complete = static_cast<Index>(data.size() / sample);
     for (Index k = 0; k < complete; ++k) {
       const char* at = data.data() + static_cast<std::size_t>(k) * sample;
-      if (!series.even && done + k < 2) {
-        const double x = binary_value(at, false, series.swapped);
-        if (done + k == 0) first = x;
-        if (done + k == 1) step = x - first;
-      }
+      if (!series.even) series.stamps.add(binary_value(at, false, series.swapped));
       parts.add(binary_value(at + abscissa, series.is_double(), series.swapped));
     }
     done += complete;
@@ -252,13 +246,16 @@ void read_series(UniversalLines& in, const std::string& set_line, const Visitor&
   Series series = read_series_header(in, set_line, what);
   series.channel.position = std::ssize(info.channels) + others + 1;
   Parts parts(visit, series.is_time() ? static_cast<Index>(info.channels.size()) : -1);
-  double step = series.step;
   if (series.binary)
-    read_binary_values(in, series, what, parts, step, info);
+    read_binary_values(in, series, what, parts, info);
   else
-    read_text_values(in, series, what, parts, step);
+    read_text_values(in, series, what, parts);
   parts.flush();
-  if (!series.even && step > 0.0) series.channel.rate_Hz = 1.0 / step;
+  if (!series.even && series.is_time()) {
+    RecordInfo own;  // all channels share the first one's clock; another's rate is held against it later
+    take_clock(series.stamps, series.unit_s, "abscissa", info.channels.empty() ? info : own);
+    series.channel.rate_Hz = info.channels.empty() ? info.rate_Hz : own.rate_Hz;
+  }
   if (series.is_time())
     info.channels.push_back(series.channel);
   else
@@ -472,6 +469,7 @@ RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
   RecordInfo info;
   const UniversalData data = scan_universal_sets(file, visit, info);
   info.names_channels = true;
+  name_by_difference(info.channels);
   info.format = fmt::format("universal file, {} time series, {} nodes, {} lines, {} shapes", info.channels.size(),
                             data.nodes.size(), data.lines.size(), data.results.size());
   for (const ChannelInfo& channel : info.channels) {

@@ -17,14 +17,6 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-bool ends_with_separator(std::string_view line, char separator) {
-  while (!line.empty() && (line.back() == '\r' || line.back() == '\n' || (line.back() == ' ' && separator != ' ')))
-    line.remove_suffix(1);
-  return separator != ' ' && line.ends_with(separator);
-}
-
-std::string_view without_mark(std::string_view line) { return line.starts_with("\xEF\xBB\xBF") ? line.substr(3) : line; }
-
 std::string lower(std::string_view text) {
   std::string result(text);
   std::transform(result.begin(), result.end(), result.begin(),
@@ -72,7 +64,8 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);
   if (separator == ' ') {
     for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
-      const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+      const std::size_t close = line[at] == '"' ? line.find('"', at + 1) : std::string_view::npos;
+      const std::size_t end = std::min(line.find_first_of(" \t", close == std::string_view::npos ? at : close), line.size());
       cells.push_back(trimmed(line.substr(at, end - at)));
       at = line.find_first_not_of(" \t", end);
     }
@@ -90,7 +83,6 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
     cells.push_back(trimmed(line.substr(at, end - at)));
     at = end + 1;
   }
-  if (cells.size() > 1 && cells.back().empty()) cells.pop_back();
   return cells;
 }
 
@@ -105,10 +97,14 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(begin, stop, value);
   if (error == std::errc() && end == stop) return std::isfinite(value) ? value : nan;
-  static const std::array<std::string_view, 11> missing = {"nan", "null", "na",   "n/a",  "#n/a",   "-",
-                                                           "--",  "---",  "over", "ovld", "invalid"};
-  const std::string text = lower(cell);
-  if (std::find(missing.begin(), missing.end(), text) != missing.end()) return nan;
+  static const std::array<std::string_view, 29> missing = {
+      "null", "na",      "n/a",   "n.a.",       "#n/a",      "none",     "missing",    "no data", "nodata",  "over",
+      "ovld", "ovl",     "ol",    "over range", "overrange", "overload", "underrange", "under",   "invalid", "bad",
+      "open", "#value!", "#num!", "#div/0!",    "#ref!",     "1.#inf",   "1.#qnan",    "1.#ind",  "1.#snan"};
+  std::string text = lower(cell);
+  if (text.find_first_not_of("-*?.") == std::string::npos) return nan;  // "---", "****"
+  text.erase(0, text.front() == '-' || text.front() == '+' ? 1 : 0);
+  if (text.starts_with("nan") || std::find(missing.begin(), missing.end(), text) != missing.end()) return nan;
   return {};
 }
 

@@ -8,19 +8,14 @@
 
 namespace twindeck::records {
 
-/// Cells of a line, blanks and quotes around them taken off; an empty cell after a last separator is no cell.
+/// Cells of a line, blanks and quotes around them taken off; a last separator opens an empty cell.
 /// @param separator  ' ' for any run of blanks
 [[nodiscard]] std::vector<std::string_view> cells_of(std::string_view line, char separator);
-/// A number ("1,5" with a decimal comma; Fortran's D exponent), NaN for a missing value (empty, NaN, ---, #N/A, OVER …),
+/// A number ("1,5" with a decimal comma; Fortran's D exponent), NaN for a missing value (empty, NaN, ---, ***, #N/A, OVER …),
 /// nothing for other text.
 [[nodiscard]] std::optional<double> number_in(std::string_view cell, bool decimal_comma);
 /// "03.04.2021", "2021-04-03" and the like: three whole numbers with '-', '.' or '/' between.
 [[nodiscard]] bool is_date(std::string_view cell);
-
-/// Whether a row's last cell is empty: cells_of leaves it out.
-[[nodiscard]] bool ends_with_separator(std::string_view line, char separator);
-/// A file's first line without the mark of UTF-8 (EF BB BF).
-[[nodiscard]] std::string_view without_mark(std::string_view line);
 
 /// Without blanks, line ends and quotes at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);

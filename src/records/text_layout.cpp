@@ -9,16 +9,16 @@
 
 #include "core/error.hpp"
 #include "records/header_rate.hpp"
+#include "records/record_clock.hpp"
+#include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
+#include "records/text_lines.hpp"
 #include "records/time_stamp.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double kStepScatter = 0.25;  ///< [-] of the usual step: clocks that print few digits scatter by that
-constexpr double kEvenSteps = 0.9;     ///< [-] of the steps must be usual ones for a column to be a clock: the rest are gaps
 
 // What of a file's beginning is looked at for its layout: lines, bytes.
 constexpr std::size_t kLines = 2000;
@@ -86,30 +86,57 @@ std::vector<std::string_view> header_cells(std::string_view text, char separator
   std::string_view line = trimmed(text);
   while (!line.empty() && (line.front() == '#' || line.front() == '%' || line.front() == '/')) line = trimmed(line.substr(1));
   if (line.find_first_not_of("-=_+*:;,| \t\"") == std::string_view::npos) return {};
-  return cells_of(line, separator);
+  auto cells = cells_of(line, separator);
+  while (cells.size() > 1 && cells.back().empty()) cells.pop_back();
+  return cells;
 }
 
-/// Whether the line above a run names its columns: as many cells, none of them a value, letters in one at least.
-bool has_names_above(const std::vector<std::string>& lines, const Run& run, const TextLayout& layout) {
+/// How many columns the line above a run names: all of its cells are no values, and one at least holds letters. 0 for none.
+std::size_t names_above(const std::vector<std::string>& lines, const Run& run, const TextLayout& layout) {
   for (std::size_t i = run.first; i-- > 0;) {
     const auto cells = header_cells(lines[i], layout.separator);
     if (cells.empty()) continue;
     const auto is_text = [&](std::string_view cell) { return cell.empty() || !is_value(cell, layout.decimal_comma); };
     const bool any = std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
-    return any && cells.size() == run.columns && std::all_of(cells.begin(), cells.end(), is_text);
+    return any && std::all_of(cells.begin(), cells.end(), is_text) ? cells.size() : 0;
   }
-  return false;
+  return 0;
 }
 
 /// Rows of numbers within a header (serial numbers, calibration factors) are fewer than this.
 constexpr std::size_t kLeastRun = 3;
 
-/// The run that the data begin with: the first as wide as the longest that is no part of a header.
+bool fits(const Run& run, const TextLayout& layout) { return run.columns >= layout.fewest && run.columns <= layout.columns; }
+
+/// Columns of the table: cells that the last separator opens in each row, with no name above, are none; where the names are
+/// more than the cells of most rows, and some row has as many, the last cells are left out where they are empty.
+void find_width(const std::vector<std::string>& lines, const std::vector<Run>& runs, TextLayout& layout) {
+  const Run longest = longest_of(runs);
+  const std::size_t named = names_above(lines, runs.front(), layout);
+  layout.fewest = layout.columns = longest.columns;
+  const auto is_empty = [&](const Run& run) {
+    for (std::size_t i = run.first, found = 0; found < run.length; ++i) {
+      const auto cells = cells_of(lines[i], layout.separator);
+      if (holds_no_value(lines[i], layout.separator, layout.decimal_comma)) continue;
+      ++found;
+      if (cells.size() >= layout.columns && !cells[layout.columns - 1].empty()) return false;
+    }
+    return true;
+  };
+  while (layout.columns > 1 && named != layout.columns && layout.separator != ' ' &&
+         std::all_of(runs.begin(), runs.end(), [&](const Run& r) { return r.columns != longest.columns || is_empty(r); })) {
+    layout.fewest = --layout.columns;
+  }
+  const bool full = std::any_of(runs.begin(), runs.end(), [&](const Run& run) { return run.columns == named; });
+  if (named > longest.columns && full) layout.columns = named;
+}
+
+/// The run that the data begin with: the first as wide as the table that is no part of a header.
 Run first_of_data(const std::vector<std::string>& lines, const std::vector<Run>& runs, const TextLayout& layout) {
   const Run longest = longest_of(runs);
   for (const Run& run : runs) {
-    if (run.columns != longest.columns) continue;
-    if (run.first == longest.first || run.length >= kLeastRun || has_names_above(lines, run, layout)) return run;
+    if (run.columns != longest.columns && !fits(run, layout)) continue;
+    if (run.first == longest.first || run.length >= kLeastRun || names_above(lines, run, layout) == layout.columns) return run;
   }
   return longest;
 }
@@ -153,8 +180,11 @@ void split_unit(std::string& name, std::string& unit) {
 void read_names(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
   std::vector<std::vector<std::string>> above;  // the nearest first
   for (std::size_t i = first; i-- > 0 && above.size() < 2;) {
-    const auto cells = header_cells(lines[i], layout.separator);
+    auto cells = header_cells(lines[i], layout.separator);
     if (cells.empty()) continue;
+    // Separators at the end of a line of names or units close it as they close the rows.
+    if (cells.size() < layout.columns && cells_of(lines[i], layout.separator).size() >= layout.columns)
+      cells.resize(layout.columns);
     if (cells.size() != layout.columns) {
       if (above.empty() && cells.size() > 1) {
         layout.unaligned.assign(cells.begin(), cells.end());
@@ -184,81 +214,109 @@ void read_header_rate(const std::vector<std::string>& lines, std::size_t first, 
   }
 }
 
-/// Steps of a column of numbers over the run's lines: all positive and alike.
-bool runs_evenly(const std::vector<double>& values) {
-  if (values.size() < 3) return false;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
-  std::vector<double> sorted = steps;
-  std::sort(sorted.begin(), sorted.end());
-  const double middle = sorted[sorted.size() / 2];
-  if (!(middle > 0.0) || sorted.front() < 0.0) return false;
-  const auto alike =
-      std::count_if(steps.begin(), steps.end(), [&](double s) { return std::abs(s - middle) < kStepScatter * middle; });
-  return static_cast<double>(alike) > kEvenSteps * static_cast<double>(steps.size());
+/// [s] that the header gives a column of time, in its unit or at the end of its name ("time_ms"); 0 where it gives none.
+double header_time_unit_s(const TextLayout& layout, std::size_t column) {
+  if (layout.names.empty()) return 0.0;
+  if (const double unit = time_unit_s(layout.units[column]); unit > 0.0) return unit;
+  const std::string& name = layout.names[column];
+  const std::size_t last = name.find_last_of(" _");
+  return last == std::string::npos ? 0.0 : time_unit_s(name.substr(last + 1));
+}
+
+/// Rows of the table at the beginning of a file, as cells.
+std::vector<std::vector<std::string_view>> first_rows(const std::vector<std::string>& lines, std::size_t first,
+                                                      const TextLayout& layout) {
+  std::vector<std::vector<std::string_view>> rows;
+  for (std::size_t i = first; i < lines.size(); ++i) {
+    std::size_t columns = 0;
+    if (!is_data(lines[i], layout.separator, layout.decimal_comma, columns)) continue;
+    auto cells = cells_of(lines[i], layout.separator);
+    while (cells.size() > layout.columns && cells.back().empty()) cells.pop_back();
+    if (cells.size() < layout.fewest || cells.size() > layout.columns) continue;
+    cells.resize(layout.columns);
+    rows.push_back(std::move(cells));
+  }
+  return rows;
+}
+
+/// The columns of the time stamps that are found, which another column replaces as the record's clock.
+void leave_stamps(TextLayout& layout) {
+  if (layout.time_column >= 0) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column));
+  if (layout.date_and_time) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column) + 1);
+  layout.stamps = layout.date_and_time = false;
+}
+
+/// Columns of numbers that are time: by name if they rise, without a name the first if it runs like time. The finest is the
+/// record's clock.
+/// @param finest  stamps that differ, in the column that is found so far
+void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows, std::size_t finest, TextLayout& layout) {
+  for (std::size_t c = 0; c < layout.columns; ++c) {
+    const bool named = !layout.names.empty() && is_time_name(layout.names[c]);
+    if (!number_in(rows.front()[c], layout.decimal_comma) || (!named && (c > 0 || !layout.names.empty()))) continue;
+    const double unit = header_time_unit_s(layout, c);
+    const bool other_unit = unit == 0.0 && !layout.names.empty() && !layout.units[c].empty();
+    StampedRows stamps;
+    for (const auto& row : rows)
+      stamps.add(number_in(row[c], layout.decimal_comma).value_or(std::numeric_limits<double>::quiet_NaN()));
+    const bool letter = named && unit == 0.0 && trimmed(layout.names[c]).size() == 1;  // T may be a temperature
+    const bool time =
+        named && !letter && !other_unit ? stamps.mostly_rises() || stamps.clock(1.0).reversed : stamps.runs_like_time();
+    if (!time) {
+      if (named && !(letter && other_unit))
+        layout.notes.push_back("column '" + layout.names[c] + "' does not run like time and is read as a channel");
+      continue;
+    }
+    if (layout.time_column >= 0 && stamps.distinct() <= finest) {
+      layout.other_times.push_back(c);
+      continue;
+    }
+    leave_stamps(layout);
+    layout.time_column = static_cast<int>(c);
+    layout.time_unit_s = unit;
+    finest = stamps.distinct();
+  }
 }
 
 void find_time(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
-  constexpr std::size_t most = 200;  // rows that are looked at
-  std::vector<std::vector<std::string_view>> rows;
-  for (std::size_t i = first; i < lines.size() && rows.size() < most; ++i) {
-    std::size_t columns = 0;
-    if (is_data(lines[i], layout.separator, layout.decimal_comma, columns) && columns == layout.columns) {
-      rows.push_back(cells_of(lines[i], layout.separator));
-    }
-  }
+  const auto rows = first_rows(lines, first, layout);
+  if (rows.empty()) return;
   for (std::size_t c = 0; c < layout.columns && layout.time_column < 0; ++c) {
     const std::string_view cell = rows.front()[c];
-    if (is_date(cell) && !number_in(cell, layout.decimal_comma)) {
-      layout.time_column = static_cast<int>(c);
-      layout.date_and_time = c + 1 < layout.columns && !time_stamp_meanings(rows.front()[c + 1]).empty();
-      layout.stamps = true;
-    } else if (!number_in(cell, layout.decimal_comma)) {
-      layout.time_column = static_cast<int>(c);
-      layout.stamps = true;
+    if (number_in(cell, layout.decimal_comma)) continue;
+    layout.time_column = static_cast<int>(c);
+    layout.stamps = true;
+    layout.date_and_time = is_date(cell) && c + 1 < layout.columns && !time_stamp_meanings(rows.front()[c + 1]).empty();
+  }
+  std::size_t distinct = 0;
+  if (layout.time_column >= 0) {
+    const auto from = static_cast<std::size_t>(layout.time_column), last = from + (layout.date_and_time ? 1 : 0);
+    for (std::size_t r = 1; r < rows.size(); ++r) distinct += rows[r][last] != rows[r - 1][last] ? 1 : 0;
+    for (std::size_t c = last + 1; c < layout.columns; ++c) {
+      if (!number_in(rows.front()[c], layout.decimal_comma)) layout.other_times.push_back(c);
     }
   }
-  for (std::size_t c = 0; c < layout.columns && layout.time_column < 0; ++c) {
-    const bool named = !layout.names.empty() && is_time_name(layout.names[c]);
-    if (c > 0 && !named) continue;
-    std::vector<double> values;
-    for (const auto& row : rows)
-      values.push_back(number_in(row[c], layout.decimal_comma).value_or(std::numeric_limits<double>::quiet_NaN()));
-    // A first column that runs evenly is time, unless it has a name that says otherwise or only counts the samples.
-    const bool counts = values.size() > 2 && values[1] - values[0] == 1.0 && values[2] - values[1] == 1.0 && !named;
-    if (!runs_evenly(values) || counts || (!named && !layout.names.empty())) continue;
-    layout.time_column = static_cast<int>(c);
-  }
-  if (layout.time_column >= 0 && !layout.stamps && !layout.units.empty()) {
-    const std::string unit = lower(layout.units[static_cast<std::size_t>(layout.time_column)]);
-    layout.time_unit_s = unit == "ms" ? 1e-3 : unit == "us" || unit == "\xC2\xB5s" ? 1e-6 : unit == "min" ? 60.0 : 1.0;
-  }
+  find_numbers_of_time(rows, distinct + 1, layout);
 }
 
-/// A row whose last cell is empty, or whose cells are words for missing values: it belongs to the rows below it.
+/// A row whose last cells are missing, or whose cells are words for missing values: it belongs to the rows below it.
 bool is_incomplete_row(const std::string& line, const TextLayout& layout) {
   std::size_t columns = 0;
-  if (line.find_first_not_of(" \t\r;,|\"") == std::string::npos) return false;
+  if (line.find_first_not_of(" \t\r;,|\"-=_+*:") == std::string::npos) return false;  // empty, or a ruler
   if (is_data(line, layout.separator, layout.decimal_comma, columns))
-    return columns + 1 == layout.columns && ends_with_separator(line, layout.separator);
-  return columns == layout.columns && holds_no_value(line, layout.separator, layout.decimal_comma);
+    return columns >= layout.fewest && columns <= layout.columns && layout.fewest < layout.columns;
+  return cells_of(line, layout.separator).size() == layout.columns &&
+         holds_no_value(line, layout.separator, layout.decimal_comma);
 }
 
 /// The first lines of a file as UTF-8.
 std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
-  std::ifstream in(file, std::ios::binary);
+  TextLines in(file);
   std::vector<std::string> lines;
   std::size_t bytes = 0;
-  for (std::string line; lines.size() < kLines && bytes < kBytes && std::getline(in, line);) {
-    const long number = std::ssize(lines) + 1;
+  layout.utf16 = in.is_utf16();
+  for (std::string line; lines.size() < kLines && bytes < kBytes && in.next(line);) {
+    const long number = in.number();
     bytes += line.size();
-    if (lines.empty()) {
-      if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF")) {
-        throw InputError({file.string(), number, ""}, "is UTF-16, expected UTF-8 or latin-1",
-                         "save it as UTF-8 (iconv -f UTF-16 -t UTF-8)");
-      }
-      line = std::string(without_mark(line));
-    }
     if (line.size() > 1000000) {
       throw InputError({file.string(), number, ""}, "has a line of over a million characters",
                        "check the file: it may be binary");
@@ -292,7 +350,6 @@ TextLayout find_layout(const fs::path& file) {
   for (const char separator : {';', '\t', ',', '|', ' '}) {
     if (fixed != '\0' && separator != fixed) continue;
     for (const bool comma : {false, true}) {
-      if (comma && separator == ',') continue;
       std::vector<Run> found = runs_of(lines, separator, comma);
       const Run run = longest_of(found);
       if (run.length > longest.length || (run.length == longest.length && run.columns > longest.columns)) {
@@ -308,8 +365,8 @@ TextLayout find_layout(const fs::path& file) {
         {file.string(), 0, ""}, "has no two lines of numbers that follow one another",
         "a record is a table of numbers, one line a sample, after any header; known are also NPY, MAT, HDF5, universal files");
   }
+  find_width(lines, runs, layout);
   std::size_t first = first_of_data(lines, runs, layout).first;
-  layout.columns = longest.columns;
   while (first > 0 && is_incomplete_row(lines[first - 1], layout)) --first;
   layout.first_data_line = static_cast<long>(first) + 1;
   read_names(lines, first, layout);

@@ -9,20 +9,24 @@ namespace twindeck::records {
 
 /// How a text file holds its numbers.
 struct TextLayout {
+  bool utf16 = false;
   bool latin1 = false;   ///< bytes that are no UTF-8: µ, °, ² of an old logger
   char separator = ',';  ///< ' ' for any run of blanks
   bool decimal_comma = false;
   long first_data_line = 1;  ///< from 1
   std::size_t columns = 0;
+  std::size_t fewest = 0;          ///< cells of a row whose last ones are left out where they are empty
   std::vector<std::string> names;  ///< one a column, empty where the file has none
   std::vector<std::string> units;  ///< one a column, empty where it has none
   std::vector<std::string>
       unaligned;  ///< cells of the line above the numbers if it has another number of them than there are columns
   long unaligned_line = 0;
   int time_column = -1;
-  bool date_and_time = false;  ///< date in time_column, time of day in the next
-  bool stamps = false;         ///< time stamps, not seconds
-  double time_unit_s = 1.0;    ///< 0.001 for milliseconds
+  bool date_and_time = false;            ///< date in time_column, time of day in the next
+  bool stamps = false;                   ///< time stamps, not numbers
+  double time_unit_s = 0.0;              ///< [s] of numbers: 0.001 for milliseconds; 0 where the file does not say
+  std::vector<std::size_t> other_times;  ///< further columns of time: no channels
+  std::vector<std::string> notes;        ///< on columns whose names say time
   std::optional<double> header_rate_Hz;
   std::string header_rate_text;  ///< the line that says so
 };

@@ -40,8 +40,9 @@ double seconds_since(Clock::time_point then) { return std::chrono::duration<doub
 }  // namespace
 
 void StepContext::say(const std::string& line) const {
-  if (quiet) return;
   const std::lock_guard lock(screen());
+  if (out.empty() && (warnings_.empty() || line != "warning: " + warnings_.back())) notes_.push_back(line);
+  if (quiet) return;
   const char* clear = ::isatty(STDERR_FILENO) ? "\r\033[K" : "";  // a progress line may stand there
   std::fputs(fmt::format("{}{}: {}\n", clear, token_, printable(line)).c_str(), stderr);
   last_written() = Clock::now();

@@ -130,6 +130,9 @@ io::Manifest manifest_of(const Status& status, const Step& step, const StepConte
   manifest.threads = context.threads;
   for (const auto& [path, hash] : context.input_hashes_) manifest.inputs[path] = hash;
   manifest.outputs = hashes_below(context.out);
+  manifest.warnings = context.warnings_;
+  manifest.notes = context.notes_;
+  manifest.corrections = context.corrections_;
   return manifest;
 }
 
@@ -191,8 +194,6 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
 
   // 3. The manifest comes last.
   io::Manifest manifest = manifest_of(status, step, context);
-  manifest.warnings = context.warnings_;
-  manifest.corrections = context.corrections_;
   manifest.command_line.assign(argv, argv + argc);
   manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   io::write_manifest(manifest, context.out);

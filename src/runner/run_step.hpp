@@ -36,7 +36,8 @@ class StepContext : public Reporter {
   std::filesystem::path input(const std::filesystem::path& path);
   /// The path that a configuration names: "{results}/…" lies below --results, other paths are relative to the current folder.
   [[nodiscard]] std::filesystem::path resolved(const std::string& path) const;
-  /// A line for people on stderr, prefixed with the step's token; nothing with --quiet.
+  /// A line for people on stderr, prefixed with the step's token; nothing with --quiet. What is said while the inputs are read
+  /// is kept in the manifest too, whatever is quiet.
   void say(const std::string& line) const override;
   /// A doubtful input that the step uses unchanged: printed as "warning: …", except with --quiet, and kept in the manifest.
   void warn(const std::string& line) override;
@@ -46,7 +47,8 @@ class StepContext : public Reporter {
 
   std::map<std::string, std::string> input_hashes_;  ///< path as given -> SHA-256 when it was registered
   std::vector<std::string> warnings_;
-  std::vector<std::string> corrections_;  ///< of --correct, in words
+  mutable std::vector<std::string> notes_;  ///< said while the inputs were read
+  std::vector<std::string> corrections_;    ///< of --correct, in words
   std::vector<std::pair<std::string, std::string>> flags_;
   std::string token_;
 };

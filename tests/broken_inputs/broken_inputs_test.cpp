@@ -97,12 +97,12 @@ class BrokenInput : public testing::TestWithParam<Case> {
   void TearDown() override { fs::remove_all(root_); }
 
   /// The step of the case, as the table says it.
-  Outcome run(const std::vector<std::string>& more) const {
+  Outcome run(const std::vector<std::string>& more, bool loud = false) const {
     const Case& c = GetParam();
     Job job{c.step, more, work_};
     for (const std::string& word : c.arguments) job.arguments.push_back(filled_in(word, root_));
     if (!c.own_out) job.arguments.insert(job.arguments.end(), {"--out", "out/" + c.step});
-    if (c.quiet) job.arguments.emplace_back("--quiet");
+    if (c.quiet && !loud) job.arguments.emplace_back("--quiet");
     return c.program ? run_program(fs::path(TWINDECK_BINARY_DIR) / "bin", job, kMostSeconds) : worker().run(job);
   }
 
@@ -120,6 +120,11 @@ TEST_P(BrokenInput, EndsAsTheTableSays) {
   evidence.after = snapshot(root_);
   const std::string check_fault = fault_of_check(checked, evidence.outcome, computed_cases().contains(c.name));
   if (!check_fault.empty()) ADD_FAILURE() << c.name << ": " << check_fault;
+  const auto manifest = evidence.after.find(evidence.out + "/manifest.json");
+  if (c.exit == 0 && evidence.outcome.exit == 0 && manifest != evidence.after.end()) {
+    for (const std::string& line : unrecorded(c.step, run({"--check"}, true).stderr_text, manifest->second))
+      ADD_FAILURE() << c.name << ": is said of the input, but manifest.json does not hold it: " << line;
+  }
   const std::vector<std::string> found = faults(c, evidence);
   if (open_cases().contains(c.name)) {
     if (found.empty()) ADD_FAILURE() << c.name << ": is answered rightly now; take it out of open.txt";

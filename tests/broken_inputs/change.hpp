@@ -27,8 +27,8 @@ namespace twindeck::broken {
 ///     link FILE TARGET              a symbolic link stands in its place
 ///     pipe FILE                     a named pipe that nobody writes to
 ///     copy FILE TO                  a second file or folder of the same content
-///     record FILE FORMAT            the sound record (made_record.hpp) in csv, npy, mat4, mat5, mat5z, mat73, hdf5, uff or
-///     uffb covariance FILE ROWS STD      an NPY matrix: STD squared on the diagonal element FILE ROW COLUMN VALUE an element
+///     record FILE FORMAT            the sound record (made_record.hpp) in csv, npy, mat4, mat5, mat5z, mat73, hdf5, uff,
+///     uffb … covariance FILE ROWS STD      an NPY matrix: STD squared on the diagonal element FILE ROW COLUMN VALUE an element
 ///     of an NPY matrix of float64 in C order
 ///
 /// @throws std::runtime_error  for a change that cannot be made or changes nothing: a case must not pass because it did nothing

@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "core/printable.hpp"
 
 namespace twindeck::broken {
 namespace {
@@ -140,6 +145,24 @@ std::string fault_of_check(const Outcome& checked, const Outcome& ran, bool only
   if (refused && checked.stderr_text != ran.stderr_text)
     return fmt::format("--check says: {}, the run says: {}", shown(checked.stderr_text), shown(ran.stderr_text));
   return "";
+}
+
+std::vector<std::string> unrecorded(const std::string& step, const std::string& said, const std::string& manifest) {
+  const auto json = nlohmann::json::parse(manifest);
+  std::set<std::string> kept;
+  for (const char* list : {"warnings", "notes"}) {
+    for (const auto& line : json.at(list)) kept.insert(printable(line.get<std::string>()));
+  }
+  std::vector<std::string> missing;
+  std::istringstream lines(said);
+  for (std::string line; std::getline(lines, line);) {
+    for (const std::string& before : {step + ": ", std::string("warning: ")}) {
+      if (line.starts_with(before)) line.erase(0, before.size());
+    }
+    const bool of_check = line.starts_with("  ") || line.starts_with("inputs are valid");
+    if (!of_check && !kept.contains(line)) missing.push_back(line);
+  }
+  return missing;
 }
 
 }  // namespace twindeck::broken

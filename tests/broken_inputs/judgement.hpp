@@ -35,4 +35,10 @@ struct Evidence {
 /// @return empty where the answer is right
 [[nodiscard]] std::string fault_of_check(const Outcome& checked, const Outcome& ran, bool only_computing_shows_it);
 
+/// Lines that a step says of its inputs and that its manifest does not hold, as a warning or a note.
+/// @param said  stderr of --check without --quiet, which reads the inputs and nothing more @param manifest  text of the run's
+/// manifest.json
+[[nodiscard]] std::vector<std::string> unrecorded(const std::string& step, const std::string& said,
+                                                  const std::string& manifest);
+
 }  // namespace twindeck::broken

@@ -26,13 +26,45 @@ constexpr Eigen::Index kSamples = 3000;
 constexpr double kRate_Hz = 50.0;
 const char* const kNames[] = {"A_x", "B_x", "C_z"};
 
-void write_csv(const fs::path& file) {
+/// Seconds as a time of day.
+std::string time_of_day(double seconds, int decimals) {
+  const double s = std::fmod(seconds, 86400.0);
+  return fmt::format("{:02.0f}:{:02.0f}:{:0{}.{}f}", std::floor(s / 3600.0), std::floor(std::fmod(s, 3600.0) / 60.0),
+                     std::fmod(s, 60.0), decimals > 0 ? 3 + decimals : 2, decimals);
+}
+
+/// The stamp of a sample, as some logger writes it. True rates of packets, late and seconds: 50.4 Hz.
+std::string stamp_of(const std::string& kind, Eigen::Index t) {
+  constexpr double true_rate_Hz = 50.4;
+  const auto at = static_cast<double>(t);
+  const double late = std::fmod(at * 0.6180339887498949, 1.0);  // evenly spread, in no order
+  if (kind == "packets") {
+    const double last = std::floor(at / 25.0) * 25.0;
+    return fmt::format("{:.0f}", 1.7e12 + 1e3 * last / true_rate_Hz + 40.0 * std::fmod(last * 0.6180339887498949, 1.0));
+  }
+  if (kind == "late") return fmt::format("{:.3f}", at / true_rate_Hz + 0.008 * late);
+  if (kind == "seconds") return fmt::format("{:.0f}", 1.7e9 + std::floor(at / true_rate_Hz));
+  if (kind == "gap")  // five seconds are missing from sample 1000 on
+    return "2024-05-17 " + time_of_day(36000.0 + std::floor((t < 1000 ? at : at + 250.0) / kRate_Hz), 0);
+  if (kind == "midnight") return time_of_day(86390.0 + at / kRate_Hz, 2);
+  if (kind == "reversed") return fmt::format("{:.2f}", static_cast<double>(kSamples - t) / kRate_Hz);
+  return fmt::format("{:.2f}", at / kRate_Hz);
+}
+
+/// @param kind  of stamps; or of what C_z does: stuck, copy (of A_x), slow (one value in fifty); or csv
+void write_csv(const fs::path& file, const std::string& kind) {
   const MatrixXd record = sound_record();
   std::ofstream out(file);
-  out << "time_s,A_x,B_x,C_z\n";
+  out << (kind == "packets" || kind == "seconds" ? "timestamp"
+          : kind == "midnight" || kind == "gap"  ? "time"
+                                                 : "time_s")
+      << ",A_x,B_x,C_z\n";
   for (Eigen::Index t = 0; t < kSamples; ++t) {
-    out << fmt::format("{:.2f},{:.9g},{:.9g},{:.9g}\n", static_cast<double>(t) / kRate_Hz, record(t, 0), record(t, 1),
-                       record(t, 2));
+    const double last = kind == "copy"                             ? record(t, 0)
+                        : kind == "stuck" && t >= 1000 && t < 1300 ? record(1000, 2)
+                                                                   : record(t, 2);
+    out << fmt::format("{},{:.9g},{:.9g},{}\n", stamp_of(kind, t), record(t, 0), record(t, 1),
+                       kind == "slow" && t % 50 != 0 ? "" : fmt::format("{:.9g}", last));
   }
 }
 
@@ -121,7 +153,9 @@ MatrixXd sound_record() {
 
 void write_sound_record(const fs::path& file, const std::string& format) {
   fs::create_directories(file.parent_path());
-  if (format == "csv") return write_csv(file);
+  for (const char* kind : {"csv", "packets", "late", "seconds", "gap", "midnight", "reversed", "stuck", "copy", "slow"}) {
+    if (format == kind) return write_csv(file, format);
+  }
   if (format == "npy") return io::write_npy(sound_record(), file);
   if (format == "mat4") return write_mat4(file);
   if (format == "mat5") return write_mat(file, MAT_FT_MAT5, MAT_COMPRESSION_NONE);

@@ -3,6 +3,8 @@
 Oracle: the results of the same samples from an NPY file with the columns in order, byte for byte; the words of each refusal
 (docs/my_records.md); the command line contract (exit code 2, one line, nothing written).
 """
+import csv
+import json
 import os
 import pathlib
 import subprocess
@@ -162,9 +164,50 @@ class Channels(Records):
             np.save(self.campaign(name, channels=row(unit=unit)) / "records/ST1/record.npy", self.data)
             self.same_as_in_order(name, f"channels.csv: recorded with gain 1 and no unit of motion: c04 in {unit}. Frequencies and damping need no scale")
 
-    def test_another_unit_in_the_file_is_told(self):
+    def test_another_unit_in_the_file_is_refused_unless_a_key_says_which_is_right(self):
         self.csv(self.campaign("mg", "record.csv"), [f"{c} [mg]" for c in CHANNELS], [0, 1, 2, 3])
-        self.same_as_in_order("mg", "record.csv: says that c01 is in mg, but channels.csv has the unit m/s^2 and the gain 1, which is used")
+        said = self.refused("mg", "record.csv: c01: says that c01 is in mg, but channels.csv has the quantity acceleration, the unit m/s^2 and the gain 1")
+        self.assertIn('unit_from = "channels.csv"', said)  # the remedy, followed:
+        self.csv(self.campaign("mg_table", "record.csv", 'unit_from = "channels.csv"\n'), [f"{c} [mg]" for c in CHANNELS], [0, 1, 2, 3])
+        self.same_as_in_order("mg_table", "channels.csv is taken, as unit_from says")
+        self.csv(self.campaign("mg_file", "record.csv", 'unit_from = "file"\n'), [f"{c} [mg]" for c in CHANNELS], [0, 1, 2, 3])
+        self.assertEqual(self.run_step("mg_file").returncode, 0)
+        rms = [[float(q["rms"]) for q in csv.DictReader((self.folder / out / "features/quality.csv").read_text().splitlines())] for out in ("mg_file_out", "in_order_out")]
+        np.testing.assert_allclose(rms[0], 9.80665e-3 * np.array(rms[1]), rtol=1e-9)
+
+
+class Lies(Records):
+    """Channels that cannot be what they say. Oracle: the result without that channel (exclude), byte for byte."""
+
+    def test_such_a_channel_is_left_out_with_its_reason(self):
+        stuck, copy, dead = self.data.copy(), self.data.copy(), self.data.copy()
+        stuck[4000:4700, 2] = stuck[4000, 2]  # 5.8 %
+        copy[:, 2] = copy[:, 0]
+        dead[:, 2] = 1e-13 * np.random.default_rng(2).standard_normal(SAMPLES)
+        np.save(self.campaign("without") / "records/ST1/record.npy", self.data)
+        expected = identify(self.folder / "without", self.folder / "without_out", *SETTINGS, 'exclude=["c03"]')
+        self.assertEqual(expected.returncode, 0, expected.stderr)
+        for name, data, reason in (("stuck", stuck, "is stuck: it holds"), ("copy", copy, "is a copy of c01"), ("dead", dead, "does not move: its RMS is")):
+            with self.subTest(name):
+                np.save(self.campaign(name) / "records/ST1/record.npy", data)
+                done = self.run_step(name)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                out = self.folder / f"{name}_out"
+                self.assertEqual((out / "modes.csv").read_bytes(), (self.folder / "without_out/modes.csv").read_bytes())
+                warning, = [w for w in json.loads((out / "manifest.json").read_text())["warnings"] if "left out" in w]
+                self.assertIn("setup ST1: channel c03 is left out: ", warning)
+                self.assertIn(reason, warning)
+                quality = {q["channel"]: q["left_out"] for q in csv.DictReader((out / "features/quality.csv").read_text().splitlines())}
+                self.assertIn(reason, quality["c03"])
+                self.assertEqual({quality[c] for c in CHANNELS if c != "c03"}, {""})
+
+    def test_a_reference_is_refused(self):
+        data = self.data.copy()
+        data[4000:4700, 2] = data[4000, 2]
+        channels = "".join(f"{c},P{i},{i},0,0,0,0,1,acceleration,m/s^2,1,{int(c == 'c03')},response\n" for i, c in enumerate(CHANNELS, 1))
+        np.save(self.campaign("reference_stuck", channels=channels) / "records/ST1/record.npy", data)
+        self.refused("reference_stuck", "record.npy: c03: is stuck: it holds", "leave the channel out")
+        self.assertEqual(identify(self.folder / "reference_stuck", self.folder / "reference_out", *SETTINGS, 'exclude=["c03"]').returncode, 0)  # the remedy
 
 
 class Refusals(Records):

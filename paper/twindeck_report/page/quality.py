@@ -46,7 +46,8 @@ def _odd(row: dict, highest_Hz: float) -> list:
     """[(kind, words)] of one channel of one record."""
     if _truthy(row["dead"]):
         return [("dead", "dead: it does not move at all")]
-    found = []
+    reason = row.get("left_out")
+    found = [("left out", f"left out: {reason}")] if isinstance(reason, str) and reason else []
     if row["missing"] > 0:
         found.append(("samples missing", f"{_share(row['missing'], row)} % missing, longest gap {int(row['longest_gap'])} samples"))
     if row["clipped"] > LEAST_CLIPPED * row["samples"]:

@@ -65,13 +65,13 @@ class LeftOut {
 
 std::vector<identification::Conditioned> read_kind(const records::Campaign& campaign, const records::RecordChoice& choice,
                                                    const identification::IdentificationSettings& config,
-                                                   Eigen::Index decimation, const runner::StepContext& context,
-                                                   LeftOut& left_out) {
+                                                   Eigen::Index decimation, runner::StepContext& context, LeftOut& left_out) {
   std::vector<identification::Conditioned> records;
   for (const records::RecordGroup& group : records::record_groups(campaign, choice, true)) {
     left_out.attempt("setup " + group.setup, [&] {
       records.push_back(identification::condition_records(campaign, group, config, decimation));
       for (const std::string& note : records.back().notes) context.say(note);
+      for (const std::string& warning : records.back().warnings) context.warn(warning);
     });
   }
   return records;

@@ -27,8 +27,8 @@ namespace twindeck::steps {
 ///
 /// features/: rows.csv of all conditions, conditions.toml and channels.csv of the campaign (channels.csv as it is;
 /// conditions.toml with an empty table a condition where the campaign has none), quality.csv
-/// `setup,record,channel,samples,missing,longest_gap,clipped,mean,rms,drift_rms,dead,lag_s,lag_std_s`. Shapes have unit norm
-/// there, so that every entry has a standard deviation.
+/// `setup,record,channel,samples,missing,longest_gap,clipped,mean,rms,drift_rms,dead,left_out,lag_s,lag_std_s`. Shapes have
+/// unit norm there, so that every entry has a standard deviation.
 void write_identification(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
                           const std::vector<identification::DecayResult>& decays,
                           const std::vector<identification::StayResult>& stays,

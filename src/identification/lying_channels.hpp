@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/samples.hpp"
+#include "identification/quality.hpp"
+
+namespace twindeck::identification {
+
+/// What of a record is judged.
+struct JudgedChannels {
+  std::vector<Eigen::Index> columns;  ///< of the record: responses that are used
+  std::vector<double> gain;           ///< of each, from recorded to physical values
+  std::vector<bool> reference;        ///< of each
+  bool may_rest = false;              ///< a free decay or an earthquake: all may rest before it begins
+};
+
+/// Channels that cannot be what they say, each with its reason in ChannelQuality::left_out:
+///   dead   constant, or without motion: its RMS is below 10^-8 of the channels' median, 160 dB, which no converter has
+///   stuck  one value for over 5 % of the record in a row (where all may rest: while most others move)
+///   copy   sample by sample the recorded values of another channel, which two sensors never give; a reference is the original
+/// @param raw  (n_samples × channels of the record), gains applied
+void judge_channels(const Samples& raw, const JudgedChannels& judged, std::vector<ChannelQuality>& quality);
+
+}  // namespace twindeck::identification

@@ -1,0 +1,405 @@
+#include "records/record_clock.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace twindeck::records {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double kNormal = 1.4826;      ///< standard deviation of a normal distribution over its median absolute deviation
+constexpr double kAlone = 0.6;          ///< [samples] a gap of stamps of their own: over what rounding to a digit can do
+constexpr double kShared = 1.5;         ///< [samples] a gap of shared stamps: over what a row's place in its stamp can do
+constexpr double kNoise = 20.0;         ///< robust deviations of the envelope that a gap exceeds: its minima are exponential
+constexpr double kRoundTo = 0.3;        ///< [deviations] that a rate is moved to be a round number
+constexpr double kRowsOfALag = 50.0;    ///< rows between two shared stamps whose slope is trusted: the place leaves 2 %
+constexpr double kEvenSlopes = 0.2;     ///< [-] quartile range of slopes over their median: then most are without a gap
+constexpr std::size_t kWidest = 64;     ///< stamps that the envelope looks ahead and back at most
+constexpr std::size_t kStretch = 32;    ///< stamps in which half may not have a gap: that is another rate
+constexpr double kSharesOfADay = 0.02;  ///< of a day, at its end and begin, between which a step back is midnight
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double robust_deviation(std::vector<double> values) {
+  const double middle = quantile(values, 0.5);
+  for (double& value : values) value = std::abs(value - middle);
+  return kNormal * quantile(std::move(values), 0.5);
+}
+
+/// The stamps of one file while its clock is sought.
+struct Search {
+  std::vector<double> row, time;  ///< of each stamp: first row, and time after the first stamp's
+  bool shared = false;
+  double step = 0.0;           ///< of a sample
+  std::vector<Index> missing;  ///< m of each stamp
+  [[nodiscard]] std::size_t size() const { return row.size(); }
+  /// The first stamp that counts: the first of shared ones may have begun before the record.
+  [[nodiscard]] std::size_t begin() const { return shared && size() > 3 ? 1 : 0; }
+  [[nodiscard]] double place(std::size_t k) const { return row[k] + static_cast<double>(missing[k]); }
+};
+
+/// A first step: slopes between stamps so far apart that most agree; the mean of those near the median keeps the digits.
+double first_step(const Search& s) {
+  const std::size_t n = s.size(), begin = s.begin();
+  double best = 0.0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t lag = 1; lag == 1 || lag <= (n - begin) / 3; lag *= 2) {
+    std::vector<double> slopes;
+    for (std::size_t k = begin; k + lag < n; ++k) slopes.push_back((s.time[k + lag] - s.time[k]) / (s.row[k + lag] - s.row[k]));
+    const double rows = (s.row[n - 1] - s.row[0]) / static_cast<double>(n - 1) * static_cast<double>(lag);
+    const double middle = quantile(slopes, 0.5);
+    if (middle <= 0.0 || (s.shared && rows < kRowsOfALag && 2 * lag <= (n - begin) / 3)) continue;
+    const double spread = (quantile(slopes, 0.75) - quantile(slopes, 0.25)) / middle;
+    if (spread >= least) continue;
+    least = spread;
+    double time = 0.0, length = 0.0;
+    for (std::size_t k = begin; k + lag < n; ++k) {
+      if (std::abs(slopes[k - begin] - middle) > 0.5 * middle) continue;
+      time += s.time[k + lag] - s.time[k];
+      length += s.row[k + lag] - s.row[k];
+    }
+    best = time / length;
+    if (spread <= kEvenSlopes) break;
+  }
+  return best;
+}
+
+/// The smallest residual of `width` stamps from each one on.
+std::vector<double> lowest_ahead(const std::vector<double>& residual, std::size_t width) {
+  std::vector<double> lowest(residual.size());
+  std::vector<std::size_t> queue;  // ascending values from the back; read at `first`
+  for (std::size_t k = residual.size(), first = 0; k-- > 0;) {
+    while (queue.size() > first && residual[queue.back()] >= residual[k]) queue.pop_back();
+    queue.push_back(k);
+    while (queue[first] >= k + width) ++first;
+    lowest[k] = residual[queue[first]];
+  }
+  return lowest;
+}
+
+/// How far ahead the envelope looks, and how far it must rise for a gap.
+struct Envelope {
+  std::size_t width = 4;
+  double least = 0.0, noise = 0.0;
+};
+
+Envelope envelope_of(const std::vector<double>& residual, double step, bool shared) {
+  Envelope envelope;
+  const double base = (shared ? kShared : kAlone) * step;
+  for (;; envelope.width *= 2) {
+    std::vector<double> change, folded;
+    double last = 0.0;
+    for (std::size_t k = 0; k + envelope.width <= residual.size(); k += envelope.width) {
+      const auto begin = residual.begin() + static_cast<long>(k);
+      const double low = *std::min_element(begin, begin + static_cast<long>(envelope.width));
+      if (k > 0) change.push_back(low - last);
+      if (k > 0) folded.push_back(std::remainder(low - last, step));  // gaps fold away, however many there are
+      last = low;
+    }
+    envelope.noise = robust_deviation(std::move(folded)) / std::sqrt(2.0);
+    if (kNoise * envelope.noise > base) envelope.noise = robust_deviation(std::move(change)) / std::sqrt(2.0);
+    envelope.least = std::max(base, kNoise * envelope.noise);
+    if (envelope.least <= base || 2 * envelope.width > kWidest || 16 * envelope.width > residual.size()) return envelope;
+  }
+}
+
+/// The envelope rises nowhere more within its width: late stamps just before a gap lift it early.
+bool is_steepest(const std::vector<double>& ahead, std::size_t k, std::size_t width) {
+  if (width == Envelope().width) return true;  // no stamp is late: each gap stands where it shows
+  for (std::size_t j = k + 1; j < std::min(k + width, ahead.size()); ++j) {
+    if (ahead[j] - ahead[j - 1] > ahead[k] - ahead[k - 1]) return false;
+  }
+  return true;
+}
+
+/// Where samples are missing or there twice, by the step at hand. @return whether m has changed
+bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
+  const std::size_t n = s.size();
+  std::vector<double> residual(n), level(n);
+  for (std::size_t k = 0; k < n; ++k) residual[k] = s.time[k] - s.step * s.row[k];
+  const Envelope envelope = envelope_of(residual, s.step, s.shared);
+  const std::vector<double> ahead = lowest_ahead(residual, envelope.width);
+  std::vector<Index> missing(n, 0);
+  std::vector<std::size_t> at;
+  gaps.clear();
+  changes_rate = -1;
+  double shift = 0.0;
+  const std::size_t begin = s.begin();
+  level[begin] = residual[begin];
+  for (std::size_t k = begin + 1; k < n; ++k) {
+    const std::size_t back = std::max(begin, k < envelope.width ? 0 : k - envelope.width);
+    const double behind = *std::min_element(level.begin() + static_cast<long>(back), level.begin() + static_cast<long>(k));
+    // The smallest of fewer residuals is less sure, at either end of the record.
+    const auto least = [&](std::size_t seen) {
+      const double share = static_cast<double>(envelope.width) / static_cast<double>(std::min(seen, envelope.width));
+      return std::max(envelope.least, kNoise * envelope.noise * share);
+    };
+    const double up = ahead[k] - shift - behind, down = behind - (residual[k] - shift);
+    double samples = 0.0;
+    if (up > least(n - k) && is_steepest(ahead, k, envelope.width)) samples = std::round(up / s.step);
+    if (down > least(k - begin)) samples = std::round(std::min(up, 0.0) / s.step);
+    if (samples != 0.0) {
+      constexpr double most = 1e15;  // samples: their sums stay whole numbers
+      const auto count = static_cast<Index>(std::clamp(samples, -most, most));
+      const bool within = count < 0 && s.time[k] > s.time[k - 1];  // the row that is there twice shares a stamp before this one
+      gaps.push_back({static_cast<Index>(s.row[k]) + (within ? count : 0), count});
+      shift += static_cast<double>(count) * s.step;
+      missing[k] = count;
+      at.push_back(k);
+      if (at.size() >= kStretch / 2 && k - at[at.size() - kStretch / 2] < kStretch && changes_rate < 0)
+        changes_rate = static_cast<Index>(s.row[at[at.size() - kStretch / 2]]);
+    }
+    level[k] = residual[k] - shift;
+  }
+  for (std::size_t k = 1; k < n; ++k) missing[k] += missing[k - 1];
+  const bool changed = missing != s.missing;
+  s.missing = std::move(missing);
+  return changed;
+}
+
+struct Line {
+  double slope = 0.0, deviation = 0.0, scatter = 0.0;
+};
+
+/// Standard deviation of the slope: by white residuals, and by their means in ten blocks, which see slow ones too.
+double slope_deviation(const Search& s, const std::vector<double>& weight, const std::vector<double>& residual, double middle) {
+  constexpr std::size_t blocks = 10;
+  std::array<double, blocks> w{}, x{}, r{};
+  double sum = 0.0, squares = 0.0, spread = 0.0;
+  for (std::size_t k = s.begin(); k < s.size(); ++k) {
+    const std::size_t b = k * blocks / s.size();
+    const double off = s.place(k) - middle;
+    sum += weight[k];
+    squares += weight[k] * residual[k] * residual[k];
+    spread += weight[k] * off * off;
+    w[b] += weight[k];
+    x[b] += weight[k] * off;
+    r[b] += weight[k] * residual[k];
+  }
+  const double white = std::sqrt(squares / std::max(sum - 2.0, 1.0) / spread);
+  if (s.size() < 4 * blocks) return white;
+  double means = 0.0, apart = 0.0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    if (w[b] <= 0.0) continue;
+    means += r[b] * r[b] / (w[b] * w[b]);
+    apart += x[b] * x[b] / (w[b] * w[b]);
+  }
+  return std::max(white, std::sqrt(means / (blocks - 2.0) / apart));
+}
+
+/// A line of time over k + m by Tukey's biweight.
+Line robust_line(const Search& s) {
+  constexpr double cut = 4.685;  // deviations: 95 % efficient for normal residuals
+  const std::size_t n = s.size(), begin = s.begin();
+  Line line{s.step, 0.0, 0.0};
+  std::vector<double> residual(n), weight(n, 0.0);
+  double middle = 0.0;
+  for (int turn = 0; turn < 20; ++turn) {
+    for (std::size_t k = 0; k < n; ++k) residual[k] = s.time[k] - line.slope * s.place(k);
+    std::vector<double> inner(residual.begin() + static_cast<long>(begin), residual.end());
+    const double centre = quantile(inner, 0.5);
+    line.scatter = robust_deviation(inner);
+    const double scale = std::max(line.scatter, 1e-9 * line.slope);
+    double sum = 0.0, x = 0.0, t = 0.0, xx = 0.0, xt = 0.0;
+    for (std::size_t k = begin; k < n; ++k) {
+      const double u = (residual[k] - centre) / (cut * scale);
+      weight[k] = std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
+      sum += weight[k];
+      x += weight[k] * s.place(k);
+      t += weight[k] * residual[k];
+    }
+    middle = x / sum;
+    const double mean = t / sum;
+    for (std::size_t k = begin; k < n; ++k) {
+      const double off = s.place(k) - middle;
+      xx += weight[k] * off * off;
+      xt += weight[k] * off * (residual[k] - mean);
+      residual[k] -= mean;
+    }
+    const double change = xx > 0.0 ? xt / xx : 0.0;
+    line.slope += change;
+    if (std::abs(change) < 1e-13 * line.slope) break;
+  }
+  line.deviation = n - begin > 2 ? slope_deviation(s, weight, residual, middle) : 0.0;
+  const double span = s.place(n - 1) - s.place(begin);
+  if (s.shared) line.deviation = std::max(line.deviation, line.slope / span * (n < 5 ? 1.0 : 1.0 / std::sqrt(12.0)));
+  return line;
+}
+
+/// Whether a part of the record runs at another rate than its begin: its own slope is another by two per cent, two samples and
+/// more than its own scatter.
+bool has_other_rate(const Search& s) {
+  constexpr std::size_t parts = 8, fewest = 8;  // stamps of a part
+  constexpr double least = 0.02, samples = 2.0;
+  double first = 0.0;
+  for (std::size_t p = 0; p < parts && s.size() >= parts * fewest; ++p) {
+    const std::size_t from = std::max(s.begin(), p * s.size() / parts), to = (p + 1) * s.size() / parts;
+    std::vector<double> slopes, residual;
+    const std::size_t half = (to - from) / 2;
+    for (std::size_t k = from; k + half < to; ++k)
+      slopes.push_back((s.time[k + half] - s.time[k]) / (s.place(k + half) - s.place(k)));
+    const double slope = quantile(std::move(slopes), 0.5);
+    for (std::size_t k = from; k < to; ++k) residual.push_back(s.time[k] - slope * s.place(k));
+    const double rows = s.place(to - 1) - s.place(from), scatter = robust_deviation(std::move(residual));
+    if (p == 0) first = slope;
+    if (std::abs(slope - first) > least * s.step && std::abs(slope - first) * rows > samples * s.step + kNoise * scatter)
+      return true;
+  }
+  return false;
+}
+
+/// The row from which another rate holds: the two lines of time over rows that leave the least squares meet there.
+Index other_rate_from(const Search& s) {
+  struct Sums {
+    double n = 0.0, x = 0.0, t = 0.0, xx = 0.0, xt = 0.0, tt = 0.0;
+    [[nodiscard]] double left() const {
+      const double sx = xx - x * x / n, st = xt - x * t / n;
+      return tt - t * t / n - (sx > 0.0 ? st * st / sx : 0.0);
+    }
+  };
+  const auto with = [&](Sums sums, std::size_t k, double sign) {
+    const double x = s.row[k] - s.row.back() / 2.0, t = s.time[k] - s.time.back() / 2.0;
+    return Sums{sums.n + sign,          sums.x + sign * x,      sums.t + sign * t,
+                sums.xx + sign * x * x, sums.xt + sign * x * t, sums.tt + sign * t * t};
+  };
+  Sums before, after;
+  for (std::size_t k = 0; k < s.size(); ++k) after = with(after, k, 1.0);
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t at = 0;
+  for (std::size_t k = 0; k + 2 < s.size(); ++k) {
+    if (k >= 2 && before.left() + after.left() < least) {
+      least = before.left() + after.left();
+      at = k;
+    }
+    before = with(before, k, 1.0);
+    after = with(after, k, -1.0);
+  }
+  return static_cast<Index>(s.row[at]);
+}
+
+/// The number of fewest digits within one deviation: loggers run at round rates, and the stamps' digits hide that.
+double round_rate(double rate, double deviation) {
+  const double tolerance = std::max(kRoundTo * deviation, 1e-7 * rate);
+  for (int digits = 1; digits < 12; ++digits) {
+    const double unit = std::pow(10.0, std::floor(std::log10(rate)) + 1.0 - digits);
+    const double round = unit >= 1.0 ? std::round(rate / unit) * unit : std::round(rate / unit) / std::round(1.0 / unit);
+    if (std::abs(round - rate) <= tolerance) return round;
+  }
+  return rate;
+}
+
+}  // namespace
+
+Index RecordClock::missing() const {
+  Index sum = 0;
+  for (const ClockGap& gap : gaps) sum += std::max<Index>(gap.samples, 0);
+  return sum;
+}
+
+Index RecordClock::repeated() const {
+  Index sum = 0;
+  for (const ClockGap& gap : gaps) sum += std::max<Index>(-gap.samples, 0);
+  return sum;
+}
+
+void StampedRows::add(double stamp) {
+  const Index row = row_++;
+  if (!std::isfinite(stamp)) {
+    ++without_;
+    return;
+  }
+  stamp += midnight_;
+  if (!stamps_.empty()) {
+    for (const double day : {86400.0, 86400e3, 86400e6}) {
+      const double end = midnight_ + day;
+      if (last_ <= end && last_ > end - kSharesOfADay * day && stamp >= midnight_ && stamp < midnight_ + kSharesOfADay * day &&
+          stamps_.front().time >= 0.0) {
+        midnight_ += day;
+        stamp += day;
+        break;
+      }
+    }
+    counts_ = counts_ && stamp - last_ == 1.0;
+    if (stamp < last_) ++falls_;
+    if (stamp == last_) return;
+  }
+  last_ = stamp;
+  stamps_.push_back({row, stamp});
+}
+
+bool StampedRows::mostly_rises() const {
+  constexpr Index one_in = 50;  // a fall: a clock that was set; noise falls every other time
+  return row_ > without_ && without_ <= row_ / 2 && one_in * falls_ <= row_;
+}
+
+bool StampedRows::runs_like_time() const {
+  constexpr double even = 0.05;  // [-] scatter about the line beside its length
+  if (falls_ > 0 || without_ > 0 || counts_ || stamps_.size() < 3) return false;
+  const RecordClock found = clock(1.0);
+  if (found.rate_Hz <= 0.0 || found.changes_rate >= 0) return false;
+  return found.scatter_s <= even * (stamps_.back().time - stamps_.front().time);
+}
+
+double StampedRows::likely_unit_s(double step) {
+  constexpr double slowest = 1.0, fastest = 1e5;  // [Hz] of records of vibration
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9, 86400.0}) {
+    const double rate = 1.0 / (step * unit);
+    if (rate >= slowest * (1.0 - 1e-3) && rate <= fastest) return unit;
+  }
+  return 1.0;
+}
+
+RecordClock StampedRows::clock(double unit_s) const {
+  RecordClock found;
+  const std::size_t n = stamps_.size();
+  found.stands_still = n == 1 && row_ > 1;
+  if (n < 2) return found;
+  found.shared_by = static_cast<double>(row_) / static_cast<double>(n);
+  found.reversed = n > 2 && falls_ > (static_cast<Index>(n) - 1) * 9 / 10;
+  if (found.reversed) return found;
+  Search s;
+  constexpr double few = 0.005;  // of the rows share a stamp by being there twice, not by the stamps' coarseness
+  const double sharing = static_cast<double>(row_ - without_) - static_cast<double>(n);
+  s.shared = sharing > 2.0 && sharing > few * static_cast<double>(row_);
+  for (const Stamp& stamp : stamps_) {
+    s.row.push_back(static_cast<double>(stamp.row));
+    s.time.push_back(stamp.time - stamps_.front().time);
+  }
+  s.step = first_step(s);
+  if (s.step <= 0.0) {
+    for (std::size_t k = 1; k < n && found.steps_back < 0; ++k)
+      found.steps_back = s.time[k] < s.time[k - 1] ? stamps_[k].row : -1;
+    return found;
+  }
+  Line line{s.step, 0.0, 0.0};
+  for (int turn = 0; turn < 6; ++turn) {
+    if (!find_gaps(s, found.gaps, found.changes_rate) && turn > 0) break;
+    if (found.changes_rate >= 0) break;
+    line = robust_line(s);
+    s.step = line.slope;
+  }
+  if (found.changes_rate >= 0 || has_other_rate(s)) found.changes_rate = other_rate_from(s);
+  const double tolerance = std::max(s.step, kNoise * line.scatter);
+  for (std::size_t k = 1; k < n && found.steps_back < 0; ++k) {
+    const bool told = std::any_of(found.gaps.begin(), found.gaps.end(),
+                                  [&](const ClockGap& gap) { return gap.samples < 0 && gap.row == stamps_[k].row; });
+    if (!told && s.time[k] < s.time[k - 1] - tolerance) found.steps_back = stamps_[k].row;
+  }
+  const double unit = unit_s > 0.0 ? unit_s : likely_unit_s(line.slope);
+  const double rate = 1.0 / (line.slope * unit);
+  found.deviation_Hz = rate * line.deviation / line.slope;
+  found.rate_Hz = round_rate(rate, found.deviation_Hz);
+  found.scatter_s = line.scatter * unit;
+  return found;
+}
+
+}  // namespace twindeck::records

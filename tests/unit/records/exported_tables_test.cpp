@@ -1,0 +1,271 @@
+// Oracle: tables, matrices and universal files made here as programs export them, with the numbers that went into them.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <matio.h>
+
+#include "core/error.hpp"
+#include "npy_double.hpp"
+#include "records/column_match.hpp"
+#include "records/inspect.hpp"
+#include "refusal.hpp"
+#include "same_samples.hpp"
+#include "scratch.hpp"
+#include "test_places.hpp"
+#include "universal_writer.hpp"
+
+namespace twindeck::records {
+namespace {
+
+double wave(int t, int c) { return std::round(1e4 * std::sin(0.37 * t * (c + 1) + c)) / 1e4; }
+
+std::string cell(double x, bool comma = false) {
+  std::string text = fmt::format("{:.4f}", x);
+  if (comma) std::replace(text.begin(), text.end(), '.', ',');
+  return text;
+}
+
+void expect_waves(const Record& record, int rows, int columns, const std::string& what) {
+  ASSERT_EQ(record.samples.rows(), rows) << what;
+  ASSERT_EQ(record.samples.cols(), columns) << what;
+  for (int t = 0; t < rows; ++t) {
+    for (int c = 0; c < columns; ++c) ASSERT_NEAR(record.samples(t, c), wave(t, c), 1e-9) << what << " " << t << " " << c;
+  }
+}
+
+bool told(const RecordInfo& info, const std::string& words) {
+  return std::any_of(info.notes.begin(), info.notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+TEST(ExportedTable, ASlowChannelInTheLastColumn) {
+  const Scratch scratch;
+  for (const char* kind : {"separator", "left out", "word"}) {
+    std::string text = "time,P1,P2,Temp\n";
+    for (int t = 0; t < 300; ++t) {
+      text += fmt::format("{:.2f},{},{}", 0.01 * t, cell(wave(t, 0)), cell(wave(t, 1)));
+      if (t % 100 == 0)
+        text += ",12.5";
+      else
+        text += std::string(kind) == "separator" ? "," : std::string(kind) == "word" ? ",No Data" : "";
+      text += "\n";
+    }
+    const Record record = read(scratch.write("a.csv", text));
+    ASSERT_EQ(record.info.channels.size(), 3U) << kind;
+    EXPECT_EQ(record.info.channels[2].name, "Temp") << kind;
+    EXPECT_EQ(record.samples(100, 2), 12.5) << kind;
+    EXPECT_TRUE(std::isnan(record.samples(101, 2))) << kind;
+    expect_waves({record.info, record.samples.leftCols(2)}, 300, 2, kind);
+    EXPECT_TRUE(record.info.notes.empty()) << kind;
+  }
+}
+
+TEST(ExportedTable, SeparatorsQuotesAndDecimalCommas) {
+  const Scratch scratch;
+  struct Form {
+    const char *separator, *quote, *end;
+    bool comma;
+  };
+  for (const Form& form :
+       {Form{",", "\"", "\n", true}, Form{";", "\"", ";\n", true}, Form{"\t", "", "\t\r\n", true}, Form{" ", "\"", "\n", true},
+        Form{"|", "", "\n", true}, Form{", ", "", ",\n", false}, Form{";", "", "\r", false}, Form{",", "\"", "\n", false}}) {
+    std::string text = std::string("time") + form.separator + "P1" + form.separator + "P2" + form.end;
+    for (int t = 0; t < 200; ++t) {
+      const auto quoted = [&](const std::string& x) { return form.quote + x + form.quote; };
+      text += quoted(cell(0.01 * t, form.comma)) + form.separator + quoted(cell(wave(t, 0), form.comma)) + form.separator +
+              quoted(cell(wave(t, 1), form.comma)) + form.end;
+    }
+    const Record record = read(scratch.write("a.csv", text));
+    const std::string what = fmt::format("'{}' {} {}", form.separator, form.quote, form.comma);
+    expect_waves(record, 200, 2, what);
+    EXPECT_NEAR(record.info.rate_Hz, 100.0, 1e-6) << what;
+    EXPECT_EQ(record.info.channels[1].name, "P2") << what;
+  }
+}
+
+TEST(ExportedTable, Utf16WithAndWithoutItsMark) {
+  const Scratch scratch;
+  std::u16string text = u"time_s,Br\u00FCcke\n";
+  for (int t = 0; t < 60; ++t) {
+    for (const char c : fmt::format("{:.2f},{}\n", 0.01 * t, cell(wave(t, 0)))) text += static_cast<char16_t>(c);
+  }
+  for (const bool big : {false, true}) {
+    for (const bool mark : {false, true}) {
+      std::string bytes;
+      for (const char16_t c : (mark ? u"\uFEFF" : u"") + text) {
+        const char low = static_cast<char>(c & 0xFF), high = static_cast<char>(c >> 8);
+        bytes += big ? std::string{high, low} : std::string{low, high};
+      }
+      const Record record = read(scratch.write("a.csv", bytes));
+      expect_waves(record, 60, 1, mark ? "mark" : "no mark");
+      EXPECT_EQ(record.info.channels[0].name,
+                "Br\xC3\xBC"
+                "cke");
+    }
+  }
+}
+
+TEST(ExportedTable, ALastLineCutInsideANumberIsLeftOut) {
+  const Scratch scratch;
+  std::string text = "time_s,P1\n";
+  for (int t = 0; t < 100; ++t) text += fmt::format("{:.2f},{}\n", 0.01 * t, cell(wave(t, 0)));
+  expect_waves(read(scratch.write("whole.csv", text.substr(0, text.size() - 1))), 100, 1, "without its last line end");
+  const Record cut = read(scratch.write("cut.csv", text.substr(0, text.size() - 3)));
+  expect_waves(cut, 99, 1, "cut");
+  EXPECT_TRUE(told(cut.info, "line 101, the last, has no end"));
+}
+
+TEST(ExportedTable, ColumnsOfTimeAreNoChannels) {
+  const Scratch scratch;
+  std::string text = "Date and time,time_ms,t,P1\n";
+  for (int t = 0; t < 200; ++t)
+    text += fmt::format("2024-05-17 10:00:{:06.3f},{},{},{}\n", 0.01 * t, 10 * t, t, cell(wave(t, 0)));
+  const Record record = read(scratch.write("a.csv", text));
+  EXPECT_EQ(record.info.channels.front().name, "t");  // counts: no time
+  EXPECT_NEAR(record.info.rate_Hz, 100.0, 1e-6);
+  // Whole seconds beside milliseconds: the finer column is the clock.
+  std::string coarse = "Date,Time,time_ms,P1\n";
+  for (int t = 0; t < 200; ++t) coarse += fmt::format("2024-05-17,10:00:{:02},{},{}\n", t / 100, 10 * t, cell(wave(t, 0)));
+  const Record fine = read(scratch.write("c.csv", coarse));
+  expect_waves(fine, 200, 1, "coarse");
+  EXPECT_EQ(fine.info.rate_source, "time column 'time_ms'");
+  // A name that says time above what is none is told.
+  std::string none = "time,P1\n";
+  for (int t = 0; t < 200; ++t) none += cell(wave(t, 1)) + "," + cell(wave(t, 0)) + "\n";
+  const Record odd = read(scratch.write("b.csv", none));
+  EXPECT_EQ(odd.samples.cols(), 2);
+  EXPECT_TRUE(told(odd.info, "column 'time' does not run like time"));
+}
+
+TEST(ExportedTable, RowsThatAreThereTwiceAreLeftOutOnce) {
+  const Scratch scratch;
+  for (const bool same : {true, false}) {
+    std::string text = "time_s,P1\n";
+    for (int i = 0; i < 300; ++i) {
+      const int t = i < 200 ? i : i - 30;
+      text += fmt::format("{:.2f},{}\n", 0.01 * t, cell(wave(same ? t : i, 0)));
+    }
+    const auto file = scratch.write("a.csv", text);
+    if (same) {
+      const Record record = read(file);
+      expect_waves(record, 270, 1, "twice");
+      EXPECT_TRUE(told(record.info, "30 rows from sample 200 (line 202) on have time stamps that were there before"));
+    } else {
+      EXPECT_NE(refusal(file).find("a.csv:202: the time runs backwards by 0.3 s at sample 200"), std::string::npos)
+          << refusal(file);
+    }
+  }
+}
+
+TEST(Matrix, TimeInTheFirstColumnAndChannelsAlongRows) {
+  const Scratch scratch;
+  const Eigen::MatrixXd samples = same_samples();
+  Eigen::MatrixXd timed(samples.rows(), samples.cols() + 1);
+  timed << Eigen::VectorXd::LinSpaced(400, 0.0, 399.0 / 128.0), samples;
+  for (const bool transposed : {false, true}) {
+    const Eigen::MatrixXd matrix = transposed ? Eigen::MatrixXd(timed.transpose()) : timed;
+    io::write_npy(matrix, scratch.file("a.npy"));
+    write_mat(scratch.file("5.mat"), matrix, MAT_FT_MAT5, true);
+    write_mat(scratch.file("73.mat"), matrix, MAT_FT_MAT73, false);
+    for (const char* name : {"a.npy", "5.mat", "73.mat"}) {
+      const Record record = read(scratch.file(name));
+      ASSERT_EQ(record.samples.cols(), samples.cols()) << name << transposed;
+      EXPECT_EQ(record.samples, samples) << name << transposed;
+      EXPECT_NEAR(record.info.rate_Hz, 128.0, 1e-6) << name;
+      EXPECT_EQ(record.info.channels.front().position, 2) << name;
+      EXPECT_EQ(told(record.info, "channels run along the rows"), transposed) << name;
+    }
+  }
+}
+
+TEST(Matrix, WhatIsNoneIsNamed) {
+  const Scratch scratch;
+  const std::string python = TWINDECK_PYTHON;
+  const std::string program =
+      "import numpy as n, scipy.io as s; d = n.arange(600.0).reshape(100, 3, 2); c = n.empty(2, object); c[0] = n.sin(d[:, :, "
+      "0]); "
+      "c[1] = 'still air'; r = n.array([(1, 2), (3, 4)], dtype=[('a', 'f8'), ('b', 'f8')]); "
+      "s.savemat('three.mat', {'acc': d}); s.savemat('flat.mat', {'acc': n.sin(d[:, :, :1])}); s.savemat('cell.mat', {'runs': "
+      "c}); "
+      "s.savemat('structs.mat', {'run': r})";
+  if (std::system(fmt::format("cd '{}' && {} -c \"{}\" >/dev/null 2>&1", scratch.file("").string(), python, program).c_str()) !=
+      0)
+    GTEST_SKIP() << "SciPy is not installed";
+  EXPECT_NE(refusal(scratch.file("three.mat")).find("'acc' has 3 dimensions (100 x 3 x 2)"), std::string::npos);
+  EXPECT_NE(refusal(scratch.file("structs.mat")).find("'run' is an array of 2 structures"), std::string::npos)
+      << refusal(scratch.file("structs.mat"));
+  for (const char* name : {"flat.mat", "cell.mat"}) {
+    const Record record = read(scratch.file(name));
+    ASSERT_EQ(record.samples.rows(), 100) << name;
+    EXPECT_NEAR(record.samples(7, 2), std::sin(7 * 6 + 4.0), 1e-12) << name;
+  }
+}
+
+TEST(Matrix, ATableOfCompoundRowsIsNamedWithItsColumns) {
+  const Scratch scratch;
+  struct Row {
+    double time, value;
+  };
+  std::vector<Row> rows(50, Row{0.5, 1.5});
+  const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(Row));
+  H5Tinsert(type, "time", HOFFSET(Row, time), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "P1", HOFFSET(Row, value), H5T_NATIVE_DOUBLE);
+  const hid_t file = H5Fcreate(scratch.file("t.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hsize_t size = rows.size();
+  const hid_t space = H5Screate_simple(1, &size, nullptr),
+              set = H5Dcreate2(file, "table", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
+  H5Dclose(set);
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Fclose(file);
+  EXPECT_NE(refusal(scratch.file("t.h5")).find("'table' is a table of compound rows (time, P1)"), std::string::npos)
+      << refusal(scratch.file("t.h5"));
+}
+
+TEST(UniversalNames, ChannelsThatDifferInRecord6OrAnotherTitleLine) {
+  const Scratch scratch;
+  const std::string sound = universal_58(same_samples(), 128.0, false);
+  const auto one_title = [&](bool entities) {
+    std::string text = sound;
+    for (int c = 1; c <= 4; ++c) {
+      const std::size_t title = text.find(fmt::format("{:<80}\n", fmt::format("A{}", c)));
+      text.replace(title, 2, "v2");
+      text.replace(text.find("NONE\n", title), 4, fmt::format("L{:03}", c));  // the second title line
+      if (entities) {
+        const std::string record = fmt::format("    1         0    0         0 {:<10}", "NONE");
+        const std::size_t identity = text.find(record, title);
+        text.replace(identity + record.size() - 10, 4, fmt::format("P{:<3}", c));
+      }
+    }
+    return text;
+  };
+  const RecordInfo named = read(scratch.write("a.uff", one_title(true))).info;
+  EXPECT_EQ(named.channels[2].name, "P3+z");
+  for (const char* name : {"P3+z", "P3", "L003", "3+z", "p3"})
+    EXPECT_EQ(match_columns(named, {name}, {}, "a.uff").columns, (std::vector<Eigen::Index>{2})) << name;
+  const RecordInfo titled = read(scratch.write("b.uff", one_title(false))).info;
+  EXPECT_EQ(match_columns(titled, {"L002"}, {}, "b.uff").columns, (std::vector<Eigen::Index>{1}));
+}
+
+TEST(UniversalNames, TheUnitOfTheAbscissaCounts) {
+  const Scratch scratch;
+  std::string text = universal_58(same_samples(), 0.128, false);  // a step in ms
+  for (std::size_t at = 0; (at = text.find("Time                 s ", at)) != std::string::npos; ++at)
+    text.replace(at + 21, 2, "ms");
+  EXPECT_NEAR(read(scratch.write("ms.uff", text)).info.rate_Hz, 128.0, 1e-3);
+}
+
+TEST(ColumnMatch, AnotherSpellingIsMatchedWithAWord) {
+  RecordInfo info;
+  info.names_channels = true;
+  for (const char* name : {"ACC 2", "ACC_1", "Temp"}) {
+    info.channels.emplace_back();
+    info.channels.back().name = name;
+  }
+  const ColumnMatch match = match_columns(info, {"acc1", "Acc-2"}, {}, "a.csv");
+  EXPECT_EQ(match.columns, (std::vector<Eigen::Index>{1, 0}));
+  EXPECT_NE(match.warning.find("acc1 is its 'ACC_1'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace twindeck::records

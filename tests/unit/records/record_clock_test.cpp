@@ -1,0 +1,154 @@
+// Oracle: stamps made here from a known rate, with the gaps, repeats and lateness that went into them.
+#include "records/record_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace twindeck::records {
+namespace {
+
+using Stamp = std::function<double(int)>;
+
+StampedRows stamped(int rows, const Stamp& stamp) {
+  StampedRows stamps;
+  for (int i = 0; i < rows; ++i) stamps.add(stamp(i));
+  return stamps;
+}
+
+/// Uniform in [0, 1).
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  double operator()() { return static_cast<double>(random_() >> 11U) * 0x1p-53; }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+void expect_rate(const RecordClock& clock, double rate_Hz, const char* what) {
+  EXPECT_LE(std::abs(clock.rate_Hz - rate_Hz), std::max(3.0 * clock.deviation_Hz, 1e-6 * rate_Hz))
+      << what << " " << clock.rate_Hz;
+  EXPECT_TRUE(clock.gaps.empty()) << what;
+  EXPECT_LT(clock.steps_back, 0) << what;
+  EXPECT_LT(clock.changes_rate, 0) << what;
+}
+
+double floored(double value, double digits) { return std::floor(value / digits) * digits; }
+
+TEST(RecordClock, EvenStampsWhateverTheirDigitsAndUnit) {
+  for (const double digits : {1.0, 0.01, 0.001, 1e-6}) {
+    for (const double rate : {60.0, 100.8, 128.0, 1000.0}) {
+      const RecordClock clock = stamped(6000, [&](int i) { return floored((i + 37.4) / rate, digits); }).clock(1.0);
+      expect_rate(clock, rate, "digits");
+      EXPECT_LE(clock.deviation_Hz, 2e-3 * rate) << digits << " " << rate;  // six seconds are there: a sample of place each
+    }
+  }
+  const double epoch = 1.7e9;
+  expect_rate(stamped(2500, [&](int i) { return 1e3 * epoch + 10.0 * i; }).clock(0.0), 100.0, "ms");
+  expect_rate(stamped(2500, [&](int i) { return 1e6 * epoch + 1e4 * i; }).clock(0.0), 100.0, "us");
+  expect_rate(stamped(2500, [&](int i) { return 1e9 * epoch + 1e7 * i; }).clock(0.0), 100.0, "ns");
+  expect_rate(stamped(2500, [](int i) { return 1e4 * i; }).clock(0.0), 100.0, "us since the start");
+  expect_rate(stamped(2500, [](int i) { return 45429.41 + i * 0.01 / 86400.0; }).clock(0.0), 100.0, "days");
+}
+
+TEST(RecordClock, LateStampsAndPacketsGiveTheRateWithinItsDeviation) {
+  // Three deviations hold 99.7 % of a normal estimate; 95 % are asked, since deviations are estimated from 56 packets.
+  Draw draw(53);
+  int within = 0, with_gap = 0, runs = 0;
+  double packet = 0.0;
+  const std::vector<Stamp> kinds = {
+      [&](int i) { return floored(i / 100.8 + 0.004 * draw(), 0.001); },
+      [&](int i) { return i / 100.8 - 0.002 * std::log(1.0 - draw()); },
+      [&](int i) { return packet = i % 25 == 0 ? floored(i / 100.8 + 0.04 * draw(), 0.001) : packet; },
+      [&](int i) { return packet = i % 3 == 0 ? i / 100.8 + 0.01 * draw() : packet; }};
+  for (const Stamp& kind : kinds) {
+    for (int seed = 0; seed < 25; ++seed, ++runs) {
+      const RecordClock clock = stamped(1400, kind).clock(1.0);
+      within += std::abs(clock.rate_Hz - 100.8) <= 3.0 * clock.deviation_Hz ? 1 : 0;
+      with_gap += clock.gaps.empty() ? 0 : 1;
+      EXPECT_LT(clock.deviation_Hz, 0.1);  // 0.8 Hz, the error of a nominal 100 Hz, is seen in fourteen seconds
+    }
+  }
+  EXPECT_GE(within, runs * 95 / 100);
+  EXPECT_LE(with_gap, runs / 50);
+}
+
+TEST(RecordClock, GapsAreFoundWithPlaceAndLength) {
+  const auto whole = [](double seconds) { return floored(seconds, 1.0); };
+  struct Made {
+    const char* what;
+    int row, samples;
+    Stamp stamp;  // of the sample that stands in a row
+  };
+  Draw draw(4);
+  double packet = 0.0;
+  const std::vector<Made> made = {
+      {"exact", 40, 5, [](int k) { return k / 100.0; }},
+      {"digits", 1500, 1, [](int k) { return floored(k / 128.0, 0.001); }},
+      {"late", 1500, 3, [&](int k) { return k / 100.8 + 0.004 * draw(); }},
+      {"whole seconds", 1000, 500, [&](int k) { return whole(k / 100.0); }},
+      {"within a second", 1040, 560, [&](int k) { return whole(k / 100.0); }},
+      {"packets", 1500, 250, [&](int k) { return packet = k % 25 == 0 ? k / 100.8 + 0.04 * draw() : packet; }}};
+  for (const Made& m : made) {
+    const RecordClock clock = stamped(3000, [&](int i) { return m.stamp(i < m.row ? i : i + m.samples); }).clock(1.0);
+    ASSERT_EQ(clock.gaps.size(), 1U) << m.what;
+    EXPECT_EQ(clock.gaps[0].row, m.row) << m.what;
+    // Packets come up to four samples late: the length of a gap between them is known to about one.
+    EXPECT_LE(std::abs(clock.gaps[0].samples - m.samples), std::string(m.what) == "packets" ? 1 : 0) << m.what;
+  }
+  // One sample in five lost at random, exact stamps: all of them, and none else.
+  int at = 0, lost = 0;
+  const RecordClock clock = stamped(5000, [&](int i) {
+                              for (; i > 0 && draw() < 0.2; ++at) ++lost;
+                              return at++ / 100.0;
+                            }).clock(1.0);
+  EXPECT_EQ(clock.missing(), lost);
+  EXPECT_NEAR(clock.rate_Hz, 100.0, 1e-6);
+}
+
+TEST(RecordClock, RepeatsStepsBackAndReversedTime) {
+  const RecordClock row = stamped(2000, [](int i) { return (i <= 1000 ? i : i - 1) * 0.01; }).clock(1.0);
+  ASSERT_EQ(row.gaps.size(), 1U);
+  EXPECT_EQ(row.gaps[0].row, 1001);  // the second of the two
+  EXPECT_EQ(row.gaps[0].samples, -1);
+  const RecordClock block = stamped(2000, [](int i) { return (i < 1000 ? i : i - 50) * 0.01; }).clock(1.0);
+  ASSERT_EQ(block.gaps.size(), 1U);
+  EXPECT_EQ(block.gaps[0].row, 1000);
+  EXPECT_EQ(block.gaps[0].samples, -50);
+  EXPECT_EQ(stamped(2000, [](int i) { return i * 0.01 + (i == 777 ? 0.5 : 0.0); }).clock(1.0).steps_back, 778);
+  EXPECT_TRUE(stamped(2000, [](int i) { return 20.0 - i * 0.01; }).clock(1.0).reversed);
+  EXPECT_TRUE(stamped(2000, [](int) { return 5.0; }).clock(1.0).stands_still);
+}
+
+TEST(RecordClock, MidnightIsNoStepBack) {
+  for (const double unit : {1.0, 1e3, 1e6})
+    expect_rate(stamped(2500, [&](int i) { return unit * std::fmod(86390.0 + i / 100.0, 86400.0); }).clock(1.0 / unit), 100.0,
+                "midnight");
+  EXPECT_EQ(stamped(2500, [](int i) { return std::fmod(36000.0 + i / 100.0, 36010.0); }).clock(1.0).gaps.size(), 1U);
+}
+
+TEST(RecordClock, AnotherRateIsToldFromGaps) {
+  for (const double second : {0.005, 0.02, 0.03}) {
+    for (const int at : {1000, 1600}) {
+      const RecordClock clock =
+          stamped(2000, [&](int i) { return i < at ? i * 0.01 : at * 0.01 + (i - at) * second; }).clock(1.0);
+      EXPECT_NEAR(static_cast<double>(clock.changes_rate), at, 2.0) << second;
+    }
+  }
+}
+
+TEST(RecordClock, WhatRunsLikeTime) {
+  Draw draw(9);
+  EXPECT_TRUE(stamped(200, [](int i) { return 0.01 * i; }).runs_like_time());
+  EXPECT_TRUE(stamped(200, [&](int i) { return 1.7e12 + 10.0 * i + 4.0 * draw(); }).runs_like_time());
+  EXPECT_FALSE(stamped(200, [](int i) { return i + 1.0; }).runs_like_time());  // counts
+  EXPECT_FALSE(stamped(200, [&](int) { return draw(); }).runs_like_time());
+  EXPECT_FALSE(stamped(200, [](int i) { return std::sin(0.1 * i); }).runs_like_time());
+  EXPECT_FALSE(stamped(200, [](int i) { return i < 150 ? 1e-3 * i : std::pow(i, 4); }).runs_like_time());
+}
+
+}  // namespace
+}  // namespace twindeck::records
