@@ -35,7 +35,7 @@ include $(PRODUCT)workflows/steps.mk
 include $(PRODUCT)workflows/virtual.mk
 endif
 
-.PHONY: bench-places check compare decks baseline moves checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
+.PHONY: bench-places check compare decks baseline moves prose checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
   smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants hold docs FORCE
 
 # What one needs who uses the product; `make help-all` lists what its developers need as well.
@@ -119,6 +119,9 @@ baseline: ## hold every computed cell of the study where it is now (ratchet_base
 
 moves: ## make moves REASON="...": excuse the cells that moved since the baseline, each with its old and new value
 	@$(REPORT) moves $(REPORT_ARGUMENTS)
+
+prose: ## write into the guides and README.md the numbers that they tell of the results (`make verify` fails where they say others)
+	@$(REPORT) prose $(REPORT_ARGUMENTS)
 
 checksums: ## list the input files anew in data/SHA256SUMS
 	@$(REPORT) checksums $(REPORT_ARGUMENTS)

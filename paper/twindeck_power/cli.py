@@ -88,7 +88,8 @@ def _measure(options, plan, judge: Judge, p) -> dict:
 
 
 def _leads_to_gate(scratch: Scratch, step: str) -> bool:
-    return step in GATES or any(step in scratch.reads(later) and _leads_to_gate(scratch, later) for later in scratch.steps if later > step)
+    behind = scratch.steps[scratch.steps.index(step) + 1:]
+    return step.split("/")[1] in GATES or any(step in scratch.reads(later) and _leads_to_gate(scratch, later) for later in behind)
 
 
 def _estimate(options, plan, p) -> tuple:

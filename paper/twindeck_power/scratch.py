@@ -1,5 +1,6 @@
 """A copy of the study for one changed input: every file a link to the original but the one that is changed, and the steps that read it
-run anew, as far as the change reaches. A step is run if the contents of something that it read are another than its manifest says."""
+run anew, as far as the change reaches. A step is run if the contents of something that it read are another than its manifest says. Steps are
+named with their study, "ponte_del_mare/s1_model": those of the virtual campaign, which the study's tables show too, come first."""
 import json
 import os
 import shutil
@@ -15,15 +16,15 @@ STEPS = ("s0_campaign", "s1_model", "s2_sensors", "s3_identification", "s4_refin
 class Scratch:
     def __init__(self, root: Path, origin: Path, study: str, binaries: Path, quick: dict):
         """@param root  is emptied  @param origin  the repository, with the finished results of the study"""
-        self.root, self.origin, self.study, self.binaries, self.quick = root, origin, study, binaries, quick
+        self.root, self.origin, self.binaries, self.quick = root, origin, binaries, quick
         self.results = root / "results" / study
         shutil.rmtree(root, ignore_errors=True)
         for folder in ("data", "workflows"):
             link_tree(origin / folder, root / folder)
         self.results.mkdir(parents=True)
-        self.steps = [s for s in STEPS if (origin / "results" / study / s / "manifest.json").is_file()]
+        self.steps = [f"{of}/{s}" for of in (f"{study}_virtual", study) for s in STEPS if (origin / "results" / of / s / "manifest.json").is_file()]
         for step in self.steps:
-            (self.results / step).symlink_to(origin / "results" / study / step)
+            self._link(step)
         self.done = []
 
     def own(self, file: str) -> None:
@@ -41,34 +42,38 @@ class Scratch:
             if step not in self.done and (self._changed(step) or any(before in out for before in self.reads(step))):
                 out.append(step)
         for step in out:
-            if (self.results / step).is_symlink():
-                (self.results / step).unlink()
+            if (self.root / "results" / step).is_symlink():
+                (self.root / "results" / step).unlink()
         for step in self.steps:  # a step before it came out the same: what was out of sight is right after all
-            if step not in out and step not in self.done and not (self.results / step).exists():
-                (self.results / step).symlink_to(self.origin / "results" / self.study / step)
+            if step not in out and step not in self.done and not (self.root / "results" / step).exists():
+                self._link(step)
         return out
 
     def run(self, step: str) -> str:
         """"" or, if it fails, its last line, which begins with the step's name."""
-        options = [f for setting in self.quick.get(step, []) for f in ("--set", setting)]
-        command = [str(self.binaries / step), "--study", f"workflows/{self.study}", "--results", f"results/{self.study}", "--out",
-                   f"results/{self.study}/{step}", "--quiet", *options]
+        study, token = step.split("/")
+        options = [f for setting in self.quick.get(token, []) for f in ("--set", setting)]
+        command = [str(self.binaries / token), "--study", f"workflows/{study}", "--results", f"results/{study}", "--out", f"results/{step}", "--quiet",
+                   *options]
         done = subprocess.run(command, cwd=self.root, capture_output=True, text=True)
         self.done.append(step)
         return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"{step}: exit code {done.returncode}"])[-1]
 
     def inputs(self, step: str) -> dict:
-        manifest = self.origin / "results" / self.study / step / "manifest.json"
+        manifest = self.origin / "results" / step / "manifest.json"
         return json.loads(manifest.read_text(encoding="utf-8"))["inputs"]
 
     def reads(self, step: str) -> set:
         """Earlier steps whose files it reads."""
-        prefix = f"results/{self.study}/"
-        return {name[len(prefix):].split("/")[0] for name in self.inputs(step) if name.startswith(prefix)}
+        return {"/".join(name.split("/")[1:3]) for name in self.inputs(step) if name.startswith("results/")}
 
     def seconds(self, step: str) -> float:
-        manifest = self.origin / "results" / self.study / step / "manifest.json"
+        manifest = self.origin / "results" / step / "manifest.json"
         return float(json.loads(manifest.read_text(encoding="utf-8")).get("seconds", 0.0))
+
+    def _link(self, step: str) -> None:
+        (self.root / "results" / step).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / "results" / step).symlink_to(self.origin / "results" / step)
 
     def _changed(self, step: str) -> bool:
         """Files that are links, or lie in a step's folder that is one, are the originals."""

@@ -5,7 +5,7 @@ from pathlib import Path
 from .checksums import changed_inputs
 from .claims import check_claims
 from .compare import Cell, compare_table, rms_of
-from .counts import Counts, count
+from .counts import Counts, count, mark_repetitions
 from .coverage import counts, lacking
 from .errors import InputError
 from .known import apply_known_deviations, verdicts_without_list
@@ -13,6 +13,7 @@ from .nulls import judge_nulls
 from .orders import check_orders
 from .own import own_numbers
 from .ratchet import Ratchet, check_ratchet, held_cells
+from .simplest import judge_simplest
 from .stale import find_stale
 from .statements import check_statements
 from .study import Study
@@ -67,16 +68,16 @@ class CheckResult:
                 for table, printed, inside, kinds in self.numbers]
 
     def first_line(self) -> str:
-        return f"paper check {'passed' if self.passed else 'FAILED'}: {self.counts.told}; ratchet: {self.ratchet.told}"
+        return f"Paper check {'passed' if self.passed else 'FAILED'}. {self.counts.told}"
 
     def second_line(self) -> str:
         stale = f"; {len(self.stale)} stale or missing files" if self.stale else ""
         kept, known = sum(order.holds for order in self.orders), sum(order.verdict == "known" for order in self.orders)
         known = f" ({known} does not for a stated reason)" if known == 1 else f" ({known} do not for stated reasons)" if known else ""
         computed = sum(c.ours is not None for c in self.claims)
-        return (f"{self.counts.apart}; {computed} of {len(self.claims)} claims of the text computed; {sum(r.inside for r in self.rms)} of "
+        return (f"By kind: {self.counts.by_kind}; {self.counts.apart}; {computed} of {len(self.claims)} claims of the text computed; {sum(r.inside for r in self.rms)} of "
                 f"{len(self.rms)} rms limits, {kept} of {len(self.orders)} orders hold{known}; {sum(n.passes for n in self.nulls)} of {len(self.nulls)} "
-                f"columns shown because their null passes{stale}")
+                f"columns shown because their null passes; ratchet: {self.ratchet.told}{stale}")
 
     def summary(self) -> str:
         return f"{self.first_line()}\n{self.second_line()}"
@@ -96,7 +97,9 @@ def run_check(study: Study) -> CheckResult:
     nulls = judge_nulls(study, tolerances, cells)
     shown = {(v.table, v.column) for v in nulls if v.passes}
     rms = [Rms(rule, rms_of(cells, rule.table, rule.column)) for rule in tolerances.rms if (rule.table, rule.column) not in shown]
+    judge_simplest(study, tolerances, cells)
     claims = check_claims(study) if not missing else []
+    mark_repetitions(cells, claims)
     orders = check_orders(study, tolerances.keys) if not missing else []
     if missing:
         verdicts_without_list(cells)
@@ -104,7 +107,7 @@ def run_check(study: Study) -> CheckResult:
         apply_known_deviations(study, cells, claims, rms, orders)
     held = held_cells(cells, claims, own_numbers(study))
     result = CheckResult(sorted(cells, key=lambda c: (c.shown, c.verdict in ("inside", "known"), -c.used_pct)), rms,
-                         orders, claims, check_statements(study) if not missing else [], nulls, count(cells, claims, orders), held,
+                         orders, claims, check_statements(study) if not missing else [], nulls, count(cells, claims), held,
                          check_ratchet(study, held, whole=not missing), find_stale(study, tolerances) + changed_inputs(study), missing,
                          lacking(study, tolerances), counts(study, tolerances, cells))
     result.held_back = [f"{cell.name}: {wrong}; list it in ratchet_moves.csv with the reason if it has to" for cell, _, wrong in result.ratchet.moved]

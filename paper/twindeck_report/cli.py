@@ -1,4 +1,4 @@
-"""python3 -m twindeck_report tables|figures|report|unchanged|verify|article|baseline|moves --study S [--results DIR] [--data DIR] [--workflow DIR]"""
+"""python3 -m twindeck_report tables|figures|report|unchanged|verify|article|baseline|moves|prose --study S [--results DIR] [--data DIR] [--workflow DIR]"""
 import argparse
 import os
 import sys
@@ -6,9 +6,11 @@ from pathlib import Path
 
 from .check import run_check
 from .checksums import write_checksums
+from .conclusions import conclude, summed_up
 from .deviations import write_deviations
 from .errors import InputError
 from .own_study import is_own, verify_own, write_own_report, write_own_tables
+from .prose import check_prose, write_prose
 from .ratchet import add_moves, write_baseline
 from .study import Study
 from .unchanged import changed_pages, changed_steps, refuse_changed
@@ -85,14 +87,17 @@ def _verify(study: Study) -> int:
         print(f"study {study.name}: no printed tables to compare with; "
               + (f"{len(stale)} stale or missing files" if stale else "every file is as its step wrote it"))
         return 1 if stale else 0
-    result = run_check(study)
-    write_deviations(result, study.results / "report")
+    result, untrue = run_check(study), check_prose(study)
+    conclusions = conclude(study, result)
+    write_deviations(result, conclusions, study.results / "report")
     for line in result.coverage():
         print(line)
     print(result.summary())
-    for line in result.failures:
+    if conclusions:
+        print(summed_up(conclusions))
+    for line in [*result.failures, *untrue]:
         print(f"paper check: {line}", file=sys.stderr)
-    return 0 if result.passed else 1
+    return 0 if result.passed and not untrue else 1
 
 
 def _article(study: Study) -> int:
@@ -118,6 +123,11 @@ def _baseline(study: Study) -> int:
     return 0
 
 
+def _prose(study: Study) -> int:
+    print("\n".join(f"{guide} written" for guide in write_prose(study)) or "the guides say what the results are")
+    return 0
+
+
 def _checksums(study: Study) -> int:
     print(f"{write_checksums(study)} listed")
     return 0
@@ -140,6 +150,7 @@ COMMANDS = {
     "article": (_article, "our article as PDF (needs LaTeX)"),
     "baseline": (_baseline, "hold every computed cell where it is now (ratchet_baseline.csv), and empty ratchet_moves.csv"),
     "moves": (_moves, "list the cells that moved since the baseline in ratchet_moves.csv, with a reason"),
+    "prose": (_prose, "write the numbers that the guides and README.md tell of the results"),
     "checksums": (_checksums, "list the study's input files with their SHA-256 (data/SHA256SUMS)"),
 }
 

@@ -28,6 +28,7 @@ class Cell:
     repeats: str = ""  # name of the cell that says the same number; "" for a number of its own
     null: str = ""  # what the null puts in this cell's place; "" where the column has none
     null_passes: bool = False  # the null would be inside the tolerance too
+    simplest: str = ""  # of a recovered number: what the simplest rule that recovers it gives
 
     @property
     def name(self) -> str:
@@ -48,6 +49,11 @@ class Cell:
     def independent(self) -> bool:
         """A computed number of its own that is compared."""
         return not self.shown and self.kind not in CARRIED and not self.repeats
+
+    @property
+    def closer_than_simplest(self) -> bool:
+        theirs, value, simplest = number(self.paper), number(self.ours), number(self.simplest)
+        return None not in (theirs, value, simplest) and abs(value - theirs) < abs(simplest - theirs)
 
 
 def load_table(study: Study, table: str, key: str) -> pd.DataFrame:

@@ -7,8 +7,12 @@ from xml.etree import ElementTree
 from .cells import csv_text, number
 from .check import CheckResult, explain, percent
 from .compare import row_for_csv
+from .conclusions import summed_up
 
 HEADER = ["table", "row", "column", "paper", "ours", "deviation", "allowed", "used_pct", "kind", "verdict", "basis"]
+SIMPLEST = ["table", "row", "column", "paper", "ours", "simplest_rule", "closer"]
+KIND_HEADER = ["kind", "compared", "inside", "known", "failing", "a null would meet too", "closer than the simplest rule"]
+CONCLUSIONS = ["statement", "where", "verdict", "why"]
 STATEMENTS = ["statement", "where", "found", "verdict"]
 
 NULLS = ["table", "column", "null", "meaning", "cells", "passed", "rms", "limit", "verdict"]
@@ -27,7 +31,7 @@ def null_row(verdict) -> list:
             csv_text(verdict.limit), "shown" if verdict.passes else "compared"]
 
 
-def write_deviations(result: CheckResult, folder: Path) -> None:
+def write_deviations(result: CheckResult, conclusions: list, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "deviations.csv").open("w", encoding="utf-8", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
@@ -45,15 +49,41 @@ def write_deviations(result: CheckResult, folder: Path) -> None:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(STATEMENTS)
         writer.writerows([s.statement, s.source, s.found, s.verdict] for s in result.statements)
-    (folder / "deviations.md").write_text(markdown(result), encoding="utf-8")
+    with (folder / "simplest.csv").open("w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(SIMPLEST)
+        writer.writerows(simplest_rows(result))
+    with (folder / "conclusions.csv").open("w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(CONCLUSIONS)
+        writer.writerows(conclusion_row(c) for c in conclusions)
+    (folder / "deviations.md").write_text(markdown(result, conclusions), encoding="utf-8")
     ElementTree.indent(tree := junit(result))
     tree.write(folder / "junit.xml", encoding="utf-8", xml_declaration=True)
 
 
-def markdown(result: CheckResult) -> str:
+def kind_rows(result: CheckResult) -> list:
+    return [[k.kind, k.compared, k.inside, k.known, k.failing, k.null_too, "" if k.closer is None else k.closer] for k in result.counts.kinds.values()]
+
+
+def simplest_rows(result: CheckResult) -> list:
+    """Recovered numbers beside what the simplest rule gives, those that it does not beat first."""
+    own = [c for c in result.cells if c.simplest and c.independent]
+    return [[c.table, c.row, c.column, c.paper, c.ours, c.simplest, "ours" if c.closer_than_simplest else "the simplest rule"]
+            for c in sorted(own, key=lambda c: not c.closer_than_simplest)]
+
+
+def conclusion_row(conclusion) -> list:
+    return [conclusion.statement, conclusion.where, conclusion.verdict, conclusion.why]
+
+
+def markdown(result: CheckResult, conclusions: list) -> str:
     lines = ["# Deviations from the paper", "", result.summary(), ""]
     if result.failures:
         lines += ["## What fails", ""] + [f"- {line}" for line in result.failures] + [""]
+    lines += ["## Independent computed numbers by kind", ""] + table(KIND_HEADER, kind_rows(result))
+    if conclusions:
+        lines += ["## What the paper states", "", f"{summed_up(conclusions)}.", ""] + table(CONCLUSIONS, [conclusion_row(c) for c in conclusions])
     lines += ["## Root mean square of relative deviations", ""]
     lines += table(["table", "column", "ours", "limit", "verdict", "basis"],
                    [[r.rule.table, r.rule.column, percent(r.value), percent(r.rule.limit),
@@ -61,6 +91,9 @@ def markdown(result: CheckResult) -> str:
     lines += ["## What stands in a column's place, and how far it gets", "",
               "A column whose null passes is shown and not compared: it neither goes beyond the rms limit nor misses a third of the cells.", ""]
     lines += table(NULLS, [[_short(str(text)) for text in null_row(v)] for v in result.nulls])
+    lines += ["## Recovered numbers beside the simplest rule", "",
+              "A peak of the mean spectrum, a taut string through our second harmonic, or one value for all. A number counts where ours is closer.", ""]
+    lines += table(SIMPLEST, [[_short(str(text)) for text in row] for row in simplest_rows(result)])
     lines += ["## Orderings and signs that carry conclusions", ""]
     lines += table(["order", "statement", "found", "verdict", "basis"],
                    [[o.name, o.statement, o.found, o.verdict, o.known or o.basis] for o in result.orders])

@@ -29,7 +29,7 @@ def _numbers(study: Study, where: str, entry: dict) -> list:
     if entry["kind"] not in KINDS or entry["kind"] in CARRIED:
         raise InputError(f"{where}: kind {entry['kind']!r}; expected a kind of computed number")
     file = entry["file"]
-    if file.split("/")[0] not in study.steps() or not (study.results / file).is_file():
+    if not study.has(file.split("/")[0]) or not study.path_of(file).is_file():
         return []
     keys, columns, only = entry["key"].split("+"), entry.get("columns", []), entry.get("where", {})
     table = study.step_csv(file, [*keys, *columns, *only], text=True)

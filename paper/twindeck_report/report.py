@@ -3,6 +3,7 @@ from pathlib import Path
 
 from .check import explain, percent, run_check
 from .conclusions import conclude
+from .deviations import KIND_HEADER, kind_rows, simplest_rows
 from .figures import figures_of
 from .ladder import ladder
 from .page.parts import common_parts
@@ -23,7 +24,7 @@ def write_report(study: Study) -> Path:
     figures = [{"name": f.NAME, "caption": f.CAPTION, "png": image(study, f.NAME)} for f in figures_of(study)]
     page = render(
         "report.html.j2", **common_parts(study, settings), paper_sections=True, measured=settings.get("measured", "published"), result=result,
-        cells=[_cell(c) for c in result.cells], percent=percent, tables=tables, figures=figures, tiles=_tiles(result),
+        cells=[_cell(c) for c in result.cells], kinds=(KIND_HEADER, kind_rows(result)), simplest=simplest_rows(result), percent=percent, tables=tables, figures=figures, tiles=_tiles(result),
         critical=critical_rows(study), ranges=ranges_of_table_13(study), conclusions=conclude(study, result), ladder=ladder(study),
         bounds=bounds(study), costs=costs(study), left_out=left_out(study), power=power_page(study), trust=trust_region_facts(study), summary=quantities(study, "s6_updating/summary.csv"),
         errata=study.read_toml(study.data / "errata.toml").get("erratum", []), model=quantities(study, "s1_model/summary.csv"))
@@ -35,7 +36,8 @@ def write_report(study: Study) -> Path:
 
 def _tiles(result) -> list:
     """The shortest account of how far ours are from the paper's."""
-    return [{"value": f"{result.counts.inside} of {result.counts.independent}", "meaning": "independent computed numbers inside their tolerance"},
+    own = result.counts.kinds.get("predicted")
+    return [{"value": f"{own.inside} of {own.compared}" if own else "none", "meaning": "numbers computed without a fit to the paper agree with it"},
             {"value": sum(o.holds for o in result.orders), "meaning": f"of {len(result.orders)} orderings and signs that carry conclusions hold"}]
 
 

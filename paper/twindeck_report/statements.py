@@ -89,7 +89,7 @@ def _comfort(study: Study) -> list:
 
 
 def _section_6(study: Study) -> list:
-    table = study.step_csv("s8_validation/statements.csv", ["statement", "found", "verdict"], text=True)
+    table = study.campaign().step_csv("s8_validation/statements.csv", ["statement", "found", "verdict"], text=True)
     return [Statement(row["statement"], "section 6", row["found"], row["verdict"] == "hit") for row in table.to_dict("records")]
 
 
@@ -110,7 +110,7 @@ def ranges_of_table_13(study: Study) -> list:
     """Errors of Table 13: mean over the seeds, the interval of that mean, and how far one seed alone may be off."""
     if "s8_validation" not in study.steps():
         return []
-    table = study.step_csv("s8_validation/rms.csv", ["event", "run", "model", "channel", "direction", "rms_m_s2", "seed_deviation_m_s2",
+    table = study.campaign().step_csv("s8_validation/rms.csv", ["event", "run", "model", "channel", "direction", "rms_m_s2", "seed_deviation_m_s2",
                                                     "measured_rms_m_s2", "error_pct", "error_low_pct", "error_high_pct"])
     table = table[(table["direction"] == "z") & table["error_pct"].notna()]
     cells = {}

@@ -35,7 +35,16 @@ class Study:
 
     def step_csv(self, name: str, columns=(), text=False) -> pd.DataFrame:
         """A step's output, e.g. step_csv("s1_model/modes.csv")."""
-        return self.read_csv(self.results / name, columns, text)
+        return self.read_csv(self.path_of(name), columns, text)
+
+    def path_of(self, name: str) -> Path:
+        """A step's file: of this study, or of its virtual campaign where that alone has the step."""
+        step, campaign = name.split("/")[0], self.campaign()
+        return (campaign if campaign is not self and step not in self.steps() and step in campaign.steps() else self).results / name
+
+    def has(self, step: str) -> bool:
+        """This study or its virtual campaign has the step."""
+        return step in self.steps() or step in self.campaign().steps()
 
     def paper_table(self, number: int) -> pd.DataFrame:
         """A table as the paper prints it: every cell as text, because the printed digits carry meaning."""
@@ -63,14 +72,22 @@ class Study:
         return (self.data / "paper").is_dir()
 
     def virtual(self) -> "Study | None":
-        """The study that diagnoses this one's virtual campaign, workflows/<study>_virtual; None where there is none."""
-        workflow, results, data = (path.with_name(f"{path.name}_virtual") for path in (self.workflow, self.results, self.data))
-        return Study(f"{self.name}_virtual", results, data, workflow) if (workflow / "study.toml").is_file() else None
+        """This one's virtual campaign, workflows/<study>_virtual, with the paper of this one; None where there is none."""
+        workflow, results = (path.with_name(f"{path.name}_virtual") for path in (self.workflow, self.results))
+        return Study(f"{self.name}_virtual", results, self.data, workflow, self.used) if (workflow / "study.toml").is_file() else None
+
+    def campaign(self) -> "Study":
+        """The study that the records are of, and what is identified in them: the virtual one where it has that step, else this one."""
+        virtual = self.virtual()
+        return virtual if virtual is not None and "s3_identification" in virtual.steps() else self
 
     def _mend(self, path: Path) -> str:
         try:
             first = path.relative_to(self.results).parts[0]
         except ValueError:
+            virtual = self.virtual()
+            if virtual is not None and path.is_relative_to(virtual.results):
+                return virtual._mend(path)
             return "it belongs to the repository's inputs (give --data or --workflow if they lie elsewhere)"
         if first in ("tables", "figures"):
             return f"run `make {first} STUDY={self.name}` first"

@@ -31,6 +31,7 @@ class Column:
     row_kinds: tuple = ()  # ((row, kind), ...) of rows of another kind than the column's
     repeats: str = ""  # "table_NN.column": rows that it has too are one number with ours, and are counted once
     null: str = ""  # what the column is judged with in place of ours (nulls.py)
+    simplest: str = ""  # the simplest rule that recovers the column's numbers (simplest.py)
 
     def kind_of(self, row: str) -> str:
         return dict(self.row_kinds).get(row, self.kind)
@@ -84,13 +85,15 @@ def _column(path, table, name, rule) -> Column:
     row_kinds = rule.get("row_kinds", {})
     if not isinstance(row_kinds, dict) or any(kind not in KINDS for kind in row_kinds.values()):
         raise InputError(f"{where}: row_kinds {row_kinds!r}; expected {{ <row> = \"<kind>\" }} with one of {', '.join(KINDS)}")
-    repeats, null = rule.get("repeats", ""), rule.get("null", "")
+    repeats, null, simplest = rule.get("repeats", ""), rule.get("null", ""), rule.get("simplest", "")
     if not isinstance(repeats, str) or (repeats and repeats.count(".") != 1):
         raise InputError(f'{where}: repeats {repeats!r}; expected "table_NN.column", the numbers that this column says again')
     if rule["rule"] != "shown" and rule["kind"] not in CARRIED and not null and not repeats:
         raise InputError(f"{where}: no null; name what the column is judged with in place of ours, or the column that it repeats")
+    if rule["rule"] != "shown" and rule["kind"] == "recovered" and not simplest:
+        raise InputError(f"{where}: no simplest; name the simplest rule that recovers these numbers")
     return Column(table, name, rule["kind"], rule["rule"], float(tolerance), basis, rule.get("of", ""), rule.get("measured", ""),
-                  tuple(row_kinds.items()), repeats, null)
+                  tuple(row_kinds.items()), repeats, null, simplest)
 
 
 def _rms(path, table, rule) -> RmsRule:

@@ -56,4 +56,13 @@ def left_out(study: Study) -> dict | None:
                                                              "parameters_on_bounds", "converged"])
     means = {name: float(table[column].abs().mean()) for name, column in ERRORS.items()}
     closer = int((table["error_predicted_pct"].abs() < table["error_before_pct"].abs()).sum())
-    return {"rows": table.to_dict("records"), "means": means, "closer": closer, "pairs": len(table)}
+    return {"rows": table.to_dict("records"), "means": means, "closer": closer, "pairs": len(table), "regularised": _regularised(study)}
+
+
+def _regularised(study: Study) -> dict | None:
+    """Predictions of the update that is held to the parameters' ranges; None where step 6 had no reason to make one."""
+    name = "s6_updating/leave_one_out_regularised.csv"
+    if not (study.results / name).is_file():
+        return None
+    errors = study.step_csv(name, ["error_predicted_pct"])["error_predicted_pct"]
+    return {"errors": list(errors), "mean": float(errors.abs().mean())}

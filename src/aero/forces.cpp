@@ -43,8 +43,8 @@ const std::vector<EquationDifference>& equation_differences() {
        "in Eq. (8) p1 multiplies the vertical motion; Scanlan's P1 and P4 are lateral", false},
       {"Eq. (10), L_b", "(C_L' - C_D) w'/V", "(C_L' + C_D) w'/V",
        "with (C_D' - C_L) in the drag, lift is positive up, and then the sign is plus", true},
-      {"Eq. (10), M_b", "the drag's line in place of the moment's", "½ρV²B² (2C_M v'/V + C_M' w'/V)",
-       "the printed line is the drag's", false},
+      {"Eq. (10), M_b", "the drag's bracket and the moment's after ½ρV²B²", "½ρV²B² (2C_M v'/V + C_M' w'/V)",
+       "of the two brackets printed the second has the moment's coefficients", false},
       {"Eq. (10)", "force per unit length", "times the influence length L", "it is applied at nodes", false},
   };
   return list;

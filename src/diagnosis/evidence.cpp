@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/distributions.hpp"
 #include "core/statistics.hpp"
@@ -78,8 +79,24 @@ std::vector<Finding> updating_findings(const std::vector<Claim>& claims) {
   return out;
 }
 
+/// What dampers that move change in a mode's modal stiffness by the model: (f with / f without)² - 1 of its own modes, complex
+/// where the dampers are on. Nothing where the model has no partner for one of the two.
+std::optional<double> modelled_change(const FeatureMap& model, const std::string& mode) {
+  const Prediction asked = model.predict(model.base(Eigen::VectorXd::Zero(std::ssize(model.nuisances()))), {}, false);
+  double f[2] = {0.0, 0.0};
+  for (std::size_t m = 0; asked.valid && m < model.measured_modes().size(); ++m) {
+    const MeasuredMode& measured = model.measured_modes()[m];
+    const auto& on = model.features().conditions[static_cast<std::size_t>(measured.condition)].dampers_on;
+    if (measured.label != mode || !on || asked.paired[m] < 0) continue;
+    double& of_state = f[*on ? 1 : 0];
+    if (!(of_state > 0.0)) of_state = asked.frequency_Hz[m];
+  }
+  if (!(f[0] > 0.0) || !(f[1] > 0.0)) return std::nullopt;
+  return std::pow(f[1] / f[0], 2) - 1.0;
+}
+
 /// Modes of one name with dampers and without.
-std::vector<Finding> damper_findings(const FeatureSet& features, const Places& places) {
+std::vector<Finding> damper_findings(const FeatureSet& features, const Places& places, const FeatureMap* model) {
   std::map<std::string, std::array<double, 2>> f, deviation;
   for (const Row& row : features.rows) {
     const auto& on = features.conditions[static_cast<std::size_t>(row.condition)].dampers_on;
@@ -103,11 +120,15 @@ std::vector<Finding> damper_findings(const FeatureSet& features, const Places& p
   }
   if (both == 0 || !(largest > 4.0 * error)) return {};
   Finding found{"dampers", "", {most}, {}, "the modes with dampers at two or more amplitudes, one of them beyond slip"};
-  found.text = fmt::format(
-      "With dampers mode {} has {:.0f} % (+- {:.0f}) more modal stiffness than without. A dashpot that moves adds damping, no "
-      "stiffness; "
-      "only one that stands still, or a spring, does",
-      most, 100.0 * largest, 100.0 * error);
+  found.text = fmt::format("With dampers mode {} has {:.0f} % (+- {:.0f}) {} modal stiffness than without", most,
+                           100.0 * std::abs(largest), 100.0 * error, largest > 0.0 ? "more" : "less");
+  if (const auto moving = model != nullptr ? modelled_change(*model, most) : std::nullopt) {
+    found.text += fmt::format(". In the model, dampers that move change it by {:+.0f} %", 100.0 * *moving);
+    if (std::abs(*moving - largest) <= 2.0 * error) {
+      found.text += ", as much as is measured";
+      return {found};
+    }
+  }
   for (const char* set : {"damper_types", "dampers"})
     if (const auto at = places.sets.find(set); at != places.sets.end() && found.candidates.empty())
       for (const Place& place : at->second)
@@ -156,9 +177,9 @@ std::vector<ChannelFactor> channel_factors(const std::vector<Claim>& claims) {
 }
 
 std::vector<Finding> account_of(const std::vector<Claim>& claims, const FeatureSet& features,
-                                const std::vector<matching::Channel>& channels, const Places& places) {
+                                const std::vector<matching::Channel>& channels, const Places& places, const FeatureMap* model) {
   std::vector<Finding> out = updating_findings(claims);
-  for (const Finding& finding : damper_findings(features, places)) out.push_back(finding);
+  for (const Finding& finding : damper_findings(features, places, model)) out.push_back(finding);
   for (const ChannelFactor& f : channel_factors(claims)) {
     const bool one_sided = f.lowest > 1.0 || f.highest < 1.0;  // in all records, not only in their mean
     if (f.p_value > kAlpha || f.records < 2 || !one_sided) continue;

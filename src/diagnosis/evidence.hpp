@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnosis/features/features.hpp"
+#include "diagnosis/prediction/feature_map.hpp"
 #include "diagnosis/reduction/structure.hpp"
 #include "matching/measured.hpp"
 
@@ -46,8 +47,11 @@ struct Finding {
 };
 
 /// What claims and rows say before any odds: parameters of a published updating on bounds, errors and MACs that it leaves,
-/// channels that stand off, and by how much each mode is stiffer with dampers than without.
+/// channels that stand off, and by how much the mode that dampers change most is stiffer with them than without. Whether
+/// dampers that move account for that is asked of the model.
+/// @param model  predicts the rows; null: nothing is said of the model
 [[nodiscard]] std::vector<Finding> account_of(const std::vector<Claim>& claims, const FeatureSet& features,
-                                              const std::vector<matching::Channel>& channels, const Places& places);
+                                              const std::vector<matching::Channel>& channels, const Places& places,
+                                              const FeatureMap* model = nullptr);
 
 }  // namespace twindeck::diagnosis

@@ -45,8 +45,10 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   return found.status;
 }
 
-runner::Computation read(const steps::SensitivityConfig& config, runner::StepContext& context) {
+runner::Computation read(steps::SensitivityConfig& config, runner::StepContext& context) {
   const dynamics::ReadModel model = steps::load_model(context, context.results / "s4_refinement" / "model");
+  if (config.compared_modes_from == "s4_refinement")
+    config.compared_modes = steps::paired_modes(context.input(context.results / "s4_refinement" / "pairs.csv"));
   steps::check_sensitivity_config(config, model.parameters(), model.source);
   return [&config, &context, model] { return run(config, model, context); };
 }

@@ -32,8 +32,7 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
                             measured.modes.has_shapes());
 
   // 3. The update.
-  updating::UpdatingOptions options = config.options(context.seed);
-  options.elsewhere = published;
+  const updating::UpdatingOptions options = config.options(context.seed, published);
   const updating::UpdatingResult result = updating::update(
       before.system, updating::prestress_refresh(before), active, updating::frequency_targets(measured, pairing), options,
       [&](int done, int of) { context.progress("starts", done, of); }, rows);
@@ -49,10 +48,11 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   for (auto& row : matching::compare("after", measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
 
   // 5. Tables, the model, and the outcome in words.
-  steps::write_updating(before.system.parameters, active, comparison, config.common_pairs, result, context.out);
+  steps::write_updating(before.system.parameters, active, comparison, config.common_pairs, result, context);
   steps::write_mac(measured, followed, context.out);
   model_io::write_modes(model_io::published_modes(after.fe_model(), after.system, modes_after), context.out);
   model_io::save_model(before, result.theta, context.out / "model");
+  if (result.regularised) model_io::save_model(before, result.regularised->theta, context.out / "regularised_model");
   for (const std::string& line : steps::report_lines(before.system.parameters, active, result)) context.say(line);
   steps::report_weighing(context, {before, active, measured, pairing, rows, result});
   steps::warn_of_fit(context, measured, comparison, before.system.parameters, active, result);

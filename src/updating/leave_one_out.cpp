@@ -11,6 +11,7 @@ Search without(const Search& search, std::size_t target) {
   Search left = search;
   left.definition.targets[target].fitted = false;
   if (left.definition.weighted) left.definition.weighted = left.definition.weighted->without(target);
+  if (left.definition.prior.given()) left.definition.prior = left.definition.prior.without(static_cast<Eigen::Index>(target));
   return left;
 }
 

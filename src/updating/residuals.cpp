@@ -35,7 +35,11 @@ const Evaluation& ModalResiduals::at(const Eigen::VectorXd& x, bool with_jacobia
     if (cache_.size() > kept_points) cache_.pop_back();
     known = cache_.begin();
   }
-  if (with_jacobian && known->valid && known->jacobian.size() == 0) differentiate(*known);
+  if (with_jacobian && known->valid && known->jacobian.size() == 0) {
+    differentiate(*known);
+    Eigen::VectorXd rows(known->jacobian.rows());
+    if (definition_.prior.given()) definition_.prior.append(x, rows, &known->jacobian);
+  }
   return *known;
 }
 
@@ -60,6 +64,7 @@ void ModalResiduals::solve(Evaluation& evaluation) {
     evaluation.residual(i) = target.fitted ? evaluation.frequency_Hz(i) / target.measured_Hz - 1.0 : 0.0;
   }
   evaluation.valid = !definition_.weighted || weigh(evaluation, followed.position);
+  if (definition_.prior.given()) definition_.prior.append(evaluation.x, evaluation.residual, nullptr);
 }
 
 void ModalResiduals::differentiate(Evaluation& evaluation) {

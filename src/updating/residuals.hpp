@@ -8,6 +8,7 @@
 #include "dynamics/eigenmodes.hpp"
 #include "fe/parametric_system.hpp"
 #include "matching/mode_following.hpp"
+#include "updating/prior.hpp"
 #include "updating/updating.hpp"
 #include "updating/weighted_rows.hpp"
 
@@ -22,10 +23,13 @@ struct ResidualDefinition {
   int n_modes = 0;          ///< modes solved for
   std::shared_ptr<const matching::ModeFollower> follower;
   std::shared_ptr<const WeightedRows> weighted;  ///< null: relative frequencies, Eq. (5)
+  Prior prior;                                   ///< of the parameters, whose rows come behind the others; none by default
 
   /// All parameters at normalised values of the active ones.
   [[nodiscard]] Eigen::VectorXd theta(const Eigen::VectorXd& x) const;
-  [[nodiscard]] int n_residuals() const { return weighted ? weighted->size() : static_cast<int>(targets.size()); }
+  [[nodiscard]] int n_residuals() const {
+    return (weighted ? weighted->size() : static_cast<int>(targets.size())) + static_cast<int>(prior.mean.size());
+  }
   /// Size of residuals that mean nothing: far below any measurement error if they are relative frequencies; one standard
   /// deviation of all rows together if they are weighed.
   [[nodiscard]] double negligible_residual() const { return weighted ? 1.0 : 1e-4; }
@@ -39,7 +43,8 @@ struct ResidualDefinition {
 struct Evaluation {
   bool valid = false;            ///< false: modes not found here (mechanism, lost mode); the step must be refused
   Eigen::VectorXd x;             ///< (n_active)
-  Eigen::VectorXd residual;      ///< (n_residuals) (f_N - f_X)/f_X [-], 0 for a target that is not fitted; or weighed rows
+  Eigen::VectorXd residual;      ///< (n_residuals) (f_N - f_X)/f_X [-], 0 for a target that is not fitted; or weighed rows;
+                                 ///< then those of the prior
   Eigen::MatrixXd jacobian;      ///< (n_residuals × n_active) per normalised parameter; empty until asked for
   Eigen::VectorXd frequency_Hz;  ///< (n_targets) of the followed modes
   std::vector<int> mode;         ///< (n_targets) positions of the followed modes

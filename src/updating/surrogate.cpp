@@ -120,6 +120,12 @@ bool CorrectedResiduals::weighted_at(const Modes& modes, const VectorXd& theta, 
 }
 
 bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, MatrixXd* jacobian) const {
+  if (!rows_at(x, residual, jacobian)) return false;
+  if (definition_.prior.given()) definition_.prior.append(x, residual, jacobian);
+  return true;
+}
+
+bool CorrectedResiduals::rows_at(const VectorXd& x, VectorXd& residual, MatrixXd* jacobian) const {
   const VectorXd theta = definition_.theta(x);
   const MatrixXd k = reduced_.stiffness(theta), m = reduced_.mass(theta);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eig(k, m);

@@ -43,6 +43,7 @@ class CorrectedResiduals {
   bool weighted_at(const Modes& modes, const Eigen::VectorXd& theta, Eigen::VectorXd& residual,
                    Eigen::MatrixXd* jacobian) const;
   bool reduced_at(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
+  bool rows_at(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;  ///< without the prior
 
   const ReducedSystem& reduced_;
   const ResidualDefinition& definition_;

@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "updating/leave_one_out.hpp"
 #include "updating/multi_start.hpp"
+#include "updating/regularised.hpp"
 #include "updating/residuals.hpp"
 #include "updating/search.hpp"
 #include "updating/valley_walk.hpp"
@@ -165,6 +166,15 @@ void weigh(Search& search, const MeasuredRows& rows, const Eigen::VectorXd& x0, 
   result.at_start = {start.residual, start.jacobian, start.predicted, start.scales};
 }
 
+// The prior of the ranges; where frequencies are relative, with the model's error that the start shows.
+void hold_to_ranges(Search& search, const Eigen::VectorXd& x0, UpdatingResult& result) {
+  Evaluation start;
+  if (!search.definition.weighted) start = evaluate_at_start(search, x0);
+  if (!search.definition.weighted && !start.valid) return;
+  search.definition.prior = prior_of_ranges(search.box, x0, start.residual, start.jacobian);
+  if (!search.definition.weighted) result.model_error = search.definition.prior.model_error;
+}
+
 }  // namespace
 
 UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh, const std::vector<int>& active,
@@ -205,6 +215,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   }
 
   if (rows.given()) weigh(search, rows, x0, result);
+  if (options.prior) hold_to_ranges(search, x0, result);
 
   const Eigen::MatrixXd points = starting_points(x0, search.box, options.starts, options.seed);
   if (start.size() >= options.surrogate_from_size) search.surrogate = make_surrogate(search, points);
@@ -220,6 +231,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   }
   const SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
   if (options.leave_one_out && best.result.converged) result.left_out = leave_each_out(search, x0);
+  if (!options.prior) result.regularised = regularised_where_worse(result, start, refresh, active, targets, options, rows);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct UpdatingOptions {
   std::uint64_t seed = 1;
   bool leave_one_out = false;              ///< afterwards each target is left out in turn and predicted (leave_one_out.hpp)
   std::vector<Eigen::VectorXd> elsewhere;  ///< (n_active each) further values at which the cost is computed
+  bool prior = false;  ///< parameters are held to their initial values by the deviations of their ranges (prior.hpp)
 };
 
 /// One accepted step of a search. `theta` are the active parameters divided by their initial values (by their range where the
@@ -100,12 +102,15 @@ struct UpdatingResult {
   Eigen::VectorXd followed_mac;                             ///< (n_targets) MAC of the followed mode with the start model's
   std::vector<IterationRecord> history;
   SmoothCheck smooth;
-  double cost_before = 0.0;              ///< at the initial values
-  Linearised at_optimum, at_start;       ///< `at_start` only where rows are weighed
-  Eigen::VectorXd scale;                 ///< (n_active) parameter = scale · normalised parameter
-  Box box;                               ///< of the normalised parameters
-  std::vector<LeftOut> left_out;         ///< (n_targets) where options.leave_one_out, else empty
-  std::vector<CostElsewhere> elsewhere;  ///< one a point of options.elsewhere
+  double cost_before = 0.0;                           ///< at the initial values
+  double model_error = 0.0;                           ///< [-] of a frequency, as options.prior estimates it; else 0
+  Linearised at_optimum, at_start;                    ///< `at_start` only where rows are weighed
+  Eigen::VectorXd scale;                              ///< (n_active) parameter = scale · normalised parameter
+  Box box;                                            ///< of the normalised parameters
+  std::vector<LeftOut> left_out;                      ///< (n_targets) where options.leave_one_out, else empty
+  std::vector<CostElsewhere> elsewhere;               ///< one a point of options.elsewhere
+  std::shared_ptr<const UpdatingResult> regularised;  ///< where left-out targets are predicted worse than without an update
+                                                      ///< (regularised.hpp), else null
   Status status;
 };
 

@@ -1,6 +1,7 @@
 #include "updating/updating_settings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace twindeck::updating {
 
@@ -10,8 +11,9 @@ bool UpdatingSettings::weighs_shapes() const {
 
 bool UpdatingSettings::weighs() const { return weights == "covariance" || weighs_shapes(); }
 
-UpdatingOptions UpdatingSettings::options(std::uint64_t seed) const {
+UpdatingOptions UpdatingSettings::options(std::uint64_t seed, std::vector<Eigen::VectorXd> elsewhere) const {
   UpdatingOptions options;
+  options.elsewhere = std::move(elsewhere);
   options.trust_radius = trust_radius;
   options.starts = static_cast<int>(starts);
   options.n_modes = static_cast<int>(n_modes);

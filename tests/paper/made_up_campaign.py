@@ -21,7 +21,7 @@ def write_sensors(write_rows, folder):
     write_rows(folder / "layout.csv", ["setup", "channel", "point", "direction", "x_m", "y_m", "z_m", "dx", "dy", "dz"],
                [[setup, f"{point}z", point, "vertical", x, y, 10.0, 0, 0, 1] for setup in ("M", "ST1", "DC1") for point, x, y in CHANNELS])
     frequencies = [0.8, 1.5, 1.55]
-    write_rows(folder / "blind_test.csv", ["setup", "mode", "frequency_Hz", "found"], [[s, i + 1, f, 1] for s in ("ST1", "DC1") for i, f in enumerate(frequencies)])
+    write_rows(folder / "blind_test.csv", ["setup", "mode", "frequency_Hz", "found", "identified_frequency_Hz"], [[s, i + 1, f, 1, f] for s in ("ST1", "DC1") for i, f in enumerate(frequencies)])
     write_rows(folder / "blind_psd.csv", ["setup", "channel", "frequency_Hz", "psd_m2_s3"],
                [[s, f"{p}z", f, 1e-4 / (1e-3 + (f - 1.5) ** 2)] for s in ("ST1", "DC1") for p, *_ in CHANNELS for f in np.linspace(0.1, 3.0, 30)])
     write_rows(folder / "blind_poles.csv",

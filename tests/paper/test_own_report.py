@@ -220,11 +220,11 @@ class Numbers(unittest.TestCase):
         self.write("s6_updating/parameters.csv", ["parameter", "unit", "initial_value", "final_value", "change_pct", "lower", "upper", "bound"],
                    [["mass", "kg", 0, 300, "", -200, 600, "none"], ["k", "-", 1, 1.1, 10, 0.5, 2, "none"], ["offset", "m", -2, -3, 50, -3, -1, "lower"]])
         self.write("s6_updating/starts.csv", ["start", "cost", "converged"], [[0, 1.0, 1]])
-        self.write("s6_updating/history.csv", ["start", "outer", "iteration", "cost", "mass", "k", "offset"],
-                   [[0, 0, 0, 2.0, 0.0, 1.0, -1.0], [0, 0, 1, 1.0, 0.375, 1.1, -1.5]])
+        self.write("s6_updating/history.csv", ["start", "outer", "iteration", "cost", "step_norm", "trust_radius", "mass", "k", "offset"],
+                   [[0, 0, 0, 2.0, 0.0, 2.0, 0.0, 1.0, -1.0], [0, 0, 1, 1.0, 0.6, 2.0, 0.375, 1.1, -1.5]])
         self.assertIn("Changed: offset +50.0 % (on its lower bound), k +10.0 %, mass from 0 to 300 kg.", answer._updating(self.study))
         figure, _ = updating_history.draw(self.study)
-        for axes, initial, (low, high) in zip(figure.axes[1:], (0.0, 1.0, -1.0), ((-0.25, 0.75), (0.5, 2.0), (-1.5, -0.5))):
+        for axes, initial, (low, high) in zip(figure.axes[2:], (0.0, 1.0, -1.0), ((-0.25, 0.75), (0.5, 2.0), (-1.5, -0.5))):
             margin = 0.12 * (high - low)
             np.testing.assert_allclose(axes.get_ylim(), (low - margin, high + margin), err_msg=f"of {axes.get_title(loc='left')}")
             self.assertAlmostEqual(axes.lines[0].get_ydata()[0], initial)

@@ -143,8 +143,8 @@ class Reach(unittest.TestCase):
         self.step("s4_refinement", "results/mine/s1_model/out.csv")
         self.step("s7_aerodynamics", "results/mine/s4_refinement/out.csv", "data/mine/wind.csv")
 
-    def step(self, name, *inputs):
-        folder = self.origin / "results/mine" / name
+    def step(self, name, *inputs, study="mine"):
+        folder = self.origin / "results" / study / name
         folder.mkdir(parents=True)
         (folder / "out.csv").write_text(f"{name}\n")
         recorded = {file: hashlib.sha256((self.origin / file).read_bytes()).hexdigest() for file in inputs}
@@ -158,7 +158,7 @@ class Reach(unittest.TestCase):
 
     def finish(self, scratch, step, text):
         """As if the step had run."""
-        folder = scratch.results / step
+        folder = scratch.root / "results" / step
         folder.mkdir()
         (folder / "out.csv").write_text(text)
         scratch.done.append(step)
@@ -168,21 +168,28 @@ class Reach(unittest.TestCase):
 
     def test_a_step_runs_if_what_it_read_is_another_and_its_followers_wait(self):
         scratch = self.changed("data/mine/bridge.toml")
-        self.assertEqual(scratch.waiting(), ["s1_model", "s4_refinement", "s7_aerodynamics"])
+        self.assertEqual(scratch.waiting(), ["mine/s1_model", "mine/s4_refinement", "mine/s7_aerodynamics"])
         self.assertFalse((scratch.results / "s4_refinement").exists(), "old results are out of sight")
         self.assertEqual((self.origin / "data/mine/bridge.toml").read_text(), "1\n", "the original is left alone")
-        self.finish(scratch, "s1_model", "another\n")
-        self.assertEqual(scratch.waiting(), ["s4_refinement", "s7_aerodynamics"])
+        self.finish(scratch, "mine/s1_model", "another\n")
+        self.assertEqual(scratch.waiting(), ["mine/s4_refinement", "mine/s7_aerodynamics"])
 
     def test_a_change_that_ends_half_way_runs_nothing_behind(self):
         scratch = self.changed("data/mine/bridge.toml")
         scratch.waiting()
-        self.finish(scratch, "s1_model", "s1_model\n")
+        self.finish(scratch, "mine/s1_model", "s1_model\n")
         self.assertEqual(scratch.waiting(), [], "step 1 gave what it gave before")
         self.assertTrue((scratch.results / "s7_aerodynamics/out.csv").is_file(), "what was out of sight is back")
 
+    def test_steps_of_the_virtual_campaign_come_first_and_reach_what_reads_them(self):
+        (self.origin / "workflows/mine_virtual").mkdir()
+        (self.origin / "data/mine/truth.toml").write_text("1\n")
+        self.step("s0_campaign", "data/mine/truth.toml", study="mine_virtual")
+        self.step("s8_validation", "results/mine_virtual/s0_campaign/out.csv", "results/mine/s7_aerodynamics/out.csv")
+        self.assertEqual(self.changed("data/mine/truth.toml").waiting(), ["mine_virtual/s0_campaign", "mine/s8_validation"])
+
     def test_a_late_input_leaves_what_is_before_it_alone(self):
-        self.assertEqual(self.changed("data/mine/wind.csv").waiting(), ["s7_aerodynamics"])
+        self.assertEqual(self.changed("data/mine/wind.csv").waiting(), ["mine/s7_aerodynamics"])
 
 
 class PonteDelMare(unittest.TestCase):

@@ -34,7 +34,7 @@ def names() -> list:
     """Every macro that numbers() defines, whatever the study holds."""
     claims = [f"{who}{camel(name)}" for name in COMPUTED for who in ("val", "paper")]
     check = ["valCellsCompared", "valCellsInside", "valCellsKnown", "valCellsShown", "valPrintedNumbers", "valClaims", "valClaimsComputed", "valClaimsCompared",
-             "valIndependent", "valIndependentInside", "valIndependentKnown", "valNullToo", "valRepetitions", "valRatchetHeld", "valRatchetExcused",
+             "valIndependentTold", "valIndependentKinds", "valNullToo", "valRepetitions", "valRatchetHeld", "valRatchetExcused",
              "valOrdersHolding", "valOrders", "valRmsTableTwo", "valRmsTableSeven", "valRmsTableOneTwo"]
     kinds = [f"valKind{camel(kind)}" for kind in KINDS]
     errors = [f"{who}MeanError{camel(str(n))}" for n in ERROR_TABLES for who in ("val", "paper")] + ["valMeanErrorCommonBefore", "valMeanErrorCommonAfter", "valMeanErrorNotUpdated",
@@ -69,8 +69,7 @@ def _check(result: CheckResult) -> dict:
              "valCellsKnown": result.count("known"), "valCellsShown": result.count("shown"),
              "valPrintedNumbers": sum(printed for _, printed, *_ in result.numbers), "valClaims": len(result.claims),
              "valClaimsComputed": len(computed), "valClaimsCompared": sum(c.allowed is not None for c in computed),
-             "valIndependent": result.counts.independent, "valIndependentInside": result.counts.inside, "valIndependentKnown": result.counts.known,
-             "valNullToo": result.counts.null_too, "valRepetitions": result.counts.repetitions, "valRatchetHeld": result.ratchet.held or 0,
+             "valIndependentTold": tex(result.counts.told), "valIndependentKinds": tex(result.counts.by_kind), "valNullToo": result.counts.null_too, "valRepetitions": result.counts.repetitions, "valRatchetHeld": result.ratchet.held or 0,
              "valRatchetExcused": len(result.ratchet.excused),
              "valOrdersHolding": sum(o.holds for o in result.orders), "valOrders": len(result.orders)}
     for kind in KINDS:

@@ -28,6 +28,8 @@ class Claim:
     repeats: str = ""  # the cell of a table, or the claim, that says the same number
     null: float | None = None  # what stands in the number's place if nothing is computed for it
     null_passes: bool = False
+    simplest: str = ""  # as a cell's; no claim that is compared is recovered
+    closer_than_simplest: bool = False
 
     @property
     def inside(self) -> bool:

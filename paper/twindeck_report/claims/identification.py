@@ -22,14 +22,14 @@ def _frame(study: Study):
 
 
 def _identified(study: Study, condition: str):
-    if "s3_identification" not in study.steps():
+    if not study.has("s3_identification"):
         return None
     rows = without_dampers(study) if condition == WITHOUT else with_dampers(study)
     return float(modes_of(study, condition).at[rows[1], "frequency_Hz"]) if 1 in rows else None
 
 
 def _rows_found(study: Study):
-    return float(len(without_dampers(study))) if "s3_identification" in study.steps() else None
+    return float(len(without_dampers(study))) if study.has("s3_identification") else None
 
 
 def _resonance(stay: str, row: int):

@@ -25,7 +25,7 @@ def relative(share: float):
 
 def table(study: Study, name: str, columns=()):
     """A step's CSV file; None where the study lacks the step or the file."""
-    if name.split("/")[0] not in study.steps() or not (study.results / name).is_file():
+    if not study.has(name.split("/")[0]) or not study.path_of(name).is_file():
         return None
     return study.step_csv(name, columns)
 
@@ -49,10 +49,11 @@ def quantity(name: str, wanted: str, factor: float = 1.0):
 
 def settings(study: Study, step: str) -> dict:
     """The resolved configuration that a step ran with, from its manifest."""
-    manifest = read_manifest(study.results / step) if step in study.steps() else None
+    folder = study.path_of(step)
+    manifest = read_manifest(folder) if study.has(step) else None
     if manifest is None:
         return {}
-    study.used.add(study.results / step / "manifest.json")
+    study.used.add(folder / "manifest.json")
     return tomllib.loads(manifest.get("config_toml", ""))
 
 

@@ -15,6 +15,7 @@ def _mac_diagonal(study: Study):
 def _mean_mac(step: str, paper_table: int):
     """Mean MAC in percent over the pairs that a table of the paper prints, on the virtual bridge."""
     def compute(study: Study):
+        study = study.campaign()
         if not {step, "s3_identification"} <= set(study.steps()) or not (study.results / step / "model/nodes.csv").is_file():
             return None
         pairs = study.paper_table(paper_table)[["numerical_mode", "experimental_mode"]].to_numpy()

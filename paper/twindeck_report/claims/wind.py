@@ -74,6 +74,12 @@ def _peak(direction: str):
     return from_table("s8_validation/comfort.csv", ["run", "direction", "peak_m_s2"], pick)
 
 
+def _peak_of_august(rows):
+    """Of the foot deck, vertical, over the paper's three deployments [m/s²]."""
+    own = rows[(rows["event"] == "August") & (rows["direction"] == "vertical") & (rows["deck"] == "foot") & rows["run"].isin(["NS1", "NS2", "NS3"])]
+    return own["peak_m_s2"].max() if len(own) else None
+
+
 def _largest_august(rows):
     """Largest error of August but for M7 in NS 2, M1 and M8, which the text sets apart."""
     own = rows[(rows["event"] == "August") & (rows["direction"] == "z") & rows["run"].isin(["NS1", "NS2", "NS3"]) & ~rows["channel"].isin(["M1", "M8"])]
@@ -107,6 +113,9 @@ COMPUTED = {
     "galloping_speed_fig_20": (_zero_crossing, lambda text: 1.0, "'About 24 m/s': the speed is fitted; the data step by 1 m/s."),
     "least_damping_with_dampers": (quantity("s7_aerodynamics", "least_damping_with_dampers_standin"), None,
                                    "Positions of the dampers are reconstructed and the aerodynamic set is synthetic."),
+    "event_2009_12_25_acceleration": (from_table("s8_validation/comfort.csv", ["event", "run", "direction", "deck", "peak_m_s2"], _peak_of_august), None,
+                                      "Largest mean peak of the foot deck in our least event, 16.46 m/s at the decks: less wind than every reading of 28.0 m/s "
+                                      "at the mast's top. Aerodynamic data are synthetic: shown beside the paper's."),
     "comfort_limit_vertical": (setting("s8_validation", "comfort_vertical"), rounding, AS_SET),
     "comfort_limit_lateral": (setting("s8_validation", "comfort_lateral"), rounding, AS_SET),
     "acceleration_below_vertical_limit": (_peak("vertical"), None, EVENTS + " Largest peak of both events; the text says that it stays below the limit."),
@@ -133,5 +142,6 @@ COMPUTED = {
     "event_april_speed": (entry("s8_validation", "event", "April", "speed"), rounding, ROUNDING),
     "event_august_duration": (setting("s8_validation", "duration"), relative(0.03), "Ten minutes stand for both printed intervals."),
     "event_april_duration": (setting("s8_validation", "duration"), relative(0.03), "Ten minutes stand for both printed intervals."),
-    "august_largest_error": (from_table("s8_validation/rms.csv", ["event", "run", "channel", "direction", "error_pct"], _largest_august), None, EVENTS),
+    "august_largest_error": (lambda study: from_table("s8_validation/rms.csv", ["event", "run", "channel", "direction", "error_pct"],
+                                                      _largest_august)(study.campaign()), None, EVENTS),
 }

@@ -13,7 +13,6 @@ OF_ANY_STUDY = ("fig_05", "sensitivity_map", "updating_history", "diagnosis")
 
 def figures_of(study) -> list:
     """The figures of a study's declared steps. A model made of matrices has no mesh to draw."""
-    declared = study.steps()
     matrices = (study.results / "s1_model/model/dofs.csv").is_file()
-    return [figure for figure in FIGURES if all(need in declared or (study.data / need).is_file() for need in figure.NEEDS)
+    return [figure for figure in FIGURES if all(study.has(need) or (study.data / need).is_file() for need in figure.NEEDS)
             and (study.has_paper() or figure.NAME in OF_ANY_STUDY) and not (matrices and getattr(figure, "DRAWS_MESH", False))]

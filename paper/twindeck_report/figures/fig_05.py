@@ -2,6 +2,7 @@
 import numpy as np
 import pandas as pd
 from matplotlib.collections import LineCollection
+from matplotlib.colors import ListedColormap
 
 from ..study import Study
 from .layout_plan import DECKS, MARGIN
@@ -15,6 +16,7 @@ NEEDS = ("s1_model",)
 DRAWS_MESH = True
 MODES = (1, 2)
 AZIMUTH, ELEVATION = 24.0, 24.0  # of the view, in degrees
+SIZES = ListedColormap(plt.cm.plasma_r(np.linspace(0.08, 0.93, 256)))  # the palest end would not be seen
 LARGEST = 0.08  # drawn displacement over the largest extent of the bridge
 
 
@@ -25,7 +27,7 @@ def draw(study: Study):
     figure, axes = plt.subplots(2, 2, figsize=(10.4, 5.6), height_ratios=(1.45, 1))
     figure.subplots_adjust(0.05, 0.085, 0.93, 0.94, hspace=0.04, wspace=0.08)
     for (space, plan), mode in zip(axes.T, MODES):
-        _deformed(space, mesh, shapes[mode])
+        moved = _deformed(space, mesh, shapes[mode])
         space.set_title(f"Mode {mode}N: {frequencies[mode]:.3f} Hz", fontsize=11)
         bar = _plan(plan, mesh, shapes[mode])
         plan.set_xlabel("X (m)")
@@ -34,6 +36,10 @@ def draw(study: Study):
     figure.colorbar(bar, cax=colours).outline.set_visible(False)
     colours.set_title("vertical", fontsize=8)
     colours.tick_params(labelsize=8)
+    sizes = figure.add_axes((0.945, 0.5, 0.009, 0.36))
+    figure.colorbar(moved, cax=sizes).outline.set_visible(False)
+    sizes.set_title("size", fontsize=8)
+    sizes.tick_params(labelsize=8)
     data = pd.concat([_data(mesh, mode, shapes[mode]) for mode in MODES], ignore_index=True)
     return figure, data
 
@@ -53,12 +59,13 @@ def _deformed(axes, mesh, shape):
     size = np.linalg.norm(shape, axis=1)
     share = size[mesh.lines].mean(axis=1) / size.max()
     order = np.argsort(share, kind="stable")  # what moves most lies on top
-    axes.add_collection(LineCollection(view(moved)[mesh.lines[order]], colors=plt.cm.plasma_r(0.08 + 0.85 * share[order]),
-                                       linewidths=0.55))
+    drawn = LineCollection(view(moved)[mesh.lines[order]], array=share[order], cmap=SIZES, norm=plt.Normalize(0.0, 1.0), linewidths=0.55)
+    axes.add_collection(drawn)
     axes.autoscale_view()
     axes.margins(0.02)
     axes.set_aspect("equal")
     axes.set_axis_off()
+    return drawn
 
 
 def _plan(axes, mesh, shape):

@@ -4,7 +4,8 @@ from ..study import Study
 from .identification import stabilisation_figure
 
 NAME = "fig_12"
-CAPTION = ("Stabilisation diagram of the virtual campaign with dampers, setup ST1, over the mean spectrum of its channels.")
+CAPTION = ("Stabilisation diagram of the virtual campaign with dampers, setup ST1, over the mean spectrum of its channels. Lines and numbers: the modes of Table 4 "
+           "that are found, from all setups; grey: other stable poles, most of them of stays.")
 NEEDS = ("s3_identification",)
 
 

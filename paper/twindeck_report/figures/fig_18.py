@@ -30,8 +30,10 @@ def draw(study: Study):
 
 def _deck(axes, deck, chord, places, deepest):
     half = chord / 2
-    inner, outer, bottom = (places[c] for c in ("top inner", "top outer", "bottom"))
-    hull = [(-half, 0.1), (inner[0], 0.3), (outer[0], 0.3), (half, 0.1), (0.45 * half, 0.6 * bottom[1]), (-0.45 * half, 0.6 * bottom[1])]
+    # mirrored, so that the wind from the sea comes from the left, as in Fig. 17
+    inner, outer, bottom = ((-places[c][0], places[c][1]) for c in ("top inner", "top outer", "bottom"))
+    left, right = sorted((inner[0], outer[0]))
+    hull = [(-half, 0.1), (left, 0.3), (right, 0.3), (half, 0.1), (0.45 * half, 0.6 * bottom[1]), (-0.45 * half, 0.6 * bottom[1])]
     axes.add_patch(Polygon(hull, facecolor="#eef2f6", edgecolor=INK, linewidth=1.0))
     for corner in (inner, outer):
         axes.plot(*zip(corner, bottom), color=INK, linewidth=1.3)
@@ -42,10 +44,10 @@ def _deck(axes, deck, chord, places, deepest):
     level = bottom[1] - 0.45
     axes.annotate("", (half, level), xytext=(-half, level), arrowprops={"arrowstyle": "<->", "color": INK, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0})
     axes.text(0, level - 0.12, f"B = {chord:.1f} m, in the tunnel {chord / SCALE:.2f} m", ha="center", va="top", fontsize=9)
-    axes.annotate("", (half + 0.15, 0.1), xytext=(half + 1.3, 0.1), arrowprops={"arrowstyle": "-|>", "color": ACCENT, "linewidth": 1.4})
-    axes.text(half + 1.0, 0.3, "V", color=ACCENT)
+    axes.annotate("", (-half - 0.15, 0.1), xytext=(-half - 1.3, 0.1), arrowprops={"arrowstyle": "-|>", "color": ACCENT, "linewidth": 1.4})
+    axes.text(-half - 1.1, 0.3, "V", color=ACCENT)
     axes.set_title(f"{deck} deck", fontsize=10)
-    axes.set_xlim(-3.4, 4.2)
+    axes.set_xlim(-4.2, 3.4)
     axes.set_ylim(deepest - 1.0, 1.6)
     axes.set_aspect("equal")
     axes.set_axis_off()

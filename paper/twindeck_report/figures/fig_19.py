@@ -23,10 +23,13 @@ def draw(study: Study):
     figure, (left, right) = plt.subplots(1, 2, figsize=(10.4, 4.0))
     figure.subplots_adjust(0.07, 0.13, 0.98, 0.93, wspace=0.18)
     angles = sorted(h1["angle_of_attack_deg"].unique())
-    for i, angle in enumerate(angles):
+    curves = {}  # one a curve: angles whose values are the same share it
+    for angle in angles:
         rows = h1[(h1["set"] == "standin") & (h1["angle_of_attack_deg"] == angle)]
-        left.plot(rows["V_over_fB"], rows["h1"], color=plt.cm.viridis(i / max(1, len(angles) - 1) * 0.9),
-                  linewidth=1.4 if angle >= 0 else 2.6, alpha=1.0 if angle >= 0 else 0.45, label=f"α = {angle:+.0f}°")
+        curves.setdefault(tuple(rows["h1"]), []).append((angle, rows["V_over_fB"]))
+    for i, (values, shared) in enumerate(sorted(curves.items(), key=lambda c: max(abs(a) for a, _ in c[1]))):
+        left.plot(shared[0][1], values, color=plt.cm.viridis(i / max(1, len(curves) - 1) * 0.9), linewidth=1.4,
+                  label="α = " + " and ".join(f"{angle:+.0f}°" for angle, _ in shared))
     steady = h1[(h1["set"] == "quasi_steady") & (h1["angle_of_attack_deg"] == 0)]
     left.plot(steady["V_over_fB"], steady["h1"], color=INK, linewidth=1.0, linestyle=(0, (5, 3)), label="quasi-steady, α = 0°")
     left.axhline(0, color=PALE, linewidth=0.8)

@@ -30,7 +30,7 @@ def draw(study: Study):
     speed = critical(study, "standin")
     speed = speed[speed["model"] == "A"]["V_cr_m_s"].iloc[0]
     axes.plot([speed], [0], "o", color=WARN)
-    axes.annotate(f"{speed:.2f} m/s", (speed, 0), xytext=(8, 8), textcoords="offset points", color=WARN)
+    axes.annotate(f"{speed:.2f} m/s (fitted)", (speed, 0), xytext=(8, 8), textcoords="offset points", color=WARN)
     design = design_speed(study)
     axes.axvline(design, color=PALE, linewidth=0.9, linestyle=(0, (4, 3)))
     axes.text(design + 0.2, axes.get_ylim()[1] * 0.94, "design wind", fontsize=8, color="#5b6673")

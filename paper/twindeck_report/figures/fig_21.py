@@ -15,6 +15,7 @@ COLUMNS = ["deck", "node", "station_m", "x_m", "y_m", "yaw_deg", "model", "stati
 
 
 def draw(study: Study):
+    study = study.campaign()
     nodes = study.step_csv("s8_validation/hybrid_nodes.csv", COLUMNS)
     zones = study.step_csv("s8_validation/hybrid.csv", ["deck", "theta_from_deg", "theta_to_deg", "zone"])
     switch = {deck: rows["theta_to_deg"].max() for deck, rows in zones[zones["zone"] == "middle"].groupby("deck")}

@@ -1,8 +1,8 @@
 """Stabilisation and cluster diagrams of the virtual campaign, setup ST1: Figures 10 and 11 without dampers, 12 and 13 with them."""
-from ..identified import folder_of
+from ..identified import WITHOUT, folder_of, modes_of, with_dampers, without_dampers
 from ..study import Study
-from .stabilisation import draw_clusters, draw_stabilisation, stable
-from .style import plt
+from .stabilisation import draw_clusters, draw_stabilisation, name_modes, stable
+from .style import ACCENT, plt
 
 SETUP, BAND = "ST1", (0.5, 2.6)  # the paper's setup, and the band of its first ten modes [Hz]
 COLUMNS = ["setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping", "stable_shape", "mode"]
@@ -14,9 +14,13 @@ def stabilisation_figure(study: Study, condition: str):
     if "setup" in psd.columns:
         psd = psd[psd["setup"] == SETUP]
     figure, axes = plt.subplots(figsize=(8.4, 4.4))
-    figure.subplots_adjust(0.08, 0.11, 0.91, 0.93)
-    draw_stabilisation(axes, poles, psd, BAND)
-    figure.legend(*axes.get_legend_handles_labels(), frameon=False, fontsize=8, ncols=3, loc="upper center")
+    figure.subplots_adjust(0.08, 0.11, 0.91, 0.88)
+    rows = without_dampers(study) if condition == WITHOUT else with_dampers(study)
+    own = poles["mode"].isin(rows.values())
+    draw_stabilisation(axes, poles, psd, BAND, own=own)
+    found = modes_of(study, condition)["frequency_Hz"]
+    name_modes(axes, {str(row): float(found[mode]) for row, mode in sorted(rows.items(), key=lambda pair: found[pair[1]])}, ACCENT)
+    figure.legend(*axes.get_legend_handles_labels(), frameon=False, fontsize=8, ncols=4, loc="upper center")
     return figure, poles
 
 

@@ -6,8 +6,9 @@ def stable(poles):
     return (poles["stable_frequency"] == 1) & (poles["stable_damping"] == 1) & (poles["stable_shape"] == 1)
 
 
-def draw_stabilisation(axes, poles, psd, band, label="order"):
-    """Poles over frequency and order: all three criteria met (filled), frequency alone (open), new (dot); the mean spectrum behind."""
+def draw_stabilisation(axes, poles, psd, band, label="order", own=None):
+    """Poles over frequency and order: all three criteria met (filled), frequency alone (open), new (dot); the mean spectrum behind.
+    @param own  which poles are those of the modes that are looked for; the other stable ones, mostly stays', are grey"""
     poles = poles[poles["frequency_Hz"].between(*band)]
     whole = stable(poles)
     part = (poles["stable_frequency"] == 1) & ~whole
@@ -15,6 +16,10 @@ def draw_stabilisation(axes, poles, psd, band, label="order"):
     axes.plot(poles[rest]["frequency_Hz"], poles[rest][label], ".", color=PALE, markersize=3, label="new")
     axes.plot(poles[part]["frequency_Hz"], poles[part][label], "o", color=WARN, markersize=3.2, markerfacecolor="none", markeredgewidth=0.7,
               label="frequency stable")
+    if own is not None:
+        other = whole & ~own.reindex(poles.index)
+        axes.plot(poles[other]["frequency_Hz"], poles[other][label], "o", color="#8a94a0", markersize=3.2, label="stable, no mode of Table 4")
+        whole = whole & ~other
     axes.plot(poles[whole]["frequency_Hz"], poles[whole][label], "o", color=ACCENT, markersize=3.2, label="frequency, damping, shape stable")
     if psd is not None:
         behind = axes.twinx()
@@ -30,10 +35,22 @@ def draw_stabilisation(axes, poles, psd, band, label="order"):
     axes.set_ylabel("model order")
 
 
-def draw_clusters(axes, poles, band, key, highest_damping):
-    """Frequency against damping: poles of clusters coloured, the rest grey. Medians are named in a row at the top."""
+def name_modes(axes, frequencies: dict, colour) -> None:
+    """Names at the top edge with a line down: {name: frequency}."""
+    for (name, f), place in zip(frequencies.items(), apart(list(frequencies.values()), 0.02 * (axes.get_xlim()[1] - axes.get_xlim()[0]), axes.get_xlim())):
+        axes.axvline(f, color=colour, linewidth=0.7, alpha=0.6, zorder=0)
+        axes.text(place, 1.0, name, transform=axes.get_xaxis_transform(), fontsize=8, ha="center", va="bottom", color=colour)
+
+
+def draw_clusters(axes, poles, band, key, highest_damping, modes=None):
+    """Frequency against damping: poles of clusters coloured, the rest grey. Medians are named in a row at the top.
+    @param modes  the clusters that are modes; None: all. The others' poles are open and grey"""
     poles = poles[poles["frequency_Hz"].between(*band) & (poles["damping_ratio_pct"] < highest_damping)]
     rest = poles[poles[key].isna()]
+    if modes is not None:
+        none = poles[poles[key].notna() & ~poles[key].isin(modes)]
+        axes.plot(none["frequency_Hz"], none["damping_ratio_pct"], "o", color="#8a94a0", markersize=3.2, markerfacecolor="none", markeredgewidth=0.7)
+        poles = poles[poles[key].isin(modes)]
     axes.plot(rest["frequency_Hz"], rest["damping_ratio_pct"], ".", color=PALE, markersize=3)
     colours = (ACCENT, WARN, GOOD, "#8a5a00", "#5b3a8c", "#00707a")
     medians = []

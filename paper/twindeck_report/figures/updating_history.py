@@ -5,11 +5,11 @@ from ..errors import InputError
 from ..cells import truth
 from ..study import Study
 from .sensitivity_map import symbol
-from .style import ACCENT, INK, PALE, WARN, plt
+from .style import ACCENT, GOOD, INK, PALE, WARN, plt
 
 NAME = "updating_history"
-CAPTION = ("Cost (Eq. 5) and parameters, divided by their initial values (by their ranges where those are 0), over the iterations of the best start. Grey: the "
-           "bounds of section 4.2; red: parameters that end on one. Dashed lines: the prestress was computed anew.")
+CAPTION = ("Cost (Eq. 5), radius of the trust region and length of the step, and parameters, divided by their initial values (by their ranges where those "
+           "are 0), over the iterations of the best start. Grey: the bounds of section 4.2; red: parameters that end on one. Dashed lines: the prestress was computed anew.")
 NEEDS = ("s6_updating",)
 
 
@@ -24,7 +24,7 @@ def best_start(study: Study) -> int:
 
 def draw(study: Study):
     name = "s6_updating/history.csv"
-    history = study.step_csv(name, ["start", "outer", "iteration", "cost"])
+    history = study.step_csv(name, ["start", "outer", "iteration", "cost", "step_norm", "trust_radius"])
     bounds = study.step_csv("s6_updating/parameters.csv", ["parameter", "initial_value", "lower", "upper", "bound"])
     start = best_start(study)
     rows = history[history["start"] == start].reset_index(drop=True)
@@ -42,12 +42,13 @@ def draw(study: Study):
     figure = plt.figure(figsize=(8.2, height))
     bottom = max(0.08, 0.45 / height)  # room for the words under the axes of a low figure
     grid = figure.add_gridspec(1 + -(-n // columns), columns, height_ratios=[1.5] + [1] * -(-n // columns), hspace=0.55,
-                               wspace=0.3, left=0.09, right=0.98, top=0.95, bottom=bottom)
+                               wspace=0.3, left=0.09, right=0.92, top=0.95, bottom=bottom)
     cost = figure.add_subplot(grid[0, :])
     cost.plot(count, 1e3 * rows["cost"], color=ACCENT, marker="o", markersize=3.5, linewidth=1.2)
     cost.set_ylim(bottom=0.0)
     cost.set_ylabel("cost F (10$^{-3}$)")
-    cost.set_title(f"start {start}", loc="right")
+    cost.set_title(f"start {start}: {len(rows) - 1} iterations of the solver, {rows['outer'].nunique()} states of prestress", loc="right")
+    _radius(cost, count, rows)
     _mark(cost, renewed)
     for i, row in enumerate(bounds.to_dict("records")):
         axes = figure.add_subplot(grid[1 + i // columns, i % columns], sharex=cost)
@@ -56,8 +57,19 @@ def draw(study: Study):
         if i >= n - columns:
             axes.set_xlabel("iteration")
     cost.xaxis.get_major_locator().set_params(integer=True)
-    keep = ["start", "outer", "iteration", "cost", *bounds["parameter"]]
+    keep = ["start", "outer", "iteration", "cost", "step_norm", "trust_radius", *bounds["parameter"]]
     return figure, rows[keep]
+
+
+def _radius(axes, count, rows):
+    """Of the trust region, and the length of each step, on an axis of their own."""
+    beside = axes.twinx()
+    for column, words, style in (("trust_radius", "radius", "-"), ("step_norm", "step", (0, (1, 2)))):
+        shown = rows[column] > 0
+        beside.semilogy(count[shown], rows[column][shown], color=GOOD, linewidth=0.9, linestyle=style, label=words)
+    beside.spines["right"].set_visible(True)
+    beside.set_ylabel("radius, step", color=GOOD)
+    beside.legend(frameon=False, fontsize=7, loc="upper right")
 
 
 def _parameter(axes, count, values, row):

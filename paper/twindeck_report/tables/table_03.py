@@ -14,6 +14,6 @@ def build(study: Study) -> pd.DataFrame:
     for printed in study.paper_table(3).to_dict("records"):
         name = printed["abbreviation"]
         if name not in scores.index:
-            raise InputError(f"{study.results / source}: no setup {name}, a row of Table 3")
+            raise InputError(f"{study.path_of(source)}: no setup {name}, a row of Table 3")
         rows.append({"setup": printed["setup"], "abbreviation": name, "R_k": float(scores[name])})
     return pd.DataFrame(rows)

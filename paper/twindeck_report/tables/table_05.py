@@ -16,7 +16,7 @@ def build(study: Study) -> pd.DataFrame:
         case, cable = printed["case"], printed["cable"]
         own = found[(found["condition"] == case) & (found["stay"] == cable)].set_index("harmonic")
         if own.empty or (case, cable) not in lengths.index:
-            raise InputError(f"{study.results / source}: no record of {cable}, condition {case}, a row of Table 5")
+            raise InputError(f"{study.path_of(source)}: no record of {cable}, condition {case}, a row of Table 5")
         row = {"case": case, "cable": cable, "L_m": float(lengths[(case, cable)])}
         for n in range(1, 6):
             row[f"f{n}_Hz"] = float(own.at[n, "frequency_Hz"]) if n in own.index else float("nan")

@@ -8,6 +8,7 @@ TITLE = "MAC of updated and identified shapes, on the virtual bridge"
 
 
 def build(study: Study) -> pd.DataFrame:
+    study = study.campaign()
     printed = study.paper_table(10)
     columns = [c for c in printed.columns if c.startswith("MAC_")]
     rows = list(printed["numerical_mode"])

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <set>
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
@@ -41,6 +43,8 @@ double worst_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& referen
 io::FieldTable SensitivityConfig::fields() {
   io::FieldTable table;
   table.integer("n_modes", n_modes, {1.0, 200.0}, "modes in the sensitivity matrix, from the lowest")
+      .choice("compared_modes_from", compared_modes_from, {"list", "s4_refinement"},
+              "which modes are compared with a measurement: those of `compared_modes`, or those that s4_refinement paired")
       .numbers("compared_modes", compared_modes, "", {1.0, 200.0},
                "modes (from 1) that are compared with a measurement, on which selection and identifiability rest; empty: all")
       .number("forward_step", forward_step, "", {1e-6, 0.5}, "step of Eq. (6), relative to the parameter")
@@ -54,6 +58,22 @@ io::FieldTable SensitivityConfig::fields() {
               "diagonal of the resolution matrix from which a parameter counts as identifiable")
       .texts("published_selection", published_selection, "parameters that the paper kept, for the column `published`");
   return table;
+}
+
+std::vector<double> paired_modes(const std::filesystem::path& file) {
+  const io::CsvTable table = io::CsvTable::read(file, {"numerical_mode"}, {}, true);
+  std::set<double> modes;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string label = table.text(row, "numerical_mode");  // "7N"
+    char* end = nullptr;
+    const long mode = std::strtol(label.c_str(), &end, 10);
+    if (mode < 1 || std::string(end) != "N")
+      table.fail(row, "numerical_mode", "is '" + label + "', expected a mode such as 7N", "run s4_refinement again");
+    modes.insert(static_cast<double>(mode));
+  }
+  if (modes.empty())
+    throw InputError({file.string(), 0, ""}, "has no pair", "see why s4_refinement paired none, or list compared_modes");
+  return {modes.begin(), modes.end()};
 }
 
 std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters) {

@@ -14,7 +14,8 @@ namespace twindeck::steps {
 /// Configuration of s5_sensitivity.
 struct SensitivityConfig {
   long n_modes = 15;
-  std::vector<double> compared_modes;  ///< numbers from 1; empty: all n_modes
+  std::string compared_modes_from = "list";  ///< "list" | "s4_refinement"
+  std::vector<double> compared_modes;        ///< numbers from 1; empty: all n_modes
   double forward_step = 0.01;
   double frequency_std_pct = 0.5;
   double selection_threshold = 1.0;
@@ -28,6 +29,11 @@ struct SensitivityConfig {
 /// @throws InputError  for a compared mode beyond n_modes, a published name that is no parameter, a model without parameters
 void check_sensitivity_config(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
                               const std::string& source);
+
+/// Numbers of the modes that step 4 paired with measured ones, ascending.
+/// @param file  `pairs.csv` of s4_refinement
+/// @throws InputError  if it has no pair
+[[nodiscard]] std::vector<double> paired_modes(const std::filesystem::path& file);
 
 [[nodiscard]] std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters);
 

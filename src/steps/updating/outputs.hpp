@@ -6,6 +6,7 @@
 
 #include "fe/model.hpp"
 #include "matching/comparison.hpp"
+#include "runner/run_step.hpp"
 #include "updating/updating.hpp"
 
 namespace twindeck::steps {
@@ -25,6 +26,9 @@ namespace twindeck::steps {
 ///  - `leave_one_out.csv`: experimental_mode,numerical_mode,measured_Hz,before_Hz,fitted_Hz,predicted_Hz,error_before_pct,
 ///    error_fitted_pct,error_predicted_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without updating,
 ///    fitted with all pairs, and predicted by an update to the other pairs; no file where no pair was left out
+///  - where that predicts worse than no update does: `regularised.csv`, as parameters.csv, and
+///    `leave_one_out_regularised.csv`, as leave_one_out.csv, of the update that is held to the ranges (updating/prior.hpp); the
+///    manifest has a warning that says how much each predicts
 ///  - `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over
 ///    the measured modes `common` (those that an earlier table compares too), so that means are over like and like; of left-out
 ///    pairs, where there are any; cost and optimality of the best start, and its cost by a smooth map of the bounds; numbers of
@@ -33,7 +37,7 @@ namespace twindeck::steps {
 /// @param comparison  rows of the stages `before` and `after`, in the order of the targets
 void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                     const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
-                    const updating::UpdatingResult& result, const std::filesystem::path& folder);
+                    const updating::UpdatingResult& result, runner::StepContext& context);
 
 /// Warns of what a good fit of frequencies hides (matching/hollow_fit.hpp), parameters on their bounds among it.
 void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,

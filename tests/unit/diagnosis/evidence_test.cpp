@@ -48,7 +48,7 @@ TEST(Evidence, PublishedUpdatingEndsOnFourBoundsAndLeavesPairsThatAreNone) {
   EXPECT_EQ(shapes[2], "11X-13N (0.49)");
 }
 
-TEST(Evidence, DampersStiffenTheFirstModeByHalfWhichADashpotThatMovesCannot) {
+TEST(Evidence, DampersStiffenTheFirstModeByHalf) {
   const diagnosis::Finding dampers = finding(account(), "dampers");
   EXPECT_EQ(dampers.names, std::vector<std::string>{"1"});
   EXPECT_NE(dampers.text.find("51 %"), std::string::npos) << dampers.text;  // (0.92/0.748)² - 1 = 0.513
