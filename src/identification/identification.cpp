@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "identification/sampling.hpp"
 #include "signal/condition.hpp"
 #include "sysid/input_output.hpp"
 
@@ -109,7 +110,8 @@ void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vect
 }  // namespace
 
 Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
-                              const IdentificationSettings& config, Index decimation) {
+                              const IdentificationSettings& config) {
+  const auto decimation = static_cast<Index>(std::max(config.decimation, 1L));
   const records::CampaignRecord& first = group.records.front();
   const std::vector<Index> columns = used_columns(campaign, first, config), input_columns = inputs_of(campaign, first, config);
   Conditioned conditioned;
@@ -161,7 +163,23 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
     conditioned.files.push_back(file);
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
   }
+  settle_sampling(conditioned, config, first.kind == "free_decay");
   return conditioned;
+}
+
+Conditioned without_records(const Conditioned& conditioned) {
+  Conditioned rest;
+  rest.channels = conditioned.channels;
+  rest.inputs = conditioned.inputs;
+  rest.references = conditioned.references;
+  rest.rate_Hz = conditioned.rate_Hz;
+  rest.block_rows = conditioned.block_rows;
+  rest.setup = conditioned.setup;
+  rest.condition = conditioned.condition;
+  rest.files = conditioned.files;
+  rest.quality = conditioned.quality;
+  rest.notes = conditioned.notes;
+  return rest;
 }
 
 Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {
