@@ -8,7 +8,9 @@
 
 #include "core/error.hpp"
 #include "identification/channel_lag.hpp"
+#include "identification/doubts.hpp"
 #include "identification/limits.hpp"
+#include "identification/mode_choices.hpp"
 #include "sysid/common_motion.hpp"
 #include "sysid/merge_preger.hpp"
 
@@ -41,6 +43,29 @@ std::vector<Index> common_references(const ConditionResult& result) {
     if (everywhere) common.push_back(position_of(result.channels, name));
   }
   return common;
+}
+
+InputError no_common_reference(const std::filesystem::path& folder, const ConditionResult& result) {
+  return InputError(
+      {(folder / "channels.csv").string(), 0, "reference"},
+      fmt::format("no reference channel is in each of the {} setups of condition {}", result.setups.size(), result.condition),
+      "mark the sensors that stayed in place, or choose one setup: --set setup=…");
+}
+
+void list_channels(ConditionResult& result) {
+  result.channels.clear();
+  for (const SetupResult& setup : result.setups) {
+    for (const records::CampaignChannel& channel : setup.conditioned.channels) {
+      if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
+    }
+  }
+}
+
+/// Setups of two rates have no common lags.
+bool is_one_rate(const ConditionResult& result) {
+  return std::all_of(result.setups.begin(), result.setups.end(), [&](const SetupResult& setup) {
+    return setup.conditioned.rate_Hz == result.setups.front().conditioned.rate_Hz;
+  });
 }
 
 /// What PreGER divides the records by.
@@ -154,10 +179,13 @@ std::string limit_band(SetupResult& setup) {
 SetupResult read_setup(const records::Campaign& campaign, const records::RecordGroup& group,
                        const IdentificationSettings& config, Reporter& reporter) {
   SetupResult setup;
-  setup.conditioned = condition_records(campaign, group, config, config.decimation);
+  setup.conditioned = condition_records(campaign, group, config);
   for (const std::string& note : setup.conditioned.notes) reporter.say(note);
   for (const std::string& warning : setup.conditioned.warnings) reporter.warn(warning);
-  auto [limits, note] = carried_by(setup.conditioned, config);
+  IdentificationSettings own = config;
+  own.decimation = std::max(config.decimation, 1L);
+  own.block_rows = setup.conditioned.block_rows;
+  auto [limits, note] = carried_by(setup.conditioned, own);
   setup.limits = std::move(limits);
   if (!note.empty()) reporter.warn(note);
   return setup;
@@ -181,30 +209,33 @@ ConditionResult read_condition(const records::Campaign& campaign, const std::vec
       left_out.push_back(fmt::format("setup {} of condition {} is left out: {}", group.setup, group.condition, problem.what()));
       continue;
     }
-    if (!result.setups.empty() && setup.conditioned.rate_Hz != result.setups.front().conditioned.rate_Hz) {
-      throw InputError({(campaign.folder / "campaign.toml").string(), group.records.front().line, "sampling_rate_Hz"},
-                       fmt::format("is {} Hz in setup {}, but {} Hz in setup {}, which it is merged with",
-                                   group.records.front().sampling_rate_Hz, group.setup,
-                                   groups.front().records.front().sampling_rate_Hz, groups.front().setup),
-                       "bring the records to one rate, or choose one setup: --set setup=…");
-    }
-    for (const records::CampaignChannel& channel : setup.conditioned.channels) {
-      if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
-    }
     result.setups.push_back(std::move(setup));
   }
   for (const std::string& warning : left_out) reporter.warn(warning);
-  if (result.setups.size() > 1 && common_references(result).empty()) {
+  list_channels(result);
+  if (config.merge == "preger" && !is_one_rate(result)) {
     throw InputError(
-        {(campaign.folder / "channels.csv").string(), 0, "reference"},
-        fmt::format("no reference channel is in each of the {} setups of condition {}", result.setups.size(), result.condition),
-        "mark the sensors that stayed in place, or choose one setup: --set setup=…");
+        {(campaign.folder / "campaign.toml").string(), groups.front().records.front().line, "sampling_rate_Hz"},
+        fmt::format("differs between the setups of condition {}, expected one rate for merge = \"preger\"", result.condition),
+        "merge after identification: --set merge=poser");
   }
+  if (result.setups.size() > 1 && common_references(result).empty()) throw no_common_reference(campaign.folder, result);
   return result;
 }
 
-void identify_condition(ConditionResult& result, const IdentificationSettings& config, Reporter& reporter) {
+void merge_setups(ConditionResult& result) {
+  list_channels(result);
   std::vector<sysid::SetupModes> setups;
+  for (const SetupResult& setup : result.setups) {
+    setups.push_back(
+        {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
+  }
+  const std::vector<Index> references = common_references(result);
+  if (setups.size() > 1 && references.empty()) throw no_common_reference({}, result);
+  result.modes = sysid::merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
+}
+
+void identify_condition(ConditionResult& result, const IdentificationSettings& config, Reporter& reporter) {
   std::size_t done = 0;
   for (SetupResult& setup : result.setups) {
     const std::string& name = setup.conditioned.setup;
@@ -214,6 +245,7 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
     setup.singular = singular_spectra(setup.conditioned, setup.limits);
     const std::string band = config.highest_Hz == 0.0 ? limit_band(setup) : "";
     setup.found = identify_modes(setup.conditioned, setup.limits);
+    take_choices(setup.found, config.choices, setup.conditioned, channel_rms(setup.conditioned.records));
     if (!band.empty()) reporter.say(band);
     for (const sysid::PeriodicLine& line : setup.found.periodic) {
       reporter.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
@@ -227,17 +259,15 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
     estimate_lags(setup.conditioned, setup.found);
     const std::string late = lag_warning(setup.conditioned, setup.found);
     if (!late.empty()) reporter.warn(late);
-    setups.push_back(
-        {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
   }
-  const std::vector<Index> references = common_references(result);
-  result.modes = sysid::merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
-  if (result.setups.size() > 1 && config.kind != "free_decay" && result.setups.front().conditioned.excitation.empty()) {
+  merge_setups(result);
+  if (result.setups.size() > 1 && result.setups.front().conditioned.excitation.empty() && is_one_rate(result)) {
     const auto fewest =
         std::min_element(result.setups.begin(), result.setups.end(),
                          [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
-    check_merging(result, references, fewest->limits);
+    check_merging(result, common_references(result), fewest->limits);
   }
+  for (const std::string& doubt : doubts_of(result)) reporter.warn(doubt);
 }
 
 }  // namespace twindeck::identification

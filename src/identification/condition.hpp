@@ -26,18 +26,24 @@ struct ConditionResult {
   std::vector<SetupResult> setups;
   std::vector<sysid::MergedMode> modes;  ///< ascending in frequency
   std::vector<MergingCheck> checks;      ///< one a mode where there are several setups
+  bool of_decays = false;                ///< ERA's modes of free decays (decays.hpp): no spectra
 };
 
 /// The records of each setup made ready, none identified yet. A setup whose records cannot be used is left out with a warning,
 /// as long as another is left.
 /// @param groups  of one condition
-/// @throws InputError  as condition_records; for setups of two rates, or without a common reference @throws UnusableRecord  if
-/// no setup is left
+/// @throws InputError  as condition_records; without a common reference, or for setups of two rates that are to be merged
+/// before identification @throws UnusableRecord  if no setup is left
 [[nodiscard]] ConditionResult read_condition(const records::Campaign& campaign, const std::vector<records::RecordGroup>& groups,
                                              const IdentificationSettings& config, Reporter& reporter);
 
-/// Identifies each setup and merges them; warns of clocks that lag. With merge = "preger" a mode's shape, frequency and damping
-/// are PreGER's where it has the mode, with deviations that hold the difference of both mergings (take_preger).
+/// Lists the channels of all setups and merges the setups' modes over the common references (PoSER).
+/// @throws InputError  without a common reference of several setups
+void merge_setups(ConditionResult& result);
+
+/// Identifies each setup and merges them, before identification only setups of one rate (two rates have no common lags); warns
+/// of clocks that lag. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has the mode, with
+/// deviations that hold the difference of both mergings (take_preger).
 /// @param result  as read_condition gives it
 void identify_condition(ConditionResult& result, const IdentificationSettings& config, Reporter& reporter);
 

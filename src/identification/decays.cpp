@@ -1,7 +1,11 @@
 #include "identification/decays.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "identification/mode_choices.hpp"
 
 namespace twindeck::identification {
 
@@ -39,9 +43,15 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
     const auto points =
         sysid::decay_by_amplitude(q.value, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), q.noise);
     if (points.empty()) continue;
-    const auto partner = partner_of(mode, result.channels, ambient);
+    const auto partner = partner_of(mode, result.conditioned.channels, ambient);
     result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, mode.frequency_Hz, points});
   }
+}
+
+/// [-] mean square of the motion from sample to sample, channels in units of their own.
+Eigen::VectorXd energy_of(const Samples& data) {
+  const Eigen::VectorXd scale = data.colwise().squaredNorm().transpose().cwiseMax(1e-300);
+  return (data.array().square().rowwise() / scale.transpose().array()).rowwise().sum();
 }
 
 /// First sample after the release: where the motion's running RMS over half a second is largest. @param data (n_samples ×
@@ -49,8 +59,7 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
 Index release_sample(const Samples& data, double rate_Hz) {
   const Index half = std::max<Index>(2, static_cast<Index>(std::lround(0.5 * rate_Hz)));
   if (data.rows() <= 2 * half) return 0;
-  const Eigen::VectorXd scale = data.colwise().squaredNorm().transpose().cwiseMax(1e-300);
-  const Eigen::VectorXd energy = (data.array().square().rowwise() / scale.transpose().array()).rowwise().sum();
+  const Eigen::VectorXd energy = energy_of(data);
   double sum = energy.head(half).sum(), most = sum;
   Index best = 0;
   for (Index t = 1; t + half <= energy.size(); ++t) {
@@ -61,6 +70,45 @@ Index release_sample(const Samples& data, double rate_Hz) {
     }
   }
   return best;
+}
+
+/// Samples until the motion is down to three times what is left at the end; all where it does not come to rest.
+Index decaying_samples(const Eigen::MatrixXd& decay) {
+  constexpr double kAbove = 9.0;  // of the mean square at the end
+  constexpr Index kWindows = 50;
+  const Eigen::VectorXd energy = energy_of(decay);
+  const Index window = energy.size() / kWindows;
+  if (window < 2) return energy.size();
+  const double rest = energy.tail(energy.size() / 10).mean();
+  Index end = 0;
+  for (Index w = 0; w < kWindows; ++w) {
+    if (energy.segment(w * window, window).mean() > kAbove * rest) end = (w + 1) * window;
+  }
+  return end == 0 || 10 * end > 9 * energy.size() ? energy.size() : end;
+}
+
+/// Samples that are read of each decay, which all begin at the release, and the limits that they carry.
+Index length_of(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, IdentificationSettings& own, std::string& note) {
+  constexpr Index kMostEntries = 600'000;  // of the Hankel matrix, whose draws take most of the time
+  const Index channels = decays.front().cols();
+  Index length = decays.front().rows(), decaying = 0;
+  for (const Eigen::MatrixXd& decay : decays) {
+    length = std::min(length, decay.rows());
+    decaying = std::max(decaying, decaying_samples(decay));
+  }
+  if (own.decay_length_s > 0.0) {
+    length = std::min(length, static_cast<Index>(std::lround(own.decay_length_s * rate_Hz)));
+  } else {
+    const Index rows = own.block_rows * channels;
+    length = std::min({length, std::max<Index>(decaying, 4 * own.block_rows), own.block_rows + kMostEntries / rows});
+  }
+  const long rows = std::max<long>(2, std::min<long>(own.block_rows, length / 3));
+  const long order = std::max<long>(2, std::min<long>((rows - 1) * channels, length - rows + 1));
+  if (rows < own.block_rows) note += fmt::format(", block_rows {} -> {}", own.block_rows, rows);
+  if (order < own.maximum_order) note += fmt::format(", maximum_order {} -> {}", own.maximum_order, order);
+  own.block_rows = rows;
+  own.maximum_order = std::min(own.maximum_order, order);
+  return length;
 }
 
 }  // namespace
@@ -88,24 +136,53 @@ std::string quantity_at_largest(const std::vector<records::CampaignChannel>& cha
   return channels[static_cast<std::size_t>(largest)].quantity;
 }
 
+std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) {
+  std::vector<ConditionResult> results;
+  for (const DecayResult& decay : decays) {
+    const std::string& name = decay.conditioned.condition;
+    if (condition_named(results, name) == nullptr) {
+      results.emplace_back().condition = name;
+      results.back().of_decays = true;
+    }
+    ConditionResult& result = *std::find_if(results.begin(), results.end(), [&](const auto& r) { return r.condition == name; });
+    SetupResult& setup = result.setups.emplace_back();
+    setup.conditioned = decay.conditioned;
+    setup.conditioned.quality.clear();  // stays with the decay
+    setup.found = decay.found;
+  }
+  for (ConditionResult& result : results) merge_setups(result);
+  for (DecayResult& decay : decays) {
+    const ConditionResult* result = condition_named(results, decay.conditioned.condition);
+    for (DecayResult::ByAmplitude& by : decay.by_amplitude) {
+      const auto mode = std::find_if(decay.found.modes.begin(), decay.found.modes.end(),
+                                     [&](const sysid::Cluster& m) { return m.frequency_Hz == by.frequency_Hz; });
+      const auto partner = partner_of(*mode, decay.conditioned.channels, result);
+      if (partner) by.mode = std::to_string(partner->mode + 1);
+    }
+  }
+  return results;
+}
+
 std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& records, const IdentificationSettings& config,
                                               const std::vector<ConditionResult>& results, std::uint64_t seed) {
   std::vector<DecayResult> decays;
   for (const Conditioned& conditioned : records) {
     DecayResult result;
-    result.setup = conditioned.setup;
-    result.condition = conditioned.condition;
-    result.channels = conditioned.channels;
-    result.quality = conditioned.quality;
+    result.conditioned = without_records(conditioned);
     const Eigen::VectorXd scale = channel_rms(conditioned.records);
-    const auto wanted = static_cast<Index>(std::lround(config.decay_length_s * conditioned.rate_Hz));
+    IdentificationSettings own = config;
+    own.block_rows = conditioned.block_rows > 0 ? conditioned.block_rows : config.decay_block_rows;
+    own.maximum_order = config.decay_maximum_order;
     const auto skipped = static_cast<Index>(std::lround(config.decay_start_s * conditioned.rate_Hz));
     std::vector<Eigen::MatrixXd> whole, pieces, quiet;
-    Index length = wanted;
     for (const Samples& record : conditioned.records) {
       const Index from = std::min(release_sample(record, conditioned.rate_Hz) + skipped, record.rows() - 1);
       whole.emplace_back(record.bottomRows(record.rows() - from));
-      length = std::min(length, whole.back().rows());
+    }
+    const Index length = length_of(whole, conditioned.rate_Hz, own, result.note);
+    if (!result.note.empty()) {
+      result.note = fmt::format("setup {}: a free decay of {} samples is too short for all limits: {}", conditioned.setup,
+                                length, result.note.substr(2));
     }
     for (const Eigen::MatrixXd& decay : whole) pieces.emplace_back(decay.topRows(length) * scale.cwiseInverse().asDiagonal());
     // The last half of a record that is long enough shows what moves the bridge when the decay is over.
@@ -115,12 +192,10 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
         quiet.emplace_back(rest.rowwise() - rest.colwise().mean());
       }
     }
-    IdentificationSettings own = config;
-    own.block_rows = config.decay_block_rows;
-    own.maximum_order = config.decay_maximum_order;
     const sysid::IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
     result.found = sysid::identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
     to_physical_shapes(result.found, conditioned.channels, scale);
+    take_choices(result.found, config.choices, conditioned, scale);
     const ConditionResult* ambient = condition_named(results, conditioned.condition);
     for (std::size_t i = 0; i < whole.size(); ++i) {
       read_by_amplitude(result, whole[i], conditioned.rate_Hz, conditioned.files[i], config, ambient);

@@ -12,10 +12,9 @@ namespace twindeck::identification {
 
 /// Free decays of one setup and condition.
 struct DecayResult {
-  std::string setup, condition;
-  std::vector<records::CampaignChannel> channels;
-  std::vector<ChannelQuality> quality;
+  Conditioned conditioned;      ///< without the records themselves
   sysid::Identification found;  ///< ERA
+  std::string note;             ///< limits that the records do not carry; empty for none
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {
     std::string mode;  ///< of the condition's modes.csv, empty where it has none
@@ -52,6 +51,10 @@ struct AmbientAmplitude {
 };
 [[nodiscard]] std::vector<AmbientAmplitude> ambient_amplitudes(const std::vector<ConditionResult>& results,
                                                                const IdentificationSettings& config);
+
+/// The decays as the main result of their conditions, where there are no ambient records: ERA's modes, setups merged. Names the
+/// modes in `by_amplitude`. Spectra stay empty: a decay has none that hangs not on its length.
+[[nodiscard]] std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays);
 
 /// ERA of the records of kind free_decay, and frequency and damping by amplitude of the modes that it finds.
 /// @param results  conditions identified from ambient records, for the names of modes

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "identification/lying_channels.hpp"
+#include "identification/sampling.hpp"
 #include "signal/condition.hpp"
 #include "sysid/input_output.hpp"
 
@@ -136,7 +137,8 @@ void refuse_second_copy(const Samples& raw, const records::CampaignRecord& recor
 
 /// As condition_records, with all channels that are not excluded.
 Conditioned condition_with(const records::Campaign& campaign, const records::RecordGroup& group,
-                           const IdentificationSettings& config, Index decimation) {
+                           const IdentificationSettings& config) {
+  const auto decimation = static_cast<Index>(std::max(config.decimation, 1L));
   const records::CampaignRecord& first = group.records.front();
   const std::vector<Index> columns = used_columns(campaign, first, config), input_columns = inputs_of(campaign, first, config);
   Conditioned conditioned;
@@ -191,19 +193,20 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
     conditioned.files.push_back(file);
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
   }
+  settle_sampling(conditioned, config, first.kind == "free_decay");
   return conditioned;
 }
 
 }  // namespace
 
 Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
-                              const IdentificationSettings& config, Index decimation) {
+                              const IdentificationSettings& config) {
   IdentificationSettings without = config;
   std::map<std::string, std::string> reasons;  // of the channels that are left out
   std::optional<LyingChannel> first;
   for (;;) {
     try {
-      Conditioned conditioned = condition_with(campaign, group, without, decimation);
+      Conditioned conditioned = condition_with(campaign, group, without);
       for (ChannelQuality& q : conditioned.quality) {
         if (reasons.contains(q.channel)) q.left_out = reasons.at(q.channel);
       }
@@ -223,6 +226,21 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
       reasons[name] = lie.what();
     }
   }
+}
+
+Conditioned without_records(const Conditioned& conditioned) {
+  Conditioned rest;
+  rest.channels = conditioned.channels;
+  rest.inputs = conditioned.inputs;
+  rest.references = conditioned.references;
+  rest.rate_Hz = conditioned.rate_Hz;
+  rest.block_rows = conditioned.block_rows;
+  rest.setup = conditioned.setup;
+  rest.condition = conditioned.condition;
+  rest.files = conditioned.files;
+  rest.quality = conditioned.quality;
+  rest.notes = conditioned.notes;
+  return rest;
 }
 
 Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {

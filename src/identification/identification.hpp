@@ -24,6 +24,7 @@ struct Conditioned {
   std::vector<Samples> records;                    ///< detrended, decimated, SI units
   std::vector<Samples> excitation;                 ///< of the inputs, one a record
   double rate_Hz = 0.0;                            ///< after decimation
+  long block_rows = 0;  ///< that the records are identified with: as configured, or chosen (sampling.hpp)
   std::string setup, condition;
   std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
@@ -31,14 +32,14 @@ struct Conditioned {
   std::vector<std::string> warnings;    ///< channels that are left out, and why
 };
 
-/// Reads, judges, repairs as asked, detrends and decimates. A record that cannot be used is left out with a note, as long as
-/// another of the group is left. A channel that is dead, stuck or a copy in all of them (judge_channels) is left out with a
-/// warning, unless it is a reference or the only response.
+/// Reads, judges, repairs as asked, detrends and decimates, by a factor that is chosen where the configuration has 0. A record
+/// that cannot be used is left out with a note, as long as another of the group is left. A channel that is dead, stuck or a
+/// copy in all of them (judge_channels) is left out with a warning, unless it is a reference or the only response.
 /// @throws UnusableRecord  if none is left: a gap that is not to be filled, a dead or clipped channel
 /// @throws InputError  for two records of the same samples, an unknown reference, no response channel, a band beyond the
 /// records'
 [[nodiscard]] Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
-                                            const IdentificationSettings& config, Eigen::Index decimation);
+                                            const IdentificationSettings& config);
 
 /// Identification of one setup by the method asked for: covariance-driven or data-driven of responses alone, input-output where
 /// the group has measured inputs. Records are pooled. Shapes are brought to the first channel's quantity: with lambda the pole,
@@ -54,6 +55,9 @@ struct Conditioned {
 /// with them.
 void to_physical_shapes(sysid::Identification& found, const std::vector<records::CampaignChannel>& channels,
                         const Eigen::VectorXd& scale);
+
+/// All that is known of the records but the samples.
+[[nodiscard]] Conditioned without_records(const Conditioned& conditioned);
 
 /// RMS of each channel over the records.
 [[nodiscard]] Eigen::VectorXd channel_rms(const std::vector<Samples>& records);

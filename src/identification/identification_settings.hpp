@@ -8,10 +8,23 @@
 
 namespace twindeck::identification {
 
-/// A stay whose records are read as those of a string.
+/// A stay whose records are read as those of a tensioned beam.
 struct StaySettings {
   std::string name;  ///< setup, point or channel of its records
   double length_m = 0.0;
+  std::string ends = "unknown";         ///< unknown, hinged, clamped
+  double bending_stiffness_N_m2 = 0.0;  ///< EI of the section; 0: unknown
+  double mass_kg_m = 0.0;               ///< wanted with EI
+};
+
+/// What a person decided on a pole of the stabilisation diagram.
+struct ModeChoice {
+  std::string setup;
+  int order = 0;
+  double frequency_Hz = 0.0, damping_ratio = 0.0;
+  bool keep = true;  ///< false: its mode is deleted
+  std::string file;  ///< where the choice stands
+  long line = 0;
 };
 
 /// How records are identified; the step's configuration has a sentence for each value.
@@ -19,6 +32,7 @@ struct IdentificationSettings {
   std::string setup, condition, kind = "ambient", method = "covariance", selection = "automatic", merge = "poser";
   std::vector<std::string> setups, references, exclude;
   long decimation = 1, block_rows = 30, minimum_order = 2, maximum_order = 60, order_step = 2, blocks = 20, longest_gap = 0;
+  bool order_is_default = false;  ///< maximum_order was not asked for: it follows what the records carry
   long welch_segment = 2048;
   double largest_clipping = 1e-3;
   double largest_lone = 50.0;  ///< [-] robust deviations
@@ -35,9 +49,10 @@ struct IdentificationSettings {
   double decay_start_s = 0.3, decay_length_s = 20.0, decay_band_Hz = 0.08;
   long decay_bands = 4;
   // Stays.
-  long stay_decimation = 4, stay_block_rows = 100, stay_maximum_order = 40, stay_harmonics = 5;
-  double stay_lowest_Hz = 0.3, stay_highest_Hz = 3.0, stay_level = 0.95;
+  long stay_decimation = 4, stay_block_rows = 100, stay_maximum_order = 40, stay_harmonics = 16;
+  double stay_lowest_Hz = 0.0, stay_highest_Hz = 0.0, stay_level = 0.95;
   std::vector<StaySettings> stays;
+  std::vector<ModeChoice> choices;  ///< of modes by hand
 
   /// Settings of the subspace identification for records of this rate (after decimation) and these responses.
   [[nodiscard]] sysid::IdentifyOptions options(double rate_Hz, const std::vector<records::CampaignChannel>& channels) const;

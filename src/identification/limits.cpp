@@ -67,9 +67,9 @@ CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSet
     limits.lower("blocks", &IdentificationSettings::blocks, std::max(blocks, n / (kSamplesPerRow * config.block_rows)));
     limits.lower("block_rows", &IdentificationSettings::block_rows, n / (kSamplesPerRow * limits.config().blocks));
   }
-  // What the configured block rows do not carry is a slip of the configuration, and refused later; what fewer rows do not carry
-  // follows them.
-  if (limits.config().block_rows < config.block_rows) {
+  // What the configured block rows do not carry is a slip of the configuration, and refused later; what fewer rows or a default
+  // do not carry follows them.
+  if (limits.config().block_rows < config.block_rows || config.order_is_default) {
     const auto rows = static_cast<Index>(limits.config().block_rows), outputs = static_cast<Index>(conditioned.channels.size());
     const auto references = static_cast<Index>(conditioned.references.size());
     const Index most = with_inputs ? (rows - 1) * outputs : std::min((rows - 1) * outputs, rows * references);
@@ -78,8 +78,9 @@ CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSet
   }
   limits.lower("welch_segment", &IdentificationSettings::welch_segment, n);
   if (limits.changed().empty()) return {limits.config(), ""};
-  return {limits.config(), fmt::format("setup {}: {} has {} samples, too few for all limits: {}", conditioned.setup,
-                                       conditioned.files.front(), n, fmt::join(limits.changed(), ", "))};
+  return {limits.config(), fmt::format("setup {}: {} has {} samples, {} channels and {} references, too few for all limits: {}",
+                                       conditioned.setup, conditioned.files.front(), n, conditioned.channels.size(),
+                                       conditioned.references.size(), fmt::join(limits.changed(), ", "))};
 }
 
 }  // namespace twindeck::identification

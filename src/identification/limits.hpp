@@ -6,8 +6,8 @@
 
 namespace twindeck::identification {
 
-/// The configuration as far as the shortest of a setup's records carries it. Blocks, block rows, the largest order and the
-/// Welch segment become smaller, in this order of sacrifice; nothing becomes larger.
+/// The configuration as far as the shortest of a setup's records and its channels carry it. Blocks, block rows, the largest
+/// order and the Welch segment become smaller, in this order of sacrifice; nothing becomes larger.
 struct CarriedLimits {
   IdentificationSettings config;
   std::string note;  ///< which limits follow the record's length; empty if all stay

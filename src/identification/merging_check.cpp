@@ -16,19 +16,6 @@ constexpr double kSameMode = 0.02;        ///< [-] of the frequency: two merging
 constexpr double kSamePole = 0.005;       ///< [-] of the frequency: poles of single orders, that no selection has cleaned
 constexpr std::size_t kFewestOrders = 3;  ///< [-] a pole that fewer orders have is none of the structure's
 
-/// MAC over the channels where both shapes are known.
-double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
-  std::complex<double> product = 0.0;
-  double aa = 0.0, bb = 0.0;
-  for (Index i = 0; i < a.size(); ++i) {
-    if (std::isnan(a[i].real()) || std::isnan(b[i].real())) continue;
-    product += std::conj(a[i]) * b[i];
-    aa += std::norm(a[i]);
-    bb += std::norm(b[i]);
-  }
-  return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
-}
-
 void set(MergingCheck& check, double frequency_Hz, double damping_ratio, const Eigen::VectorXcd& shape) {
   check.found = true;
   check.frequency_Hz = frequency_Hz;
@@ -60,6 +47,18 @@ void set_nearest_poles(MergingCheck& check, const sysid::Identification& preger,
 }
 
 }  // namespace
+
+double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+  std::complex<double> product = 0.0;
+  double aa = 0.0, bb = 0.0;
+  for (Index i = 0; i < a.size(); ++i) {
+    if (std::isnan(a[i].real()) || std::isnan(b[i].real())) continue;
+    product += std::conj(a[i]) * b[i];
+    aa += std::norm(a[i]);
+    bb += std::norm(b[i]);
+  }
+  return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
+}
 
 std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& modes, const sysid::Identification& preger,
                                          const std::vector<records::CampaignChannel>& channels, const Eigen::VectorXd& scale) {

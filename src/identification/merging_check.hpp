@@ -16,6 +16,9 @@ struct MergingCheck {
   double poser_frequency_Hz = 0.0, poser_damping_ratio = 0.0;  ///< what it is held against, whichever merging counts
 };
 
+/// MAC over the channels where both shapes are known (not NaN); 0 for none.
+[[nodiscard]] double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b);
+
 /// PreGER's counterpart of each mode of PoSER: a mode of PreGER within two per cent of its frequency, one-to-one with the
 /// largest sum of MAC. Where no mode of PreGER is near, the poles within half a per cent of its frequency are taken, the
 /// nearest of each order: median of frequency and damping, mean of the shape. A mode whose near ones all belong to other modes

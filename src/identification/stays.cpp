@@ -1,10 +1,8 @@
 #include "identification/stays.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/distributions.hpp"
-#include "core/error.hpp"
+#include "identification/limits.hpp"
 
 namespace twindeck::identification {
 
@@ -20,6 +18,38 @@ const StaySettings* settings_of(const Conditioned& conditioned, const Identifica
   return at == config.stays.end() ? nullptr : &*at;
 }
 
+sysid::StaySection section_of(const StaySettings* settings) {
+  sysid::StaySection section;
+  if (settings == nullptr) return section;
+  section.length_m = settings->length_m;
+  if (settings->mass_kg_m > 0.0) section.bending_per_mass_m4_s2 = settings->bending_stiffness_N_m2 / settings->mass_kg_m;
+  if (settings->ends == "hinged") section.fixity = 0.0;
+  if (settings->ends == "clamped") section.fixity = 1.0;
+  return section;
+}
+
+/// Fit of the modes of a record. Where fewer harmonics are asked for than there are, of these alone.
+sysid::StayFit fit_of(const sysid::Identification& found, const sysid::StaySection& section,
+                      const IdentificationSettings& config) {
+  std::vector<sysid::Harmonic> frequencies;
+  for (std::size_t m = 0; m < found.modes.size(); ++m) {
+    const double f = found.modes[m].frequency_Hz;
+    frequencies.push_back({0, f, std::max(found.deviations[m].frequency_Hz, 1e-9 * f)});
+  }
+  sysid::StayFit fit = sysid::fit_stay(frequencies, section, config.stay_level, config.stay_lowest_Hz, config.stay_highest_Hz);
+  sysid::Numbering kept = fit.numbering;
+  while (!kept.harmonics.empty() && kept.harmonics.back().number > config.stay_harmonics) {
+    kept.harmonics.pop_back();
+    kept.positions.pop_back();
+  }
+  if (kept.harmonics.size() == fit.numbering.harmonics.size()) return fit;
+  sysid::StayFit fewer;
+  if (kept.harmonics.size() >= 2) fewer = sysid::fit_numbered(kept.harmonics, section, config.stay_level);
+  fewer.numbering = kept;
+  fewer.others = fit.others;
+  return fewer;
+}
+
 }  // namespace
 
 IdentificationSettings stay_settings(const IdentificationSettings& config) {
@@ -27,8 +57,10 @@ IdentificationSettings stay_settings(const IdentificationSettings& config) {
   own.references.clear();
   own.exclude.clear();
   own.method = "covariance";
+  own.decimation = config.stay_decimation;
   own.block_rows = config.stay_block_rows;
   own.maximum_order = config.stay_maximum_order;
+  own.order_is_default = true;  // few stays have twenty modes: what the block rows do not carry is not missed
   own.lowest_Hz = 0.0;
   own.highest_Hz = 0.0;
   own.periodic.largest_damping = 0.0;  // a taut string's modes are multiples with next to no damping, and no machine's lines
@@ -39,30 +71,27 @@ std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records, 
   const IdentificationSettings own = stay_settings(config);
   std::vector<StayResult> stays;
   for (const Conditioned& conditioned : records) {
-    const sysid::Identification found = identify_modes(conditioned, own);
     StayResult result;
+    IdentificationSettings limits = own;
+    if (conditioned.block_rows > 0) limits.block_rows = conditioned.block_rows;
+    CarriedLimits carried = carried_by(conditioned, limits);
+    limits = std::move(carried.config);
+    result.note = std::move(carried.note);
+    const sysid::Identification found = identify_modes(conditioned, limits);
     const StaySettings* settings = settings_of(conditioned, config);
     result.stay = settings != nullptr ? settings->name : conditioned.setup;
     result.condition = conditioned.condition;
     result.length_m = settings != nullptr ? settings->length_m : 0.0;
     result.quality = conditioned.quality;
-    std::vector<double> frequencies;
-    for (const sysid::Cluster& mode : found.modes) frequencies.push_back(mode.frequency_Hz);
-    std::vector<sysid::Harmonic> harmonics;
-    for (const auto& [at, number] : sysid::number_harmonics(frequencies, config.stay_lowest_Hz, config.stay_highest_Hz)) {
-      if (number > config.stay_harmonics) continue;
-      const double deviation = std::max(found.deviations[at].frequency_Hz, 1e-9 * found.modes[at].frequency_Hz);
+    result.fit = fit_of(found, section_of(settings), config);
+    const sysid::Numbering& numbering = result.fit.numbering;
+    for (std::size_t i = 0; i < numbering.harmonics.size(); ++i) {
+      const std::size_t at = numbering.positions[i];
+      const sysid::Harmonic& h = numbering.harmonics[i];
       result.modes.push_back(
-          {number, found.modes[at].frequency_Hz, deviation, found.modes[at].damping_ratio, found.deviations[at].damping_ratio});
-      harmonics.push_back({number, found.modes[at].frequency_Hz, deviation});
+          {h.number, h.frequency_Hz, h.deviation_Hz, found.modes[at].damping_ratio, found.deviations[at].damping_ratio});
     }
-    result.fitted = harmonics.size() >= 2 && harmonics.back().number >= 2;
-    if (result.fitted) {
-      sysid::StayModel model;
-      model.known_length = result.length_m > 0.0;
-      result.fit =
-          sysid::fit_stay(harmonics, model.known_length ? result.length_m : 1.0, two_sided_normal_quantile(config.stay_level), model);
-    }
+    result.fitted = numbering.harmonics.size() >= 2;
     stays.push_back(std::move(result));
   }
   return stays;

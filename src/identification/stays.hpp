@@ -13,20 +13,21 @@ struct StayResult {
   std::string stay, condition;
   double length_m = 0.0;  ///< 0 where not configured
   std::vector<ChannelQuality> quality;
+  std::string note;  ///< limits that the record does not carry; empty for none
   struct Mode {
     int harmonic = 0;
     double frequency_Hz = 0.0, frequency_std_Hz = 0.0, damping_ratio = 0.0, damping_ratio_std = 0.0;
   };
   std::vector<Mode> modes;  ///< ascending in harmonic
   bool fitted = false;      ///< two harmonics or more
-  sysid::StayFit fit;       ///< with length 1 m where the length is not known: c and lambda² hold all the same
+  sysid::StayFit fit;       ///< without tension where the length is not known: c and lambda² hold all the same
 };
 
 /// The settings that records of stays are read and identified with.
 [[nodiscard]] IdentificationSettings stay_settings(const IdentificationSettings& config);
 
-/// Identifies records of kind stay and numbers their modes as harmonics. A stay is named as in [[stay_length]] by its setup,
-/// point or channel; otherwise by its setup. @param records  of one stay each
+/// Identifies records of kind stay, numbers their modes as harmonics and fits a tensioned beam to them (sysid/tension.hpp). A
+/// stay is named as in [[stay_length]] by its setup, point or channel; otherwise by its setup. @param records  of one stay each
 [[nodiscard]] std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records,
                                                      const IdentificationSettings& config);
 

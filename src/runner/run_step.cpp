@@ -151,6 +151,10 @@ std::string located(const InputError& error, const Step& step, const StepContext
   if (given && !given->file.empty()) {
     return given->file + (given->line > 0 ? ":" + std::to_string(given->line) : "") + ": " + error.what();
   }
+  // A default is no word of the command line: what was read is named.
+  for (const std::optional<fs::path>& read : {context.model, context.campaign, context.features, context.modes}) {
+    if (read && context.study.empty()) return read->string() + ": " + error.what();
+  }
   const std::string source = context.model ? context.model->string() : context.study.string();
   return (source.empty() ? "command line" : source) + ": " + error.what();
 }

@@ -1,12 +1,14 @@
 /// Step 3 (paper section 3.2, Table 4, Figs. 10-13): modes with standard deviations from records of one or several setups.
 #include <algorithm>
 
+#include "identification/mode_choices.hpp"
 #include "identification/stays.hpp"
 #include "records/inspect.hpp"
 #include "runner/run_step.hpp"
 #include "steps/identification/identification_config.hpp"
 #include "steps/identification/inputs.hpp"
 #include "steps/identification/outputs.hpp"
+#include "steps/identification/stay_tables.hpp"
 
 namespace {
 
@@ -21,9 +23,19 @@ Status run(const steps::IdentificationConfig& config, steps::IdentificationInput
     for (const std::string& line : steps::report_lines(result)) context.say(line);
   }
 
-  // 2. Free decays by ERA, with frequency and damping by amplitude; stays as strings.
-  const auto decays = identification::identify_free_decays(read.decays, config, results, context.seed);
+  // 2. Free decays by ERA, with frequency and damping by amplitude; stays as tensioned beams. Without ambient records the
+  // decays give the modes.
+  auto decays = identification::identify_free_decays(read.decays, config, results, context.seed);
+  if (read.decays_are_main) {
+    results = identification::decay_conditions(decays);
+    for (const identification::ConditionResult& result : results) {
+      for (const std::string& line : steps::report_lines(result)) context.say(line);
+    }
+  }
+  identification::require_poles(config.choices, results);
   const auto stays = identification::identify_stays(read.stays, config);
+  for (const std::string& line : steps::stay_lines(stays, config.stay_level)) context.say(line);
+  for (const std::string& note : steps::notes_of(decays, stays)) context.warn(note);
 
   // 3. Tables, exports, and the features that updating and diagnosis read. The first condition's stand at the top.
   steps::write_identification(read.campaign, results, decays, stays, config, context.out);
@@ -53,7 +65,10 @@ int main(int argc, char** argv) {
                  [](const std::string& file) { return records::describe(records::inspect(file)); }}};
   step.fields = config.fields();
   step.configured_inputs = {"campaign"};
-  step.read = [&config](runner::StepContext& context) -> runner::Computation {
+  step.read = [&config, fields = step.fields](runner::StepContext& context) -> runner::Computation {
+    const auto order = fields.place_of("maximum_order");
+    config.order_is_default = !order || order->file.empty();
+    config.choices = steps::read_mode_choices(config.keep, context);
     auto read = steps::read_identification_inputs(config, context);
     return [&config, &context, read = std::move(read)]() mutable { return run(config, read, context); };
   };

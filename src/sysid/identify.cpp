@@ -79,7 +79,21 @@ bool is_shadow(const Identification& found, std::size_t m, bool stationary) {
   return false;
 }
 
-/// Drops the modes that do not stay, with their deviations and marks in the diagram.
+/// A mode that has lost poles is asked once more whether it is a mixture: they may have hidden it. Only modes that the records
+/// settle can be what it is made of, not a chain of noise beside it that has its shape.
+void drop_hidden_mixtures(Identification& result, const AutomaticRule& rule) {
+  std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
+  for (std::size_t m = 0; m < stays.size(); ++m) {
+    const auto marked = std::count_if(result.diagram.begin(), result.diagram.end(),
+                                      [&](const DiagramPole& pole) { return pole.mode == static_cast<int>(m); });
+    const bool has_lost = static_cast<std::size_t>(marked) > result.modes[m].members.size();
+    stays[m] = !(stays[m] && has_lost);
+  }
+  keep_modes(result, stays);
+}
+
+}  // namespace
+
 void keep_modes(Identification& result, const std::vector<bool>& stays) {
   const std::size_t n = result.modes.size();
   std::vector<int> renumbered(n, -1);
@@ -99,21 +113,6 @@ void keep_modes(Identification& result, const std::vector<bool>& stays) {
     if (pole.mode >= 0) pole.mode = renumbered[static_cast<std::size_t>(pole.mode)];
   }
 }
-
-/// A mode that has lost poles is asked once more whether it is a mixture: they may have hidden it. Only modes that the records
-/// settle can be what it is made of, not a chain of noise beside it that has its shape.
-void drop_hidden_mixtures(Identification& result, const AutomaticRule& rule) {
-  std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
-  for (std::size_t m = 0; m < stays.size(); ++m) {
-    const auto marked = std::count_if(result.diagram.begin(), result.diagram.end(),
-                                      [&](const DiagramPole& pole) { return pole.mode == static_cast<int>(m); });
-    const bool has_lost = static_cast<std::size_t>(marked) > result.modes[m].members.size();
-    stays[m] = !(stays[m] && has_lost);
-  }
-  keep_modes(result, stays);
-}
-
-}  // namespace
 
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
   std::vector<bool> stays;

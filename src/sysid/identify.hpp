@@ -88,6 +88,9 @@ void mark_periodic(Identification& result, const std::vector<Samples>& records, 
 /// In each setup, drops the modes that are lines of another one: a machine that one setup shows runs in the next one too.
 void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule);
 
+/// Drops the modes that do not stay, with their deviations and marks in the diagram. @param stays  one a mode
+void keep_modes(Identification& result, const std::vector<bool>& stays);
+
 /// Drops the modes that the data do not determine, by the rules of the options. Of those that are left, the automatic selection
 /// drops mixtures of two others, and the one with the larger standard deviation of a pair that the data cannot tell apart:
 /// frequencies within three standard deviations of their difference, and shapes that differ by no more than one expects of one

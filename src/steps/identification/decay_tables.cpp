@@ -17,15 +17,15 @@ void write_decays(const std::vector<identification::DecayResult>& decays,
   io::CsvWriter levels({"source", "condition", "setup", "record", "mode", "amplitude", "quantity", "frequency_Hz",
                         "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct", "seconds"});
   for (const identification::DecayResult& decay : decays) {
-    const identification::ConditionResult* ambient = identification::condition_named(results, decay.condition);
+    const identification::ConditionResult* ambient = identification::condition_named(results, decay.conditioned.condition);
     for (std::size_t m = 0; m < decay.found.modes.size(); ++m) {
       const sysid::Cluster& mode = decay.found.modes[m];
       const sysid::ModeDeviation& deviation = decay.found.deviations[m];
-      const auto partner = identification::partner_of(mode, decay.channels, ambient);
+      const auto partner = identification::partner_of(mode, decay.conditioned.channels, ambient);
       const auto known = [&](double value) { return partner ? std::optional(value) : std::nullopt; };
       const std::size_t at = partner ? partner->mode : 0;
-      modes.row({decay.condition, decay.setup, std::to_string(m + 1), mode.frequency_Hz, deviation.frequency_Hz,
-                 100.0 * mode.damping_ratio, 100.0 * deviation.damping_ratio, mode.members.size(),
+      modes.row({decay.conditioned.condition, decay.conditioned.setup, std::to_string(m + 1), mode.frequency_Hz,
+                 deviation.frequency_Hz, 100.0 * mode.damping_ratio, 100.0 * deviation.damping_ratio, mode.members.size(),
                  partner ? std::to_string(at + 1) : "", known(partner ? ambient->modes[at].frequency_Hz : 0.0),
                  known(partner ? ambient->modes[at].deviation.frequency_Hz : 0.0), known(partner ? partner->mac : 0.0)});
     }
@@ -33,8 +33,8 @@ void write_decays(const std::vector<identification::DecayResult>& decays,
       const auto mode = std::find_if(decay.found.modes.begin(), decay.found.modes.end(),
                                      [&](const auto& c) { return c.frequency_Hz == by.frequency_Hz; });
       for (const sysid::AmplitudePoint& point : by.points) {
-        levels.row({"free_decay", decay.condition, decay.setup, by.record, by.mode, point.amplitude,
-                    identification::quantity_at_largest(decay.channels, mode->shape), point.frequency_Hz,
+        levels.row({"free_decay", decay.conditioned.condition, decay.conditioned.setup, by.record, by.mode, point.amplitude,
+                    identification::quantity_at_largest(decay.conditioned.channels, mode->shape), point.frequency_Hz,
                     point.frequency_std_Hz, 100.0 * point.damping_ratio, 100.0 * point.damping_ratio_std, point.seconds});
       }
     }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "core/error.hpp"
 #include "io/limits.hpp"
 #include "steps/shared/order_range.hpp"
@@ -20,13 +22,19 @@ io::FieldTable IdentificationConfig::fields() {
   table.text("setup", setup, "setup whose records are used; empty: all, merged over the reference channels")
       .texts("setups", setups, "setups that are merged; empty: all, or the one named by `setup`")
       .text("condition", condition, "condition whose records are used; empty: all, the first one's modes in modes.csv")
-      .text("kind", kind, "kind of record: ambient, wind, earthquake or another whose excitation is broad; stay: stays alone")
+      .text("kind", kind,
+            "kind of record: ambient, wind, earthquake or another whose excitation is broad; free_decay: by ERA; stay: stays "
+            "alone")
       .choice("method", method, {"covariance", "data"},
               "subspace identification from correlations or from the data (inputs, where measured, are used)")
       .choice("selection", selection, {"automatic", "paper"}, "modes by the automatic rule, or by paper Eqs. (3)-(4)")
       .choice("merge", merge, {"poser", "preger"}, "setups merged after or before identification")
       .texts("references", references, "reference channels; empty: those marked in channels.csv, or all")
       .texts("exclude", exclude, "channels that are left out")
+      .text("keep", keep,
+            "CSV file of poles that a person kept or deleted (setup,order,frequency_Hz,damping_ratio_pct,action), as the "
+            "report's "
+            "stabilisation diagram writes it; empty: none")
       .integer("longest_gap", longest_gap, io::non_negative(),
                "samples missing in a row that may be bridged by a straight line")
       .number("largest_clipping", largest_clipping, "", {0.0, 1.0},
@@ -34,12 +42,13 @@ io::FieldTable IdentificationConfig::fields() {
               "more than at the next values")
       .number("largest_lone", largest_lone, "", {10.0, 1e300},
               "robust standard deviations from the median that a sample may stand off alone, between quiet neighbours")
-      .integer("decimation", decimation, {1.0, 1000.0}, "every so many-th sample is kept, after a zero-phase low-pass")
+      .integer("decimation", decimation, {0.0, 1000.0},
+               "every so many-th sample is kept, after a zero-phase low-pass; 0: chosen from the highest peak of the spectrum")
       .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below are left out")
       .number("band.highest", highest_Hz, "Hz", io::non_negative(),
               "poles above are left out; 0: up to where the sensors move together, at most 0.8 of the Nyquist frequency")
-      .integer("block_rows", block_rows, {2.0, 500.0},
-               "block rows of the Toeplitz or Hankel matrix; twice as many lags are used")
+      .integer("block_rows", block_rows, {0.0, 500.0},
+               "block rows of the Toeplitz or Hankel matrix; twice as many lags are used; 0: three periods of the lowest peak")
       .integer("minimum_order", minimum_order, {2.0, 500.0}, "smallest model order")
       .integer("maximum_order", maximum_order, {2.0, 500.0}, "largest model order")
       .integer("order_step", order_step, {1.0, 100.0}, "step of the order")
@@ -69,21 +78,24 @@ io::FieldTable IdentificationConfig::fields() {
               "allows; 0: any")
       .number("automatic.shape_deviation", largest_shape_deviation, "", io::non_negative(),
               "automatic rule: largest standard deviation of a mode shape of unit norm; 0: any")
-      .integer("decay.decimation", decay_decimation, {0.0, 1000.0}, "free decays: as decimation; 0: the same")
-      .integer("decay.block_rows", decay_block_rows, {2.0, 1000.0}, "free decays: block rows of the Hankel matrix")
+      .integer("decay.decimation", decay_decimation, {0.0, 1000.0}, "free decays: as decimation; 0: the same, or chosen")
+      .integer("decay.block_rows", decay_block_rows, {0.0, 1000.0},
+               "free decays: block rows of the Hankel matrix; 0: half a period of the lowest peak")
       .integer("decay.maximum_order", decay_maximum_order, {2.0, 500.0}, "free decays: largest model order")
       .number("decay.start", decay_start_s, "s", {0.0, io::longest_record_s},
               "free decays are read from this time after the release on")
-      .number("decay.length", decay_length_s, "s", {0.0, io::longest_record_s, true}, "length that is read")
+      .number("decay.length", decay_length_s, "s", {0.0, io::longest_record_s},
+              "length that is read; 0: until the motion is down to what is left at the end of the record")
       .number("decay.band", decay_band_Hz, "Hz", io::positive(),
               "half width of the filter that isolates a mode for frequency and damping by amplitude")
       .integer("decay.bands", decay_bands, {1.0, 50.0}, "bands of amplitude")
-      .integer("stay.decimation", stay_decimation, {1.0, 1000.0}, "stays: as decimation")
-      .integer("stay.block_rows", stay_block_rows, {2.0, 1000.0}, "stays: block rows")
+      .integer("stay.decimation", stay_decimation, {0.0, 1000.0}, "stays: as decimation; 0: chosen")
+      .integer("stay.block_rows", stay_block_rows, {0.0, 1000.0}, "stays: block rows; 0: chosen")
       .integer("stay.maximum_order", stay_maximum_order, {2.0, 500.0}, "stays: largest model order")
       .integer("stay.harmonics", stay_harmonics, {2.0, 40.0}, "stays: harmonics that are used at most")
-      .number("stay.lowest", stay_lowest_Hz, "Hz", io::positive(), "stays: smallest fundamental frequency that is thought of")
-      .number("stay.highest", stay_highest_Hz, "Hz", io::positive(), "stays: largest")
+      .number("stay.lowest", stay_lowest_Hz, "Hz", io::non_negative(),
+              "stays: smallest frequency of the taut string that is thought of")
+      .number("stay.highest", stay_highest_Hz, "Hz", io::non_negative(), "stays: largest; 0: any")
       .number("stay.level", stay_level, "", {0.5, 0.9999}, "probability of the intervals of tension and sag")
       .tables(
           "stay_length",
@@ -94,11 +106,29 @@ io::FieldTable IdentificationConfig::fields() {
             identification::StaySettings& stay = stays.back();
             io::FieldTable entry;
             entry.text("name", stay.name, "setup, point or channel of the stay's records", true)
-                .number("length", stay.length_m, "m", io::positive(), "free length", true);
+                .number("length", stay.length_m, "m", io::positive(), "free length", true)
+                .choice("ends", stay.ends, {"unknown", "hinged", "clamped"},
+                        "how the ends are held; unknown: both are compared")
+                .number("bending_stiffness", stay.bending_stiffness_N_m2, "N m^2", io::non_negative(),
+                        "EI of the section, known to ten per cent; 0: fitted to the harmonics")
+                .number("mass", stay.mass_kg_m, "kg/m", io::non_negative(), "mass per length; wanted with bending_stiffness");
             return entry;
           },
           "a stay's length; without one its tension can't be told", "name")
-      .rule([this] { return orders_exchanged("", minimum_order, maximum_order); });
+      .rule([this] { return orders_exchanged("", minimum_order, maximum_order); })
+      .rule([this]() -> std::optional<io::FieldTable::Broken> {
+        if (block_rows != 1) return std::nullopt;
+        return io::FieldTable::Broken{"block_rows", "is 1, expected 2 or more, or 0", "leave it out, and the step chooses it"};
+      })
+      .rule([this]() -> std::optional<io::FieldTable::Broken> {
+        for (const identification::StaySettings& stay : stays) {
+          if (stay.bending_stiffness_N_m2 > 0.0 && stay.mass_kg_m <= 0.0)
+            return io::FieldTable::Broken{"stay_length.bending_stiffness",
+                                          "of " + stay.name + " is given without a mass, expected both",
+                                          "give mass in kg/m too, or leave bending_stiffness out"};
+        }
+        return std::nullopt;
+      });
   return table;
 }
 

@@ -7,6 +7,12 @@ namespace twindeck::steps {
 
 /// Configuration of s3_identification.
 struct IdentificationConfig : identification::IdentificationSettings {
+  /// As a user has it who configures nothing: sampling and blocks are chosen from the records.
+  IdentificationConfig() {
+    decimation = block_rows = decay_decimation = decay_block_rows = stay_decimation = stay_block_rows = 0;
+    decay_length_s = 0.0;
+  }
+  std::string keep;  ///< file of choices by hand
   [[nodiscard]] io::FieldTable fields();
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "identification/stays.hpp"
+#include "io/csv.hpp"
 
 namespace twindeck::steps {
 
@@ -65,11 +66,11 @@ class LeftOut {
 
 std::vector<identification::Conditioned> read_kind(const records::Campaign& campaign, const records::RecordChoice& choice,
                                                    const identification::IdentificationSettings& config,
-                                                   Eigen::Index decimation, runner::StepContext& context, LeftOut& left_out) {
+                                                   runner::StepContext& context, LeftOut& left_out) {
   std::vector<identification::Conditioned> records;
   for (const records::RecordGroup& group : records::record_groups(campaign, choice, true)) {
     left_out.attempt("setup " + group.setup, [&] {
-      records.push_back(identification::condition_records(campaign, group, config, decimation));
+      records.push_back(identification::condition_records(campaign, group, config));
       for (const std::string& note : records.back().notes) context.say(note);
       for (const std::string& warning : records.back().warnings) context.warn(warning);
     });
@@ -77,40 +78,82 @@ std::vector<identification::Conditioned> read_kind(const records::Campaign& camp
   return records;
 }
 
-/// The records whose modes are those of the structure. None where the configuration asks for stays alone, or the campaign has
-/// nothing else than stays and free decays: then the stays are all there is to identify.
-std::vector<records::RecordGroup> ambient_groups(const records::Campaign& campaign,
-                                                 const identification::IdentificationSettings& config) {
-  const auto is_stay = [](const records::CampaignRecord& record) { return record.kind == "stay"; };
-  const auto is_beside = [&](const records::CampaignRecord& record) { return is_stay(record) || record.kind == "free_decay"; };
-  const bool stays_alone = std::any_of(campaign.records.begin(), campaign.records.end(), is_stay) &&
-                           std::all_of(campaign.records.begin(), campaign.records.end(), is_beside);
-  if (config.kind == "stay" || (config.kind == "ambient" && stays_alone)) {
-    static_cast<void>(records::record_groups(campaign, {"", "", "stay", {}}));  // refuses where there is none
-    return {};
-  }
-  return records::record_groups(campaign, {config.setup, config.condition, config.kind, config.setups});
+/// Kind of the records whose modes are those of the structure: as configured. A campaign without ambient records has its free
+/// decays, or else its stays, to show.
+std::string main_kind(const records::Campaign& campaign, const identification::IdentificationSettings& config) {
+  const auto has = [&](const std::string& kind) {
+    return std::any_of(campaign.records.begin(), campaign.records.end(),
+                       [&](const records::CampaignRecord& record) { return record.kind == kind; });
+  };
+  const bool others = std::any_of(campaign.records.begin(), campaign.records.end(), [](const records::CampaignRecord& record) {
+    return record.kind != "stay" && record.kind != "free_decay";
+  });
+  if (config.kind != "ambient" || others) return config.kind;
+  return has("free_decay") ? "free_decay" : has("stay") ? "stay" : config.kind;
+}
+
+identification::IdentificationSettings decay_settings(const identification::IdentificationSettings& config) {
+  identification::IdentificationSettings own = config;
+  if (config.decay_decimation > 0) own.decimation = config.decay_decimation;
+  own.block_rows = config.decay_block_rows;
+  return own;
 }
 
 }  // namespace
+
+std::vector<identification::ModeChoice> read_mode_choices(const std::string& file, runner::StepContext& context) {
+  std::vector<identification::ModeChoice> choices;
+  if (file.empty()) return choices;
+  const auto table = io::CsvTable::read(context.input(context.resolved(file)),
+                                        {"setup", "order", "frequency_Hz", "damping_ratio_pct", "action"}, {}, true);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string action = table.text(row, "action");
+    if (action != "keep" && action != "delete")
+      table.fail(row, "action", "is '" + action + "', expected keep or delete", "write one of them");
+    identification::ModeChoice choice;
+    choice.setup = table.text(row, "setup");
+    choice.order = static_cast<int>(table.integer(row, "order"));
+    choice.frequency_Hz = table.number(row, "frequency_Hz");
+    choice.damping_ratio = 0.01 * table.number(row, "damping_ratio_pct");
+    choice.keep = action == "keep";
+    choice.file = table.file().string();
+    choice.line = table.line(row);
+    if (!(choice.frequency_Hz > 0.0))
+      table.fail(row, "frequency_Hz", "is " + table.text(row, "frequency_Hz") + ", expected a frequency above 0",
+                 "take it from poles.csv");
+    choices.push_back(std::move(choice));
+  }
+  return choices;
+}
 
 IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config,
                                                 runner::StepContext& context) {
   IdentificationInputs read;
   read.campaign = read_lists(context);
   LeftOut left_out;
-  const std::vector<records::RecordGroup> ambient = ambient_groups(read.campaign, config);
-  if (ambient.empty()) context.say("stays alone are identified: stays.csv and stay_tensions.csv; modes.csv stays empty");
-  for (const std::vector<records::RecordGroup>& groups : records::by_condition(ambient)) {
-    left_out.attempt("condition " + groups.front().condition, [&] {
-      read.conditions.push_back(identification::read_condition(read.campaign, groups, config, context));
-    });
+  const std::string kind = main_kind(read.campaign, config);
+  read.decays_are_main = kind == "free_decay";
+  const records::RecordChoice chosen{config.setup, config.condition, kind, config.setups};
+  const bool stays_alone = kind == "stay";
+  if (stays_alone) {
+    static_cast<void>(records::record_groups(read.campaign, {"", "", "stay", {}}));  // refuses where there is none
+    context.say("stays alone are identified: stays.csv and stay_tensions.csv; modes.csv stays empty");
+  } else {
+    const std::vector<records::RecordGroup> groups = records::record_groups(read.campaign, chosen);
+    if (read.decays_are_main) context.say("the modes are those of the free decays, by ERA");
+    for (const std::vector<records::RecordGroup>& one : records::by_condition(groups)) {
+      if (read.decays_are_main) break;
+      left_out.attempt("condition " + one.front().condition,
+                       [&] { read.conditions.push_back(identification::read_condition(read.campaign, one, config, context)); });
+    }
   }
-  read.decays = read_kind(read.campaign, {"", config.condition, "free_decay", {}}, config,
-                          config.decay_decimation > 0 ? config.decay_decimation : config.decimation, context, left_out);
-  read.stays = read_kind(read.campaign, {"", "", "stay", {}}, identification::stay_settings(config), config.stay_decimation,
-                         context, left_out);
-  left_out.report(context, ambient.empty() ? read.stays.empty() : read.conditions.empty());
+  const records::RecordChoice all_decays{"", config.condition, "free_decay", {}};
+  read.decays = read_kind(read.campaign, read.decays_are_main ? chosen : all_decays, decay_settings(config), context, left_out);
+  read.stays = read_kind(read.campaign, {"", "", "stay", {}}, identification::stay_settings(config), context, left_out);
+  const bool nothing_left = stays_alone            ? read.stays.empty()
+                            : read.decays_are_main ? read.decays.empty()
+                                                   : read.conditions.empty();
+  left_out.report(context, nothing_left);
   return read;
 }
 

@@ -11,9 +11,14 @@ namespace twindeck::steps {
 struct IdentificationInputs {
   records::Campaign campaign;
   std::vector<identification::ConditionResult>
-      conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified; none for stays alone
+      conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified; none for the kinds below
   std::vector<identification::Conditioned> decays, stays;
+  bool decays_are_main = false;  ///< the modes are those of the free decays
 };
+
+/// Reads the file of the key `keep`. @return  empty for no file
+/// @throws InputError  for an action that is neither keep nor delete, or a number out of range
+[[nodiscard]] std::vector<identification::ModeChoice> read_mode_choices(const std::string& file, runner::StepContext& context);
 
 /// Reads a campaign: `--campaign`, else data/<study>/campaign, else what s0_campaign wrote.
 /// @throws InputError  as read_campaign, record_groups, read_condition and condition_records

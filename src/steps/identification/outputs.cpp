@@ -43,7 +43,8 @@ void write_modes(const identification::ConditionResult& result, const fs::path& 
     const sysid::MergedMode& mode = result.modes[m];
     const sysid::Cluster& first = cluster_of(result, mode.members.front());
     const bool single = mode.members.size() == 1;
-    const sysid::EfddMode check = sysid::efdd(result.setups[mode.members.front().first].singular, mode.frequency_Hz);
+    const sysid::SingularSpectra& spectra = result.setups[mode.members.front().first].singular;
+    const sysid::EfddMode check = spectra.frequency_Hz.size() > 0 ? sysid::efdd(spectra, mode.frequency_Hz) : sysid::EfddMode{};
     csv.row({name_of(m), mode.frequency_Hz, mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio,
              100.0 * mode.deviation.damping_ratio, single ? first.frequency_scatter_Hz : mode.frequency_scatter_Hz,
              100.0 * (single ? first.damping_ratio_scatter : mode.damping_ratio_scatter), orders_of(result, mode),
@@ -224,15 +225,25 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
     write_condition(campaign, results[i], place);
     write_mode_exports(results[i], place);
   }
-  write_decays(decays, results, config, folder);
+  const bool no_ambient = !results.empty() && results.front().of_decays;
+  write_decays(decays, no_ambient ? std::vector<identification::ConditionResult>{} : results, config, folder);
   write_stays(stays, config.stay_level, folder);
   for (const identification::DecayResult& decay : decays)
-    quality.insert(quality.end(), decay.quality.begin(), decay.quality.end());
+    quality.insert(quality.end(), decay.conditioned.quality.begin(), decay.conditioned.quality.end());
   for (const identification::StayResult& stay : stays) quality.insert(quality.end(), stay.quality.begin(), stay.quality.end());
   std::vector<std::string> conditions;
   for (const identification::ConditionResult& result : results) conditions.push_back(result.condition);
   for (const identification::StayResult& stay : stays) conditions.push_back(stay.condition);
   write_features(campaign, results, conditions, stay_rows(stays), quality, folder / "features");
+}
+
+std::vector<std::string> notes_of(const std::vector<identification::DecayResult>& decays,
+                                  const std::vector<identification::StayResult>& stays) {
+  std::vector<std::string> notes;
+  for (const identification::DecayResult& decay : decays) notes.push_back(decay.note);
+  for (const identification::StayResult& stay : stays) notes.push_back(stay.note);
+  std::erase(notes, "");
+  return notes;
 }
 
 std::vector<std::string> report_lines(const identification::ConditionResult& result) {

@@ -34,6 +34,10 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
                           const std::vector<identification::StayResult>& stays,
                           const identification::IdentificationSettings& config, const std::filesystem::path& folder);
 
+/// Limits that decays and stays do not carry.
+[[nodiscard]] std::vector<std::string> notes_of(const std::vector<identification::DecayResult>& decays,
+                                                const std::vector<identification::StayResult>& stays);
+
 /// What was found, for people.
 [[nodiscard]] std::vector<std::string> report_lines(const identification::ConditionResult& result);
 

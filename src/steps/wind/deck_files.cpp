@@ -76,8 +76,11 @@ AerodynamicsConfig read_step_7(const std::string& file, runner::StepContext& con
   }
   AerodynamicsConfig out;
   io::FieldTable fields = out.fields();
+  std::string model;
+  fields.text("model", model, "model folder of step 7: that of this step too, where nothing else names one");
   fields.load(context.input(file.empty() ? context.study / "s7_aerodynamics.toml" : std::filesystem::path(file)));
   fields.require();
+  if (!context.model && !model.empty()) context.model = context.resolved(model);
   return out;
 }
 

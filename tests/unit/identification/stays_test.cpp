@@ -1,4 +1,4 @@
-// Oracles: a taut string's harmonics f_n = n c and T/m = (2 L c)²; a change of length scales T/m by its square.
+// Oracles: a taut string's harmonics f_n = n c and T/m = (2 L c)².
 #include "identification/stays.hpp"
 
 #include <gtest/gtest.h>
@@ -68,43 +68,41 @@ TEST(IdentifyStays, ATautStringHasItsSpacingAndForce) {
     EXPECT_GT(mode.frequency_std_Hz, 0.0);
   }
   ASSERT_TRUE(stay.fitted);
-  const double half = 0.5 * (stay.fit.c_Hz.high - stay.fit.c_Hz.low) / 1.96;  // a deviation
-  EXPECT_NEAR(stay.fit.c_Hz.value, 1.0, 5.0 * half);
-  EXPECT_LT(half, 0.01);
+  // Four harmonics known to a thousandth leave bending open, which could lower c by a per cent or two.
+  EXPECT_LT(stay.fit.c_Hz.low, 1.0);
+  EXPECT_GT(stay.fit.c_Hz.high, 1.0);
+  EXPECT_LT(stay.fit.c_Hz.high - stay.fit.c_Hz.low, 0.05);
   EXPECT_NEAR(stay.fit.tension_per_mass.value, std::pow(2.0 * 50.0 * stay.fit.c_Hz.value, 2), 1e-6);
 }
 
-// Without a length the setup names the stay and T/m is that of 1 m; c does not hang on the length.
-TEST(IdentifyStays, WithoutALengthTheFitIsOfOneMetre) {
+// Without a length the setup names the stay and no force is told; c does not hang on the length but for the excess length of
+// the arc, (9.81/200)²/24 = 1e-4 of c.
+TEST(IdentifyStays, WithoutALengthThereIsNoForce) {
   IdentificationSettings config;
   const auto stays = identify_stays({string_record(1.0, 4)}, config);
   ASSERT_TRUE(stays.at(0).fitted);
   EXPECT_EQ(stays[0].stay, "record 7");
   EXPECT_EQ(stays[0].length_m, 0.0);
-  const double c = stays[0].fit.c_Hz.value;
-  EXPECT_NEAR(stays[0].fit.tension_per_mass.value, 4.0 * c * c, 1e-9);
+  EXPECT_EQ(stays[0].fit.tension_per_mass.value, 0.0);
   config.stays = {{"acc", 50.0}};
-  const sysid::StayFit known = identify_stays({string_record(1.0, 4)}, config).at(0).fit;
-  EXPECT_NEAR(known.c_Hz.value, c, 1e-12);
-  // Of 50 m at 1 Hz the excess length is (9.81/200)²/24 = 1e-4 of c: the interval without it is no wider, and a little
-  // narrower.
-  const double known_half = known.c_Hz.high - known.c_Hz.value, half = stays[0].fit.c_Hz.high - c;
-  EXPECT_LE(half, known_half);
-  EXPECT_NEAR(std::hypot(half, 1.96 * 1e-4), known_half, 1e-5);
+  EXPECT_NEAR(identify_stays({string_record(1.0, 4)}, config).at(0).fit.c_Hz.value, stays[0].fit.c_Hz.value, 3e-4);
 }
 
-// 95 % are 1.959964 deviations to either side, 99 % are 2.575829 (tables of the normal law).
-TEST(IdentifyStays, TheLevelIsTwoSided) {
+// The string of before with its ends stated, and with a level of 99 %: narrower, and wider.
+TEST(IdentifyStays, EndsAndLevelSetTheInterval) {
   IdentificationSettings config;
   config.stays = {{"record 7", 50.0}};
-  for (const auto& [level, quantile] : {std::pair{0.95, 1.959964}, std::pair{0.99, 2.575829}}) {
-    config.stay_level = level;
-    const StayResult stay = identify_stays({string_record(1.0, 4)}, config).at(0);
-    std::vector<sysid::Harmonic> harmonics;
-    for (const StayResult::Mode& mode : stay.modes)
-      harmonics.push_back({mode.harmonic, mode.frequency_Hz, mode.frequency_std_Hz});
-    EXPECT_NEAR(stay.fit.c_Hz.high, sysid::fit_stay(harmonics, 50.0, quantile).c_Hz.high, 1e-8) << level;
-  }
+  const auto width = [&] {
+    const sysid::Bounded c = identify_stays({string_record(1.0, 4)}, config).at(0).fit.c_Hz;
+    return c.high - c.low;
+  };
+  const double open = width();
+  config.stay_level = 0.99;
+  EXPECT_GT(width(), open);
+  config.stay_level = 0.95;
+  config.stays[0].ends = "hinged";
+  EXPECT_LE(width(), open);
+  EXPECT_EQ(identify_stays({string_record(1.0, 4)}, config).at(0).fit.clamped, 0.0);
 }
 
 // Two harmonics are asked for at most; and one harmonic alone is no fit.

@@ -1,0 +1,109 @@
+#include "identification/doubts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/sampling.hpp"
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double kPeriodsOfABlock = 2.0;  ///< [-] a shorter block bends frequency and damping
+/// [-] factor between a damping ratio and the median of all modes that needs a look, and standard deviations beyond it.
+constexpr double kFarDamping = 4.0, kSure = 3.0;
+constexpr std::size_t kFewestModes = 4;  ///< [-] fewer have no usual damping
+/// [-] of the first singular value over its neighbourhood; ten segments reach half of it by chance.
+constexpr double kPeak = 10.0;
+constexpr double kNearPeak = 0.03;     ///< [-] of the frequency
+constexpr std::size_t kMostPeaks = 3;  ///< named
+constexpr double kOneShape = 0.9;      ///< [-] MAC of shapes that are alike
+
+void short_blocks(const ConditionResult& result, std::vector<std::string>& doubts) {
+  for (const SetupResult& setup : result.setups) {
+    if (setup.found.modes.empty()) continue;
+    const double lowest = setup.found.modes.front().frequency_Hz, rate = setup.conditioned.rate_Hz;
+    const double needed = kPeriodsOfABlock * rate / lowest;
+    if (static_cast<double>(setup.limits.block_rows) >= needed) continue;
+    doubts.push_back(fmt::format(
+        "setup {}: {} block rows ({:.3g} s) are shorter than two periods of the mode at {:.4g} Hz, whose damping may "
+        "be off; raise block_rows to {} or decimate more",
+        setup.conditioned.setup, setup.limits.block_rows, static_cast<double>(setup.limits.block_rows) / rate, lowest,
+        std::lround(std::ceil(needed))));
+  }
+}
+
+void far_dampings(const ConditionResult& result, std::vector<std::string>& doubts) {
+  if (result.modes.size() < kFewestModes) return;
+  std::vector<double> all;
+  for (const sysid::MergedMode& mode : result.modes) all.push_back(mode.damping_ratio);
+  std::nth_element(all.begin(), all.begin() + std::ssize(all) / 2, all.end());
+  const double median = all[all.size() / 2];
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const double zeta = result.modes[m].damping_ratio, sure = kSure * result.modes[m].deviation.damping_ratio;
+    if (zeta - sure < kFarDamping * median && zeta + sure > median / kFarDamping) continue;
+    doubts.push_back(
+        fmt::format("mode {} at {:.4g} Hz has a damping ratio of {:.3g} %, far from the {:.3g} % of the other modes", m + 1,
+                    result.modes[m].frequency_Hz, 100.0 * zeta, 100.0 * median));
+  }
+}
+
+bool is_explained(const SetupResult& setup, double f) {
+  const auto near = [&](double other, double half_width) { return std::abs(other - f) <= std::max(kNearPeak * f, half_width); };
+  const double spacing = setup.singular.frequency_Hz[1];
+  const auto mode = std::any_of(setup.found.modes.begin(), setup.found.modes.end(), [&](const sysid::Cluster& m) {
+    return near(m.frequency_Hz, std::max(3.0 * spacing, 2.0 * m.damping_ratio * m.frequency_Hz));
+  });
+  const auto line = std::any_of(setup.found.periodic.begin(), setup.found.periodic.end(),
+                                [&](const sysid::PeriodicLine& p) { return near(p.frequency_Hz, 3.0 * spacing); });
+  return mode || line;
+}
+
+void peaks_without_mode(const ConditionResult& result, std::vector<std::string>& doubts) {
+  for (const SetupResult& setup : result.setups) {
+    if (setup.singular.frequency_Hz.size() < 2) continue;
+    const double highest = setup.limits.highest_Hz > 0.0 ? setup.limits.highest_Hz : 0.4 * setup.conditioned.rate_Hz;
+    std::vector<std::string> left;
+    for (const double f :
+         spectral_peaks(setup.singular.frequency_Hz, setup.singular.values.col(0), kPeak, setup.limits.lowest_Hz, highest)) {
+      if (!is_explained(setup, f)) left.push_back(fmt::format("{:.4g}", f));
+    }
+    if (left.empty()) continue;
+    const std::size_t n = left.size();
+    left.resize(std::min(n, kMostPeaks));
+    doubts.push_back(fmt::format("setup {}: the spectrum has {} without a mode, at {} Hz{}; see poles.csv",
+                                 setup.conditioned.setup, n == 1 ? "a peak" : fmt::format("{} peaks", n), fmt::join(left, ", "),
+                                 n > kMostPeaks ? " …" : ""));
+  }
+}
+
+void modes_that_are_one(const ConditionResult& result, std::vector<std::string>& doubts) {
+  if (result.channels.size() < 2) return;  // one channel has no shape
+  for (std::size_t m = 0; m + 1 < result.modes.size(); ++m) {
+    const sysid::MergedMode &low = result.modes[m], &high = result.modes[m + 1];
+    const double sigma = std::hypot(low.deviation.frequency_Hz, high.deviation.frequency_Hz);
+    if (high.frequency_Hz - low.frequency_Hz > kSure * sigma || known_mac(low.shape, high.shape) < kOneShape) continue;
+    doubts.push_back(fmt::format(
+        "modes {} and {} ({:.4g} and {:.4g} Hz) may be one: their shapes are alike and their frequencies lie within "
+        "their standard deviations; keep one of them (key keep)",
+        m + 1, m + 2, low.frequency_Hz, high.frequency_Hz));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_of(const ConditionResult& result) {
+  std::vector<std::string> doubts;
+  short_blocks(result, doubts);
+  far_dampings(result, doubts);
+  peaks_without_mode(result, doubts);
+  modes_that_are_one(result, doubts);
+  return doubts;
+}
+
+}  // namespace twindeck::identification

@@ -1,0 +1,174 @@
+#include "identification/sampling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "signal/condition.hpp"
+#include "signal/fft.hpp"
+#include "signal/welch.hpp"
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+
+namespace {
+
+/// What differs between records that move all the time and decays.
+struct Kind {
+  double prominence;  ///< of a peak over the median about it: what chance does not reach once in the lines of a record
+  double rate;        ///< [-] least rate after decimation, in units of the highest peak
+  double periods;     ///< of the lowest peak in a block
+  bool by_reach;      ///< the highest frequency is how far the motion reaches: modes damped by ten per cent have no peaks
+};
+constexpr Kind kAmbient{5.0, 3.0, 3.0, false};
+constexpr Kind kDecay{30.0, 12.0, 0.5, true};
+
+/// [-] highest peak over the lowest one that a model of some hundred block rows follows.
+constexpr double kWidestBand = 16.0;
+/// Lines below which nobody tells a peak from drift.
+constexpr Index kFirstLine = 8;
+constexpr long kSegments = 10;         ///< lengths of a segment in the shortest record
+constexpr long kMostRowsOfAll = 1600;  ///< block rows times channels: the larger matrix takes minutes
+constexpr long kMostRows = 200, kFewestRows = 20;
+constexpr long kSamplesLeft = 1280;  ///< after decimation: twenty block rows of eight blocks, twice
+
+struct Spectrum {
+  Eigen::VectorXd frequency_Hz, density;
+};
+
+/// Mean over the channels, each in units of its own mean square; segments averaged.
+Spectrum averaged(const std::vector<Samples>& records, double rate_Hz) {
+  Index shortest = records.front().rows();
+  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  const signal::WelchOptions options{std::max<Index>(64, shortest / kSegments), 0.5};
+  Spectrum spectrum;
+  if (options.segment > shortest) return spectrum;
+  const Eigen::VectorXd rms = channel_rms(records).cwiseMax(1e-300);
+  for (const Samples& record : records) {
+    const signal::PowerSpectra one = signal::power_spectra(scaled_channels(record, rms.cwiseInverse()), rate_Hz, options);
+    const Eigen::VectorXd density = one.density.rowwise().mean();
+    spectrum.density = spectrum.density.size() == 0 ? density : Eigen::VectorXd(spectrum.density + density);
+    spectrum.frequency_Hz = one.frequency_Hz;
+  }
+  return spectrum;
+}
+
+/// Of whole records, no window: a decay has died away at the end.
+Spectrum whole(const std::vector<Samples>& records, double rate_Hz) {
+  Index shortest = records.front().rows();
+  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  Spectrum spectrum;
+  if (shortest < 64) return spectrum;
+  const Eigen::VectorXd rms = channel_rms(records).cwiseMax(1e-300);
+  signal::RealFft fft(shortest);
+  spectrum.density = Eigen::VectorXd::Zero(shortest / 2 + 1);
+  for (const Samples& record : records) {
+    for (Index c = 0; c < record.cols(); ++c) {
+      const Eigen::VectorXd channel = record.col(c).tail(shortest);
+      spectrum.density += fft.forward(Eigen::VectorXd(channel.array() - channel.mean())).cwiseAbs2() / (rms[c] * rms[c]);
+    }
+  }
+  spectrum.frequency_Hz = Eigen::VectorXd::LinSpaced(spectrum.density.size(), 0.0, 0.5 * rate_Hz);
+  return spectrum;
+}
+
+/// Frequency above which a thousandth of the motion lies, the noise of the sensors taken off: how far a spectrum reaches whose
+/// peaks are too broad to stand out.
+double reach_of(const Spectrum& spectrum) {
+  constexpr double kShare = 1e-3, kChance = 4.0;  // [-] of the motion, and standard deviations of noise
+  const Index n = spectrum.density.size();
+  std::vector<double> upper(spectrum.density.data() + n / 2, spectrum.density.data() + n);
+  std::nth_element(upper.begin(), upper.begin() + std::ssize(upper) / 2, upper.end());
+  const double floor = upper[upper.size() / 2] / std::log(2.0);  // mean of an exponential law from its median
+  const double all = spectrum.density.sum() - floor * static_cast<double>(n);
+  double above = 0.0;
+  for (Index i = n - 1; i > 0; --i) {
+    above += spectrum.density[i] - floor;
+    if (above > kShare * all + kChance * floor * std::sqrt(static_cast<double>(n - i))) return spectrum.frequency_Hz[i];
+  }
+  return spectrum.frequency_Hz[n - 1];
+}
+
+Sampling choose(const Spectrum& spectrum, const Kind& kind, const std::vector<Samples>& records, double rate_Hz,
+                const IdentificationSettings& config) {
+  Sampling chosen;
+  const double nyquist = 0.5 * rate_Hz / static_cast<double>(std::max(config.decimation, 1L));
+  const double highest = config.highest_Hz > 0.0 ? config.highest_Hz : 0.8 * nyquist;
+  const std::vector<double> peaks =
+      spectral_peaks(spectrum.frequency_Hz, spectrum.density, kind.prominence, config.lowest_Hz, highest);
+  if (config.decimation > 0) chosen.decimation = config.decimation;
+  if (config.block_rows > 0) chosen.block_rows = config.block_rows;
+  if (peaks.empty()) {
+    chosen.note = "no peak stands out of the spectrum: the record is taken as it is; set decimation and block_rows";
+    return chosen;
+  }
+  chosen.lowest_Hz = peaks.front();
+  const double top = kind.by_reach ? nyquist : kWidestBand * chosen.lowest_Hz;
+  for (const double peak : peaks) {
+    if (peak <= top) chosen.highest_Hz = peak;
+  }
+  if (kind.by_reach) chosen.highest_Hz = std::max(chosen.highest_Hz, std::min(reach_of(spectrum), highest));
+  const double kept_Hz = config.highest_Hz > 0.0 ? config.highest_Hz : chosen.highest_Hz;
+  Index shortest = records.front().rows();
+  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  if (config.decimation == 0) {
+    const auto most = static_cast<long>(rate_Hz / (kind.rate * kept_Hz));
+    chosen.decimation = std::clamp(most, 1L, std::max(1L, static_cast<long>(shortest) / kSamplesLeft));
+  }
+  const double rate = rate_Hz / static_cast<double>(chosen.decimation);
+  if (config.block_rows == 0) {
+    const long most = std::clamp(kMostRowsOfAll / static_cast<long>(records.front().cols()), kFewestRows, kMostRows);
+    chosen.block_rows = std::clamp(static_cast<long>(std::ceil(kind.periods * rate / chosen.lowest_Hz)), kFewestRows, most);
+  }
+  const double left_out = peaks.back();
+  chosen.note = fmt::format(
+      "{:.4g} Hz (decimation {}) and {} block rows ({:.3g} s) are chosen for motion from {:.4g} to {:.4g} Hz{}", rate,
+      chosen.decimation, chosen.block_rows, static_cast<double>(chosen.block_rows) / rate, chosen.lowest_Hz, chosen.highest_Hz,
+      left_out > top ? fmt::format("; peaks up to {:.4g} Hz need a run of their own: band.lowest", left_out) : "");
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<double> spectral_peaks(const Eigen::VectorXd& frequency_Hz, const Eigen::VectorXd& density, double prominence,
+                                   double lowest_Hz, double highest_Hz) {
+  std::vector<double> peaks;
+  const Eigen::VectorXd& s = density;
+  for (Index i = kFirstLine; i + 1 < s.size(); ++i) {
+    const double f = frequency_Hz[i];
+    if (f < lowest_Hz || (highest_Hz > 0.0 && f > highest_Hz) || s[i] < s[i - 1] || s[i] < s[i + 1]) continue;
+    const Index reach = std::max<Index>(kFirstLine / 2, i / 4), from = std::max<Index>(1, i - reach);
+    const Index to = std::min(s.size(), i + reach + 1);
+    std::vector<double> about(s.data() + from, s.data() + to);
+    std::nth_element(about.begin(), about.begin() + std::ssize(about) / 2, about.end());
+    if (s[i] > prominence * about[about.size() / 2]) peaks.push_back(f);
+  }
+  return peaks;
+}
+
+Sampling choose_sampling(const std::vector<Samples>& records, double rate_Hz, const IdentificationSettings& config) {
+  return choose(averaged(records, rate_Hz), kAmbient, records, rate_Hz, config);
+}
+
+Sampling choose_decay_sampling(const std::vector<Samples>& records, double rate_Hz, const IdentificationSettings& config) {
+  return choose(whole(records, rate_Hz), kDecay, records, rate_Hz, config);
+}
+
+void settle_sampling(Conditioned& conditioned, const IdentificationSettings& config, bool is_decay) {
+  conditioned.block_rows = config.block_rows;
+  if (config.decimation > 0 && config.block_rows > 0) return;
+  const Sampling chosen = is_decay ? choose_decay_sampling(conditioned.records, conditioned.rate_Hz, config)
+                                   : choose_sampling(conditioned.records, conditioned.rate_Hz, config);
+  conditioned.block_rows = chosen.block_rows;
+  conditioned.notes.push_back(fmt::format("setup {}: {}", conditioned.setup, chosen.note));
+  if (config.decimation > 0 || chosen.decimation == 1) return;
+  for (std::vector<Samples>* all : {&conditioned.records, &conditioned.excitation}) {
+    for (Samples& record : *all) record = signal::detrended(signal::decimated(record, chosen.decimation));
+  }
+  conditioned.rate_Hz /= static_cast<double>(chosen.decimation);
+}
+
+}  // namespace twindeck::identification
