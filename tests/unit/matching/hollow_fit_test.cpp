@@ -15,7 +15,7 @@ ComparisonRow row(const std::string& stage, const std::string& mode, double comp
   return {stage, mode, "2N", 1.0, computed_Hz, mac, "mac"};
 }
 
-Measured measured_shapes(const Eigen::MatrixXcd& shapes) {
+Measured hollow_shapes(const Eigen::MatrixXcd& shapes) {
   Measured measured;
   measured.modes.frequency_Hz = Eigen::VectorXd::LinSpaced(shapes.cols(), 1.0, 2.0);
   measured.modes.shapes = shapes;
@@ -41,17 +41,17 @@ TEST(HollowFit, TellsTwoMeasuredModesWithOneShape) {
   const std::vector<ComparisonRow> both = {row("after", "1X", 1.0, 0.9), row("after", "2X", 1.0, 0.9)};
   Eigen::MatrixXcd shapes = Eigen::MatrixXcd::Ones(4, 2);
   shapes(3, 1) = 0.5;
-  EXPECT_TRUE(shared_shapes(measured_shapes(shapes), both).empty());
+  EXPECT_TRUE(shared_shapes(hollow_shapes(shapes), both).empty());
   shapes(3, 1) = 0.6;
-  EXPECT_EQ(shared_shapes(measured_shapes(shapes), both), std::vector<std::string>{"1X and 2X (MAC 0.96)"});
-  EXPECT_TRUE(shared_shapes(measured_shapes(shapes), {row("after", "1X", 1.0, 0.9)}).empty()) << "the other is not in use";
+  EXPECT_EQ(shared_shapes(hollow_shapes(shapes), both), std::vector<std::string>{"1X and 2X (MAC 0.96)"});
+  EXPECT_TRUE(shared_shapes(hollow_shapes(shapes), {row("after", "1X", 1.0, 0.9)}).empty()) << "the other is not in use";
   shapes.bottomRows(2).col(1).setConstant(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_TRUE(shared_shapes(measured_shapes(shapes), both).empty()) << "two channels in common";
+  EXPECT_TRUE(shared_shapes(hollow_shapes(shapes), both).empty()) << "two channels in common";
 }
 
 TEST(HollowFit, WarnsOnceOfEachKind) {
   Told told;
-  warn_of_hollow_fit(told, measured_shapes(Eigen::MatrixXcd::Ones(3, 2)),
+  warn_of_hollow_fit(told, hollow_shapes(Eigen::MatrixXcd::Ones(3, 2)),
                      {row("before", "1X", 1.2, 0.9), row("after", "1X", 1.0, 0.5), row("after", "2X", 1.0, 0.9)},
                      {"E_deck (upper)"});
   ASSERT_EQ(told.lines.size(), 3U);
