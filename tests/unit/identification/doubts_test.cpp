@@ -58,7 +58,7 @@ TEST(DoubtsOf, APeakHasNoMode) {
   const auto doubts = doubts_of(result);
   ASSERT_EQ(doubts.size(), 1U);
   EXPECT_NE(doubts[0].find("at 3 Hz"), std::string::npos) << doubts[0];
-  result.setups[0].found.periodic.push_back({.frequency_Hz = 3.0});
+  result.setups[0].found.periodic.emplace_back().frequency_Hz = 3.0;
   EXPECT_TRUE(doubts_of(result).empty());
 }
 
