@@ -12,6 +12,7 @@
 #include "fe/corotational.hpp"
 #include "fe/matrix_element.hpp"
 #include "fe/mixed_sides.hpp"
+#include "fe/static_stage.hpp"
 #include "linalg/cholesky.hpp"
 
 namespace twindeck::fe {
@@ -92,6 +93,8 @@ class MovingStructure {
 
   /// Axial forces of beams and bars in a converged configuration.
   [[nodiscard]] Eigen::VectorXd axial_forces(const Configuration& c) const;
+  /// Displacements that strain each shell and solid, turned with its frame.
+  [[nodiscard]] std::vector<Eigen::VectorXd> strained(const Configuration& c) const;
 
  private:
   void add_part(int i, const Eigen::VectorXd& stay_pull_N);
@@ -142,7 +145,7 @@ void MovingStructure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
     part.linear.stiffness = solid_stiffness_six(model_, e);
   } else if (e.type == ElementType::bar) {
     part.axial_EA_N = material_of(model_, e).youngs_modulus_Pa * section_of(model_, e).area_m2;
-    part.initial_tension_N = e.pull_N;
+    part.initial_tension_N = initial_tension(model_, e);
   } else {
     part.initial_tension_N = stay_pull_N.size() > 0 ? stay_pull_N[i] : 0.0;
     if (part.initial_tension_N == 0.0) return;
@@ -326,6 +329,22 @@ Eigen::VectorXd MovingStructure::axial_forces(const Configuration& c) const {
   return force;
 }
 
+std::vector<Eigen::VectorXd> MovingStructure::strained(const Configuration& c) const {
+  std::vector<Eigen::VectorXd> all(model_.elements.size());
+  for (const Part& part : parts_) {
+    const ElementType type = model_.elements[slot(part.element)].type;
+    if (type != ElementType::shell && type != ElementType::solid) continue;
+    const corotational::Response response = corotational::respond(part.linear, motion_of(part, c), false);
+    const Eigen::Index points = std::ssize(part.points), kept = type == ElementType::solid ? 1 : 2;
+    Eigen::VectorXd& u = all[slot(part.element)];
+    u.resize(3 * kept * points);
+    for (Eigen::Index a = 0; a < points; ++a)
+      for (Eigen::Index half = 0; half < kept; ++half)
+        u.segment<3>(3 * (kept * a + half)) = response.rotation * response.deformation.segment<3>(6 * a + 3 * half);
+  }
+  return all;
+}
+
 /// Newton's method at one load factor.
 struct NewtonResult {
   Configuration configuration;
@@ -418,6 +437,7 @@ Configuration find_equilibrium(const Model& model, const Eigen::VectorXd& load, 
     break;
   }
   c.axial_force_N = structure.axial_forces(c);
+  if (model.prestress.shells_and_solids) c.strained = structure.strained(c);
   return c;
 }
 

@@ -9,6 +9,7 @@ struct Configuration {
   Eigen::VectorXd displacement;           ///< (6 n_nodes) translations [m] and rotation vectors
   std::vector<Eigen::Matrix3d> rotation;  ///< (n_nodes)
   Eigen::VectorXd axial_force_N;          ///< (n_elements) beams and bars; tension positive
+  std::vector<Eigen::VectorXd> strained;  ///< (n_elements) as PrestressState::strained
   Status status;                          ///< not converged: at which part of the load, how far from balance, at which node
   int iterations = 0;                     ///< factorisations in all
 };

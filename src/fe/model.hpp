@@ -42,13 +42,15 @@ struct Section {
 
 enum class ElementType { beam, bar, stay, shell, solid };
 
-/// Nodes of an element of this type; a shell may also have three, a solid four (has_node_count).
+/// Nodes of an element of this type; a shell may also have three, a solid four, ten or twenty (has_node_count).
 [[nodiscard]] constexpr std::size_t node_count(ElementType type) {
   return type == ElementType::solid ? 8 : type == ElementType::shell ? 4 : 2;
 }
-/// Whether an element of this type can have so many nodes: shells have three or four, solids four or eight.
+/// Whether an element of this type can have so many nodes: shells have three or four; solids four or eight, or ten or twenty
+/// with nodes in the middles of their edges.
 [[nodiscard]] constexpr bool has_node_count(ElementType type, std::size_t count) {
-  return count == node_count(type) || (type == ElementType::shell && count == 3) || (type == ElementType::solid && count == 4);
+  return count == node_count(type) || (type == ElementType::shell && count == 3) ||
+         (type == ElementType::solid && (count == 4 || count == 10 || count == 20));
 }
 
 struct Element {
@@ -59,7 +61,8 @@ struct Element {
   int material = -1;
   int section = -1;        ///< none (-1) for a solid
   int section2 = -1;       ///< beams: section at the second end of a tapered one (see beam_tapered.hpp); -1 = uniform
-  std::vector<int> nodes;  ///< 2 (beam, bar, stay), 3 or 4 (shell, anticlockwise) or 8 (solid, see solid.hpp)
+  std::vector<int> nodes;  ///< 2 (beam, bar, stay), 3 or 4 (shell, anticlockwise), 4 or 8 (solid.hpp) or 10 or 20
+                           ///< (solid_quadratic.hpp)
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near
                                                           ///< to it as can be; 0 = global Z (X for vertical beams)
   std::array<Eigen::Vector3d, 2> offset_m = {Eigen::Vector3d::Zero(),
@@ -67,6 +70,8 @@ struct Element {
   std::uint16_t releases = 0;  ///< beams: bit i set = local end degree of freedom i (0-11) carries no force
   double pull_N = 0.0;         ///< stays: pretension (given, or the site value that shape finding blends with; 0 = none); bars:
                                ///< tension in the geometry of nodes.csv
+  double free_strain = 0.0;    ///< [-] strain without forces in the static state, alike in all directions: α ΔT of a warming;
+                               ///< along the axis alone for beams and bars; stays have none
 };
 
 /// Spring, dashpot or friction element between a node and ground, or two nodes, along a direction.
@@ -181,7 +186,17 @@ struct Prestress {
   };  ///< displacement that should be zero (dof 0-2)
   std::vector<Condition> conditions;
   Displacements displacements = Displacements::linear;
-  int load_steps = 1;  ///< large displacements: number of equal steps of dead load and cable forces
+  int load_steps = 1;              ///< large displacements: number of equal steps of dead load and cable forces
+  bool shells_and_solids = false;  ///< their stresses stiffen and soften too, as the forces of beams, bars and stays always do
+  /// A force [N], a moment [N m], or a movement of a support [m] that acts beside dead load and cable forces.
+  struct Load {
+    int node = -1;
+    int direction = 0;  ///< 0-5 = x y z rx ry rz; movements 0-2
+    double value = 0.0;
+    bool movement = false;
+  };
+  std::string load_case = {};    ///< of loads.csv, which `loads` are; "" = none
+  std::vector<Load> loads = {};  ///< of this load case
 };
 
 /// Options of the element formulation.
@@ -201,6 +216,7 @@ struct Formulation {
 struct Model {
   std::string title;
   double gravity_m_s2 = 9.81;
+  Eigen::Vector3d gravity_direction = -Eigen::Vector3d::UnitZ();  ///< unit vector
   Formulation formulation;
   Prestress prestress;
   std::vector<Node> nodes;

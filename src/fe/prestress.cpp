@@ -11,6 +11,7 @@
 #include "fe/large_displacement.hpp"
 #include "fe/mechanism.hpp"
 #include "fe/prestress_least_squares.hpp"
+#include "fe/static_stage.hpp"
 #include "fe/structure_parts.hpp"
 
 namespace twindeck::fe {
@@ -30,16 +31,19 @@ std::vector<int> find_stays(const Model& model) {
   return stays;
 }
 
-/// Bars that are under tension in the geometry of nodes.csv: what draws their ends together, and what holds a chain of them in
-/// shape.
-bool is_tensioned(const Element& e) { return e.type == ElementType::bar && e.pull_N > 0.0; }
+/// Bars that are under force in the geometry of nodes.csv: what draws their ends together. Under tension it also holds a chain
+/// of them in shape.
+double tension_of_bar(const Model& model, const Element& e) {
+  return e.type == ElementType::bar ? initial_tension(model, e) : 0.0;
+}
 
 Eigen::VectorXd initial_tension_load(const Model& model) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()));
   for (const Element& e : model.elements) {
-    if (!is_tensioned(e)) continue;
+    const double tension = tension_of_bar(model, e);
+    if (tension == 0.0) continue;
     const auto ends = end_nodes(model, e);
-    const Eigen::Vector3d pull = e.pull_N * (ends[1] - ends[0]).normalized();
+    const Eigen::Vector3d pull = tension * (ends[1] - ends[0]).normalized();
     load.segment<3>(6 * e.nodes[0]) += pull;
     load.segment<3>(6 * e.nodes[1]) -= pull;
   }
@@ -98,6 +102,7 @@ Eigen::VectorXd axial_forces(const Model& model, const Eigen::VectorXd& u) {
     if (e.type == ElementType::beam) {
       Vector12 ends;
       ends << u.segment<6>(6 * e.nodes[0]), u.segment<6>(6 * e.nodes[1]);
+      if (e.free_strain != 0.0) ends -= free_displacement(model, e);
       force[static_cast<Eigen::Index>(i)] =
           e.section2 >= 0 ? tapered_beam_axial_force(beam_geometry(model, e), beam_end_properties(model, e), ends)
                           : beam_axial_force(beam_geometry(model, e), beam_properties(model, e), ends);
@@ -105,8 +110,9 @@ Eigen::VectorXd axial_forces(const Model& model, const Eigen::VectorXd& u) {
       const auto x = end_nodes(model, e);
       const Eigen::Vector3d chord = x[1] - x[0];
       const double stretch = chord.normalized().dot(u.segment<3>(6 * e.nodes[1]) - u.segment<3>(6 * e.nodes[0]));
-      force[static_cast<Eigen::Index>(i)] =
-          e.pull_N + material_of(model, e).youngs_modulus_Pa * section_of(model, e).area_m2 * stretch / chord.norm();
+      force[static_cast<Eigen::Index>(i)] = initial_tension(model, e) + material_of(model, e).youngs_modulus_Pa *
+                                                                            section_of(model, e).area_m2 * stretch /
+                                                                            chord.norm();
     }
   }
   return force;
@@ -119,7 +125,7 @@ Eigen::VectorXd axial_forces(const Model& model, const Eigen::VectorXd& u) {
 /// pulls
 void deform(const Model& model, const std::vector<int>& stays, const Eigen::MatrixXd& w, double weight_N,
             PrestressState& state) {
-  const Eigen::VectorXd load = dead_load(model);
+  const Eigen::VectorXd load = dead_load(model) + stage_load(model, Eigen::VectorXd::Zero(6 * std::ssize(model.nodes)));
   Configuration c = find_equilibrium(model, load, state.stay_pull_N, model.prestress.load_steps);
   double change = 0.0;  // of the pulls in the last round, relative
   for (int round = 0; w.size() > 0 && c.status.converged && round < shape_finding_rounds; ++round) {
@@ -150,6 +156,7 @@ void deform(const Model& model, const std::vector<int>& stays, const Eigen::Matr
   state.displacement = c.displacement;
   state.rotation = c.rotation;
   state.axial_force_N = c.axial_force_N;
+  state.strained = std::move(c.strained);
 }
 
 }  // namespace
@@ -157,7 +164,8 @@ void deform(const Model& model, const std::vector<int>& stays, const Eigen::Matr
 Term initial_tension_stiffness(const Model& model, const linalg::SparseMatrix& pattern, const DofMap& map) {
   Scatter scatter(pattern, map);
   for (const Element& e : model.elements)
-    if (is_tensioned(e)) scatter.add({three_per_node(e), string_stiffness(end_nodes(model, e), e.pull_N)});
+    if (const double tension = tension_of_bar(model, e); tension > 0.0)
+      scatter.add({three_per_node(e), string_stiffness(end_nodes(model, e), tension)});
   Term term;
   term.label = "initial tension";
   scatter.take(term);
@@ -170,7 +178,7 @@ PrestressState unstressed(const Model& model) {
   state.axial_force_N = state.stay_pull_N;
   state.displacement = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()));
   for (std::size_t i = 0; i < model.elements.size(); ++i)
-    if (is_tensioned(model.elements[i])) state.axial_force_N[static_cast<Eigen::Index>(i)] = model.elements[i].pull_N;
+    state.axial_force_N[static_cast<Eigen::Index>(i)] = tension_of_bar(model, model.elements[i]);
   return state;
 }
 
@@ -182,7 +190,8 @@ PrestressState prestress_of(const Model& base, const DofMap& map, const linalg::
   // 1. One factorisation of the structure without stays, one solution a load: dead load and each stay's pull.
   const std::vector<int> stays = find_stays(model);
   const linalg::Cholesky factor = factorize_or_refuse(lower, map.dofs, model.source, " without its stays");
-  const Eigen::VectorXd load = dead_load(model) + initial_tension_load(model);
+  const Eigen::VectorXd movement = support_movement(model);
+  const Eigen::VectorXd load = dead_load(model) + initial_tension_load(model) + stage_load(model, movement);
   const bool shape_finding = model.prestress.rule == PullRule::shape_finding;
   Eigen::VectorXd pull(std::ssize(stays));
   for (std::size_t s = 0; s < stays.size(); ++s) pull[static_cast<Eigen::Index>(s)] = element_at(model, stays[s]).pull_N;
@@ -216,7 +225,7 @@ PrestressState prestress_of(const Model& base, const DofMap& map, const linalg::
 
   // 3. The state that they make.
   const Eigen::VectorXd total = shape_finding ? Eigen::VectorXd(q.col(0) + q.rightCols(q.cols() - 1) * pull) : q.col(0);
-  state.displacement = map.expansion * total;
+  state.displacement = map.expansion * total + movement;
   state.axial_force_N = axial_forces(model, state.displacement);
   if (model.prestress.displacements == Displacements::large && state.status.converged) deform(model, stays, w, weight, state);
   return state;

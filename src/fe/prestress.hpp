@@ -8,12 +8,14 @@
 
 namespace twindeck::fe {
 
-/// Static state under dead load and cable forces, which gives the geometric stiffness.
+/// Static state under dead load, cable forces and the loads of the stage, which gives the geometric stiffness.
 struct PrestressState {
   Eigen::VectorXd stay_pull_N;            ///< (n_elements) cable forces; 0 if the element is not a stay
   Eigen::VectorXd axial_force_N;          ///< (n_elements), beams and bars; tension positive
   Eigen::VectorXd displacement;           ///< (6 n_nodes) under dead load and cable forces [m, rad]
   std::vector<Eigen::Matrix3d> rotation;  ///< (n_nodes) of nodes under large displacements; empty for linear statics
+  /// (n_elements) displacements that strain a shell or solid, turned with it; filled under large displacements alone
+  std::vector<Eigen::VectorXd> strained;
   Status status;
 };
 

@@ -29,39 +29,61 @@ void add_strain(double dx, double dy, int column, auto& strain) {
   strain(2, column + 1) = dx;
 }
 
-/// QM6 with, for the penalty rule, the term ½ gamma ∫ (rz - ½ (dv/dx - du/dy))² dA of Hughes and Brezzi (1989). The
-/// incompatible modes take part in the rotation too, so that in-plane bending is exact on parallelograms and rz is its true
-/// rotation. Unit E and thickness.
-Eigen::Matrix<double, 12, 12> membrane(const shell::Frame& frame, double poisson_ratio, double gamma) {
-  const Eigen::Matrix3d d = shell::plane_stress(poisson_ratio);
-  const shell::Bilinear centre = shell::bilinear_at(frame, 0.0, 0.0);
-  Eigen::Matrix<double, 12, 12> k = Eigen::Matrix<double, 12, 12>::Zero();
+struct MembraneParts {
+  Eigen::Matrix<double, 12, 12> whole = Eigen::Matrix<double, 12, 12>::Zero();
   Eigen::Matrix<double, 12, 4> coupling = Eigen::Matrix<double, 12, 4>::Zero();
   Eigen::Matrix4d inner = Eigen::Matrix4d::Zero();
+};
+
+Matrix3x12 corner_strain(const shell::Bilinear& at) {
+  Matrix3x12 b = Matrix3x12::Zero();
+  for (int i = 0; i < 4; ++i) add_strain(at.gradient(0, i), at.gradient(1, i), 3 * i, b);
+  return b;
+}
+
+Matrix3x4 mode_strain(const Eigen::Matrix2d& mode) {
+  Matrix3x4 g = Matrix3x4::Zero();
+  for (int m = 0; m < 2; ++m) add_strain(mode(0, m), mode(1, m), 2 * m, g);
+  return g;
+}
+
+/// QM6 before the incompatible modes are condensed, with, for the penalty rule, the term ½ gamma ∫ (rz - ½ (dv/dx - du/dy))² dA
+/// of Hughes and Brezzi (1989). The incompatible modes take part in the rotation too, so that in-plane bending is exact on
+/// parallelograms and rz is its true rotation. Unit E and thickness.
+MembraneParts membrane(const shell::Frame& frame, double poisson_ratio, double gamma) {
+  const Eigen::Matrix3d d = shell::plane_stress(poisson_ratio);
+  const shell::Bilinear centre = shell::bilinear_at(frame, 0.0, 0.0);
+  MembraneParts parts;
   for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
     const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
     const Eigen::Matrix2d mode = incompatible_gradient(centre, at.determinant, point.x(), point.y());
-    Matrix3x12 b = Matrix3x12::Zero();
-    Matrix3x4 g = Matrix3x4::Zero();
+    const Matrix3x12 b = corner_strain(at);
+    const Matrix3x4 g = mode_strain(mode);
     Row12 spin = Row12::Zero();
     Row4 mode_spin = Row4::Zero();
     for (int i = 0; i < 4; ++i) {
-      add_strain(at.gradient(0, i), at.gradient(1, i), 3 * i, b);
       spin(3 * i) = 0.5 * at.gradient(1, i);
       spin(3 * i + 1) = -0.5 * at.gradient(0, i);
       spin(3 * i + 2) = at.value[i];
     }
     for (int m = 0; m < 2; ++m) {
-      add_strain(mode(0, m), mode(1, m), 2 * m, g);
       mode_spin(2 * m) = 0.5 * mode(1, m);
       mode_spin(2 * m + 1) = -0.5 * mode(0, m);
     }
-    k += at.determinant * (quadratic_form(1.0, b, d) + gamma * spin.transpose() * spin);
-    coupling += at.determinant * (b.transpose() * d * g + gamma * spin.transpose() * mode_spin);
-    inner += at.determinant * (g.transpose() * d * g + gamma * mode_spin.transpose() * mode_spin);
+    parts.whole += at.determinant * (quadratic_form(1.0, b, d) + gamma * spin.transpose() * spin);
+    parts.coupling += at.determinant * (b.transpose() * d * g + gamma * spin.transpose() * mode_spin);
+    parts.inner += at.determinant * (g.transpose() * d * g + gamma * mode_spin.transpose() * mode_spin);
   }
-  return k - coupling * inner.ldlt().solve(coupling.transpose());
+  return parts;
 }
+
+/// gamma of the penalty for E = 1; 0 for the other rule.
+double penalty_of(const ShellProperties& properties, DrillingRule drilling, double drilling_factor) {
+  if (drilling != DrillingRule::penalty) return 0.0;
+  return (drilling_factor > 0.0 ? drilling_factor : 1.0) * 0.5 / (1.0 + properties.poisson_ratio);
+}
+
+constexpr std::array<int, 3> membrane_places = {0, 1, 5};  ///< u v rz among the six of a corner
 
 }  // namespace
 
@@ -69,21 +91,45 @@ Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProp
                                   double drilling_factor) {
   const shell::Frame frame = shell::frame_of(geometry);
   const bool penalty = drilling == DrillingRule::penalty;
-  const double shear_modulus = 0.5 / (1.0 + properties.poisson_ratio);  // for E = 1
-  const double gamma = penalty ? (drilling_factor > 0.0 ? drilling_factor : 1.0) * shear_modulus : 0.0;
-  Eigen::Matrix<double, 12, 12> plane = membrane(frame, properties.poisson_ratio, gamma);
+  const MembraneParts parts = membrane(frame, properties.poisson_ratio, penalty_of(properties, drilling, drilling_factor));
+  Eigen::Matrix<double, 12, 12> plane = parts.whole - parts.coupling * parts.inner.ldlt().solve(parts.coupling.transpose());
   if (!penalty) {
     // factor·E·t·A on each corner's drilling rotation, grounded: it also resists a rigid turn in the plane.
     const double factor = drilling_factor > 0.0 ? drilling_factor : 0.03;
     for (int i = 0; i < 4; ++i) plane(3 * i + 2, 3 * i + 2) += factor * shell_area(geometry);
   }
-  constexpr std::array<int, 3> place = {0, 1, 5};
   Matrix24 local = Matrix24::Zero();
   for (int i = 0; i < 12; ++i)
     for (int j = 0; j < 12; ++j)
-      local(6 * (i / 3) + place[static_cast<std::size_t>(i % 3)], 6 * (j / 3) + place[static_cast<std::size_t>(j % 3)]) =
-          plane(i, j);
+      local(6 * (i / 3) + membrane_places[static_cast<std::size_t>(i % 3)],
+            6 * (j / 3) + membrane_places[static_cast<std::size_t>(j % 3)]) = plane(i, j);
   return congruence(shell::corner_displacements(frame), local, properties.youngs_modulus_Pa * properties.thickness_m);
+}
+
+Matrix24 shell_geometric_stiffness(const ShellGeometry& geometry, const ShellProperties& properties, DrillingRule drilling,
+                                   double drilling_factor, const Eigen::Ref<const Eigen::VectorXd>& displacement) {
+  const shell::Frame frame = shell::frame_of(geometry);
+  const Matrix24 turn = shell::corner_displacements(frame);
+  const Eigen::VectorXd corners = turn * displacement;
+  Eigen::Matrix<double, 12, 1> plane;
+  for (int i = 0; i < 12; ++i) plane[i] = corners[6 * (i / 3) + membrane_places[static_cast<std::size_t>(i % 3)]];
+  const MembraneParts parts = membrane(frame, properties.poisson_ratio, penalty_of(properties, drilling, drilling_factor));
+  const Eigen::Vector4d modes = -parts.inner.ldlt().solve(parts.coupling.transpose() * plane);
+  const Eigen::Matrix3d d =
+      properties.youngs_modulus_Pa * properties.thickness_m * shell::plane_stress(properties.poisson_ratio);
+  const shell::Bilinear centre = shell::bilinear_at(frame, 0.0, 0.0);
+  Matrix24 local = Matrix24::Zero();
+  for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
+    const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
+    const Eigen::Matrix2d gradient = incompatible_gradient(centre, at.determinant, point.x(), point.y());
+    const Eigen::Vector3d n = d * (corner_strain(at) * plane + mode_strain(gradient) * modes);
+    Eigen::Matrix2d force;
+    force << n[0], n[2], n[2], n[1];
+    const Eigen::Matrix4d slope = at.determinant * at.gradient.transpose() * force * at.gradient;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) local.block<3, 3>(6 * i, 6 * j).diagonal().array() += slope(i, j);
+  }
+  return congruence(turn, local, 1.0);
 }
 
 }  // namespace twindeck::fe

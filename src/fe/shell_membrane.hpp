@@ -24,5 +24,12 @@ enum class DrillingRule { penalty, diagonal };
 /// @throws InputError (all shell functions but shell_area) for a quadrilateral without area or not convex
 [[nodiscard]] Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProperties& properties,
                                                 DrillingRule drilling, double drilling_factor);
+/// Geometric stiffness of the membrane forces N = t D (strain of `displacement`, incompatible modes included) at the four Gauss
+/// points,  K_G = ∫ ∇uᵀ N ∇u dA  for each of the three displacements on bilinear shapes; bending moments have no part in it.
+/// The error of buckling loads falls with the square of the element's size.
+/// @param displacement  (24) that strains the element, global axes
+[[nodiscard]] Matrix24 shell_geometric_stiffness(const ShellGeometry& geometry, const ShellProperties& properties,
+                                                 DrillingRule drilling, double drilling_factor,
+                                                 const Eigen::Ref<const Eigen::VectorXd>& displacement);
 
 }  // namespace twindeck::fe

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "fe/element_products.hpp"
+#include "fe/shell_frame.hpp"
 #include "fe/triangle_membrane.hpp"
 #include "fe/triangle_plate.hpp"
 
@@ -74,6 +75,27 @@ Matrix18 triangle_bending_stiffness(const TriangleGeometry& geometry, const Shel
   const double t = properties.thickness_m;
   const double scale = properties.youngs_modulus_Pa * t * t * t * properties.bending_inertia_ratio;
   return in_space(plane, scale * triangle::kirchhoff_plate(plane.corner_m, properties.poisson_ratio), {2, 3, 4});
+}
+
+Matrix18 triangle_geometric_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties,
+                                      const Eigen::Ref<const Eigen::VectorXd>& displacement) {
+  const TrianglePlane plane = plane_of(geometry);
+  Eigen::Matrix<double, 9, 1> flat;
+  for (int i = 0; i < 3; ++i) {
+    flat.segment<2>(3 * i) = (plane.axes * displacement.segment<3>(6 * i)).head<2>();
+    flat[3 * i + 2] = plane.axes.row(2).dot(displacement.segment<3>(6 * i + 3));
+  }
+  const Eigen::Vector3d n = properties.youngs_modulus_Pa * properties.thickness_m *
+                            shell::plane_stress(properties.poisson_ratio) *
+                            (triangle::mean_strain(plane.corner_m, geometry.straight_sides) * flat);
+  Eigen::Matrix2d force;
+  force << n[0], n[2], n[2], n[1];
+  const Eigen::Matrix<double, 2, 3> gradient = triangle::gradients(plane.corner_m);
+  const Eigen::Matrix3d slope = triangle::area(plane.corner_m) * gradient.transpose() * force * gradient;
+  Matrix18 k = Matrix18::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) k.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(slope(i, j));
+  return k;
 }
 
 Matrix18 triangle_mass(const TriangleGeometry& geometry, double mass_per_area, double rotary_per_area) {

@@ -22,6 +22,10 @@ struct TriangleGeometry {
 [[nodiscard]] Matrix18 triangle_membrane_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties);
 /// Bending part, linear in E t³ · bending_inertia_ratio; rx = dw/dy, ry = -dw/dx at the corners.
 [[nodiscard]] Matrix18 triangle_bending_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties);
+/// Geometric stiffness of the triangle's mean membrane forces on linear shapes, as shell_geometric_stiffness.
+/// @param displacement  (18) that strains the element, global axes
+[[nodiscard]] Matrix18 triangle_geometric_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties,
+                                                    const Eigen::Ref<const Eigen::VectorXd>& displacement);
 /// Consistent mass, treated as the four-node shell's: linear translations with `mass_per_area` [kg/m²], and `rotary_per_area`
 /// [kg] (rho t³/12) on the bending rotations; drilling carries none.
 [[nodiscard]] Matrix18 triangle_mass(const TriangleGeometry& geometry, double mass_per_area, double rotary_per_area);

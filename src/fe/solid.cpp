@@ -158,6 +158,28 @@ MatrixSolid solid_stiffness(const SolidGeometry& geometry, const SolidProperties
   return 0.5 * (k + k.transpose());
 }
 
+MatrixSolid solid_geometric_stiffness(const SolidGeometry& geometry, const SolidProperties& properties,
+                                      const Eigen::Ref<const Eigen::VectorXd>& displacement) {
+  require_sound(geometry);
+  const Parts p = integrate(geometry, properties.poisson_ratio);
+  const Eigen::Matrix<double, 9, 1> internal = -p.aa.ldlt().solve(p.ua.transpose() * displacement);
+  const Eigen::Matrix<double, 6, 6> d = properties.youngs_modulus_Pa * elasticity(properties.poisson_ratio);
+  const Trilinear centre = trilinear_at(geometry, Eigen::Vector3d::Zero());
+  const Eigen::Matrix3d inverse = centre.jacobian.inverse();
+  Eigen::Matrix<double, 8, 8> slope = Eigen::Matrix<double, 8, 8>::Zero();
+  for (const GaussPoint& point : gauss_2()) {
+    const Trilinear t = trilinear_at(geometry, point.xi);
+    const Eigen::Matrix<double, 6, 1> strain =
+        strain_at(t) * displacement + internal_strain_at(inverse, centre.determinant, t, point.xi) * internal;
+    const Matrix3x8 gradient = t.gradient();
+    slope += point.weight * t.determinant * gradient.transpose() * stress_tensor(d * strain) * gradient;
+  }
+  MatrixSolid k = MatrixSolid::Zero();
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) k.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(slope(i, j));
+  return k;
+}
+
 MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3) {
   require_sound(geometry);
   Eigen::Matrix<double, 8, 8> scalar = Eigen::Matrix<double, 8, 8>::Zero();

@@ -38,6 +38,11 @@ struct SolidShape {
 /// Stiffness with 2 × 2 × 2 Gauss points; linear in E.
 /// @throws InputError for an element without volume, folded or inside out
 [[nodiscard]] MatrixSolid solid_stiffness(const SolidGeometry& geometry, const SolidProperties& properties);
+/// Geometric stiffness of the stresses σ = D (strain of `displacement`, internal displacements included) at the eight Gauss
+/// points:  K_G = ∫ ∇Nᵀ σ ∇N dV  for each of the three displacements.
+/// @param displacement  (24) that strains the element, global axes
+[[nodiscard]] MatrixSolid solid_geometric_stiffness(const SolidGeometry& geometry, const SolidProperties& properties,
+                                                    const Eigen::Ref<const Eigen::VectorXd>& displacement);
 /// Consistent mass ρ ∫ NᵀN dV with 3 × 3 × 3 points: exact for every shape.
 [[nodiscard]] MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3);
 /// Row sums of the consistent mass on the diagonal, ρ ∫ N_i dV at node i: positive for every admissible shape.

@@ -22,4 +22,11 @@ inline Eigen::Matrix<double, 6, 6> elasticity(double nu) {
   return d / ((1.0 + nu) * (1.0 - 2.0 * nu));
 }
 
+/// The stresses of that order as a symmetric tensor.
+inline Eigen::Matrix3d stress_tensor(const Eigen::Matrix<double, 6, 1>& s) {
+  Eigen::Matrix3d tensor;
+  tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  return tensor;
+}
+
 }  // namespace twindeck::fe

@@ -19,6 +19,22 @@ Eigen::Matrix3d edges_of(const TetrahedronGeometry& geometry) {
   return edges;
 }
 
+using Matrix3x4 = Eigen::Matrix<double, 3, 4>;
+
+/// Of L_1 to L_4, one column each [1/m].
+Matrix3x4 gradients_of(const TetrahedronGeometry& geometry) {
+  Matrix3x4 gradient;
+  gradient.rightCols<3>() = edges_of(geometry).inverse();
+  gradient.col(0) = -gradient.rightCols<3>().rowwise().sum();
+  return gradient;
+}
+
+Eigen::Matrix<double, 6, 12> strain_of(const Matrix3x4& gradient) {
+  Eigen::Matrix<double, 6, 12> b;
+  for (int i = 0; i < 4; ++i) set_strain(gradient.col(i), i, b);
+  return b;
+}
+
 double sound_volume(const TetrahedronGeometry& geometry) {
   const double volume = tetrahedron_volume(geometry);
   if (volume > 0.0) return volume;
@@ -41,12 +57,22 @@ double tetrahedron_volume(const TetrahedronGeometry& geometry) {
 
 MatrixTetrahedron tetrahedron_stiffness(const TetrahedronGeometry& geometry, const SolidProperties& properties) {
   const double volume = sound_volume(geometry);
-  const Eigen::Matrix3d gradient = edges_of(geometry).inverse();  // columns: of L_2, L_3, L_4
-  Eigen::Matrix<double, 6, 12> b;
-  set_strain(-gradient.rowwise().sum(), 0, b);
-  for (int i = 0; i < 3; ++i) set_strain(gradient.col(i), i + 1, b);
+  const Eigen::Matrix<double, 6, 12> b = strain_of(gradients_of(geometry));
   const MatrixTetrahedron k = volume * properties.youngs_modulus_Pa * b.transpose() * elasticity(properties.poisson_ratio) * b;
   return 0.5 * (k + k.transpose());
+}
+
+MatrixTetrahedron tetrahedron_geometric_stiffness(const TetrahedronGeometry& geometry, const SolidProperties& properties,
+                                                  const Eigen::Ref<const Eigen::VectorXd>& displacement) {
+  const double volume = sound_volume(geometry);
+  const Matrix3x4 gradient = gradients_of(geometry);
+  const Eigen::Matrix<double, 6, 1> stress =
+      properties.youngs_modulus_Pa * elasticity(properties.poisson_ratio) * (strain_of(gradient) * displacement);
+  const Eigen::Matrix4d slope = volume * gradient.transpose() * stress_tensor(stress) * gradient;
+  MatrixTetrahedron k = MatrixTetrahedron::Zero();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) k.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(slope(i, j));
+  return k;
 }
 
 MatrixTetrahedron tetrahedron_mass(const TetrahedronGeometry& geometry, double density_kg_m3) {

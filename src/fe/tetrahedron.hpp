@@ -25,6 +25,10 @@ struct TetrahedronGeometry {
 [[nodiscard]] double tetrahedron_volume(const TetrahedronGeometry& geometry);
 /// Stiffness, linear in E. @throws InputError for an element without volume or inside out
 [[nodiscard]] MatrixTetrahedron tetrahedron_stiffness(const TetrahedronGeometry& geometry, const SolidProperties& properties);
+/// Geometric stiffness of its constant stress, as solid_geometric_stiffness. @param displacement  (12), global axes
+[[nodiscard]] MatrixTetrahedron tetrahedron_geometric_stiffness(const TetrahedronGeometry& geometry,
+                                                                const SolidProperties& properties,
+                                                                const Eigen::Ref<const Eigen::VectorXd>& displacement);
 /// Consistent mass: ρ V (1 + δ_ij) / 20 between nodes i and j. @throws InputError as above
 [[nodiscard]] MatrixTetrahedron tetrahedron_mass(const TetrahedronGeometry& geometry, double density_kg_m3);
 /// A quarter of the mass at each node. @throws InputError as above

@@ -83,4 +83,8 @@ Matrix9 optimal_membrane(const Corners& corner_m, double poisson_ratio, std::uin
   return force * d * force.transpose() / a + quadratic_form(0.75 * beta_zero * a, deviation, rotation_stiffness(corner_m, d));
 }
 
+Eigen::Matrix<double, 3, 9> mean_strain(const Corners& corner_m, std::uint8_t straight_sides) {
+  return corner_forces(corner_m, straight_sides).transpose() / area(corner_m);
+}
+
 }  // namespace twindeck::fe::triangle

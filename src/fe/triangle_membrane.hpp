@@ -28,4 +28,7 @@ namespace twindeck::fe::triangle {
 /// @return for unit E and thickness, (9 × 9): u, v, rz of corner 1, 2, 3; rank 6
 [[nodiscard]] Matrix9 optimal_membrane(const Corners& corner_m, double poisson_ratio, std::uint8_t straight_sides);
 
+/// Mean strains xx, yy, 2xy of the triangle from the nine displacements (3 × 9), those of its constant stresses.
+[[nodiscard]] Eigen::Matrix<double, 3, 9> mean_strain(const Corners& corner_m, std::uint8_t straight_sides);
+
 }  // namespace twindeck::fe::triangle

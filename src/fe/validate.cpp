@@ -166,7 +166,37 @@ void check_attachments(const Model& model) {
   for (const Support& support : model.supports) require_position(model, "support " + support.name, "node", support.node, n);
 }
 
+/// The loads of the static stage and the strains without forces.
+void check_stage(const Model& model) {
+  const Prestress& p = model.prestress;
+  const bool large = p.displacements == Displacements::large;
+  for (const Prestress::Load& load : p.loads) {
+    require_position(model, "load case " + p.load_case, "node", load.node, model.nodes.size());
+    require_position(model, "load case " + p.load_case, "direction", load.direction, load.movement ? 3 : 6);
+    if (large && load.movement)
+      refuse(model, "load case " + p.load_case, "moves a support, which is not computed with large displacements",
+             "set displacements = \"linear\", or load by forces");
+  }
+  if (!p.loads.empty() && p.rule == PullRule::none)
+    refuse(model, "prestress", fmt::format("its load case '{}' does not act, since its rule is none", p.load_case),
+           "set rule = \"given\"");
+  for (const Element& e : model.elements) {
+    if (e.free_strain == 0.0) continue;
+    if (e.type == ElementType::stay)
+      refuse(model, label(e), "has a free strain, but a stay takes its force from its pull", "give the pull");
+    if (p.rule == PullRule::none)
+      refuse(model, label(e), "has a free strain, but the prestress has the rule none", "set rule = \"given\"");
+    if (large && e.type != ElementType::bar)
+      refuse(model, label(e), "has a free strain, which is computed with large displacements for bars alone",
+             "set displacements = \"linear\"");
+  }
+  if (!(std::abs(model.gravity_direction.norm() - 1.0) < 1e-6))
+    refuse(model, "gravity_direction", fmt::format("has the length {:g}, expected 1", model.gravity_direction.norm()),
+           "give a unit vector");
+}
+
 void check_prestress(const Model& model) {
+  check_stage(model);
   const Prestress& p = model.prestress;
   bool has_stay = false;
   for (const Element& e : model.elements) {

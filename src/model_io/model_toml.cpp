@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <deque>
+#include <optional>
 #include <set>
 
 #include "core/error.hpp"
@@ -10,6 +11,7 @@
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/folder_parts.hpp"
+#include "model_io/load_cases.hpp"
 #include "model_io/matrix_elements.hpp"
 #include "model_io/names.hpp"
 
@@ -39,6 +41,7 @@ struct ParameterEntry {
 struct ModelEntry {
   std::string title;
   double gravity_m_s2 = fe::Model{}.gravity_m_s2;
+  std::vector<double> gravity_direction = {0.0, 0.0, -1.0};
   fe::Formulation formulation;
   std::string drilling = "penalty", rule = "none";
   fe::Prestress prestress;
@@ -51,7 +54,12 @@ struct ModelEntry {
   io::FieldTable fields() {
     io::FieldTable table;
     table.text("title", title, "what the model is")
-        .number("gravity", gravity_m_s2, "m/s2", io::non_negative(), "acceleration of gravity, along -Z")
+        .number("gravity", gravity_m_s2, "m/s2", io::non_negative(), "acceleration of gravity")
+        .numbers("gravity_direction", gravity_direction, "", {-1.0, 1.0}, "unit vector along which things fall")
+        .rule([this]() -> std::optional<io::FieldTable::Broken> {
+          if (gravity_direction.size() == 3) return std::nullopt;
+          return io::FieldTable::Broken{"gravity_direction", "has not three numbers", "write [0, 0, -1] for downwards along Z"};
+        })
         .boolean("formulation.shear_flexible", formulation.shear_flexible,
                  "false: Euler-Bernoulli beams whatever the shear areas")
         .boolean("formulation.beam_rotary_inertia", formulation.beam_rotary_inertia,
@@ -70,6 +78,10 @@ struct ModelEntry {
                 "weight of the pulls of elements.csv against zero displacement")
         .choice("prestress.displacements", displacements, {"linear", "large"},
                 "equilibrium under dead load and pulls: in the geometry of nodes.csv, or in the deformed one")
+        .boolean("prestress.shells_and_solids", prestress.shells_and_solids,
+                 "the stresses of shells and solids stiffen and soften too")
+        .text("prestress.load", prestress.load_case,
+              "load case of loads.csv that acts beside dead load and pulls: forces, moments, movements of supports")
         .integer("prestress.load_steps", load_steps, {1.0, 1000.0},
                  "large displacements: dead load and pulls grow in so many equal steps")
         .texts("prestress.conditions", conditions, "displacements that the pulls should bring to zero: \"node:direction\"")
@@ -157,6 +169,28 @@ fe::Prestress::Condition to_condition(const std::filesystem::path& file, const N
   return {node, dof};
 }
 
+/// The rows of loads.csv that are of the load case `name`, beside `file`.
+std::vector<fe::Prestress::Load> loads_of_case(const std::filesystem::path& file, const NameIndex& index,
+                                               const std::string& name) {
+  std::vector<fe::Prestress::Load> loads;
+  std::vector<std::string> known;
+  for (const LoadEntry& entry : read_load_cases(file.parent_path())) {
+    if (position_of(entry.load, known) < 0) known.push_back(entry.load);
+    if (entry.load != name) continue;
+    const auto [node, dof] =
+        index.displacement(entry.node + ":" + direction_names()[static_cast<std::size_t>(entry.direction)]);
+    if (node < 0)
+      throw InputError({(file.parent_path() / "loads.csv").string(), entry.line, "node"},
+                       fmt::format("'{}' is no node of the model", entry.node), "name a node of nodes.csv");
+    loads.push_back({node, dof, entry.value, entry.kind == LoadEntry::Kind::movement});
+  }
+  if (loads.empty())
+    throw key_error(file, "\"" + name + "\"", "prestress.load",
+                    fmt::format("no load case of loads.csv is called '{}'{}", name, did_you_mean(name, known)),
+                    "name a load case of the model folder's loads.csv");
+  return loads;
+}
+
 std::string text_list(const std::vector<std::string>& texts) {
   std::string list;
   for (const auto& text : texts) list += (list.empty() ? "" : ", ") + io::toml_text(text);
@@ -174,15 +208,23 @@ void read_model_toml(const std::filesystem::path& file, fe::Model& model,
   ModelEntry entry;
   entry.title = model.title;
   entry.formulation = model.formulation;
+  entry.gravity_m_s2 = model.gravity_m_s2;
+  for (std::size_t i = 0; i < 3; ++i) entry.gravity_direction[i] = model.gravity_direction[static_cast<int>(i)];
+  entry.prestress = model.prestress;
+  entry.rule = pull_rule_names()[static_cast<std::size_t>(model.prestress.rule)];
+  entry.displacements = model.prestress.displacements == fe::Displacements::large ? "large" : "linear";
   io::FieldTable table = entry.fields();
   if (add_keys) add_keys(table);
   table.load(file);
   model.title = entry.title;
   model.gravity_m_s2 = entry.gravity_m_s2;
+  for (std::size_t i = 0; i < 3; ++i) model.gravity_direction[static_cast<int>(i)] = entry.gravity_direction[i];
   model.formulation = entry.formulation;
   model.formulation.drilling =
       entry.drilling == "penalty" ? fe::Formulation::Drilling::penalty : fe::Formulation::Drilling::diagonal;
+  const std::string own_case = model.prestress.load_case;  // of a deck, whose loads are read already
   model.prestress = entry.prestress;
+  if (entry.prestress.load_case != own_case) model.prestress.loads = loads_of_case(file, index, entry.prestress.load_case);
   model.prestress.rule = static_cast<fe::PullRule>(position_of(entry.rule, pull_rule_names()));
   model.prestress.displacements = entry.displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
   model.prestress.load_steps = static_cast<int>(entry.load_steps);
@@ -196,7 +238,11 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
   const auto number = [](double value) { return io::format_number(value); };
   std::string text;
   text += "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
-  text += fmt::format("title = {}\ngravity = {}\n\n", io::toml_text(model.title), number(model.gravity_m_s2));
+  text += fmt::format("title = {}\ngravity = {}\n", io::toml_text(model.title), number(model.gravity_m_s2));
+  const Eigen::Vector3d& down = model.gravity_direction;
+  if (down != fe::Model{}.gravity_direction)
+    text += fmt::format("gravity_direction = [{}, {}, {}]\n", number(down[0]), number(down[1]), number(down[2]));
+  text += "\n";
   // Bound by position: a field that is added to the struct does not compile here until it is written too.
   const auto& [shear, beam_rotary, shell_rotary, drilling, factor, lumped] = model.formulation;
   text += fmt::format(
@@ -216,6 +262,8 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
       pull_rule_names()[static_cast<std::size_t>(p.rule)], p.geometric_stiffness, number(p.minimum_pull_N), number(p.ridge),
       number(p.site_weight), p.displacements == fe::Displacements::large ? "large" : "linear", p.load_steps,
       text_list(conditions));
+  if (p.shells_and_solids) text += "shells_and_solids = true\n";
+  if (!p.loads.empty()) text += fmt::format("load = {}\n", io::toml_text(p.load_case));
   text += write_matrix_elements(model, folder);
   for (const auto& q : model.parameters) {
     TWINDECK_ASSERT(static_cast<std::size_t>(q.target) < target_names().size());

@@ -99,7 +99,7 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
       folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
       {"name",        "group",       "node3",         "node4",         "node5",         "node6",       "node7",
        "node8",       "section2",    "orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m",
-       "offset1_z_m", "offset2_x_m", "offset2_y_m",   "offset2_z_m",   "releases",      "pull_N"});
+       "offset1_z_m", "offset2_x_m", "offset2_y_m",   "offset2_z_m",   "releases",      "pull_N",      "free_strain"});
   std::set<long> ids;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Element e;
@@ -133,6 +133,7 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
       table.fail(row, "pull_N", fmt::format("is {}, expected a pull of at least 0", io::format_number(e.pull_N)),
                  "a stay cannot push");
     }
+    e.free_strain = table.number_or(row, "free_strain", 0.0);
     check_length(table, row, model, e);
     check_section(table, row, model, e);
     model.elements.push_back(std::move(e));

@@ -38,7 +38,7 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
 }
 
 void write_elements(const fe::Model& model, const std::filesystem::path& folder) {
-  // Columns node5 to node8 are there only for hexahedra, section2 only for tapered beams.
+  // Columns node5 to node8 are there only for hexahedra, section2 only for tapered beams, free_strain only for warmed parts.
   const bool hexahedra =
       std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.nodes.size() > 4; });
   const std::size_t node_columns = hexahedra ? 8 : 4;
@@ -47,9 +47,12 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
   const bool tapers =
       std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.section2 >= 0; });
   if (tapers) header.emplace_back("section2");
+  const bool strains =
+      std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.free_strain != 0.0; });
   for (const char* column : {"orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m", "offset1_z_m",
                              "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"})
     header.emplace_back(column);
+  if (strains) header.emplace_back("free_strain");
   io::CsvWriter elements(header);
   for (const auto& e : model.elements) {
     Row row = {e.id,
@@ -65,6 +68,7 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
     }
     row.emplace_back(static_cast<int>(e.releases));
     row.emplace_back(e.pull_N);
+    if (strains) row.emplace_back(e.free_strain);
     elements.row(row);
   }
   elements.save(folder / "elements.csv");
@@ -116,12 +120,26 @@ void write_attachments(const fe::Model& model, const std::filesystem::path& fold
   points.save(folder / "points.csv");
 }
 
+/// loads.csv with the load case of the static stage, where there is one.
+void write_stage_loads(const fe::Model& model, const std::filesystem::path& folder) {
+  if (model.prestress.loads.empty()) return;
+  io::CsvWriter rows({"load", "node", "direction", "value", "unit"});
+  for (const fe::Prestress::Load& l : model.prestress.loads)
+    rows.row({model.prestress.load_case, node_id(model, l.node), direction_names()[static_cast<std::size_t>(l.direction)],
+              l.value,
+              l.movement        ? "m"
+              : l.direction < 3 ? "N"
+                                : "N m"});
+  rows.save(folder / "loads.csv");
+}
+
 }  // namespace
 
 void write_model(const fe::Model& model, const std::filesystem::path& folder) {
   write_parts(model, folder);
   write_elements(model, folder);
   write_attachments(model, folder);
+  write_stage_loads(model, folder);
   write_model_toml(model, folder);
 }
 
