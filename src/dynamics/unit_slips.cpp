@@ -9,6 +9,8 @@
 #include <optional>
 #include <set>
 
+#include "core/error.hpp"
+
 namespace twindeck::dynamics {
 
 namespace {
@@ -30,6 +32,15 @@ constexpr Band structure_Hz{0.01, 10000.0};   ///< first mode: the longest suspe
 constexpr double rigid_body = 1e-5;           ///< [-] of the highest computed frequency: rounding of zero
 constexpr double stands_off = 50.0;           ///< [-] from one measured frequency to the next; bands are not that far apart
 constexpr double most_model_error = 5.0;      ///< [-] between measured and computed frequencies
+constexpr double known_factor_within = 1.15;  ///< [-] of the factor of a slip, which sits on top of a model's own error
+constexpr int fewest_ratios = 3;              ///< two ratios agree by chance
+constexpr double gravity_m_s2 = 9.80665;
+constexpr double gravity_in_s2 = 386.0886;  ///< [in/s2]
+/// Densest material of structures is tungsten; what stands above is a weight per volume, or kilograms among tonnes.
+constexpr double densest_kg_m3 = 23000.0;
+/// Timber weighs 3.4 to 9.8 kN/m3 and has a modulus of 7 to 20 GPa; lead, which is as slow with that density, weighs more.
+constexpr Band timber_weight_N_m3{3400.0, 9810.0};
+constexpr Band timber_modulus_Pa{7e9, 20e9};
 
 /// Another unit for a number, with what it multiplies the number by.
 struct OtherUnit {
@@ -63,6 +74,63 @@ std::optional<std::string> density_slip(const fe::Material& m, double speed) {
         m.name, m.density_kg_m3, speed, unit.name);
   }
   return std::nullopt;
+}
+
+/// Density and speed of waves of the materials that structures are made of.
+struct KnownMaterial {
+  double density_kg_m3, speed_m_s;
+};
+constexpr std::array<KnownMaterial, 4> known_materials = {
+    {{7850.0, 5170.0}, {2450.0, 3600.0}, {2700.0, 5080.0}, {480.0, 4800.0}}};
+
+/// A density that is a weight per volume, or in another unit of mass: divided by it, the material is like a known one.
+std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
+  const bool timber = timber_weight_N_m3.holds(m.density_kg_m3) && timber_modulus_Pa.holds(m.youngs_modulus_Pa);
+  if (m.density_kg_m3 < densest_kg_m3 && !timber) return std::nullopt;
+  constexpr double alike = 0.5;  ///< [-] of ln: distance to a known material in density and speed together
+  const OtherUnit* best = nullptr;
+  double nearest = alike;
+  static constexpr std::array<OtherUnit, 4> units = {{{gravity_m_s2, "a weight in N/m3 (divide by 9.81)"},
+                                                      {gravity_in_s2, "a weight in lbf/in3 (is PARAM,WTMASS,.00259 missing?)"},
+                                                      {1000.0 * gravity_m_s2, "a weight in N/mm3 (divide by 9810)"},
+                                                      {1000.0, "in kg where the other units ask for tonnes"}}};
+  for (const OtherUnit& unit : units)
+    for (const KnownMaterial& known : known_materials) {
+      const double off = std::hypot(std::log(m.density_kg_m3 / unit.factor / known.density_kg_m3),
+                                    std::log(speed * std::sqrt(unit.factor) / known.speed_m_s));
+      if (off < nearest) nearest = off, best = &unit;
+    }
+  if (best == nullptr) return std::nullopt;
+  return fmt::format(
+      "material '{}' has a density of {:.3g} kg/m3, so that waves run at {:.3g} m/s in it; steel has 7850 kg/m3 and 5200 m/s, "
+      "concrete 2500 and 3500: is the density {}? Give kg/m3",
+      m.name, m.density_kg_m3, speed, best->name);
+}
+
+/// Mean density of the structure: all mass that is in it over the volume of its elements.
+std::optional<std::string> mean_density_slip(const fe::Model& model) {
+  double volume_m3 = 0.0, own_kg = 0.0, points_kg = 0.0, length_m = 0.0;
+  for (const fe::Element& e : model.elements) {
+    const auto at = [&](std::size_t i) { return model.nodes[static_cast<std::size_t>(e.nodes[i])].x_m; };
+    if (e.type == fe::ElementType::solid || e.type == fe::ElementType::shell)
+      return std::nullopt;  // masses lie on what is not drawn
+    const double length = (at(1) - at(0)).norm();
+    length_m += length;
+    volume_m3 += length * model.sections[static_cast<std::size_t>(e.section)].area_m2;
+    own_kg += length * model.sections[static_cast<std::size_t>(e.section)].area_m2 *
+              model.materials[static_cast<std::size_t>(e.material)].density_kg_m3;
+  }
+  for (const fe::PointMass& mass : model.masses) points_kg += mass.mass_kg;
+  if (!(volume_m3 > 0.0) || points_kg < own_kg) return std::nullopt;
+  const double mean = (own_kg + points_kg) / volume_m3;
+  // A steel girder that carries its deck as masses has up to ten times its own mass; as weights they have a hundred times it.
+  constexpr double most_of_steel = 40.0, steel_kg_m3 = 7850.0;
+  if (mean < most_of_steel * steel_kg_m3) return std::nullopt;
+  return fmt::format(
+      "the mass of {:.4g} kg ({:.4g} kg per metre of its members) is a mean density of {:.3g} kg/m3 of what is drawn; steel "
+      "has "
+      "7850: are the masses weights in newtons? Give kilograms",
+      own_kg + points_kg, (own_kg + points_kg) / length_m, mean);
 }
 
 double span_of(const fe::Model& model) {
@@ -141,6 +209,30 @@ Index first_elastic(const Eigen::VectorXd& ascending_Hz) {
   return at;
 }
 
+/// Measured over computed frequency of as many as both have, in the order of both; ascending.
+std::vector<double> ratios_in_order(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
+  const Index first = first_elastic(computed_Hz), n = std::min(measured.frequency_Hz.size(), computed_Hz.size() - first);
+  Eigen::VectorXd sorted = measured.frequency_Hz;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> ratios;
+  for (Index i = 0; i < n; ++i) ratios.push_back(sorted[i] / computed_Hz[first + i]);
+  std::sort(ratios.begin(), ratios.end());
+  return ratios;
+}
+
+/// Whether a parameter's bounds reach a factor of stiffness over mass.
+bool parameters_reach(const std::vector<fe::Parameter>& parameters, double stiffness_over_mass) {
+  return std::any_of(parameters.begin(), parameters.end(), [&](const fe::Parameter& p) {
+    if (!(p.initial > 0.0) || !(p.lower > 0.0)) return false;
+    const bool of_mass =
+        p.target == fe::Target::density || p.target == fe::Target::point_mass || p.target == fe::Target::matrix_mass;
+    const double most = of_mass ? p.initial / p.lower : p.upper / p.initial;
+    const double least = of_mass ? p.initial / p.upper : p.lower / p.initial;
+    constexpr double nearly = 1.3;  // [-] of stiffness over mass: the model's own error
+    return most * nearly >= stiffness_over_mass && least <= nearly * stiffness_over_mass;
+  });
+}
+
 /// The measured frequencies on the smaller side of a gap of `stands_off`, each with the factor that brings it back.
 std::vector<std::string> outliers(const MeasuredFrequencies& measured) {
   const Eigen::VectorXd& measured_Hz = measured.frequency_Hz;
@@ -179,11 +271,16 @@ std::vector<std::string> unit_slips(const fe::Model& model) {
     const fe::Material& m = model.materials[static_cast<std::size_t>(at)];
     if (!(m.density_kg_m3 > 0.0)) continue;  // a part without mass may be as stiff as one likes
     const double speed = std::sqrt(m.youngs_modulus_Pa / m.density_kg_m3);
+    if (const auto weight = weight_slip(m, speed)) {
+      slips.push_back(*weight);  // a modulus in kPa would explain the speed as well, but not the density
+      continue;
+    }
     if (speed < usual_speed_m_s.low)
       if (const auto slip = modulus_slip(m, speed)) slips.push_back(*slip);
     if (speed > material_speed_m_s.high)
       if (const auto slip = density_slip(m, speed)) slips.push_back(*slip);
   }
+  if (const auto slip = mean_density_slip(model)) slips.push_back(*slip);
   if (const auto slip = length_slip(model)) slips.push_back(*slip);
   if (const auto slip = section_slip(model)) slips.push_back(*slip);
   return slips;
@@ -200,35 +297,56 @@ std::vector<std::string> frequency_slips(const Eigen::VectorXd& computed_Hz, dou
                            : "look for a mass in tonnes, a density in t/m3, or sections in mm")};
 }
 
-std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
-  std::vector<std::string> slips = outliers(measured);
-  const Index first = first_elastic(computed_Hz), n = std::min(measured.frequency_Hz.size(), computed_Hz.size() - first);
-  if (!slips.empty() || n < 1) return slips;
-  Eigen::VectorXd sorted = measured.frequency_Hz;
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> ratios;
-  for (Index i = 0; i < n; ++i) ratios.push_back(sorted[i] / computed_Hz[first + i]);
-  std::nth_element(ratios.begin(), ratios.begin() + n / 2, ratios.end());
-  const double ratio = ratios[static_cast<std::size_t>(n / 2)];
-  if (ratio < most_model_error && ratio > 1.0 / most_model_error) return slips;
+std::optional<std::string> slip_of_factor(double computed_over_measured) {
   struct Likely {
-    double ratio;
+    double factor;
     const char* words;
   };
-  const std::array<Likely, 6> known = {
-      {{2.0 * std::numbers::pi, "are the measured ones in rad/s?"},
-       {60.0, "are the measured ones cycles per minute?"},
-       {1000.0, "are the measured ones in mHz, or is a modulus of the model in MPa or its mass in milligrams?"},
-       {1e-3, "are the measured ones in kHz?"},
-       {std::sqrt(1000.0), "is the model's stiffness in kN/m or N/mm, or its mass in grams?"},
-       {std::sqrt(1e-3), "is the model's mass in tonnes?"}}};
-  std::string guess = "check the units of both";
+  const double thousand = std::sqrt(1000.0), gravity = std::sqrt(gravity_m_s2);
+  const std::array<Likely, 10> known = {
+      {{1.0 / gravity, "is a weight in newtons given as a mass in kilograms?"},
+       {gravity, "is a mass divided by g once too often?"},
+       {1.0 / std::sqrt(gravity_in_s2), "is a weight in lbf given as a mass (PARAM,WTMASS,.00259 missing)?"},
+       {1.0 / (thousand * gravity), "is a weight in newtons given as a mass in tonnes?"},
+       {1.0 / thousand, "is the model's stiffness in kN/m or N/mm, or its mass in grams?"},
+       {thousand, "is the model's mass in tonnes?"},
+       {1e-3, "is a modulus of the model in MPa, its mass in milligrams, or are the measured frequencies in mHz?"},
+       {1e3, "are the measured frequencies in kHz?"},
+       {1.0 / (2.0 * std::numbers::pi), "are the measured frequencies in rad/s?"},
+       {1.0 / 60.0, "are the measured frequencies in cycles per minute?"}}};
+  const Likely* nearest = nullptr;
+  double least = std::log(known_factor_within);
   for (const Likely& likely : known)
-    if (std::abs(std::log(ratio / likely.ratio)) < std::log(1.3)) guess = likely.words;
+    if (const double off = std::abs(std::log(computed_over_measured / likely.factor)); off < least)
+      least = off, nearest = &likely;
+  return nearest == nullptr ? std::nullopt : std::optional<std::string>(nearest->words);
+}
+
+std::optional<double> one_factor(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
+  const std::vector<double> ratios = ratios_in_order(measured, computed_Hz);
+  if (std::ssize(ratios) < fewest_ratios || std::ssize(ratios) < measured.frequency_Hz.size()) return std::nullopt;
+  const double ratio = ratios[ratios.size() / 2];
+  if (!slip_of_factor(1.0 / ratio)) return std::nullopt;
+  for (const double each : {ratios.front(), ratios.back()})
+    if (std::abs(std::log(each / ratio)) > std::log(known_factor_within)) return std::nullopt;
+  return ratio;
+}
+
+std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
+  std::vector<std::string> slips = outliers(measured);
+  const std::vector<double> ratios = ratios_in_order(measured, computed_Hz);
+  if (!slips.empty() || ratios.empty()) return slips;
+  const double ratio = ratios[ratios.size() / 2];
+  const bool is_error = ratio < most_model_error && ratio > 1.0 / most_model_error;
+  if (is_error && !one_factor(measured, computed_Hz)) return slips;
+  Eigen::VectorXd sorted = measured.frequency_Hz;
+  std::sort(sorted.begin(), sorted.end());
+  const std::string guess = slip_of_factor(1.0 / ratio).value_or("check the units of both");
   slips.push_back(
       fmt::format("the measured frequencies ({:g} to {:g} Hz) are {:.3g} times the computed ones ({:.3g} to {:.3g} Hz) in "
                   "the order of both: {}",
-                  sorted[0], sorted[sorted.size() - 1], ratio, computed_Hz[first], computed_Hz[computed_Hz.size() - 1], guess));
+                  sorted[0], sorted[sorted.size() - 1], ratio, computed_Hz[first_elastic(computed_Hz)],
+                  computed_Hz[computed_Hz.size() - 1], guess));
   return slips;
 }
 
@@ -242,6 +360,28 @@ void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eig
   for (const MeasuredFrequencies& condition : measured)
     for (const std::string& slip : measured_slips(condition, compared_Hz)) slips.push_back(slip);
   for (const std::string& slip : slips) reporter.warn(slip);
+}
+
+void refuse_one_factor(const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
+                       const std::vector<MeasuredFrequencies>& measured) {
+  for (const MeasuredFrequencies& condition : measured) {
+    const std::optional<double> ratio = one_factor(condition, computed_Hz);
+    if (!ratio || parameters_reach(loaded.system.parameters, *ratio * *ratio)) continue;
+    throw InputError(
+        {loaded.source, 0, ""},
+        fmt::format("all {} measured frequencies are {:.3g} times the computed ones in the order of both ({:.3g} to {:.3g} Hz "
+                    "against {:.3g} Hz and on), a factor of {:.3g} in stiffness over mass that no parameter's bounds reach: {}",
+                    condition.frequency_Hz.size(), *ratio, condition.frequency_Hz.minCoeff(), condition.frequency_Hz.maxCoeff(),
+                    computed_Hz[first_elastic(computed_Hz)], *ratio * *ratio,
+                    slip_of_factor(1.0 / *ratio).value_or("look for a unit")),
+        "give masses in kg, densities in kg/m3, stiffness in N/m and moduli in Pa, or let the bounds of a parameter reach it");
+  }
+}
+
+void judge_units(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
+                 const std::vector<MeasuredFrequencies>& measured) {
+  warn_of_unit_slips(reporter, loaded, computed_Hz, measured);
+  refuse_one_factor(loaded, computed_Hz, measured);
 }
 
 }  // namespace twindeck::dynamics

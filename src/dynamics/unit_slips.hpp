@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,18 @@ struct MeasuredFrequencies {
   std::vector<std::string> names;
   Eigen::VectorXd frequency_Hz;
 };
+
+/// The slip of units or masses that would multiply all computed frequencies by about this factor (within 15 %: a slip sits on
+/// top of a model's own error), as a question; empty if none is known. sqrt(9.81) is a weight given as a mass.
+[[nodiscard]] std::optional<std::string> slip_of_factor(double computed_over_measured);
+
+/// Measured over computed frequency, if all frequencies of a measurement differ from the computed ones, in the order of both,
+/// by one factor of a known slip. At least three are needed: two ratios agree by chance.
+/// @param computed_Hz  ascending, rigid-body modes included
+[[nodiscard]] std::optional<double> one_factor(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz);
+
 /// Measured frequencies among themselves (one that stands a factor of 50 and more off the rest), and against the computed ones
-/// in their order (a factor that is 2 pi, 60 or a thousand rather than a model's error).
+/// in their order (a factor that is 2 pi, 60, sqrt(9.81) or a thousand rather than a model's error).
 /// @param computed_Hz  ascending; empty to leave the comparison out
 [[nodiscard]] std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz);
 
@@ -38,5 +49,15 @@ struct MeasuredFrequencies {
 /// @param measured  one for each condition; empty without a measurement
 void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                         const std::vector<MeasuredFrequencies>& measured);
+
+/// Refuses a measurement that one factor of a known slip explains, before anything is updated or named. It is let pass if a
+/// parameter's bounds reach that factor.
+/// @throws InputError  that names the condition's frequencies, the factor and the likely slip
+void refuse_one_factor(const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
+                       const std::vector<MeasuredFrequencies>& measured);
+
+/// Both: what a step does that goes on to change or to name something.
+void judge_units(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
+                 const std::vector<MeasuredFrequencies>& measured);
 
 }  // namespace twindeck::dynamics

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
+#include "dynamics/unit_slips.hpp"
 #include "matching/reversed_channel.hpp"
 
 namespace twindeck::matching {
@@ -21,28 +20,9 @@ constexpr int fewest_same_shapes = 3;   ///< two ratios agree by chance
 constexpr double least_factor = 1.10;   ///< [-] between frequencies: models as drawn are nearer than that, or off mode by mode
 constexpr double factor_spread =
     0.25;  ///< [-] of ln(factor): how far the single ratios may lie from it and still be one factor
-constexpr double known_factor_within = 1.15;  ///< [-] of the factor of a slip, which sits on top of a model's own error
-
-/// A slip of units or masses, and what it multiplies computed frequencies by.
-struct Slip {
-  double computed_over_measured;
-  const char* words;
-};
-
 std::string guess_of(double ratio) {
-  const double thousand = std::sqrt(1000.0), gravity = std::sqrt(9.80665);
-  const std::array<Slip, 8> slips = {
-      {{1.0 / thousand, "is the model's stiffness in kN/m or N/mm, or its mass in grams?"},
-       {thousand, "is the model's mass in tonnes?"},
-       {1e-3, "is a modulus of the model in MPa, its mass in milligrams, or are the measured frequencies in mHz?"},
-       {1e3, "are the measured frequencies in kHz?"},
-       {1.0 / gravity, "is a weight in newtons given as a mass in kilograms?"},
-       {gravity, "is a mass divided by g once too often?"},
-       {1.0 / (2.0 * std::numbers::pi), "are the measured frequencies in rad/s?"},
-       {1.0 / 60.0, "are the measured frequencies in cycles per minute?"}}};
-  for (const Slip& slip : slips)
-    if (std::abs(std::log(ratio / slip.computed_over_measured)) < std::log(known_factor_within)) return slip.words;
-  return fmt::format("look for a unit or a mass; stiffness over mass is {:.3g} times what was measured", ratio * ratio);
+  return dynamics::slip_of_factor(ratio).value_or(
+      fmt::format("look for a unit or a mass; stiffness over mass is {:.3g} times what was measured", ratio * ratio));
 }
 
 /// Each measured mode's computed one by shape alone, one-to-one; -1 where none is the same.

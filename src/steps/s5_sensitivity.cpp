@@ -3,6 +3,7 @@
 #include "dynamics/unit_slips.hpp"
 #include "runner/run_step.hpp"
 #include "sensitivity/frequency_sensitivities.hpp"
+#include "steps/measured/measured_input.hpp"
 #include "steps/sensitivity/outputs.hpp"
 #include "steps/shared/model_source.hpp"
 
@@ -10,7 +11,8 @@ namespace {
 
 using namespace twindeck;
 
-Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& read, runner::StepContext& context) {
+Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& read,
+           const std::vector<dynamics::MeasuredFrequencies>& measured, runner::StepContext& context) {
   // 1. The refined model, with the prestress of its own parameter values, frozen.
   const dynamics::LoadedModel loaded = dynamics::solvable(read);
   if (!loaded.state.status.converged) return loaded.state.status;
@@ -22,7 +24,7 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   const sensitivity::Sensitivities found = sensitivity::frequency_sensitivities(
       loaded.system, loaded.theta, options, [&](int done, int of) { context.progress("differences", done, of); });
   if (found.frequency_Hz.size() == 0) return found.status;
-  dynamics::warn_of_unit_slips(context, loaded, found.frequency_Hz, {});
+  dynamics::judge_units(context, loaded, found.frequency_Hz, measured);
   sensitivity::refuse_rigid_bodies(found, loaded.source);
   if (!found.richardson.allFinite() || !found.forward.allFinite())
     return {false, found.status.converged ? "a difference of frequencies is no number" : found.status.message};
@@ -50,7 +52,10 @@ runner::Computation read(steps::SensitivityConfig& config, runner::StepContext& 
   if (config.compared_modes_from == "s4_refinement")
     config.compared_modes = steps::paired_modes(context.input(context.results / "s4_refinement" / "pairs.csv"));
   steps::check_sensitivity_config(config, model.parameters(), model.source);
-  return [&config, &context, model] { return run(config, model, context); };
+  // Measured modes are not needed here; where they are given, a slip of units in the model shows by them.
+  std::vector<dynamics::MeasuredFrequencies> measured;
+  if (context.features || context.modes) measured = steps::frequencies_of(steps::find_measured(context, ""));
+  return [&config, &context, model, measured] { return run(config, model, measured, context); };
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   const dynamics::EigenModes modes_before =
       dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
-  dynamics::warn_of_unit_slips(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
+  dynamics::judge_units(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
   const matching::Pairing pairing = updating::pair_for_updating(context, config, before, modes_before, measured);
   const updating::MeasuredRows rows = updating::weighed_rows(config, measured, pairing, before, modes_before);
   if (!rows.given())
