@@ -7,11 +7,13 @@
 
 #include "core/error.hpp"
 #include "model_io/ansys_blocks.hpp"
+#include "model_io/ansys_generate.hpp"
 #include "model_io/ansys_ignored.hpp"
 #include "model_io/ansys_mesh.hpp"
 #include "model_io/ansys_parts.hpp"
 #include "model_io/ansys_properties.hpp"
 #include "model_io/ansys_selection.hpp"
+#include "model_io/ansys_stage.hpp"
 #include "model_io/ansys_supports.hpp"
 #include "model_io/ansys_ties.hpp"
 #include "model_io/folder_parts.hpp"
@@ -43,13 +45,6 @@ void read_units(Parts& parts, const Command& command) {
                   system));
 }
 
-/// PSTRES, NLGEOM: off, or the modes are not those of the structure as it is drawn.
-void require_off(Parts& parts, const Command& command) {
-  if (command.word(0) != "ON" && command.word(0) != "1" && command.word(0) != "YES") return;
-  parts.fail(command, "asks for modes of the loaded structure, which are not read from a deck",
-             "switch it off; the tension of bars and dead load go into the model folder (docs/my_model.md)");
-}
-
 void refuse_table(Parts& parts, const Command& command) {
   parts.fail(command, fmt::format("material tables ({}) are not supported", command.word(0)),
              "give EX, PRXY and DENS of an isotropic material by MP");
@@ -62,12 +57,17 @@ void refuse_file(Parts& parts, const Command& command) {
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> known = {{"NBLO", {read_node_block, true}},
                                                       {"EBLO", {read_element_block, true}},
+                                                      {"ETBL", {read_type_block, true}},
                                                       {"CMBL", {read_component_block, false}},
                                                       {"RLBL", {read_real_block, true}},
                                                       {"SECB", {read_section_block, true}},
                                                       {"N", {read_node, true}},
                                                       {"E", {read_element, true}},
                                                       {"EN", {read_numbered_element, true}},
+                                                      {"EMOR", {read_more_nodes, true}},
+                                                      {"FILL", {fill_nodes, true}},
+                                                      {"NGEN", {generate_nodes, true}},
+                                                      {"EGEN", {generate_elements, true}},
                                                       {"TYPE", {read_attribute, false}},
                                                       {"MAT", {read_attribute, false}},
                                                       {"REAL", {read_attribute, false}},
@@ -100,8 +100,6 @@ const std::map<std::string, Reader>& readers() {
                                                       {"/TITL", {read_title, false}},
                                                       {"LUMP", {read_lumped, true}},
                                                       {"/UNIT", {read_units, false}},
-                                                      {"PSTR", {require_off, true}},
-                                                      {"NLGE", {require_off, true}},
                                                       {"TB", {refuse_table, true}},
                                                       {"CE", {read_equation, true}},
                                                       {"/INPU", {refuse_file, true}},
@@ -157,18 +155,25 @@ void read_over_block(Parts& parts, const Command& start) {
       --depth;
     } else if (command.key == "=" || command.key == "*SET" || command.key == "*GET") {
       if (!command.blank(0)) parts.parameters.erase(upper_case(command.fields[0]));
+    } else if (is_load(command.key)) {
+      if (!parts.loads.not_read) parts.loads.not_read = command;
     } else if (command.key != "*ELSE" && !read_parameter(parts, command) && !says_nothing(command)) {
       refuse(command);
     }
   }
 }
 
-/// What follows the first solution is not read. A second one of a structure that was changed between them is another model.
-void check_rest(Parts& parts) {
+/// Of what follows the first solution, the loads and kinds of solutions up to the modal one are read. A second solution of a
+/// structure that was changed between them is another model.
+void check_rest(Parts& parts, bool modal_is_done) {
   Command command, change;
   bool changed = false;
   while (parts.deck.next(command)) {
-    if (command.key == "PSTR") require_off(parts, command);
+    if (modal_is_done && (command.key == "PSTR" || command.key == "PERT") && command.word(0) != "OFF")
+      parts.fail(command, "asks for modes of the loaded structure in a further solution, of which only the first is read",
+                 "keep the solution that is meant");
+    if (!modal_is_done && (read_solution(parts, command) || read_load(parts, command))) continue;
+    if (command.key == "SOLV" && !changed && !modal_is_done) modal_is_done = read_solve(parts, command);
     if (command.key == "SOLV" && changed)
       parts.fail(change, "changes the structure between two solutions, of which only the first is read",
                  "keep the solution that is meant");
@@ -187,7 +192,8 @@ void read_commands(Parts& parts) {
   Command command;
   while (parts.deck.next(command)) {
     if (command.key == "/EOF" || command.key == "/EXIT") return;
-    if (command.key == "SOLV") return check_rest(parts);
+    if (command.key == "SOLV") return check_rest(parts, read_solve(parts, command));
+    if (read_solution(parts, command) || read_load(parts, command)) continue;
     if (const auto found = readers().find(command.key); found != readers().end()) {
       found->second.handler(parts, command);
     } else if (const Ignored* why = ignored(command.key); why != nullptr) {
@@ -212,7 +218,9 @@ bool is_ansys_deck(const std::filesystem::path& file) {
   for (int i = 0; i < most_lines && std::getline(stream, text); ++i) {
     for (const ansys::Command& command : ansys::split_commands(text, i + 1)) {
       const std::string& key = command.key;
-      if (key == "NBLO" || key == "EBLO" || key == "/PREP" || (key == "ET" && text.find(',') != std::string::npos)) return true;
+      if (key == "NBLO" || key == "EBLO" || key == "ETBL" || key == "/PREP" ||
+          (key == "ET" && text.find(',') != std::string::npos))
+        return true;
     }
   }
   return false;

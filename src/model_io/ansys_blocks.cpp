@@ -42,13 +42,30 @@ double real_cell(Parts& parts, const Command& block, const std::vector<std::stri
   return *value;
 }
 
-/// The line that ends a block of nodes: -1, or N,R5.3,LOC,-1.
+/// The line that ends a block of nodes: -1, or the command N,R5.3,LOC,-1 or N,UNBL,LOC,-1 of an unblocked node.
 bool ends_nodes(const std::string& text) {
-  const std::string start = upper_case(trimmed(text).substr(0, 5));
-  return start.starts_with("-1") || start == "N,R5.";
+  const std::string start = upper_case(trimmed(text).substr(0, 2));
+  return start == "-1" || (start == "N," && text.find("-1") != std::string::npos);
 }
 
 }  // namespace
+
+void read_type_block(Parts& parts, const Command& block) {
+  const Columns columns = format_below(parts, block, 2);
+  while (true) {
+    const auto cells = columns.cells(needed_line(parts, block));
+    const long id = parts.cell(block, cells, 0);
+    if (id < 1) break;
+    TypeDefinition definition;
+    definition.line = parts.deck.line();
+    definition.name = cells.size() > 1 ? upper_case(cells[1]) : "";
+    definition.type = element_type(definition.name);
+    for (std::size_t i = 2; i < cells.size(); ++i)
+      if (const long value = parts.cell(block, cells, i); value != 0)
+        definition.options[static_cast<int>(i) - 1] = {value, definition.line};
+    parts.types[id] = definition;
+  }
+}
 
 void read_node_block(Parts& parts, const Command& block) {
   const Columns columns = format_below(parts, block, 1);

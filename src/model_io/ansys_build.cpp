@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "model_io/ansys_attachments.hpp"
 #include "model_io/ansys_members.hpp"
+#include "model_io/ansys_stage.hpp"
 #include "model_io/ansys_ties.hpp"
 #include "model_io/inp_cards.hpp"
 
@@ -49,20 +50,23 @@ Member checked_member(const Parts& parts, long id, const Element& element) {
                fmt::format("is of type {} (line {}), which is not supported", definition.name, definition.line),
                "supported are " + element_type_list());
   const ElementType& type = *definition.type;
-  const bool has_middle = type.name == "BEAM189" && element.nodes.size() > 2 && element.nodes[2] != 0;
-  if (type.kind == Kind::quadratic || has_middle)
-    parts.fail(element.line, label, fmt::format("is a {} with nodes between its corners, which is not supported", type.name),
-               "mesh with linear elements, several over the length: BEAM188, SHELL181, SOLID185");
+  if (type.kind == Kind::quadratic)
+    parts.fail(element.line, label, fmt::format("is a {}, which is not supported", type.name),
+               "mesh with hexahedra (SOLID185, SOLID186) or homogeneous shells (SHELL181, SHELL281)");
   if (type.kind == Kind::load) return {id, element, definition};
   check_options(parts, definition);
   // Beams may have a node that only gives their direction.
-  const std::size_t extra = type.name == "BEAM189" ? 2 : type.kind == Kind::beam ? 1 : 0;
-  if (element.nodes.size() < type.nodes && !(type.kind == Kind::shell && element.nodes.size() == 3))
+  const std::size_t extra = type.name == "BEAM189" || type.name == "PIPE289" ? 2 : type.kind == Kind::beam ? 1 : 0;
+  // Nodes on edges may be left out.
+  const std::size_t count = element.nodes.size();
+  const bool corners_only =
+      (type.kind == Kind::shell && (count == 3 || count == 4)) || (type.kind == Kind::solid && count == 8);
+  if (count < type.nodes && !corners_only)
     parts.fail(element.line, label, fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
                "complete the element");
   if (element.nodes.size() > type.nodes + extra)
     parts.fail(element.line, label, fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
-               "nodes between the corners are not supported: mesh with linear elements");
+               "correct the list of nodes, or take an element type that has so many");
   return {id, element, definition};
 }
 
@@ -72,6 +76,18 @@ void Builder::fail(const Member& member, const std::string& problem, const std::
 
 void Builder::add_link(long master, long slave) {
   parts.model.links.push_back({fmt::format("link_{}", parts.model.links.size() + 1), node(master), node(slave)});
+}
+
+void Builder::add_whole(const fe::Element& whole) {
+  const auto new_node = [&](const Eigen::Vector3d& x) {
+    const long id = positions_.rbegin()->first + 1;
+    positions_[id] = static_cast<int>(parts.model.nodes.size());
+    parts.model.nodes.push_back({id, x});
+    if (whole.type == fe::ElementType::shell) turning.insert(id);
+    in_space.insert(id);
+    return positions_[id];
+  };
+  pieces[whole.id] = add_in_pieces(parts.model, whole, {new_node, [&] { return next_element(); }, centres_});
 }
 
 void Builder::note_once(const std::string& note) {
@@ -84,11 +100,14 @@ void Builder::add_nodes() {
     const Kind kind = m.type().kind;
     for (std::size_t i = 0; i < std::min(m.type().nodes, m.element.nodes.size()); ++i) {
       const long id = m.element.nodes[i];
+      if (id == 0) continue;  // a node on an edge that is left out
       used.emplace(id, m.element.line);
       if (kind == Kind::beam || kind == Kind::plane_beam || kind == Kind::shell) turning.insert(id);
       if (kind == Kind::plane_beam) in_plane.insert(id);
       if (kind == Kind::beam || kind == Kind::bar || kind == Kind::shell || kind == Kind::solid) in_space.insert(id);
     }
+    if (const long middle = m.middle(); middle != 0)
+      used.emplace(middle, m.element.line), turning.insert(middle), in_space.insert(middle);
   });
   for (const Link& link : parts.links) used.emplace(link.master, link.line), used.emplace(link.slave, link.line);
   for (const Equation& equation : parts.equations) {
@@ -184,6 +203,7 @@ void build_model(Parts& parts) {
     if (component.of_nodes && component.members.size() == 1 && builder.has_node(*component.members.begin()))
       parts.model.monitoring_points.emplace(component.name, builder.node(*component.members.begin()));
   }
+  apply_stage(builder);
 }
 
 }  // namespace twindeck::model_io::ansys

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
 
 #include "model_io/ansys_parts.hpp"
+#include "model_io/deck_quadratic.hpp"
 
 /// Inside of the library: the model while it is built out of Parts.
 namespace twindeck::model_io::ansys {
@@ -18,6 +20,11 @@ struct Member {
   [[nodiscard]] const ElementType& type() const { return *definition.type; }
   /// Number of a type that decides what its real constants mean.
   [[nodiscard]] bool is(const std::string& name) const { return definition.type->name == name; }
+  /// Node in the middle of a beam that may have one (BEAM189, PIPE289), or 0.
+  [[nodiscard]] long middle() const {
+    const bool may = is("BEAM189") || is("PIPE289");
+    return may && element.nodes.size() > 2 ? element.nodes[2] : 0;
+  }
 };
 
 /// What a section or a set of real constants says of an element.
@@ -26,6 +33,7 @@ struct CrossSection {
   long material = 0;              ///< that the section gives instead of the element's; 0: none
   Eigen::Vector2d node = {0, 0};  ///< of a beam: the node in the section's y and z, from the centroid [m]
   double turn_rad = 0.0;          ///< of a beam: of the section about the axis
+  double initial_strain = 0.0;    ///< of beams and bars
 };
 
 class Builder {
@@ -33,9 +41,10 @@ class Builder {
   explicit Builder(Parts& p) : parts(p) {}
 
   Parts& parts;
-  std::set<long> turning;   ///< nodes whose rotations a beam or a shell holds
-  std::set<long> in_space;  ///< nodes of members other than plane beams
-  std::set<long> in_plane;  ///< nodes of plane beams
+  std::set<long> turning;              ///< nodes whose rotations a beam or a shell holds
+  std::set<long> in_space;             ///< nodes of members other than plane beams
+  std::set<long> in_plane;             ///< nodes of plane beams
+  std::map<long, std::size_t> pieces;  ///< how many members of the model follow one another in place of an element; else 1
 
   /// @throws InputError that names the element
   [[noreturn]] void fail(const Member& member, const std::string& problem, const std::string& mend) const;
@@ -48,12 +57,18 @@ class Builder {
   /// Component of the element, or its type and `property`: "beam188_section_2".
   [[nodiscard]] std::string group(const Member& member, const std::string& property) const;
   [[nodiscard]] const RealSet& reals(const Member& member) const;
+  /// Adds a shell or solid, in pieces where it has nodes on its edges.
+  void add_whole(const fe::Element& whole);
+  /// A number that no element has.
+  [[nodiscard]] long next_element() { return last_element_ = std::max(last_element_, parts.elements.rbegin()->first) + 1; }
   /// A rigid link between nodes that the model has.
   void add_link(long master, long slave);
   void note_once(const std::string& note);
 
  private:
   std::map<long, int> positions_, materials_;
+  FaceCentres centres_;
+  long last_element_ = 0;
 };
 
 /// Calls `visit(member)` for each element that is in the model, in the order of their numbers.

@@ -146,7 +146,7 @@ bool parse_columns(const std::string& text, Columns& columns) {
     if (letter == 'i' && columns.integers == 0 && columns.reals == 0) {
       columns.integers = count;
       columns.integer_width = width;
-    } else if ((letter == 'e' || letter == 'g' || letter == 'f') && columns.reals == 0) {
+    } else if ((letter == 'e' || letter == 'g' || letter == 'f' || letter == 'a') && columns.reals == 0) {
       columns.reals = count;
       columns.real_width = width;
     } else {

@@ -46,7 +46,7 @@ class Deck {
 /// `text` cut at each `separator` outside of quotes and brackets, the parts trimmed.
 [[nodiscard]] std::vector<std::string> split_fields(const std::string& text, char separator);
 
-/// Fortran format of a block, "(3i9,6e21.13e3)": so many whole numbers, then so many reals, in columns.
+/// Fortran format of a block, "(3i9,6e21.13e3)": so many whole numbers, then so many reals (or texts, "19a9"), in columns.
 struct Columns {
   std::size_t integers = 0, integer_width = 0, reals = 0, real_width = 0;
   /// Cells of a line, trimmed; those behind its end are left out.

@@ -14,4 +14,7 @@ struct Ignored {
 /// @return null for a command that may matter
 [[nodiscard]] const Ignored* ignored(const std::string& key);
 
+/// Whether it is a load: it stiffens or softens the structure where a static stage is asked for.
+[[nodiscard]] bool is_load(const std::string& key);
+
 }  // namespace twindeck::model_io::ansys

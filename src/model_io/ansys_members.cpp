@@ -41,7 +41,8 @@ const Eigen::Vector3d& place(const Builder& builder, int node) {
 /// Y for a beam along global Z.
 Eigen::Vector3d direction_of_z(const Builder& builder, const Member& member, const Eigen::Vector3d& axis) {
   const auto& nodes = member.element.nodes;
-  if (const long third = nodes.size() > 2 ? nodes.back() : 0; third != 0) {
+  const std::size_t ends = member.middle() != 0 ? 3 : 2;
+  if (const long third = nodes.size() > ends ? nodes.back() : 0; third != 0) {
     const auto found = builder.parts.nodes.find(third);
     if (found == builder.parts.nodes.end())
       builder.fail(member, fmt::format("its direction node {} is not defined", third), "define it, or leave it out");
@@ -54,8 +55,8 @@ Eigen::Vector3d direction_of_z(const Builder& builder, const Member& member, con
   return Eigen::Vector3d::UnitZ();
 }
 
-void add_beam(Builder& builder, const Member& member) {
-  fe::Element e = element_of(builder, member, fe::ElementType::beam, ends_of(member));
+void add_beam_between(Builder& builder, const Member& member, const std::vector<long>& ends) {
+  fe::Element e = element_of(builder, member, fe::ElementType::beam, ends);
   const Eigen::Vector3d chord = place(builder, e.nodes[1]) - place(builder, e.nodes[0]);
   if (!(chord.norm() > 0.0)) builder.fail(member, "has no length", "merge its nodes, or take it out");
   const Eigen::Vector3d axis = chord.normalized();
@@ -74,51 +75,79 @@ void add_beam(Builder& builder, const Member& member) {
     const Eigen::Vector3d y = z.cross(axis);
     e.offset_m = {-(cross.node[0] * y + cross.node[1] * z), -(cross.node[0] * y + cross.node[1] * z)};
   }
+  e.free_strain = -cross.initial_strain;
   e.section = find_or_add_section(builder.parts.model.sections, cross.section);
   e.group = builder.group(member, cross.section.name);
   builder.parts.model.elements.push_back(e);
 }
 
+/// A beam, or two through the node in its middle.
+void add_beam(Builder& builder, const Member& member) {
+  const std::vector<long> ends = ends_of(member);
+  const long middle = member.middle();
+  if (middle == 0) return add_beam_between(builder, member, ends);
+  add_beam_between(builder, member, {ends[0], middle});
+  add_beam_between(builder, member, {middle, ends[1]});
+  builder.parts.model.elements.back().id = builder.next_element();
+  builder.pieces[member.id] = 2;
+}
+
 void add_bar(Builder& builder, const Member& member) {
   fe::Element e = element_of(builder, member, fe::ElementType::bar, ends_of(member));
   const CrossSection cross = bar_section(builder, member);
+  e.free_strain = -cross.initial_strain;
   e.material = builder.material(member, member.element.material, false);
   e.section = find_or_add_section(builder.parts.model.sections, cross.section);
   e.group = builder.group(member, cross.section.name);
   builder.parts.model.elements.push_back(e);
 }
 
-/// A triangle is a quadrilateral that repeats a node.
-void add_shell(Builder& builder, const Member& member) {
-  std::vector<long> corners;
-  for (const long id : member.element.nodes) {
-    if (std::find(corners.begin(), corners.end(), id) == corners.end()) corners.push_back(id);
+/// The nodes of a shell, each once: a triangle is a quadrilateral that repeats a node, and of eight nodes it repeats K as L and
+/// as the node between them. Without any node on its edges it is linear.
+std::vector<long> nodes_of_shell(const Builder& builder, const Member& member) {
+  const auto& all = member.element.nodes;
+  const auto left_out = all.size() > 4 ? std::count(all.begin() + 4, all.end(), 0L) : 0;
+  const bool linear = all.size() <= 4 || left_out == static_cast<std::ptrdiff_t>(all.size()) - 4;
+  if (!linear && left_out > 0)
+    builder.fail(member, "leaves out some of the nodes on its edges, which is not supported", "give all, or none");
+  std::vector<long> nodes;
+  for (const long id :
+       linear ? std::vector<long>(all.begin(), all.begin() + std::min<std::ptrdiff_t>(4, std::ssize(all))) : all) {
+    if (std::find(nodes.begin(), nodes.end(), id) == nodes.end()) nodes.push_back(id);
   }
+  return nodes;
+}
+
+void add_shell(Builder& builder, const Member& member) {
+  const std::vector<long> corners = nodes_of_shell(builder, member);
   if (corners.size() < 3) builder.fail(member, "has fewer than three different nodes", "give three or four");
   fe::Element e = element_of(builder, member, fe::ElementType::shell, corners);
   const CrossSection cross = shell_section(builder, member);
   e.material = builder.material(member, cross.material > 0 ? cross.material : member.element.material, true);
   e.section = find_or_add_section(builder.parts.model.sections, cross.section);
   e.group = builder.group(member, cross.section.name);
-  builder.parts.model.elements.push_back(e);
+  builder.add_whole(e);
 }
 
 void add_solid(Builder& builder, const Member& member) {
   // A tetrahedron is written I, J, K, K, M, M, M, M.
-  const auto& nodes = member.element.nodes;
+  std::vector<long> nodes = member.element.nodes;
+  if (nodes.size() > 8 && std::all_of(nodes.begin() + 8, nodes.end(), [](long id) { return id == 0; })) nodes.resize(8);
+  if (std::find(nodes.begin(), nodes.end(), 0L) != nodes.end())
+    builder.fail(member, "leaves out some of the nodes on its edges, which is not supported", "give all, or none");
   const std::size_t different = std::set<long>(nodes.begin(), nodes.end()).size();
-  const bool tetrahedron = different == 4 && nodes[2] == nodes[3] &&
+  const bool tetrahedron = nodes.size() == 8 && different == 4 && nodes[2] == nodes[3] &&
                            std::all_of(nodes.begin() + 4, nodes.end(), [&](long id) { return id == nodes[4]; });
-  if (different < 8 && !tetrahedron)
+  if (different < nodes.size() && !tetrahedron)
     builder.fail(
         member,
         fmt::format("is a {} of {} different nodes: prism and pyramid are not supported", member.type().name, different),
-        "mesh with hexahedra, or tetrahedra where they do not fit");
+        "mesh with hexahedra, or linear tetrahedra where they do not fit");
   fe::Element e = element_of(builder, member, fe::ElementType::solid,
-                             tetrahedron ? std::vector<long>{nodes[0], nodes[1], nodes[2], nodes[4]} : ends_of(member));
+                             tetrahedron ? std::vector<long>{nodes[0], nodes[1], nodes[2], nodes[4]} : nodes);
   e.material = builder.material(member, member.element.material, true);
   e.group = builder.group(member, builder.parts.model.materials[static_cast<std::size_t>(e.material)].name);
-  builder.parts.model.elements.push_back(e);
+  builder.add_whole(e);
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 namespace twindeck::model_io::ansys {
 namespace {
 
-/// N,R5.3,LOC,node,x,y,z: how an archive without blocks writes them; node -1 ends a block.
+/// N,R5.3,LOC,node,x,y,z, or N,UNBL,LOC,…: how an archive without blocks writes them; node -1 ends a block.
 bool read_archived_node(Parts& parts, const Command& command) {
-  if (!command.word(0).starts_with("R5.")) return false;
+  if (!command.word(0).starts_with("R5.") && command.word(0) != "UNBL") return false;
   const long id = parts.integer(command, 2);
   if (id < 1) return true;
   std::array<double, 3> values{};
@@ -63,7 +63,7 @@ void read_element(Parts& parts, const Command& command) {
 }
 
 void read_numbered_element(Parts& parts, const Command& command) {
-  if (command.word(0).starts_with("R5."))
+  if (command.word(0).starts_with("R5.") || command.word(0) == "UNBL")
     parts.fail(command, "elements of an archive without blocks are not read", "write it by CDWRITE with the option BLOCKED");
   const long id = parts.integer(command, 0);
   if (id < 1) parts.fail(command, fmt::format("{} is no element number", id), "give 1 or more");

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -103,6 +104,32 @@ struct Couple {
   long line;
 };
 
+/// A pressure on a face of elements; of a beam from one end to the other.
+struct ElementPressure {
+  long line = 0, face = 1;
+  double first = 0.0, second = 0.0;
+  bool beam = false;  ///< by SFBEAM
+  std::string command;
+};
+struct InitialState {
+  double value = 0.0;      ///< along the axis
+  bool is_strain = false;  ///< else a stress
+  long line = 0;
+};
+
+/// Loads as they stand when a solution begins.
+struct Loads {
+  std::map<long, std::array<double, 6>> forces;
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+  std::map<std::pair<long, long>, ElementPressure> pressures;  ///< by element and face
+  std::map<long, double> nodes_K;
+  std::optional<double> uniform_K;
+  double reference_K = 0.0;
+  std::map<long, InitialState> states;
+  bool state_is_strain = false;
+  std::optional<Command> not_read;  ///< the first load that is not carried
+};
+
 struct Parts {
   explicit Parts(const std::filesystem::path& file) : deck(file) {}
 
@@ -128,6 +155,12 @@ struct Parts {
   std::vector<Link> links;
   std::map<long, std::vector<Couple>> couples;
   std::vector<Equation> equations;
+  Loads loads;                                                                ///< as they stand
+  std::map<long, std::map<int, Property>> movements;                          ///< of supports, by node and direction
+  bool prestressed = false, perturbed = false, modal = false, large = false;  ///< PSTRES, PERTURB, ANTYPE, NLGEOM
+  long large_line = 0, prestress_line = 0;
+  std::optional<Loads> stage;  ///< loads of the last static solution
+  bool stage_is_large = false, stage_asked = false;
 
   /// @throws InputError that names file, line and command
   [[noreturn]] void fail(const Command& command, const std::string& problem, const std::string& mend = "") const;

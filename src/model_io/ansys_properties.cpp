@@ -25,10 +25,10 @@ void set_reals(Parts& parts, const Command& command, RealSet& set, std::size_t f
   }
 }
 
-/// Elasticity and density; other physics (expansion, conductivity, friction) does not enter a model.
+/// Elasticity, density, and expansion for a static stage; other physics (conductivity, friction) does not enter a model.
 bool is_mechanical(const std::string& label) {
-  static const std::vector<std::string> labels = {"EX",   "EY",   "EZ",  "NUXY", "NUYZ", "NUXZ", "PRXY",
-                                                  "PRYZ", "PRXZ", "GXY", "GYZ",  "GXZ",  "DENS"};
+  static const std::vector<std::string> labels = {"EX",   "EY",  "EZ",  "NUXY", "NUYZ", "NUXZ", "PRXY", "PRYZ",
+                                                  "PRXZ", "GXY", "GYZ", "GXZ",  "DENS", "ALPX", "REFT"};
   return std::find(labels.begin(), labels.end(), label) != labels.end();
 }
 
@@ -110,7 +110,7 @@ void read_property(Parts& parts, const Command& command) {
 
 void read_property_data(Parts& parts, const Command& command) {
   // MPDATA,label,material,place,values, or in archives MPDATA,R5.0,count,label,material,place,values.
-  const std::size_t at = command.word(0).starts_with("R5.") ? 2 : 0;
+  const std::size_t at = command.word(0).starts_with("R5.") || command.word(0) == "UNBL" ? 2 : 0;
   const std::string label = command.word(at);
   if (!is_mechanical(label)) return set_property(parts, command, label, 1, 0.0);
   const long material = parts.integer_or(command, at + 1, 1), place = parts.integer_or(command, at + 2, 1);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "model_io/ansys_stage.hpp"
 #include "model_io/inp_profiles.hpp"
 
 /// Sections and real constants as cross-sections. ANSYS's element axes are ours: y and z across the beam, IYY = ∫ z² dA is
@@ -47,16 +48,15 @@ double positive(const Builder& builder, const Member& member, const RealSet& set
 }
 
 constexpr const char* give_density = "give the mass by the density or by MASS21";
-constexpr const char* give_pull = "leave it out; the tension of bars goes into pull_N of the model folder";
 
 /// BEAM3: A, IZZ, height, SHEARZ, strain, added mass. What lies out of the plane is held and any number will do.
-fe::Section plane_beam(const Builder& builder, const Member& member) {
+fe::Section plane_beam(const Builder& builder, const Member& member, double& strain) {
   const RealSet& r = builder.reals(member);
   fe::Section s;
   s.area_m2 = positive(builder, member, r, 1, "area");
   s.inertia_z_m4 = s.inertia_y_m4 = s.torsion_m4 = positive(builder, member, r, 2, "IZZ");
   if (r.at(4) > 0.0) s.shear_area_y_m2 = s.area_m2 / r.at(4);
-  require_zero(builder, member, r, 5, "an initial strain", give_pull);
+  strain = initial_strain(builder, member, r, 5);
   require_zero(builder, member, r, 6, "added mass", give_density);
   return s;
 }
@@ -70,13 +70,37 @@ CrossSection space_beam(const Builder& builder, const Member& member) {
   s.inertia_z_m4 = positive(builder, member, r, 2, "IZZ");
   s.inertia_y_m4 = positive(builder, member, r, 3, "IYY");
   cross.turn_rad = r.at(6) * std::numbers::pi / 180.0;
-  require_zero(builder, member, r, 7, "an initial strain", give_pull);
+  cross.initial_strain = initial_strain(builder, member, r, 7);
   s.torsion_m4 = r.at(8) > 0.0 ? r.at(8) : s.inertia_y_m4 + s.inertia_z_m4;
   if (r.at(9) > 0.0) s.shear_area_y_m2 = s.area_m2 / r.at(9);
   if (r.at(10) > 0.0) s.shear_area_z_m2 = s.area_m2 / r.at(10);
   require_zero(builder, member, r, 11, "spin", "leave it 0: gyroscopic effects are not modelled");
   require_zero(builder, member, r, 12, "added mass", give_density);
   return cross;
+}
+
+/// PIPE16: outer diameter, wall, then stress factors; what adds mass (insulation, fluid) is refused.
+fe::Section pipe_of_reals(const Builder& builder, const Member& member, double poisson_ratio) {
+  const RealSet& r = builder.reals(member);
+  for (std::size_t i = 3; i <= 10; ++i) {
+    const bool is_factor = i == 3 || i == 4;
+    if (!is_factor) require_zero(builder, member, r, i, "a fluid, an insulation or a corrosion allowance", give_density);
+  }
+  std::string problem;
+  fe::Section s = profile_section(
+      "PIPE", {positive(builder, member, r, 1, "outer diameter") / 2.0, positive(builder, member, r, 2, "wall")}, poisson_ratio,
+      problem);
+  if (!problem.empty()) builder.parts.fail(r.line, "R", "is wrong: " + problem, "give the outer diameter and the wall");
+  return s;
+}
+
+/// SECDATA of a pipe: outer diameter, wall, cells around, stress stiffness, cells across; then insulation and its material.
+void refuse_filled_pipe(const Builder& builder, const Member& member, const SectionDefinition& section,
+                        const std::vector<double>& values) {
+  for (std::size_t i = 5; i < values.size(); ++i)
+    if (values[i] != 0.0)
+      refuse_section(builder, member, section, "has an insulation or another temperature model, which is not supported",
+                     give_density);
 }
 
 /// ASEC: A, Iyy, Iyz, Izz, Iw, J, centroid y z, shear centre y z, thicknesses, shear corrections xz xy (1 if blank).
@@ -132,7 +156,7 @@ CrossSection beam_section(Builder& builder, const Member& member, double poisson
   CrossSection cross;
   const std::string of_reals = fmt::format("real_{}", member.element.real);
   if (member.type().kind == Kind::plane_beam) {
-    cross.section = plane_beam(builder, member);
+    cross.section = plane_beam(builder, member, cross.initial_strain);
     cross.section.name = of_reals;
     return cross;
   }
@@ -141,16 +165,25 @@ CrossSection beam_section(Builder& builder, const Member& member, double poisson
     cross.section.name = of_reals;
     return cross;
   }
-  const SectionDefinition* section = section_of(builder, member, "BEAM");
+  if (member.is("PIPE16")) {
+    cross.section = pipe_of_reals(builder, member, poisson_ratio);
+    cross.section.name = of_reals;
+    return cross;
+  }
+  const bool pipe = member.is("PIPE288") || member.is("PIPE289");
+  const SectionDefinition* section = section_of(builder, member, pipe ? "PIPE" : "BEAM");
   if (section == nullptr)
-    builder.fail(member, fmt::format("its section {} is no section of a beam", member.element.section),
-                 "give SECTYPE,number,BEAM,shape and SECDATA");
+    builder.fail(
+        member, fmt::format("its section {} is no section of a beam", member.element.section),
+        pipe ? "give SECTYPE,number,PIPE and SECDATA,outer diameter,wall" : "give SECTYPE,number,BEAM,shape and SECDATA");
   std::vector<double> values;
   for (const auto& row : section->data) values.insert(values.end(), row.begin(), row.end());
   if (section->subtype == "ASEC") {
     cross.section = general_section(builder, member, *section, values);
   } else {
-    const Profile profile = profile_of(section->subtype, values);
+    if (pipe) refuse_filled_pipe(builder, member, *section, values);
+    const Profile profile =
+        pipe && values.size() > 1 ? Profile{"PIPE", {values[0] / 2.0, values[1]}} : profile_of(section->subtype, values);
     if (profile.name.empty())
       refuse_section(builder, member, *section, fmt::format("is a '{}' that is not supported", section->subtype),
                      "supported are RECT, CSOLID, CTUBE, I of two equal flanges, HREC of four equal walls, and ASEC, which any "
@@ -181,7 +214,7 @@ CrossSection bar_section(Builder& builder, const Member& member) {
     require_zero(builder, member, r, 2, "added mass", give_density);
     if (r.at(3) != 0.0) builder.note_once("LINK180 of tension or compression only is read as a bar that takes both");
   } else {
-    require_zero(builder, member, r, 2, "an initial strain", give_pull);
+    cross.initial_strain = initial_strain(builder, member, r, 2);
     if (member.is("LINK10")) builder.note_once("LINK10 is read as a bar that takes tension and compression");
   }
   return cross;
@@ -189,7 +222,8 @@ CrossSection bar_section(Builder& builder, const Member& member) {
 
 CrossSection shell_section(Builder& builder, const Member& member) {
   CrossSection cross;
-  const SectionDefinition* section = member.is("SHELL181") ? section_of(builder, member, "SHELL") : nullptr;
+  const SectionDefinition* section =
+      member.is("SHELL181") || member.is("SHELL281") ? section_of(builder, member, "SHELL") : nullptr;
   if (section != nullptr) {
     if (section->data.size() != 1 || section->data[0].empty() || section->data[0][0] <= 0.0)
       refuse_section(builder, member, *section,

@@ -39,10 +39,9 @@ void hold(Parts& parts, const Command& command, long node, const std::vector<int
 void read_support(Parts& parts, const Command& command) {
   // D,node,label,value,value2,end,step,label2 … label6
   constexpr std::size_t first_more = 6, last_more = 10;
-  for (const std::size_t i : {std::size_t{2}, std::size_t{3}}) {
-    if (parts.number_or(command, i, 0.0) != 0.0)
-      parts.fail(command, "prescribes a displacement that is not zero, which is not supported", "supports hold at zero");
-  }
+  if (parts.number_or(command, 3, 0.0) != 0.0)
+    parts.fail(command, "prescribes an imaginary displacement, which is not supported", "supports hold at zero");
+  const double size = parts.number_or(command, 2, 0.0);
   std::vector<int> dofs = known_dofs(parts, command, 1);
   for (std::size_t i = first_more; i <= last_more; ++i) {
     if (command.blank(i)) continue;
@@ -55,7 +54,10 @@ void read_support(Parts& parts, const Command& command) {
   } else if (const Component* named = command.blank(0) ? nullptr : parts.component(command.fields[0]); named != nullptr) {
     name = named->name;
   }
-  for (const long node : parts.nodes_of(command, 0, 4)) hold(parts, command, node, dofs, name);
+  for (const long node : parts.nodes_of(command, 0, 4)) {
+    hold(parts, command, node, dofs, name);
+    for (const int dof : dofs) parts.movements[node][dof] = {size, command.line};
+  }
 }
 
 void read_released_support(Parts& parts, const Command& command) {
@@ -64,7 +66,10 @@ void read_released_support(Parts& parts, const Command& command) {
   for (const long node : parts.nodes_of(command, 0, 2)) {
     const auto held = parts.holds.find(node);
     if (held == parts.holds.end()) continue;
-    for (const int dof : dofs) held->second.fixed[static_cast<std::size_t>(dof)] = false;
+    for (const int dof : dofs) {
+      held->second.fixed[static_cast<std::size_t>(dof)] = false;
+      parts.movements[node].erase(dof);
+    }
   }
 }
 

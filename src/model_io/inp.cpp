@@ -16,6 +16,7 @@
 #include "model_io/inp_materials.hpp"
 #include "model_io/inp_mesh.hpp"
 #include "model_io/inp_parts.hpp"
+#include "model_io/inp_stage.hpp"
 #include "model_io/inp_surfaces.hpp"
 #include "model_io/inp_ties.hpp"
 #include "model_io/model_toml.hpp"
@@ -34,6 +35,7 @@ const std::vector<std::map<std::string, Reader>>& passes() {
        {"MATERIAL", read_inp_material},
        {"ELASTIC", read_inp_elastic},
        {"DENSITY", read_inp_density},
+       {"EXPANSION", read_inp_expansion},
        {"ORIENTATION", read_inp_orientation}},
       {{"NSET", read_inp_set}, {"ELSET", read_inp_set}, {"EQUATION", read_inp_equation}},
       {{"SURFACE", read_inp_surface}},
@@ -64,10 +66,9 @@ const std::vector<std::string>& silent_cards() {
   return cards;
 }
 
-/// Loads and data of other physics: no part of the stiffness and mass of a model, but worth a word.
+/// Data of other physics: no part of the stiffness and mass of a model, but worth a word.
 const std::vector<std::string>& noted_cards() {
-  static const std::vector<std::string> cards = {"CLOAD",   "DLOAD",     "DSLOAD",       "TEMPERATURE",   "AMPLITUDE",
-                                                 "DAMPING", "EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "PHYSICAL CONSTANTS"};
+  static const std::vector<std::string> cards = {"AMPLITUDE", "DAMPING", "CONDUCTIVITY", "SPECIFIC HEAT", "PHYSICAL CONSTANTS"};
   return cards;
 }
 
@@ -77,7 +78,7 @@ bool is_in(const std::vector<std::string>& list, const std::string& name) {
 
 void refuse_unknown(const InpFile& file, const InpPlan& plan) {
   std::vector<std::string> known = silent_cards();
-  known.insert(known.end(), {"BOUNDARY", "TIE"});
+  known.insert(known.end(), {"BOUNDARY", "TIE", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "INITIAL CONDITIONS"});
   for (const auto& pass : passes()) {
     for (const auto& [keyword, reader] : pass) known.push_back(keyword);
   }
@@ -100,8 +101,16 @@ void refuse_unknown(const InpFile& file, const InpPlan& plan) {
   }
 }
 
-void note_loads(InpParts& parts, const InpPlan& plan) {
+void note_loads(InpParts& parts, const InpPlan& plan, const InpStage& stage) {
   std::map<std::string, long> first;
+  for (const InpCard* card : stage.unused) {
+    if (first.emplace(card->keyword, card->line).second)
+      parts.notes.push_back(fmt::format(
+          "*{} (line {}) is left out: no step asks for modes of the structure under it, as a static step with NLGEOM "
+          "or one before *STEP, PERTURBATION does",
+          card->keyword, card->line));
+  }
+  first.clear();
   for (const InpReading& reading : plan.readings) {
     if (is_in(noted_cards(), reading.card->keyword)) first.emplace(reading.card->keyword, reading.card->line);
   }
@@ -165,6 +174,8 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   parts.scopes = plan.scopes;
   parts.notes = plan.notes;
   parts.model.source = path.string();
+  const InpStage stage = find_inp_stage(file, plan);
+  for (const InpReading& reading : stage.cards) parts.of_stage.insert(reading.card);
   for (const auto& pass : passes()) {
     for (const InpReading& reading : plan.readings) {
       const InpCard& card = *reading.card;
@@ -185,8 +196,9 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   }
   if (parts.model.elements.empty() && parts.model.springs.empty())
     throw InputError({path.string(), 0, ""}, "holds no element", "expected *ELEMENT cards with their sections");
-  note_loads(parts, plan);
+  note_loads(parts, plan, stage);
   drop_unused_nodes(parts);
+  read_inp_stage(parts, stage);
   name_points(parts);
   auto beside = path;
   beside.replace_extension(".toml");

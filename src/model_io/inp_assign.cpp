@@ -81,6 +81,19 @@ fe::Element to_element(InpParts& parts, const InpCard& card, const InpElement& e
   return e;
 }
 
+/// Adds a shell or solid, in pieces where it has nodes in the middles of its edges.
+void add_whole(InpParts& parts, const fe::Element& whole) {
+  const auto new_node = [&](const Eigen::Vector3d& x) {
+    const long id = parts.node_position.rbegin()->first + 1;
+    parts.node_position.emplace(id, static_cast<int>(parts.model.nodes.size()));
+    parts.model.nodes.push_back({id, x});
+    return static_cast<int>(parts.model.nodes.size()) - 1;
+  };
+  const auto new_element = [&] { return ++parts.last_element_id; };
+  const std::size_t count = add_in_pieces(parts.model, whole, {new_node, new_element, parts.face_centres});
+  if (count > 1) parts.pieces[whole.id] = count;
+}
+
 /// A beam, or two through the middle node; our local z is n2 = t × n1, so that local y is n1.
 void add_beams(InpParts& parts, const InpCard& card, const Eigen::Vector3d& n1, int material, int section) {
   for (const InpElement* element : parts.elements_of(card)) {
@@ -102,6 +115,7 @@ void add_beams(InpParts& parts, const InpCard& card, const Eigen::Vector3d& n1, 
       if (i > 0) e.id = ++parts.last_element_id;
       parts.model.elements.push_back(e);
     }
+    parts.pieces[element->id] = whole.nodes.size() - 1;
   }
 }
 
@@ -237,13 +251,13 @@ void assign_shell(InpParts& parts, const InpCard& card) {
   const int section = add_section(parts, card, s);
   for (const InpElement* element : parts.elements_of(card)) {
     if (inp_kind(element->type) != InpKind::shell) refuse_kind(parts, card, *element);
-    parts.model.elements.push_back(to_element(parts, card, *element, fe::ElementType::shell, material, section));
+    add_whole(parts, to_element(parts, card, *element, fe::ElementType::shell, material, section));
   }
 }
 
 /// *SOLID SECTION: area of trusses; solids have no section of their own.
 void assign_solid(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {"ELSET", "MATERIAL", "CONTROLS"});
+  parts.file.allow(card, {"ELSET", "MATERIAL", "CONTROLS", "ORIENTATION"});  // isotropic: no direction matters
   const int material = material_of(parts, card);
   const auto elements = parts.elements_of(card);
   if (elements.empty()) return;
@@ -258,7 +272,7 @@ void assign_solid(InpParts& parts, const InpCard& card) {
   for (const InpElement* element : elements) {
     if (inp_kind(element->type) != kind || (kind != InpKind::truss && kind != InpKind::solid))
       refuse_kind(parts, card, *element);
-    parts.model.elements.push_back(to_element(parts, card, *element, type, material, section));
+    add_whole(parts, to_element(parts, card, *element, type, material, section));
   }
 }
 

@@ -152,9 +152,9 @@ void attach_inp_boundary(InpParts& parts, const InpCard& card) {
                         fmt::format("holds degrees of freedom from {} to {}, which are none", first + 1, last + 1),
                         "write node or set, first, last degree of freedom");
       for (int dof = first; dof <= last; ++dof) fixed[static_cast<std::size_t>(dof)] = true;
-      if (parts.file.number_or(card, line, 3, 0.0) != 0.0) {
+      if (parts.file.number_or(card, line, 3, 0.0) != 0.0 && !parts.of_stage.contains(&card)) {
         parts.file.fail(card, line.line, "prescribes a displacement that is not zero, which is not supported",
-                        "supports hold at zero");
+                        "supports hold at zero; a static step with NLGEOM or before *STEP, PERTURBATION may move them");
       }
     }
     const bool whole = fixed[0] == fixed[1] && fixed[0] == fixed[2] && fixed[3] == fixed[4] && fixed[3] == fixed[5];

@@ -95,7 +95,7 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
   if (wanted == 0) {
     if (const std::string linear = inp_linear_type(type); !linear.empty())
       parts.file.fail(card, card.line, fmt::format("{} has nodes between its corners, which is not read", type),
-                      "mesh with linear elements: " + linear);
+                      "mesh with " + linear);
     parts.file.fail(card, card.line,
                     fmt::format("unsupported element type {}{}", type, did_you_mean(type, inp_element_types())),
                     "supported are " + inp_element_type_list());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fe/model.hpp"
+#include "model_io/deck_quadratic.hpp"
 #include "model_io/inp_cards.hpp"
 #include "model_io/inp_scopes.hpp"
 
@@ -75,6 +76,11 @@ struct InpParts {
   std::map<int, double> second_shear_moduli;              ///< G13 of the orthotropic materials of beams, by position [Pa]
   std::map<std::string, InpOrientation> orientations;     ///< by name in upper case, likewise
   std::vector<InpEquation> equations;
+  std::map<int, double> expansion;                 ///< of materials, by position [1/K]
+  std::map<int, const InpCard*> uneven_expansion;  ///< of those where it is not one number
+  std::map<long, std::size_t> pieces;              ///< elements that became several, which follow one another in the model
+  FaceCentres face_centres;                        ///< of hexahedra with nodes on their edges
+  std::set<const InpCard*> of_stage;               ///< cards of the static stage, which may move supports
   struct Origin {
     const InpCard* card;
     long line;

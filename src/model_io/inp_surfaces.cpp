@@ -3,20 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "core/error.hpp"
+#include "model_io/deck_stage.hpp"
 #include "model_io/inp_elements.hpp"
 
 namespace twindeck::model_io {
 namespace {
-
-/// Faces S1 to S6 of a hexahedron by the positions of its nodes, outward.
-constexpr std::array<std::array<std::size_t, 4>, 6> hexahedron_faces = {
-    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-
-/// Faces S1 to S4 of a tetrahedron likewise.
-constexpr std::array<std::array<std::size_t, 3>, 4> tetrahedron_faces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 
 /// The facet that "S3" of an element names.
 InpFacet facet_of(const InpParts& parts, const InpCard& card, long line, const InpElement& element, const std::string& face) {
@@ -24,19 +17,20 @@ InpFacet facet_of(const InpParts& parts, const InpCard& card, long line, const I
   const bool numbered = face.size() == 2 && face[1] >= '1' && face[1] <= '6';
   const std::size_t at = numbered ? static_cast<std::size_t>(face[1] - '1') : 0;
   InpFacet facet{{}, element.id, kind == InpKind::shell};
-  const bool of_solid = kind == InpKind::solid && numbered && face[0] == 'S';
-  if (of_solid && element.nodes.size() == 8) {
-    for (const std::size_t i : hexahedron_faces[at]) facet.nodes.push_back(element.nodes[i]);
-  } else if (of_solid && at < tetrahedron_faces.size()) {
-    for (const std::size_t i : tetrahedron_faces[at]) facet.nodes.push_back(element.nodes[i]);
-  } else if (kind == InpKind::shell && (face.empty() || face == "SPOS" || face == "SNEG")) {
+  const bool corners_only = element.nodes.size() == 3 || element.nodes.size() == 4 || element.nodes.size() == 8;
+  const bool of_solid = kind == InpKind::solid && corners_only && numbered && face[0] == 'S';
+  if (of_solid && at < solid_faces(element.nodes.size()).size()) {
+    for (const std::size_t i : solid_faces(element.nodes.size())[at]) facet.nodes.push_back(element.nodes[i]);
+  } else if (kind == InpKind::shell && element.nodes.size() < 5 && (face.empty() || face == "SPOS" || face == "SNEG")) {
     facet.nodes = element.nodes;
-  } else if (kind == InpKind::shell && numbered && face[0] == 'E' && at < element.nodes.size()) {
+    if (face == "SNEG") std::reverse(facet.nodes.begin(), facet.nodes.end());
+  } else if (kind == InpKind::shell && element.nodes.size() < 5 && numbered && face[0] == 'E' && at < element.nodes.size()) {
     facet.nodes = {element.nodes[at], element.nodes[(at + 1) % element.nodes.size()]};
   } else {
-    parts.file.fail(
-        card, line, fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
-        "hexahedra have S1 to S6, tetrahedra S1 to S4, shells SPOS, SNEG and edges E1 to E4; name nodes by TYPE=NODE");
+    parts.file.fail(card, line, fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
+                    "hexahedra have S1 to S6, tetrahedra S1 to S4, shells SPOS, SNEG and edges E1 to E4; elements with nodes "
+                    "on their edges "
+                    "have none; name nodes by TYPE=NODE");
   }
   return facet;
 }

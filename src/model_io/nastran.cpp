@@ -19,6 +19,7 @@
 #include "model_io/nastran_masses.hpp"
 #include "model_io/nastran_parts.hpp"
 #include "model_io/nastran_springs.hpp"
+#include "model_io/nastran_stage.hpp"
 #include "model_io/nastran_supports.hpp"
 #include "model_io/nastran_units.hpp"
 #include "model_io/node_references.hpp"
@@ -42,6 +43,8 @@ const std::vector<std::map<std::string, Reader>>& reading_passes() {
        {"CONROD", read_rod},
        {"CQUAD4", read_shell},
        {"CTRIA3", read_shell},
+       {"CQUAD8", read_shell},
+       {"CTRIA6", read_shell},
        {"CHEXA", read_solid},
        {"CTETRA", read_solid}},
       {{"CELAS1", read_scalar_spring},
@@ -108,6 +111,9 @@ double read_parameters(Parts& parts) {
     if (name == "K6ROT") k6rot = parts.deck.number(card, 1);
     if (name == "COUPMASS") parts.model.formulation.lumped_mass = parts.deck.integer(card, 1) <= 0;
     if (name == "WTMASS" && !(wtmass > 0.0)) parts.deck.fail(card, "is not above 0", "give mass per weight, 1/g");
+    if (name == "NMLOOP" && parts.deck.integer(card, 1) != 0)
+      parts.deck.fail(card, "asks for modes after a nonlinear static loop, which is not read",
+                      "write SOL 103 with a static subcase and STATSUB");
     if (scales_matrices(name) && parts.deck.number(card, 1) != 1.0)
       parts.deck.fail(card, "scales the matrices of the structure, which is not read", "leave it out");
   }
@@ -122,7 +128,9 @@ void sort_nodes(Parts& parts) {
   int next = 0;
   for (const auto& [grid, position] : parts.node_position) now[static_cast<std::size_t>(position)] = next++;
   renumber_nodes(parts.model, now);
-  const std::size_t unused = parts.grids.size() - parts.model.nodes.size();
+  for (auto& [grid, position] : parts.node_position) position = now[static_cast<std::size_t>(position)];
+  const auto used = [&](const auto& grid) { return parts.node_position.contains(grid.first); };
+  const auto unused = std::count_if(parts.grids.begin(), parts.grids.end(), [&](const auto& grid) { return !used(grid); });
   if (unused > 0) parts.notes.push_back(fmt::format("grids that no element, mass or link uses are left out: {}", unused));
 }
 
@@ -164,18 +172,23 @@ ImportedModel read_nastran(const std::filesystem::path& path) {
     throw InputError({path.string(), 0, ""}, "holds no element",
                      "expected CBAR, CBEAM, CROD, CQUAD4, CTRIA3, CHEXA, CELAS or CBUSH cards");
   nastran::sort_nodes(parts);
+  nastran::read_stage(parts);
 
   auto beside = path;
   beside.replace_extension(".toml");
   nastran::UnitKeys keys;
   const std::size_t own_matrices = parts.model.matrix_elements.size();
+  const bool falls = !parts.model.prestress.load_case.empty();
+  const double own_gravity = parts.model.gravity_m_s2;
   if (std::filesystem::exists(beside))
     read_model_toml(beside, parts.model, [&keys](io::FieldTable& table) { keys.add_to(table); });
   // What the TOML file adds is in SI already.
   std::vector<fe::MatrixElement> added(parts.model.matrix_elements.begin() + static_cast<std::ptrdiff_t>(own_matrices),
                                        parts.model.matrix_elements.end());
   parts.model.matrix_elements.resize(own_matrices);
-  nastran::to_si(parts.model, nastran::units_of(keys, beside), parts.wtmass);
+  const nastran::Units units = nastran::units_of(keys, beside);
+  nastran::to_si(parts.model, units, parts.wtmass);
+  if (falls && parts.model.gravity_m_s2 == own_gravity) parts.model.gravity_m_s2 *= units.length_m;
   parts.model.matrix_elements.insert(parts.model.matrix_elements.end(), added.begin(), added.end());
   return {std::move(parts.model), std::move(parts.notes), deck.files()};
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,12 @@ struct Card {
   std::string stray;                ///< name of a continuation that is not the one its line above announces; "" = none
 };
 
+/// What a subcase chooses: LOAD, TEMPERATURE(LOAD), TEMPERATURE(INITIAL), STATSUB, DEFORM; with what stands above the subcases.
+struct Subcase {
+  long id = 0;  ///< 0: above the subcases
+  std::map<std::string, long> chosen;
+};
+
 /// What the case control section chooses, as far as it changes the structure.
 struct CaseControl {
   /// "K2GG = 0.5*KBUSH, KTIE" as its text, with its place.
@@ -28,6 +35,7 @@ struct CaseControl {
   bool present = false;  ///< the file has a case control section
   std::string title;
   std::optional<long> spc, mpc;
+  std::vector<Subcase> subcases;
   Matrices k2gg, m2gg;  ///< DMIG matrices that are added to stiffness and mass; an empty text: none
 };
 

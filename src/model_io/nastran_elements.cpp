@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "model_io/inp_cards.hpp"
@@ -69,6 +70,31 @@ double rod_added_density(const Parts& parts, const Card& card, std::size_t area,
   const double a = parts.deck.number(card, area);
   if (!(a > 0.0)) parts.deck.fail(card, fmt::format("the area is {:g}, expected a value above 0", a), "give the area");
   return parts.deck.number_or(card, mass, 0.0) / a;
+}
+
+/// Adds a shell or solid, in pieces where it has grids on its edges.
+void add_whole_element(Parts& parts, const fe::Element& whole) {
+  constexpr long above_all = 100'000'000;  ///< numbers of Nastran have eight digits
+  const auto new_node = [&](const Eigen::Vector3d& x) {
+    const long id = std::max(above_all, parts.node_position.rbegin()->first) + 1;
+    parts.node_position.emplace(id, static_cast<int>(parts.model.nodes.size()));
+    parts.model.nodes.push_back({id, x});
+    parts.turning.insert(static_cast<int>(parts.model.nodes.size()) - 1);
+    return static_cast<int>(parts.model.nodes.size()) - 1;
+  };
+  const auto new_element = [&] { return parts.last_element_id = std::max(above_all, parts.last_element_id) + 1; };
+  parts.pieces[whole.id] = add_in_pieces(parts.model, whole, {new_node, new_element, parts.face_centres});
+}
+
+/// Grids on the edges, in fields `first` and on: all of them, or none; the element has `corners` corners already.
+void add_edge_grids(Parts& parts, const Card& card, std::size_t first, std::size_t count, fe::Element& e) {
+  std::size_t given = 0;
+  for (std::size_t i = first; i < first + count; ++i) given += Deck::blank(card, i) || Deck::text(card, i) == "0" ? 0 : 1;
+  if (given == 0) return;
+  if (given < count)
+    parts.deck.fail(card, fmt::format("has {} of {} grids on its edges, which is not read", given, count), "give all, or none");
+  for (std::size_t i = first; i < first + count; ++i) e.nodes.push_back(parts.node(card, parts.deck.integer(card, i)));
+  if (e.type == fe::ElementType::shell) parts.turning.insert(e.nodes.begin(), e.nodes.end());
 }
 
 }  // namespace
@@ -152,8 +178,12 @@ void finish_rods(Parts& parts) {
 
 void read_shell(Parts& parts, const Card& card) {
   const Deck& deck = parts.deck;
-  const std::size_t corners = card.name == "CTRIA3" ? 3 : 4, offset = 3 + corners, thicknesses = 10;
+  const bool quadratic = card.name == "CTRIA6" || card.name == "CQUAD8";
+  const std::size_t corners = card.name.starts_with("CTRIA") ? 3 : 4;
+  // CTRIA6: THETA, ZOFFS, T1 … behind six grids; CQUAD8: T1 …, THETA, ZOFFS behind eight.
+  const std::size_t offset = !quadratic ? 3 + corners : corners == 3 ? 9 : 15, thicknesses = 10;
   fe::Element e = start_element(parts, card, fe::ElementType::shell, 2, corners);
+  if (quadratic) add_edge_grids(parts, card, 2 + corners, corners, e);
   const Card& p = parts.property(card, deck.integer_or(card, 1, e.id), {"PSHELL"});
   const std::string name = property_name(p);
   if (deck.number_or(card, offset, 0.0) != 0.0)
@@ -181,23 +211,26 @@ void read_shell(Parts& parts, const Card& card) {
   e.material = parts.material(p, membrane, deck.number_or(p, 7, 0.0) / t, name);
   if (deck.integer_or(p, 5, 0) != 0)
     note_once(parts, "shells are thin plates here: the transverse shear that MID3 of PSHELL allows is left out");
-  parts.model.elements.push_back(e);
+  add_whole_element(parts, e);
 }
 
 void read_solid(Parts& parts, const Card& card) {
   const std::size_t corners = card.name == "CTETRA" ? 4 : 8;
-  if (Deck::size(card) > 2 + corners)
-    parts.deck.fail(card, fmt::format("has nodes on its edges ({} in all), which is not read", corners == 4 ? 10 : 20),
-                    corners == 4
-                        ? "mesh with hexahedra of 8 nodes (CHEXA); tetrahedra of 4 nodes are read, but too stiff in bending"
-                        : "mesh with solids of 8 nodes");
+  if (corners == 4 && Deck::size(card) > 2 + corners)
+    parts.deck.fail(card, "has nodes on its edges (10 in all), which is not read",
+                    "mesh with hexahedra (CHEXA); tetrahedra of 4 nodes are read, but too stiff in bending");
   fe::Element e = start_element(parts, card, fe::ElementType::solid, 2, corners);
+  if (corners == 8) {
+    // G9 to G12 lie on the bottom, G13 to G16 between, G17 to G20 on the top: here the top comes second.
+    add_edge_grids(parts, card, 2 + corners, 12, e);
+    if (e.nodes.size() == 20) std::rotate(e.nodes.begin() + 12, e.nodes.begin() + 16, e.nodes.end());
+  }
   const Card& p = parts.property(card, parts.deck.integer_or(card, 1, e.id), {"PSOLID"});
   if (const std::string kind = upper_case(Deck::text(p, 6)); !kind.empty() && kind != "SMECH")
     parts.deck.fail(p, fmt::format("is '{}', no solid of the structure", kind), "leave the fluid out");
   e.group = property_name(p);
   e.material = parts.material(p, parts.deck.integer(p, 1));
-  parts.model.elements.push_back(e);
+  add_whole_element(parts, e);
 }
 
 }  // namespace twindeck::model_io::nastran

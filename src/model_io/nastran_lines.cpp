@@ -167,6 +167,11 @@ struct DeckReader {
     if (key == "K2PP" || key == "M2PP")
       fail(line, key, "adds matrices to responses and complex modes alone, which is not read",
            "add them to the structure by K2GG or M2GG, or leave the line out");
+    if (key == "NLIC")
+      fail(line, key, "starts the modes from a step of nonlinear statics, which is not read",
+           "write a linear static subcase and STATSUB");
+    if (key.starts_with("SUBCASE")) return open_subcase(line, trimmed(key.substr(7) + value));
+    choose_loads(line, key, value);
     if (key != "SPC" && key != "MPC") return;
     if (!Deck::is_integer(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write SPC = 1");
     std::optional<long>& chosen = key == "SPC" ? deck.case_.spc : deck.case_.mpc;
@@ -174,6 +179,30 @@ struct DeckReader {
     if (chosen && *chosen != id)
       fail(line, key, fmt::format("chooses set {}, another subcase chooses {}", id, *chosen), "leave one subcase in the deck");
     chosen = id;
+  }
+
+  void open_subcase(const RawLine& line, const std::string& number) {
+    if (!Deck::is_integer(number)) fail(line, "SUBCASE", fmt::format("'{}' is no number", number), "write SUBCASE 1");
+    Subcase subcase;
+    if (!deck.case_.subcases.empty() && deck.case_.subcases.front().id == 0) subcase = deck.case_.subcases.front();
+    subcase.id = std::stol(number);
+    deck.case_.subcases.push_back(std::move(subcase));
+  }
+
+  /// LOAD, TEMPERATURE, STATSUB, DEFORM with their numbers, in the words of Subcase.
+  void choose_loads(const RawLine& line, std::string key, const std::string& value) {
+    std::erase(key, ' ');
+    if (key.starts_with("TEMP") && key.find('(') != std::string::npos)
+      key = key.find("(INIT") != std::string::npos ? "TEMPERATURE(INITIAL)" : "TEMPERATURE(LOAD)";
+    std::vector<std::string> keys = {key};
+    if (key.starts_with("TEMP") && key.find('(') == std::string::npos) keys = {"TEMPERATURE(LOAD)", "TEMPERATURE(INITIAL)"};
+    if (key.starts_with("STATSUB")) keys = {"STATSUB"};
+    const bool known = keys.front() == "LOAD" || keys.front() == "DEFORM" || keys.front() == "STATSUB" ||
+                       keys.front().starts_with("TEMPERATURE(");
+    if (!known || upper_case(value) == "NONE") return;
+    if (!Deck::is_integer(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write LOAD = 1");
+    if (deck.case_.subcases.empty()) deck.case_.subcases.emplace_back();
+    for (const std::string& name : keys) deck.case_.subcases.back().chosen[name] = std::stol(value);
   }
 
   void choose_matrices(const RawLine& line, const std::string& key, const std::string& value) {

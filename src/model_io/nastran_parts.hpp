@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fe/model.hpp"
+#include "model_io/deck_quadratic.hpp"
 #include "model_io/nastran_cards.hpp"
 
 /// Inside of the library: what a Nastran deck says, in the deck's own units until nastran_units.hpp turns the finished model
@@ -48,6 +49,13 @@ struct Parts {
   std::set<int> turning;  ///< nodes whose rotations a beam or a shell holds
   std::map<std::string, int> section_position, material_position;
   std::map<int, Eigen::Matrix<double, 6, 6>> added_mass;  ///< CMASS1, CMASS2 by node, basic axes
+  FaceCentres face_centres;                               ///< of hexahedra with grids on their edges
+  long last_element_id = 0;                               ///< of the pieces of such elements, above all numbers of the deck
+  std::map<long, std::size_t> pieces;                     ///< how many elements follow one another in place of a shell or solid
+  struct Expansion {
+    double per_K, reference_K;
+  };
+  std::map<int, Expansion> expansion;  ///< of materials, by position
   struct Twist {
     const Card* card;
     int a, b;

@@ -41,6 +41,7 @@ int Parts::material(const Card& from, long id, double added_density, const std::
   m.density_kg_m3 = deck.number_or(card, 4, 0.0) + added_density;
   if (!(m.density_kg_m3 >= 0.0) || added_density < 0.0) deck.fail(card, "a density is negative", "check the sign");
   material_position[name] = static_cast<int>(model.materials.size());
+  expansion[material_position[name]] = {deck.number_or(card, 5, 0.0), deck.number_or(card, 6, 0.0)};
   model.materials.push_back(m);
   if (added_density > 0.0)
     notes.push_back(

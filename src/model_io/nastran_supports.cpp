@@ -79,7 +79,10 @@ void read_support_card(Parts& parts, const Card& card) {
   for (std::size_t i = 1; i < Deck::size(card); i += 3) {
     if (Deck::blank(card, i)) continue;
     hold(parts, card, parts.deck.integer(card, i), components(parts, card, i + 1));
-    if (parts.deck.number_or(card, i + 2, 0.0) != 0.0)
+    const auto& subcases = parts.deck.case_control().subcases;
+    const bool loaded =
+        std::any_of(subcases.begin(), subcases.end(), [](const Subcase& s) { return s.chosen.contains("STATSUB"); });
+    if (parts.deck.number_or(card, i + 2, 0.0) != 0.0 && !loaded)
       note_once(parts, "prescribed displacements of SPC cards are taken as zero: they do not enter modes");
   }
 }

@@ -81,6 +81,7 @@ void to_si(fe::Model& model, const Units& units, double wtmass) {
     for (fe::Constraint::Term& term : c.terms)
       term.factor *= std::pow(l, (term.direction > 2 ? 1 : 0) - (c.direction > 2 ? 1 : 0));
   }
+  for (fe::Prestress::Load& load : model.prestress.loads) load.value *= load.movement ? l : load.direction > 2 ? f * l : f;
   for (fe::PointMass& m : model.masses) {
     m.mass_kg *= mass;
     m.inertia_kg_m2 *= mass * l2;
