@@ -53,7 +53,6 @@ InputError no_common_reference(const std::filesystem::path& folder, const Condit
 }
 
 void list_channels(ConditionResult& result) {
-  result.channels.clear();
   for (const SetupResult& setup : result.setups) {
     for (const records::CampaignChannel& channel : setup.conditioned.channels) {
       if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
