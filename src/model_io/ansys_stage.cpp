@@ -120,12 +120,12 @@ class Loader {
     }
   }
 
-  void apply(const Loads& loads) {
-    for (const auto& [node, force] : loads.forces)
+  void apply(const Loads& asked) {
+    for (const auto& [node, force] : asked.forces)
       for (int d = 0; d < 6; ++d)
         if (const double size = force[static_cast<std::size_t>(d)]; size != 0.0) add_load(model_, placed(node, "F"), d, size);
     // ACEL accelerates the ground: weight acts against it.
-    add_gravity(model_, -loads.acceleration);
+    add_gravity(model_, -asked.acceleration);
     for (const auto& [node, movements] : parts_.movements)
       for (const auto& [dof, movement] : movements) {
         if (dof > 2 && movement.value != 0.0)
@@ -133,9 +133,9 @@ class Loader {
                       "move supports, or load the model by forces");
         if (movement.value != 0.0) set_movement(model_, placed(node, "D"), dof, movement.value);
       }
-    for (const auto& [at, pressure] : loads.pressures) press(at.first, pressure);
-    for (const auto& [id, state] : loads.states) strain(id, state);
-    warm_all(loads);
+    for (const auto& [at, pressure] : asked.pressures) press(at.first, pressure);
+    for (const auto& [id, state] : asked.states) strain(id, state);
+    warm_all(asked);
   }
 
  private:
@@ -199,18 +199,18 @@ class Loader {
     }
   }
 
-  void warm_all(const Loads& loads) {
-    if (!loads.uniform_K && loads.nodes_K.empty()) return;
+  void warm_all(const Loads& asked) {
+    if (!asked.uniform_K && asked.nodes_K.empty()) return;
     for (const auto& [id, positions] : elements_) {
       const auto material = parts_.materials.find(parts_.elements.at(id).material);
       if (material == parts_.materials.end() || !material->second.contains("ALPX")) continue;
       const auto reference = material->second.find("REFT");
-      const double cold = reference == material->second.end() ? loads.reference_K : reference->second.value;
+      const double cold = reference == material->second.end() ? asked.reference_K : reference->second.value;
       double rise = 0.0, nodes = 0.0;
       for (const long node : parts_.elements.at(id).nodes) {
         if (!builder_.has_node(node)) continue;  // one that gives a direction alone
-        const auto own = loads.nodes_K.find(node);
-        rise += (own != loads.nodes_K.end() ? own->second : loads.uniform_K.value_or(cold)) - cold;
+        const auto own = asked.nodes_K.find(node);
+        rise += (own != asked.nodes_K.end() ? own->second : asked.uniform_K.value_or(cold)) - cold;
         nodes += 1.0;
       }
       for (const std::size_t at : positions) warm(model_.elements[at], material->second.at("ALPX").value, rise / nodes);
