@@ -43,6 +43,7 @@ double odd_mode(double a, const TensionedBeam& beam) {
 /// Its root between two points of opposite sign: regula falsi, an end that stays counts half (Illinois).
 double odd_root(double low, double high, const TensionedBeam& beam) {
   double at_low = odd_mode(low, beam), at_high = odd_mode(high, beam), root = low;
+  if ((at_low > 0.0) == (at_high > 0.0)) return low;  // a sag so small that the root has not moved as far
   for (int turn = 0; turn < 100 && high - low > 1e-12 * high; ++turn) {
     const double before = root;
     root = (low * at_high - high * at_low) / (at_high - at_low);

@@ -27,7 +27,7 @@ TEST(TensionedBeam, ClampedEndsWithoutTensionAreThoseOfABeam) {
   const double xi = 0.01;
   const double k[] = {4.730041, 7.853205, 10.995608};
   for (int n = 1; n <= 3; ++n)
-    EXPECT_NEAR(frequency_ratio(n, {xi, 0.0, 1.0}) * pi * xi / (k[n - 1] * k[n - 1]), 1.0, 1e-6) << n;
+    EXPECT_NEAR(frequency_ratio(n, {xi, 0.0, 1.0}) * pi * xi / (k[n - 1] * k[n - 1]), 1.0, 1e-5) << n;
 }
 
 TEST(TensionedBeam, AStringWithSagSolvesIrvinesEquation) {
@@ -80,7 +80,7 @@ TEST(TensionedBeam, RatiosRiseWithSagAndFixity) {
         double before = 0.0;
         for (const double lambda_squared : {0.0, 1e-9, 0.01, 1.0, 10.0, 30.0, 60.0}) {
           const double ratio = frequency_ratio(n, {xi, lambda_squared, fixity});
-          EXPECT_GE(ratio, before - 1e-10) << xi << " " << fixity << " " << n << " " << lambda_squared;
+          EXPECT_GE(ratio, before * (1.0 - 1e-11)) << xi << " " << fixity << " " << n << " " << lambda_squared;
           before = ratio;
         }
       }
