@@ -14,7 +14,7 @@ for place in "workflows/$name" "data/$name"; do
   [ ! -e "$place" ] || { echo "new: $place is there already; choose another name, or remove it yourself" >&2; exit 2; }
 done
 if [ $# -gt 1 ]; then
-  [ "$2" = --from ] && [ $# -gt 2 ] || { echo "new: expected files after the name: ${new}$name ${TWINDECK_FROM:-FROM=\"records.csv sensors.csv bridge.inp\"}" >&2; exit 2; }
+  if [ "$2" != --from ] || [ $# -lt 3 ]; then echo "new: expected files after the name: ${new}$name ${TWINDECK_FROM:-FROM=\"records.csv sensors.csv bridge.inp\"}" >&2; exit 2; fi
   bin=${TWINDECK_BIN:-build/bin}
   [ -x "$bin/s3_identification" ] || { echo "new: $bin/s3_identification is not there: run 'make build' first" >&2; exit 2; }
   exec "$home/workflows/python.sh" -m twindeck_new --bin "$bin" "$@"

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -159,6 +160,9 @@ std::vector<std::string> unrecorded(const std::string& step, const std::string& 
     for (const std::string& before : {step + ": ", std::string("warning: ")}) {
       if (line.starts_with(before)) line.erase(0, before.size());
     }
+    // Progress tells of the run: "reading records, 1 of 3", "working, 12 s so far".
+    static const std::regex progress(", \\d+ of \\d+(, about \\d+ s left)?$|^working, \\d+ s so far$");
+    if (std::regex_search(line, progress)) continue;
     const bool of_check = line.starts_with("  ") || line.starts_with("inputs are valid");
     if (!of_check && !kept.contains(line)) missing.push_back(line);
   }

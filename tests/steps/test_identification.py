@@ -207,17 +207,19 @@ class Identification(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("column 3: is constant (0) over 4000000 samples", done.stderr)
 
-    def test_utf_16_is_refused_with_what_to_do(self):
-        folder = self.folder / "utf16"
-        write_campaign(folder, self.data[:2000])
-        toml = folder / "campaign.toml"
-        toml.write_text(toml.read_text().replace("record.npy", "record.csv"))
-        lines = [",".join(["time_s", *CHANNELS])] + [",".join(f"{v:.6g}" for v in (t / RATE, *row)) for t, row in enumerate(self.data[:2000])]
-        (folder / "records" / "ST1" / "record.csv").write_bytes("\n".join(lines).encode("utf-16"))
-        done = identify(folder, self.folder / "utf16_out")
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        self.assertIn("is UTF-16, expected UTF-8 or latin-1", done.stderr)
+    def test_utf_16_is_read(self):
+        modes = []
+        for name, encoding in (("utf8", "utf-8"), ("utf16", "utf-16")):
+            folder = self.folder / name
+            write_campaign(folder, self.data)
+            toml = folder / "campaign.toml"
+            toml.write_text(toml.read_text().replace("record.npy", "record.csv"))
+            lines = [",".join(["time_s", *CHANNELS])] + [",".join(f"{v:.6g}" for v in (t / RATE, *row)) for t, row in enumerate(self.data)]
+            (folder / "records" / "ST1" / "record.csv").write_bytes("\n".join(lines).encode(encoding))
+            done = identify(folder, self.folder / f"{name}_out")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            modes.append((self.folder / f"{name}_out" / "modes.csv").read_bytes())
+        self.assertEqual(modes[0], modes[1])
 
     def test_a_lag_of_a_logger_shows_in_the_phases(self):
         folder, data = self.folder / "lag", self.data.copy()
