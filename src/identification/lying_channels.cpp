@@ -11,8 +11,9 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kDead = 1e-8;             ///< [-] of the median RMS: 160 dB, beyond the range of any converter
-constexpr double kStuck = 0.05;            ///< [-] of the record that repeats the sample before: a loss that bends the channel's shape by several per cent
+constexpr double kDead = 1e-8;  ///< [-] of the median RMS: 160 dB, beyond the range of any converter
+constexpr double kStuck =
+    0.05;  ///< [-] of the record that repeats the sample before: a loss that bends the channel's shape by several per cent
 constexpr double kRoundingOfGain = 1e-12;  ///< [-] what the gain's multiplication does to equal values
 
 /// The longest run of one value.
@@ -51,7 +52,9 @@ void judge_motion(const Samples& raw, const JudgedChannels& judged, std::vector<
   const double usual = median_rms(judged, quality);
   std::vector<Run> runs;
   for (const Index c : judged.columns) runs.push_back(longest_run(raw.col(c)));
-  const auto stuck = [&](const Run& run) { return static_cast<double>(run.length - 1) > kStuck * static_cast<double>(raw.rows()); };
+  const auto stuck = [&](const Run& run) {
+    return static_cast<double>(run.length - 1) > kStuck * static_cast<double>(raw.rows());
+  };
   const bool most = 2 * std::count_if(runs.begin(), runs.end(), stuck) > std::ssize(runs);
   for (std::size_t k = 0; k < judged.columns.size(); ++k) {
     ChannelQuality& q = quality[static_cast<std::size_t>(judged.columns[k])];

@@ -4,9 +4,12 @@ Oracles: without scatter it gives step 7's critical speed and step 8's RMS in th
 damping is what step 7 finds with the damping changed; shares of variance sum to one; probabilities rise with the wind; bad inputs are refused by name.
 """
 import math
+import pathlib
+import sys
 import unittest
 
-import test_validation
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import test_validation  # noqa: E402
 
 NONE = ["--set", "damping_variation=0", "--set", "level_variation=0", "--set", "damper_variation=0", "--set", "turbulence_variation=0"]
 SMALL = ["--set", 'speeds=["6 m/s","8 m/s"]', "--set", 'models=["A"]', "--set", "samples=500"]
