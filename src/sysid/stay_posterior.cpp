@@ -21,8 +21,8 @@ namespace {
 constexpr double kLeastXi = 4.0, kMostXi = 4000.0, kMostLambdaSquared = 60.0;
 /// [-] relative scatter of a harmonic that no deviation holds: mass and section vary along a cable.
 constexpr double kCableScatter = 1e-4;
-/// Degrees of freedom of the factor of all deviations. A cable with sleeves or dampers is no beam: its harmonics lie ten and more of
-/// their deviations off the formula, so the factor is hardly known beforehand.
+/// Degrees of freedom of the factor of all deviations. A cable with sleeves or dampers is no beam: its harmonics lie ten and
+/// more of their deviations off the formula, so the factor is hardly known beforehand.
 constexpr double kFactorFreedom = 1.0;
 constexpr double kSectionDeviation = 0.05;  ///< [-] of xi: EI of a section is known to ten per cent
 
