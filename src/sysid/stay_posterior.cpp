@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Bounds of the priors: from a stub that hardly is a cable to a string; Irvine's crossover lies at 4 pi² = 39.
+/// Bounds of the priors: from a short hanger that is nearly a beam to a string. Irvine's crossover lies at 4 pi² = 39.
 constexpr double kLeastXi = 4.0, kMostXi = 4000.0, kMostLambdaSquared = 60.0;
 /// [-] relative scatter of a harmonic that no deviation holds: mass and section vary along a cable.
 constexpr double kCableScatter = 1e-4;
