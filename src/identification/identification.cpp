@@ -331,6 +331,8 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
           scaled, found.periodic, conditioned.rate_Hz, options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
       found = identify_ambient(scaled, conditioned, config, options);
       sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic, lines);
+      const bool nothing_is_left = channel_rms(scaled).maxCoeff() < kUnresolved;
+      if (nothing_is_left) sysid::keep_modes(found, std::vector<bool>(found.modes.size(), false));
     }
   } else {
     found.periodic.clear();  // candidates that nobody judged

@@ -11,7 +11,6 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kDead = 1e-8;  ///< [-] of the median RMS: 160 dB, beyond the range of any converter
 constexpr double kStuck =
     0.05;  ///< [-] of the record that repeats the sample before: a loss that bends the channel's shape by several per cent
 constexpr double kRoundingOfGain = 1e-12;  ///< [-] what the gain's multiplication does to equal values
@@ -60,7 +59,7 @@ void judge_motion(const Samples& raw, const JudgedChannels& judged, std::vector<
     ChannelQuality& q = quality[static_cast<std::size_t>(judged.columns[k])];
     if (q.dead) {
       q.left_out = fmt::format("is constant ({}) over {} samples", q.mean, q.samples);
-    } else if (q.rms < kDead * usual) {
+    } else if (q.rms < kUnresolved * usual) {
       q.left_out = fmt::format("does not move: its RMS is {:.3g} beside {:.3g} of the others", q.rms, usual);
     } else if (stuck(runs[k]) && !(judged.may_rest && most)) {
       q.left_out = fmt::format("is stuck: it holds {:.6g} over {} samples in a row from sample {} on, {:.3g} % of the record",

@@ -9,6 +9,9 @@
 
 namespace twindeck::identification {
 
+/// [-] RMS of what no converter resolves beside a motion of RMS 1: 160 dB.
+constexpr double kUnresolved = 1e-8;
+
 /// What of a record is judged.
 struct JudgedChannels {
   std::vector<Eigen::Index> columns;  ///< of the record: responses that are used
@@ -18,7 +21,7 @@ struct JudgedChannels {
 };
 
 /// Channels that cannot be what they say, each with its reason in ChannelQuality::left_out:
-///   dead   constant, or without motion: its RMS is below 10^-8 of the channels' median, 160 dB, which no converter has
+///   dead   constant, or without motion: its RMS is below kUnresolved of the channels' median
 ///   stuck  one value for over 5 % of the record in a row (where all may rest: while most others move)
 ///   copy   sample by sample the recorded values of another channel, which two sensors never give; a reference is the original
 /// @param raw  (n_samples × channels of the record), gains applied

@@ -7,6 +7,9 @@ namespace twindeck::signal {
 /// Removes the least-squares straight line from each channel. @param data (n_samples × n_channels) @return same shape
 [[nodiscard]] Eigen::MatrixXd detrended(const Eigen::Ref<const Eigen::MatrixXd>& data);
 
+/// [samples] of a decimated record that its filter reaches: so far from its ends the continuation has no part in them.
+constexpr Eigen::Index decimation_reach = 26;
+
 /// Keeps every `factor`-th sample after a linear-phase low-pass (Kaiser-windowed sinc, centred: no phase shift). Passband to
 /// 0.8 of the new Nyquist frequency within 1e-4, at least 80 dB down from the new Nyquist frequency on. The record is continued
 /// at its ends by its point reflection, so that a straight line passes unchanged.

@@ -43,7 +43,7 @@ Status run(const steps::IdentificationConfig& config, steps::IdentificationInput
     const bool found = std::any_of(stays.begin(), stays.end(), [](const auto& stay) { return !stay.modes.empty(); });
     if (!found) return {false, "no stay shows harmonics; see stay.lowest and stay.highest, or record for longer"};
   } else if (results.front().modes.empty()) {
-    return {false, "no mode is stable over the model orders; see poles.csv, and raise block_rows or the record's length"};
+    return {false, steps::why_no_mode(results.front())};
   }
   return {};
 }

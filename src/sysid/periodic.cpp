@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/statistics.hpp"
+#include "signal/condition.hpp"
 #include "sysid/amplitude.hpp"
 
 namespace twindeck::sysid {
@@ -116,11 +117,61 @@ double prominence(const Samples& record, const Eigen::ArrayXcd& phasor) {
   return coherent_part(record, phasor).squaredNorm() / std::max(median(beside), 1e-300);
 }
 
-void subtract(Samples& record, const Eigen::ArrayXcd& phasor) {
-  Eigen::MatrixXd waves(record.rows(), 2);
-  waves << phasor.real().matrix(), phasor.imag().matrix();
-  const Eigen::MatrixXd amplitudes = (waves.transpose() * waves).ldlt().solve(waves.transpose() * record);
-  record.noalias() -= waves * amplitudes;
+/// Subtracts by least squares what each channel holds of the columns.
+void subtract(Samples& record, const Eigen::MatrixXd& columns) {
+  const Eigen::MatrixXd amplitudes = (columns.transpose() * columns).ldlt().solve(columns.transpose() * record);
+  record.noalias() -= columns * amplitudes;
+}
+
+Eigen::MatrixXd waves(const Eigen::ArrayXcd& phasor) {
+  Eigen::MatrixXd both(phasor.size(), 2);
+  both << phasor.real().matrix(), phasor.imag().matrix();
+  return both;
+}
+
+/// The line as it turns evenly, with the trend that detrending has put in place of the line's: cosine, sine, 1, time.
+Eigen::MatrixXd even_columns(double step, Index n) {
+  const Eigen::ArrayXd sample = Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
+  Eigen::MatrixXd columns(n, 4);
+  columns << waves(turning(step * sample)), Eigen::VectorXd::Ones(n), Eigen::VectorXd::LinSpaced(n, -1.0, 1.0);
+  return columns;
+}
+
+/// [rad] by which a line that turns evenly goes on a sample: least squares over all channels, by Gauss-Newton.
+/// @param step  to begin with
+double even_step(const Samples& record, double step) {
+  constexpr int kTurns = 5;  // the error is squared at each
+  const Index n = record.rows();
+  const Eigen::VectorXd time =
+      Eigen::VectorXd::LinSpaced(n, -0.5 * static_cast<double>(n - 1), 0.5 * static_cast<double>(n - 1));
+  for (int turn = 0; turn < kTurns; ++turn) {
+    Eigen::MatrixXd columns(n, 6);
+    columns << even_columns(step, n), Eigen::MatrixXd::Zero(n, 2);
+    columns.rightCols(2) = time.asDiagonal() * columns.leftCols(2);
+    const Eigen::VectorXd unit = columns.colwise().norm().cwiseInverse();
+    columns *= unit.asDiagonal();
+    const Eigen::MatrixXd fit = unit.asDiagonal() * (columns.transpose() * columns).ldlt().solve(columns.transpose() * record);
+    const double ahead = (fit.row(1).cwiseProduct(fit.row(4)) - fit.row(0).cwiseProduct(fit.row(5))).sum();
+    step += ahead / fit.topRows(2).squaredNorm();
+  }
+  return step;
+}
+
+/// Takes a line out of a record: as its phase is seen to turn, or evenly if that leaves less. The narrow band that shows the
+/// phase bends it at the ends of a record, and a decimating filter the line itself: an even line is taken out of the record
+/// without its ends. @return the phase [rad]
+Eigen::ArrayXd take_out(Samples& record, const PeriodicLine& line, double rate_Hz) {
+  constexpr Index end = signal::decimation_reach;
+  const Index n = record.rows() - 2 * end;
+  Eigen::ArrayXd phase = phase_of(line, record, rate_Hz);
+  Samples inner = n > 2 * end ? Samples(record.middleRows(end, n)) : Samples();
+  subtract(record, waves(turning(phase)));
+  if (inner.rows() == 0) return phase;
+  const double seen = (phase[n] - phase[2 * end]) / static_cast<double>(n - 2 * end), step = even_step(inner, seen);
+  subtract(inner, even_columns(step, n));
+  if (inner.squaredNorm() >= record.middleRows(end, n).squaredNorm()) return phase;
+  record = std::move(inner);
+  return Eigen::ArrayXd::LinSpaced(n, 0.0, step * static_cast<double>(n - 1));
 }
 
 bool is_among(const std::vector<PeriodicLine>& lines, double frequency_Hz, double spread) {
@@ -136,10 +187,7 @@ std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std
   std::vector<PeriodicLine> all = lines;
   for (const PeriodicLine& line : lines) {
     std::vector<Eigen::ArrayXd> phases;
-    for (Samples& record : records) {
-      phases.push_back(phase_of(line, record, rate_Hz));
-      subtract(record, turning(phases.back()));
-    }
+    for (Samples& record : records) phases.push_back(take_out(record, line, rate_Hz));
     const auto look_at = [&](double ratio) {
       PeriodicLine other{ratio * line.frequency_Hz, 0.0, Eigen::VectorXcd(), 1.0};
       // One that is a line by itself has its own phase, and is subtracted with it.
@@ -150,7 +198,7 @@ std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std
         if (prominence(records[r], phasors.back()) < rule.least_prominence) return;
       }
       other.shape = coherent_part(records.front(), phasors.front()).normalized();
-      for (std::size_t r = 0; r < records.size(); ++r) subtract(records[r], phasors[r]);
+      for (std::size_t r = 0; r < records.size(); ++r) subtract(records[r], waves(phasors[r]));
       all.push_back(std::move(other));
     };
     for (const double part : {1.0 / 3.0, 1.0 / 2.0}) look_at(part);

@@ -53,9 +53,10 @@ struct PeriodicLine {
 /// Takes the lines out of the records, and finds what belongs to them: multiples, and the half and the third of which they are
 /// multiples (a machine's own speed is often its weakest line). The turning phase of a line is read in a narrow band around it
 /// from all channels together. Of each channel the part that turns with this phase, or with a multiple or a part of it, is
-/// subtracted by least squares: two numbers a channel, so that modes near the line keep what is theirs. A multiple counts as a
-/// line if what turns with it stands out from what turns somewhat faster and slower.
-/// @param records  (n_samples × n_outputs) each, changed @param lowest_Hz, highest_Hz  of a line that is found
+/// subtracted by least squares: two numbers a channel, so that modes near the line keep what is theirs. Where a phase that
+/// turns evenly leaves less, it is taken instead, and the record loses the ends that a decimating filter bends. A multiple
+/// counts as a line if what turns with it stands out from what turns somewhat faster and slower.
+/// @param records  (n_samples × n_outputs) each, changed, some shorter @param lowest_Hz, highest_Hz  of a line that is found
 /// @return the lines and those found with them, ascending in frequency, multiples numbered
 [[nodiscard]] std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std::vector<PeriodicLine>& lines,
                                                       double rate_Hz, double lowest_Hz, double highest_Hz,

@@ -85,6 +85,18 @@ class Minimal(unittest.TestCase):
         _, modes = self.identified("mode", [("A", "ambient", "still", ["c01"], vibrating([2.5], 600, 50.0, 3, 0.01), 50.0)], references=("c01",))
         self.assert_modes(modes, [2.5])
 
+    def test_a_pure_sine_is_a_line_and_no_mode(self):
+        t = np.arange(6000) / 100.0
+        for noise in (0.0, 1e-4):
+            data = np.outer(np.sin(2 * np.pi * 3.1 * t + 0.3), [1.0, -0.6]) + noise * np.random.default_rng(2).standard_normal((len(t), 2))
+            write(self.folder / f"sine_{noise}", [("A", "ambient", "still", ["c01", "c02"], data, 100.0)], ("c01", "c02"))
+            done = run(self.folder / f"sine_{noise}", self.folder / f"sine_{noise}_out")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("no mode is stable over the model orders beside the lines of periodic forces", done.stderr)
+            lines = [line for line in done.stderr.splitlines() if "steady line" in line]
+            self.assertEqual(len(lines), 1, done.stderr)
+            self.assertIn("3.1000 Hz is a steady line", lines[0])
+
     def test_an_order_that_is_asked_for_is_not_lowered(self):
         write(self.folder / "asked", [("A", "ambient", "still", ["c01"], self.data[:, :1], RATE)])
         done = run(self.folder / "asked", self.folder / "asked_out", "--set", "block_rows=20", "--set", "maximum_order=60")

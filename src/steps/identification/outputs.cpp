@@ -246,6 +246,13 @@ std::vector<std::string> notes_of(const std::vector<identification::DecayResult>
   return notes;
 }
 
+std::string why_no_mode(const identification::ConditionResult& result) {
+  const bool lines = std::any_of(result.setups.begin(), result.setups.end(),
+                                 [](const identification::SetupResult& setup) { return !setup.found.periodic.empty(); });
+  return fmt::format("no mode is stable over the model orders{}; see poles.csv, and raise block_rows or the record's length",
+                     lines ? " beside the lines of periodic forces" : "");
+}
+
 std::vector<std::string> report_lines(const identification::ConditionResult& result) {
   std::vector<std::string> lines = {
       fmt::format("condition {}, {} setup{}", result.condition, result.setups.size(), result.setups.size() == 1 ? "" : "s"),

@@ -41,4 +41,7 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
 /// What was found, for people.
 [[nodiscard]] std::vector<std::string> report_lines(const identification::ConditionResult& result);
 
+/// What to say of a condition in which no mode was found.
+[[nodiscard]] std::string why_no_mode(const identification::ConditionResult& result);
+
 }  // namespace twindeck::steps

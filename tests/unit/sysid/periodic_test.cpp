@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "chain.hpp"
+#include "core/random.hpp"
 #include "signal/condition.hpp"
 #include "sysid/identify.hpp"
 
@@ -105,6 +106,26 @@ TEST(Periodic, NoMultipleIsFoundInNoise) {
   const PeriodicLine none{kLine_Hz, 0.0, Eigen::Vector4cd(0.3, 1.0, -0.5, 0.7)};
   EXPECT_EQ(without_lines(records, {none}, 20.0, 0.1, 8.0, {}).size(), 1U);
   EXPECT_LT((records.front() - still).norm(), 0.05 * still.norm());
+}
+
+// A line that turns evenly and nothing else, decimated and detrended as a step does it: next to nothing is left, also at the
+// ends, and what is left of a noisy one is its noise.
+TEST(Periodic, OfAPureSineNothingIsLeft) {
+  const double rate_Hz = 100.0 / 4.0, line_Hz = 3.1;
+  for (const double noise : {0.0, 1e-4}) {
+    Eigen::MatrixXd data(6000, 2);
+    for (Eigen::Index t = 0; t < data.rows(); ++t) {
+      const double wave = std::sin(2.0 * std::numbers::pi * line_Hz * static_cast<double>(t) / 100.0 + 0.3);
+      for (Eigen::Index c = 0; c < 2; ++c)
+        data(t, c) = (c == 0 ? 1.0 : -0.6) * wave +
+                     noise * normal_number(5, static_cast<std::uint64_t>(c), static_cast<std::uint64_t>(t));
+    }
+    std::vector<Samples> records = {signal::detrended(signal::decimated(signal::detrended(data), 4))};
+    const PeriodicLine known{line_Hz + 1e-4, 0.0, Eigen::Vector2cd(1.0, -0.6)};
+    EXPECT_EQ(without_lines(records, {known}, rate_Hz, 0.1, 10.0, {}).size(), 1U);
+    const double left = records.front().norm() / std::sqrt(static_cast<double>(records.front().size()));
+    EXPECT_LT(left, noise == 0.0 ? 1e-9 : 0.6 * noise);  // decimation by four halves the noise
+  }
 }
 
 /// A mode at `f_Hz` with its deviations: is it taken for the line at 1.7 Hz?
