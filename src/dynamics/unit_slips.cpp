@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "dynamics/doubtful_mesh.hpp"
 
 namespace twindeck::dynamics {
 
@@ -353,7 +354,10 @@ std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, con
 void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                         const std::vector<MeasuredFrequencies>& measured) {
   std::vector<std::string> slips;
-  if (loaded.model) slips = unit_slips(*loaded.model);
+  if (loaded.model) {
+    slips = unit_slips(*loaded.model);
+    for (const std::string& doubt : doubtful_mesh(*loaded.model)) reporter.warn(doubt);
+  }
   for (const std::string& slip : frequency_slips(computed_Hz, moving_mass(loaded), loaded.model ? span_of(*loaded.model) : 0.0))
     slips.push_back(slip);
   const Eigen::VectorXd compared_Hz = slips.empty() ? computed_Hz : Eigen::VectorXd();

@@ -44,8 +44,8 @@ struct MeasuredFrequencies {
 /// @param computed_Hz  ascending; empty to leave the comparison out
 [[nodiscard]] std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz);
 
-/// Runs all checks and warns. If the model itself shows an error, the comparison with the measurement is left out, because it
-/// would show the same error.
+/// Runs all checks, and that of the mesh (doubtful_mesh.hpp), and warns. If the model itself shows an error, the comparison
+/// with the measurement is left out, because it would show the same error.
 /// @param measured  one for each condition; empty without a measurement
 void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                         const std::vector<MeasuredFrequencies>& measured);
