@@ -8,7 +8,7 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "model_io/folder_parts.hpp"
+#include "model_io/deck_units.hpp"
 #include "model_io/model_toml.hpp"
 #include "model_io/nastran_constraints.hpp"
 #include "model_io/nastran_dmig.hpp"
@@ -20,7 +20,6 @@
 #include "model_io/nastran_springs.hpp"
 #include "model_io/nastran_stage.hpp"
 #include "model_io/nastran_supports.hpp"
-#include "model_io/nastran_units.hpp"
 #include "model_io/node_references.hpp"
 
 namespace twindeck::model_io {
@@ -174,7 +173,7 @@ ImportedModel read_nastran(const std::filesystem::path& path) {
 
   auto beside = path;
   beside.replace_extension(".toml");
-  nastran::UnitKeys keys;
+  UnitKeys keys;
   const std::size_t own_matrices = parts.model.matrix_elements.size();
   const bool falls = !parts.model.prestress.load_case.empty();
   const double own_gravity = parts.model.gravity_m_s2;
@@ -184,8 +183,8 @@ ImportedModel read_nastran(const std::filesystem::path& path) {
   std::vector<fe::MatrixElement> added(parts.model.matrix_elements.begin() + static_cast<std::ptrdiff_t>(own_matrices),
                                        parts.model.matrix_elements.end());
   parts.model.matrix_elements.resize(own_matrices);
-  const nastran::Units units = nastran::units_of(keys, beside);
-  nastran::to_si(parts.model, units, parts.wtmass);
+  const DeckUnits units = units_of(keys, beside);
+  to_si(parts.model, units, parts.wtmass);
   if (falls && parts.model.gravity_m_s2 == own_gravity) parts.model.gravity_m_s2 *= units.length_m;
   parts.model.matrix_elements.insert(parts.model.matrix_elements.end(), added.begin(), added.end());
   return {std::move(parts.model), std::move(parts.notes), {deck.files().begin(), deck.files().end()}};

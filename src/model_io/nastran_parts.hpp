@@ -11,7 +11,7 @@
 #include "model_io/deck_model.hpp"
 #include "model_io/nastran_cards.hpp"
 
-/// Inside of the library: what a Nastran deck says, in the deck's own units until nastran_units.hpp turns the finished model
+/// Inside of the library: what a Nastran deck says, in the deck's own units until deck_units.hpp turns the finished model
 /// into SI. Cards are indexed first, since each may refer to one further down.
 namespace twindeck::model_io::nastran {
 
