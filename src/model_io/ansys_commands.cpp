@@ -44,14 +44,15 @@ bool to_assignment(const std::string& text, Command& command) {
 }
 
 Command to_command(const std::string& text, const std::filesystem::path* file, long line) {
-  constexpr std::size_t letters = 4;  // that tell commands apart
+  constexpr std::size_t letters = 4, longest_name = 12;  // that tell commands apart; of which messages say no more
   Command command;
   command.file = file;
   command.line = line;
   command.dialect = &ansys_fields;
   if (to_assignment(text, command)) return command;
   const std::size_t end = std::min(text.find_first_of(", \t"), text.size());
-  command.label = command.name = text.substr(0, end);
+  command.name = text.substr(0, end);
+  command.label = command.name.substr(0, longest_name);
   const bool marked = command.name.starts_with('/') || command.name.starts_with('*');
   command.key = upper_case(command.name).substr(0, letters + (marked ? 1 : 0));
   std::size_t start = std::min(text.find_first_not_of(" \t", end), text.size());

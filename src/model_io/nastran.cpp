@@ -82,8 +82,9 @@ void refuse_or_note(Parts& parts) {
     } else if (const auto hint = refused_cards().find(card.name); hint != refused_cards().end()) {
       card.fail("this card is not read", hint->second);
     } else {
-      card.fail("unknown card" + did_you_mean(card.name, known),
-                "leave it out if the model is meant without it; docs/import_nastran.md lists what is read");
+      DeckPlace{card.file, card.line, card.name.substr(0, 8)}.fail(
+          "unknown card" + did_you_mean(card.name, known),
+          "leave it out if the model is meant without it; docs/import_nastran.md lists what is read");
     }
   }
   for (const auto& [name, entry] : passed_over)

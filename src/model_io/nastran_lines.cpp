@@ -26,6 +26,9 @@ constexpr std::size_t most_lines = 20'000'000;  ///< of a deck with all its file
 
 constexpr DeckDialect bulk_data = {2, 8, true, "check the columns of the card"};
 
+/// The name of a card, of which messages say no more: what is read need not be a deck.
+std::string short_name(const std::string& name) { return name.substr(0, 8); }
+
 std::string without_comment(const std::string& text) { return text.substr(0, text.find('$')); }
 
 std::string with_tabs_expanded(const std::string& text) {
@@ -129,6 +132,9 @@ struct DeckReader {
     if (name.empty() || !std::filesystem::is_regular_file(path))
       fail(at, "INCLUDE", fmt::format("the file '{}' is not there", name), "put it beside the deck, or mend its path");
     const auto canonical = std::filesystem::weakly_canonical(path);
+    const auto folder = std::filesystem::weakly_canonical(deck.files_.front()).parent_path();
+    if (std::mismatch(folder.begin(), folder.end(), canonical.begin(), canonical.end()).first != folder.end())
+      fail(at, "INCLUDE", "the file does not lie below the folder of the deck", "copy it there, and include the copy");
     if (open.size() >= deepest_include || std::find(open.begin(), open.end(), canonical) != open.end())
       fail(at, "INCLUDE", fmt::format("the file '{}' includes itself", name), "take one of the INCLUDE lines out");
     expand(path);
@@ -218,7 +224,8 @@ struct DeckReader {
       if (raw.text.find(',') == std::string::npos)
         split_fixed(raw.text, line);
       else if (!split_free(trimmed(raw.text), line))
-        fail(raw, line.first, "has more than ten fields on one line", "let the card go on in a line that begins with a comma");
+        fail(raw, short_name(line.first), "has more than ten fields on one line",
+             "let the card go on in a line that begins with a comma");
       if (line.first.starts_with('='))
         fail(raw, line.first, "repeats the card above, which is not read", "write every card out");
       const bool continues = line.first.empty() || line.first.starts_with('+') || line.first.starts_with('*');
@@ -234,7 +241,7 @@ struct DeckReader {
     Card card;
     card.name = upper_case(trimmed(line.first.substr(0, line.first.find('*'))));
     card.fields = std::move(line.data);
-    static_cast<DeckPlace&>(card) = {raw.file, raw.line, card.name + (card.blank(0) ? "" : " " + card.fields[0])};
+    static_cast<DeckPlace&>(card) = {raw.file, raw.line, short_name(card.name) + (card.blank(0) ? "" : " " + card.fields[0])};
     card.dialect = &bulk_data;
     deck.cards_.push_back(std::move(card));
   }
