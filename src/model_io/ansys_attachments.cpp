@@ -64,8 +64,9 @@ void add_spring(Builder& builder, const Member& member) {
   s.stiffness = r.at(1);
   s.damping = r.at(2);
   if (s.stiffness < 0.0 || s.damping < 0.0 || r.at(3) != 0.0)
-    builder.parts.fail(r.line, "R", fmt::format("set {} is no linear spring", member.element.real),
-                       "give stiffness and damping of 0 or more, and no third constant");
+    builder.parts.at(r.line, "R")
+        .fail(fmt::format("set {} is no linear spring", member.element.real),
+              "give stiffness and damping of 0 or more, and no third constant");
   if (const long dof = type.option(2); dof > 0) {
     for (const long id : member.element.nodes) refuse_rotated(builder, member, id);
     s.rotation = dof > 3;
@@ -115,28 +116,26 @@ void add_mass(Builder& builder, const Member& member) {
   if (node_of(builder, id).rotated && (inertia.x() != inertia.y() || inertia.x() != inertia.z()))
     refuse_rotated(builder, member, id);
   if (mass.mass_kg < 0.0 || inertia.minCoeff() < 0.0)
-    builder.parts.fail(r.line, "R", fmt::format("set {} has a negative mass", member.element.real), "check the sign");
+    builder.parts.at(r.line, "R").fail(fmt::format("set {} has a negative mass", member.element.real), "check the sign");
   builder.parts.model.masses.push_back(mass);
 }
-
-void add_rigid(Builder& builder, const Member& member) { builder.add_link(member.element.nodes[0], member.element.nodes[1]); }
 
 void add_supports(Builder& builder) {
   const Parts& parts = builder.parts;
   std::map<long, Hold> holds = parts.holds;
   for (const long id : builder.in_plane) {
     if (builder.in_space.contains(id))
-      parts.fail(0, fmt::format("node {}", id), "joins a BEAM3 to elements in space", "use BEAM188 in the place of BEAM3");
+      parts.at(0, fmt::format("node {}", id)).fail("joins a BEAM3 to elements in space", "use BEAM188 in the place of BEAM3");
     for (const std::size_t dof : {std::size_t{2}, std::size_t{3}, std::size_t{4}}) holds[id].fixed[dof] = true;
   }
-  if (!builder.in_plane.empty()) builder.note_once("BEAM3 is a beam in space whose nodes are held out of the X-Y plane");
+  if (!builder.in_plane.empty()) builder.parts.note_once("BEAM3 is a beam in space whose nodes are held out of the X-Y plane");
   for (const auto& [id, hold] : holds) {
     if (!builder.has_node(id) || hold.fixed == std::array<bool, 6>{}) continue;
     if (node_of(builder, id).rotated && (is_partial(hold.fixed, 0) || is_partial(hold.fixed, 3)))
-      parts.fail(hold.line, "D", fmt::format("holds node {} along axes that are turned, which is not supported", id),
-                 "give the node global axes, or hold it in all directions");
-    builder.parts.model.supports.push_back(
-        {hold.name.empty() ? fmt::format("node_{}", id) : hold.name, builder.node(id), hold.fixed});
+      parts.at(hold.line, "D")
+          .fail(fmt::format("holds node {} along axes that are turned, which is not supported", id),
+                "give the node global axes, or hold it in all directions");
+    builder.parts.hold(hold.name.empty() ? fmt::format("node_{}", id) : hold.name, builder.node(id), hold.fixed);
   }
 }
 

@@ -7,7 +7,6 @@ namespace twindeck::model_io::ansys {
 
 void add_spring(Builder& builder, const Member& member);
 void add_mass(Builder& builder, const Member& member);
-void add_rigid(Builder& builder, const Member& member);
 void add_supports(Builder& builder);
 
 }  // namespace twindeck::model_io::ansys

@@ -12,7 +12,6 @@
 #include "model_io/ansys_members.hpp"
 #include "model_io/ansys_stage.hpp"
 #include "model_io/ansys_ties.hpp"
-#include "model_io/inp_cards.hpp"
 
 namespace twindeck::model_io::ansys {
 namespace {
@@ -29,10 +28,10 @@ void check_options(const Parts& parts, const TypeDefinition& definition) {
     const bool read = listed && (allowed->second.empty() || std::find(allowed->second.begin(), allowed->second.end(),
                                                                       option.value) != allowed->second.end());
     if (read || (!listed && option.value == 0)) continue;
-    parts.fail(option.line, "KEYOPT",
-               fmt::format("KEYOPT({}) = {} of {} is not supported", number, option.value, definition.type->name),
-               definition.type->kind == Kind::rigid ? "of MPC184, the rigid beam is read (KEYOPT(1) = 1)"
-                                                    : "docs/import_ansys.md lists what is read");
+    parts.at(option.line, "KEYOPT")
+        .fail(fmt::format("KEYOPT({}) = {} of {} is not supported", number, option.value, definition.type->name),
+              definition.type->kind == Kind::rigid ? "of MPC184, the rigid beam is read (KEYOPT(1) = 1)"
+                                                   : "docs/import_ansys.md lists what is read");
   }
 }
 
@@ -42,17 +41,18 @@ Member checked_member(const Parts& parts, long id, const Element& element) {
   const std::string label = fmt::format("element {}", id);
   const auto found = parts.types.find(element.type);
   if (found == parts.types.end())
-    parts.fail(element.line, label, fmt::format("its type {} is not defined", element.type),
-               "give the ET command of that type");
+    parts.at(element.line, label)
+        .fail(fmt::format("its type {} is not defined", element.type), "give the ET command of that type");
   const TypeDefinition& definition = found->second;
   if (definition.type == nullptr)
-    parts.fail(element.line, label,
-               fmt::format("is of type {} (line {}), which is not supported", definition.name, definition.line),
-               "supported are " + element_type_list());
+    parts.at(element.line, label)
+        .fail(fmt::format("is of type {} (line {}), which is not supported", definition.name, definition.line),
+              "supported are " + element_type_list());
   const ElementType& type = *definition.type;
   if (type.kind == Kind::quadratic)
-    parts.fail(element.line, label, fmt::format("is a {}, which is not supported", type.name),
-               "mesh with hexahedra (SOLID185, SOLID186) or homogeneous shells (SHELL181, SHELL281)");
+    parts.at(element.line, label)
+        .fail(fmt::format("is a {}, which is not supported", type.name),
+              "mesh with hexahedra (SOLID185, SOLID186) or homogeneous shells (SHELL181, SHELL281)");
   if (type.kind == Kind::load) return {id, element, definition};
   check_options(parts, definition);
   // Beams may have a node that only gives their direction.
@@ -62,36 +62,17 @@ Member checked_member(const Parts& parts, long id, const Element& element) {
   const bool corners_only =
       (type.kind == Kind::shell && (count == 3 || count == 4)) || (type.kind == Kind::solid && count == 8);
   if (count < type.nodes && !corners_only)
-    parts.fail(element.line, label, fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
-               "complete the element");
+    parts.at(element.line, label)
+        .fail(fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes), "complete the element");
   if (element.nodes.size() > type.nodes + extra)
-    parts.fail(element.line, label, fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
-               "correct the list of nodes, or take an element type that has so many");
+    parts.at(element.line, label)
+        .fail(fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
+              "correct the list of nodes, or take an element type that has so many");
   return {id, element, definition};
 }
 
 void Builder::fail(const Member& member, const std::string& problem, const std::string& mend) const {
-  parts.fail(member.element.line, fmt::format("element {}", member.id), problem, mend);
-}
-
-void Builder::add_link(long master, long slave) {
-  parts.model.links.push_back({fmt::format("link_{}", parts.model.links.size() + 1), node(master), node(slave)});
-}
-
-void Builder::add_whole(const fe::Element& whole) {
-  const auto new_node = [&](const Eigen::Vector3d& x) {
-    const long id = positions_.rbegin()->first + 1;
-    positions_[id] = static_cast<int>(parts.model.nodes.size());
-    parts.model.nodes.push_back({id, x});
-    if (whole.type == fe::ElementType::shell) turning.insert(id);
-    in_space.insert(id);
-    return positions_[id];
-  };
-  pieces[whole.id] = add_in_pieces(parts.model, whole, {new_node, [&] { return next_element(); }, centres_});
-}
-
-void Builder::note_once(const std::string& note) {
-  if (std::find(parts.notes.begin(), parts.notes.end(), note) == parts.notes.end()) parts.notes.push_back(note);
+  parts.at(member.element.line, fmt::format("element {}", member.id)).fail(problem, mend);
 }
 
 void Builder::add_nodes() {
@@ -102,23 +83,20 @@ void Builder::add_nodes() {
       const long id = m.element.nodes[i];
       if (id == 0) continue;  // a node on an edge that is left out
       used.emplace(id, m.element.line);
-      if (kind == Kind::beam || kind == Kind::plane_beam || kind == Kind::shell) turning.insert(id);
       if (kind == Kind::plane_beam) in_plane.insert(id);
       if (kind == Kind::beam || kind == Kind::bar || kind == Kind::shell || kind == Kind::solid) in_space.insert(id);
     }
-    if (const long middle = m.middle(); middle != 0)
-      used.emplace(middle, m.element.line), turning.insert(middle), in_space.insert(middle);
+    if (const long middle = m.middle(); middle != 0) used.emplace(middle, m.element.line), in_space.insert(middle);
   });
   for (const Link& link : parts.links) used.emplace(link.master, link.line), used.emplace(link.slave, link.line);
   for (const Equation& equation : parts.equations) {
-    for (const Equation::Term& term : equation.terms) used.emplace(term.node, equation.line);
+    for (const Equation::Term& term : equation.terms) used.emplace(term.node, equation.at.line);
   }
   for (const auto& [id, line] : used) {
     const auto found = parts.nodes.find(id);
     if (found == parts.nodes.end())
-      parts.fail(line, fmt::format("node {}", id), "is used here and defined nowhere", "define it, or correct the number");
-    positions_[id] = static_cast<int>(parts.model.nodes.size());
-    parts.model.nodes.push_back({id, found->second.x_m});
+      parts.at(line, fmt::format("node {}", id)).fail("is used here and defined nowhere", "define it, or correct the number");
+    parts.add_node(id, found->second.x_m);
   }
   if (const std::size_t left = parts.nodes.size() - used.size(); left > 0)
     parts.notes.push_back(fmt::format("{} nodes that no element holds are left out", left));
@@ -137,9 +115,8 @@ int Builder::material(const Member& member, long id, bool isotropic) {
   m.youngs_modulus_Pa = property("EX", 0.0);
   m.poisson_ratio = property("PRXY", property("NUXY", 0.3));
   const long line = known->second.at("EX").line;
-  if (m.poisson_ratio <= -1.0 || m.poisson_ratio >= 0.5)
-    parts.fail(line, m.name, fmt::format("Poisson's ratio is {}, expected a value in ]-1, 0.5[", m.poisson_ratio),
-               "steel has 0.3");
+  const double reference_K = parts.stage ? parts.stage->reference_K : 0.0;
+  DeckModel::check_poisson_ratio(parts.at(line, m.name), m.poisson_ratio);
   const double follows_from_E = m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio));
   m.shear_modulus_Pa = property("GXY", follows_from_E);
   m.density_kg_m3 = property("DENS", 0.0);
@@ -148,20 +125,22 @@ int Builder::material(const Member& member, long id, bool isotropic) {
       {"NUYZ", m.poisson_ratio},   {"NUXZ", m.poisson_ratio},   {"GYZ", m.shear_modulus_Pa}, {"GXZ", m.shear_modulus_Pa}};
   for (const auto& [label, twin] : twins) {
     if (!alike(property(label, twin), twin, same_number))
-      parts.fail(known->second.at(label).line, m.name, fmt::format("{} makes it orthotropic, which is not supported", label),
-                 "give EX, PRXY and DENS of an isotropic material");
+      parts.at(known->second.at(label).line, m.name)
+          .fail(fmt::format("{} makes it orthotropic, which is not supported", label),
+                "give EX, PRXY and DENS of an isotropic material");
   }
   if (isotropic && !alike(m.shear_modulus_Pa, follows_from_E, follows))
-    parts.fail(known->second.at("GXY").line, m.name,
-               fmt::format("GXY = {:g} does not follow from EX and PRXY ({:g}), which only beams and bars may have",
-                           m.shear_modulus_Pa, follows_from_E),
-               "leave GXY out for an isotropic material");
+    parts.at(known->second.at("GXY").line, m.name)
+        .fail(fmt::format("GXY = {:g} does not follow from EX and PRXY ({:g}), which only beams and bars may have",
+                          m.shear_modulus_Pa, follows_from_E),
+              "leave GXY out for an isotropic material");
   if (const auto made = materials_.find(id); made != materials_.end()) return made->second;
   if (!known->second.contains("PRXY") && !known->second.contains("NUXY"))
     parts.notes.push_back(fmt::format("material {} gives no Poisson's ratio: 0.3, as ANSYS takes it", id));
-  materials_[id] = static_cast<int>(parts.model.materials.size());
+  const int position = materials_[id] = static_cast<int>(parts.model.materials.size());
   parts.model.materials.push_back(m);
-  return materials_[id];
+  if (known->second.contains("ALPX")) parts.expansion[position] = {property("ALPX", 0.0), property("REFT", reference_K)};
+  return position;
 }
 
 std::string Builder::group(const Member& member, const std::string& property) const {
@@ -182,6 +161,7 @@ const RealSet& Builder::reals(const Member& member) const {
 void build_model(Parts& parts) {
   Builder builder(parts);
   builder.add_nodes();
+  if (!parts.elements.empty()) parts.last_element = parts.elements.rbegin()->first;
   for_each_member(parts, [&](const Member& m) {
     switch (m.type().kind) {
       case Kind::spring:
@@ -189,7 +169,7 @@ void build_model(Parts& parts) {
       case Kind::mass:
         return;  // after the supports, which say which directions it moves in
       case Kind::rigid:
-        return add_rigid(builder, m);
+        return parts.add_link(builder.node(m.element.nodes[0]), builder.node(m.element.nodes[1]));
       default:
         return add_member(builder, m);
     }

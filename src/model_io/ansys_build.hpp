@@ -1,13 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
 
 #include "model_io/ansys_parts.hpp"
-#include "model_io/deck_quadratic.hpp"
 
 /// Inside of the library: the model while it is built out of Parts.
 namespace twindeck::model_io::ansys {
@@ -41,34 +39,23 @@ class Builder {
   explicit Builder(Parts& p) : parts(p) {}
 
   Parts& parts;
-  std::set<long> turning;              ///< nodes whose rotations a beam or a shell holds
-  std::set<long> in_space;             ///< nodes of members other than plane beams
-  std::set<long> in_plane;             ///< nodes of plane beams
-  std::map<long, std::size_t> pieces;  ///< how many members of the model follow one another in place of an element; else 1
+  std::set<long> in_space;  ///< nodes of members other than plane beams
+  std::set<long> in_plane;  ///< nodes of plane beams
 
   /// @throws InputError that names the element
   [[noreturn]] void fail(const Member& member, const std::string& problem, const std::string& mend) const;
   /// Makes the nodes of the model, in the order of their numbers. @throws InputError for one that is not defined
   void add_nodes();
-  [[nodiscard]] int node(long id) const { return positions_.at(id); }
-  [[nodiscard]] bool has_node(long id) const { return positions_.contains(id); }
+  [[nodiscard]] int node(long id) const { return parts.node_position.at(id); }
+  [[nodiscard]] bool has_node(long id) const { return parts.node_position.contains(id); }
   /// Position of a material, made when first asked for. @param isotropic  refuse one whose G does not follow from E and nu
   int material(const Member& member, long id, bool isotropic);
   /// Component of the element, or its type and `property`: "beam188_section_2".
   [[nodiscard]] std::string group(const Member& member, const std::string& property) const;
   [[nodiscard]] const RealSet& reals(const Member& member) const;
-  /// Adds a shell or solid, in pieces where it has nodes on its edges.
-  void add_whole(const fe::Element& whole);
-  /// A number that no element has.
-  [[nodiscard]] long next_element() { return last_element_ = std::max(last_element_, parts.elements.rbegin()->first) + 1; }
-  /// A rigid link between nodes that the model has.
-  void add_link(long master, long slave);
-  void note_once(const std::string& note);
 
  private:
-  std::map<long, int> positions_, materials_;
-  FaceCentres centres_;
-  long last_element_ = 0;
+  std::map<long, int> materials_;
 };
 
 /// Calls `visit(member)` for each element that is in the model, in the order of their numbers.

@@ -5,10 +5,14 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "model_io/inp_cards.hpp"
 
 namespace twindeck::model_io::ansys {
 namespace {
+
+constexpr DeckDialect ansys_fields = {1, 0, false,
+                                      "write the number: of parameters only those set to plain arithmetic are known, no "
+                                      "functions, arrays or *GET"},
+                      cells_of_block = {1, 0, false, "compare the line with the format of its block"};
 
 /// Position of the first `sign` outside of quotes (and brackets, if asked for); the end if there is none.
 std::size_t find_outside(const std::string& text, char sign, bool brackets_hold, std::size_t from = 0) {
@@ -34,24 +38,27 @@ bool to_assignment(const std::string& text, Command& command) {
   const std::size_t plain = static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_name) - name.begin());
   if (plain == 0 || (plain < name.size() && name[plain] != '(')) return false;
   command.key = "=";
-  command.name = name;
+  command.label = command.name = name;
   command.fields = {name, trimmed(text.substr(equals + 1))};
   return true;
 }
 
-Command to_command(const std::string& text, long line) {
-  constexpr std::size_t letters = 4;  // that tell commands apart
+Command to_command(const std::string& text, const std::filesystem::path* file, long line) {
+  constexpr std::size_t letters = 4, longest_name = 12;  // that tell commands apart; of which messages say no more
   Command command;
+  command.file = file;
   command.line = line;
+  command.dialect = &ansys_fields;
   if (to_assignment(text, command)) return command;
   const std::size_t end = std::min(text.find_first_of(", \t"), text.size());
   command.name = text.substr(0, end);
+  command.label = command.name.substr(0, longest_name);
   const bool marked = command.name.starts_with('/') || command.name.starts_with('*');
   command.key = upper_case(command.name).substr(0, letters + (marked ? 1 : 0));
   std::size_t start = std::min(text.find_first_not_of(" \t", end), text.size());
   if (start < text.size() && text[start] == ',') ++start;
-  command.text = trimmed(text.substr(start));
-  command.fields = split_fields(command.text, ',');
+  command.rest = trimmed(text.substr(start));
+  command.fields = split_fields(command.rest, ',');
   return command;
 }
 
@@ -78,25 +85,24 @@ std::vector<std::string> split_fields(const std::string& text, char separator) {
   return fields;
 }
 
-std::string Command::word(std::size_t i) const { return i < fields.size() ? upper_case(fields[i]) : ""; }
-
-std::vector<Command> split_commands(const std::string& text, long line) {
+std::vector<Command> split_commands(const std::string& text, const std::filesystem::path* file, long line) {
   const std::string whole = trimmed(text);
   const std::string head = upper_case(whole.substr(0, 4));
   if (whole.empty() || head == "C***" || head == "/COM" || whole.starts_with('!')) return {};
-  if (head == "/TIT") return {to_command(trimmed(whole.substr(0, whole.find('!'))), line)};
+  if (head == "/TIT") return {to_command(trimmed(whole.substr(0, whole.find('!'))), file, line)};
   std::vector<Command> commands;
   const std::string spoken = whole.substr(0, find_outside(whole, '!', false));
   for (std::size_t start = 0; start <= spoken.size();) {
     const std::size_t end = find_outside(spoken, '$', false, start);
     if (const std::string part = trimmed(spoken.substr(start, end - start)); !part.empty())
-      commands.push_back(to_command(part, line));
+      commands.push_back(to_command(part, file, line));
     start = end + 1;
   }
   return commands;
 }
 
-Deck::Deck(const std::filesystem::path& file) : file_(file) {
+Deck::Deck(const std::filesystem::path& file, const std::map<std::string, double>& parameters)
+    : file_(file), parameters_(parameters) {
   std::ifstream stream(file);
   if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened", "give the path of an archive or deck of ANSYS");
   for (std::string text; std::getline(stream, text);) lines_.push_back(text);
@@ -106,9 +112,10 @@ bool Deck::next(Command& command) {
   while (pending_.empty()) {
     if (at_ >= lines_.size()) return false;
     ++at_;
-    for (Command& one : split_commands(lines_[at_ - 1], line())) pending_.push_back(std::move(one));
+    for (Command& one : split_commands(lines_[at_ - 1], &file_, line())) pending_.push_back(std::move(one));
   }
   command = std::move(pending_.front());
+  command.parameters = &parameters_;
   pending_.pop_front();
   return true;
 }
@@ -120,13 +127,13 @@ bool Deck::next_line(std::string& text) {
   return true;
 }
 
-std::vector<std::string> Columns::cells(const std::string& text) const {
-  std::vector<std::string> result;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < integers + reals && at < text.size(); ++i) {
+DeckFields Columns::cells(const DeckPlace& at, const std::string& text) const {
+  DeckFields result{at, {}, &cells_of_block};
+  std::size_t column = 0;
+  for (std::size_t i = 0; i < integers + reals && column < text.size(); ++i) {
     const std::size_t width = i < integers ? integer_width : real_width;
-    result.push_back(trimmed(text.substr(at, width)));
-    at += width;
+    result.fields.push_back(trimmed(text.substr(column, width)));
+    column += width;
   }
   return result;
 }

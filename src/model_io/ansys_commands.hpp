@@ -2,30 +2,30 @@
 
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "model_io/deck_card.hpp"
 
 namespace twindeck::model_io::ansys {
 
 /// One command of a deck, `NAME,field,field`.
-struct Command {
+struct Command : DeckFields {
   std::string key;   ///< what decides which it is, in upper case: four letters, five with / or *; "=" assigns a parameter
-  std::string name;  ///< as written
-  std::vector<std::string> fields;  ///< after the name, trimmed; of "=" the parameter and its value
-  std::string text;                 ///< all after the name, as it stands: of a title
-  long line = 0;                    ///< 1-based
-
-  /// Field `i` (from 0) in upper case, "" where it is missing.
-  [[nodiscard]] std::string word(std::size_t i) const;
-  [[nodiscard]] bool blank(std::size_t i) const { return i >= fields.size() || fields[i].empty(); }
+  std::string name;  ///< as written; of "=" the fields are the parameter and its value
+  std::string rest;  ///< all after the name, as it stands: of a title
 };
 
 /// A deck, command by command. The rules that it knows: case does not matter, `!` begins a comment, `$` separates commands on
 /// one line, `C***` and /COM lines are comments, quotes and brackets keep commas and `$` together.
 class Deck {
  public:
+  /// @param parameters  that fields of commands may hold
   /// @throws InputError  if it cannot be opened
-  explicit Deck(const std::filesystem::path& file);
+  Deck(const std::filesystem::path& file, const std::map<std::string, double>& parameters);
+  Deck(const Deck&) = delete;  // commands point to its path
+  Deck& operator=(const Deck&) = delete;
 
   /// The next command; false at the end of the file.
   bool next(Command& command);
@@ -36,13 +36,14 @@ class Deck {
 
  private:
   std::filesystem::path file_;
+  const std::map<std::string, double>& parameters_;
   std::vector<std::string> lines_;
   std::size_t at_ = 0;
   std::deque<Command> pending_;
 };
 
-/// The commands of one line.
-[[nodiscard]] std::vector<Command> split_commands(const std::string& text, long line);
+/// The commands of one line of a file.
+[[nodiscard]] std::vector<Command> split_commands(const std::string& text, const std::filesystem::path* file, long line);
 /// `text` cut at each `separator` outside of quotes and brackets, the parts trimmed.
 [[nodiscard]] std::vector<std::string> split_fields(const std::string& text, char separator);
 
@@ -50,7 +51,7 @@ class Deck {
 struct Columns {
   std::size_t integers = 0, integer_width = 0, reals = 0, real_width = 0;
   /// Cells of a line, trimmed; those behind its end are left out.
-  [[nodiscard]] std::vector<std::string> cells(const std::string& text) const;
+  [[nodiscard]] DeckFields cells(const DeckPlace& at, const std::string& text) const;
 };
 /// @return false for what is no such format
 [[nodiscard]] bool parse_columns(const std::string& text, Columns& columns);

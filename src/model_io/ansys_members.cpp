@@ -33,10 +33,6 @@ std::vector<long> ends_of(const Member& member) {
   return {member.element.nodes.begin(), member.element.nodes.begin() + static_cast<std::ptrdiff_t>(member.type().nodes)};
 }
 
-const Eigen::Vector3d& place(const Builder& builder, int node) {
-  return builder.parts.model.nodes[static_cast<std::size_t>(node)].x_m;
-}
-
 /// Our local z, which is ANSYS's: towards the third node; without one, y is parallel to the global X-Y plane, and along global
 /// Y for a beam along global Z.
 Eigen::Vector3d direction_of_z(const Builder& builder, const Member& member, const Eigen::Vector3d& axis) {
@@ -55,41 +51,31 @@ Eigen::Vector3d direction_of_z(const Builder& builder, const Member& member, con
   return Eigen::Vector3d::UnitZ();
 }
 
-void add_beam_between(Builder& builder, const Member& member, const std::vector<long>& ends) {
-  fe::Element e = element_of(builder, member, fe::ElementType::beam, ends);
-  const Eigen::Vector3d chord = place(builder, e.nodes[1]) - place(builder, e.nodes[0]);
-  if (!(chord.norm() > 0.0)) builder.fail(member, "has no length", "merge its nodes, or take it out");
-  const Eigen::Vector3d axis = chord.normalized();
-  e.material = builder.material(member, member.element.material, false);
-  const fe::Material& material = builder.parts.model.materials[static_cast<std::size_t>(e.material)];
-  const CrossSection cross = beam_section(builder, member, material.poisson_ratio);
-  if (member.type().kind == Kind::plane_beam) {
-    if (chord.z() != 0.0) builder.fail(member, "is a BEAM3 that leaves the X-Y plane", "use BEAM188 for a frame in space");
-    e.orientation = Eigen::Vector3d::UnitZ();
-  } else {
-    Eigen::Vector3d z = direction_of_z(builder, member, axis);
-    z = (z - z.dot(axis) * axis).normalized();
-    const bool turned = cross.turn_rad != 0.0 && member.element.nodes.size() == 2;
-    if (turned) z = Eigen::AngleAxisd(cross.turn_rad, axis) * z;
-    e.orientation = z;
-    const Eigen::Vector3d y = z.cross(axis);
-    e.offset_m = {-(cross.node[0] * y + cross.node[1] * z), -(cross.node[0] * y + cross.node[1] * z)};
-  }
-  e.free_strain = -cross.initial_strain;
-  e.section = find_or_add_section(builder.parts.model.sections, cross.section);
-  e.group = builder.group(member, cross.section.name);
-  builder.parts.model.elements.push_back(e);
-}
-
 /// A beam, or two through the node in its middle.
 void add_beam(Builder& builder, const Member& member) {
-  const std::vector<long> ends = ends_of(member);
-  const long middle = member.middle();
-  if (middle == 0) return add_beam_between(builder, member, ends);
-  add_beam_between(builder, member, {ends[0], middle});
-  add_beam_between(builder, member, {middle, ends[1]});
-  builder.parts.model.elements.back().id = builder.next_element();
-  builder.pieces[member.id] = 2;
+  std::vector<long> nodes = ends_of(member);
+  if (member.middle() != 0) nodes.insert(nodes.begin() + 1, member.middle());
+  fe::Element e = element_of(builder, member, fe::ElementType::beam, nodes);
+  e.material = builder.material(member, member.element.material, false);
+  const CrossSection cross = beam_section(builder, member, builder.parts.model.materials[fe::slot(e.material)].poisson_ratio);
+  e.free_strain = -cross.initial_strain;
+  e.section = builder.parts.add_section(cross.section);
+  e.group = builder.group(member, cross.section.name);
+  builder.parts.add_beam(e, [&](fe::Element& piece, const Eigen::Vector3d& chord) {
+    if (!(chord.norm() > 0.0)) builder.fail(member, "has no length", "merge its nodes, or take it out");
+    if (member.type().kind == Kind::plane_beam) {
+      if (chord.z() != 0.0) builder.fail(member, "is a BEAM3 that leaves the X-Y plane", "use BEAM188 for a frame in space");
+      piece.orientation = Eigen::Vector3d::UnitZ();
+      return;
+    }
+    const Eigen::Vector3d axis = chord.normalized();
+    Eigen::Vector3d z = direction_of_z(builder, member, axis);
+    z = (z - z.dot(axis) * axis).normalized();
+    if (cross.turn_rad != 0.0 && member.element.nodes.size() == 2) z = Eigen::AngleAxisd(cross.turn_rad, axis) * z;
+    piece.orientation = z;
+    const Eigen::Vector3d offset = -(cross.node[0] * z.cross(axis) + cross.node[1] * z);
+    piece.offset_m = {offset, offset};
+  });
 }
 
 void add_bar(Builder& builder, const Member& member) {
@@ -97,7 +83,7 @@ void add_bar(Builder& builder, const Member& member) {
   const CrossSection cross = bar_section(builder, member);
   e.free_strain = -cross.initial_strain;
   e.material = builder.material(member, member.element.material, false);
-  e.section = find_or_add_section(builder.parts.model.sections, cross.section);
+  e.section = builder.parts.add_section(cross.section);
   e.group = builder.group(member, cross.section.name);
   builder.parts.model.elements.push_back(e);
 }
@@ -124,9 +110,9 @@ void add_shell(Builder& builder, const Member& member) {
   fe::Element e = element_of(builder, member, fe::ElementType::shell, corners);
   const CrossSection cross = shell_section(builder, member);
   e.material = builder.material(member, cross.material > 0 ? cross.material : member.element.material, true);
-  e.section = find_or_add_section(builder.parts.model.sections, cross.section);
+  e.section = builder.parts.add_section(cross.section);
   e.group = builder.group(member, cross.section.name);
-  builder.add_whole(e);
+  builder.parts.add_element(e);
 }
 
 void add_solid(Builder& builder, const Member& member) {
@@ -147,7 +133,7 @@ void add_solid(Builder& builder, const Member& member) {
                              tetrahedron ? std::vector<long>{nodes[0], nodes[1], nodes[2], nodes[4]} : nodes);
   e.material = builder.material(member, member.element.material, true);
   e.group = builder.group(member, builder.parts.model.materials[static_cast<std::size_t>(e.material)].name);
-  builder.add_whole(e);
+  builder.parts.add_element(e);
 }
 
 }  // namespace

@@ -10,8 +10,9 @@
 
 #include "fe/model.hpp"
 #include "model_io/ansys_commands.hpp"
-#include "model_io/ansys_expression.hpp"
 #include "model_io/ansys_types.hpp"
+#include "model_io/deck_expression.hpp"
+#include "model_io/deck_model.hpp"
 
 /// Inside of the library: what a deck of ANSYS says, collected command by command in its own numbers, and made into an
 /// fe::Model at the end (ansys_members.cpp and its neighbours), since an element may stand before its type, section and
@@ -86,14 +87,15 @@ struct Link {
   std::array<bool, 6> tied;  ///< the slave's displacements and rotations that follow
 };
 
-/// sum factor · displacement = 0.
+/// sum factor · displacement = 0, of nodes by their numbers.
 struct Equation {
   struct Term {
     long node;
     int dof;  ///< 0-5
     double factor;
   };
-  long id, line;
+  long id;
+  DeckPlace at;
   std::vector<Term> terms;
 };
 
@@ -130,13 +132,11 @@ struct Loads {
   std::optional<Command> not_read;  ///< the first load that is not carried
 };
 
-struct Parts {
-  explicit Parts(const std::filesystem::path& file) : deck(file) {}
+struct Parts : DeckModel {
+  explicit Parts(const std::filesystem::path& file) : deck(file, parameters) {}
 
-  Deck deck;
   Parameters parameters;
-  fe::Model model;
-  std::vector<std::string> notes;
+  Deck deck;
   std::map<std::string, long> told;  ///< first line of each ignored command that is worth a note, by its name
   std::map<long, Node> nodes;
   std::map<long, Element> elements;
@@ -162,16 +162,7 @@ struct Parts {
   std::optional<Loads> stage;  ///< loads of the last static solution
   bool stage_is_large = false, stage_asked = false;
 
-  /// @throws InputError that names file, line and command
-  [[noreturn]] void fail(const Command& command, const std::string& problem, const std::string& mend = "") const;
-  [[noreturn]] void fail(long line, const std::string& part, const std::string& problem, const std::string& mend = "") const;
-  /// Field `i` (from 0) as a number; `fallback` where it is blank.
-  [[nodiscard]] double number_or(const Command& command, std::size_t i, double fallback) const;
-  [[nodiscard]] double number(const Command& command, std::size_t i) const;
-  [[nodiscard]] long integer_or(const Command& command, std::size_t i, long fallback) const;
-  [[nodiscard]] long integer(const Command& command, std::size_t i) const;
-  /// A cell of a block as a whole number; 0 where it is blank.
-  [[nodiscard]] long cell(const Command& block, const std::vector<std::string>& cells, std::size_t i) const;
+  [[nodiscard]] DeckPlace at(long line, const std::string& label) const { return {&deck.path(), line, label}; }
   /// Nodes that a first field names: a number, ALL (the selected ones), a component; with an end and a step, a range.
   [[nodiscard]] std::set<long> nodes_of(const Command& command, std::size_t field, std::size_t end_field) const;
   [[nodiscard]] const Component* component(const std::string& name) const;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "model_io/inp_cards.hpp"
 
 /// Types with their key options, real constants, materials, sections.
 namespace twindeck::model_io::ansys {
@@ -16,12 +15,12 @@ constexpr std::size_t a_line = 6;  ///< constants that R and RMORE hold
 constexpr std::size_t options_of_et = 6;
 
 /// Sets constants `first` … of a set (from 1).
-void set_reals(Parts& parts, const Command& command, RealSet& set, std::size_t first) {
+void set_reals(const Command& command, RealSet& set, std::size_t first) {
   for (std::size_t i = 1; i < command.fields.size(); ++i) {
     if (command.blank(i)) continue;
     const std::size_t at = first + i - 1;
     if (set.values.size() < at) set.values.resize(at, 0.0);
-    set.values[at - 1] = parts.number(command, i);
+    set.values[at - 1] = command.number(i);
   }
 }
 
@@ -43,69 +42,69 @@ void set_property(Parts& parts, const Command& command, const std::string& label
 
 SectionDefinition& current_section(Parts& parts, const Command& command) {
   const auto found = parts.sections.find(parts.section);
-  if (found == parts.sections.end()) parts.fail(command, "stands before any SECTYPE", "give SECTYPE,number,type before it");
+  if (found == parts.sections.end()) command.fail("stands before any SECTYPE", "give SECTYPE,number,type before it");
   return found->second;
 }
 
 }  // namespace
 
 void read_type(Parts& parts, const Command& command) {
-  const long id = parts.integer(command, 0);
-  if (command.blank(1)) parts.fail(command, "names no element type", "write ET,number,name, for example ET,1,SHELL181");
+  const long id = command.integer(0);
+  if (command.blank(1)) command.fail("names no element type", "write ET,number,name, for example ET,1,SHELL181");
   TypeDefinition definition;
   definition.name = command.fields[1];
   definition.type = element_type(command.word(1));
   definition.line = command.line;
   for (std::size_t i = 0; i < options_of_et; ++i) {
-    if (!command.blank(i + 2)) definition.options[static_cast<int>(i) + 1] = {parts.integer(command, i + 2), command.line};
+    if (!command.blank(i + 2)) definition.options[static_cast<int>(i) + 1] = {command.integer(i + 2), command.line};
   }
   parts.types[id] = definition;
 }
 
 void read_option(Parts& parts, const Command& command) {
-  const long id = parts.integer(command, 0), number = parts.integer(command, 1);
+  const long id = command.integer(0), number = command.integer(1);
   const auto found = parts.types.find(id);
-  if (found == parts.types.end()) parts.fail(command, fmt::format("type {} is not defined", id), "give its ET command before");
-  if (number < 1 || number > 200) parts.fail(command, fmt::format("{} is no number of a key option", number), "give 1 to 18");
-  found->second.options[static_cast<int>(number)] = {parts.integer_or(command, 2, 0), command.line};
+  if (found == parts.types.end()) command.fail(fmt::format("type {} is not defined", id), "give its ET command before");
+  if (number < 1 || number > 200) command.fail(fmt::format("{} is no number of a key option", number), "give 1 to 18");
+  found->second.options[static_cast<int>(number)] = {command.integer_or(2, 0), command.line};
 }
 
 void read_reals(Parts& parts, const Command& command) {
-  parts.real = parts.integer(command, 0);
+  parts.real = command.integer(0);
   parts.real_filled = a_line;
   RealSet set;
   set.line = command.line;
-  set_reals(parts, command, set, 1);
+  set_reals(command, set, 1);
   parts.reals[parts.real] = set;
 }
 
 void read_more_reals(Parts& parts, const Command& command) {
   const auto found = parts.reals.find(parts.real);
-  if (found == parts.reals.end()) parts.fail(command, "stands before any R", "give R,number,constants before it");
+  if (found == parts.reals.end()) command.fail("stands before any R", "give R,number,constants before it");
   Command shifted = command;  // R has the number of the set in front of its constants
   shifted.fields.insert(shifted.fields.begin(), "");
-  set_reals(parts, shifted, found->second, parts.real_filled + 1);
+  set_reals(shifted, found->second, parts.real_filled + 1);
   parts.real_filled += a_line;
 }
 
 void read_changed_reals(Parts& parts, const Command& command) {
-  const auto found = parts.reals.find(parts.integer(command, 0));
-  const long first = parts.integer_or(command, 1, 1);
+  const auto found = parts.reals.find(command.integer(0));
+  const long first = command.integer_or(1, 1);
   if (found == parts.reals.end() || first < 1 || first > most_reals)
-    parts.fail(command, "changes no constant of a set that is there", "write RMODIF,set,place,values");
+    command.fail("changes no constant of a set that is there", "write RMODIF,set,place,values");
   Command shifted = command;
   shifted.fields.erase(shifted.fields.begin());
-  set_reals(parts, shifted, found->second, static_cast<std::size_t>(first));
+  set_reals(shifted, found->second, static_cast<std::size_t>(first));
 }
 
 void read_property(Parts& parts, const Command& command) {
   const std::string label = command.word(0);
   for (std::size_t i = 3; is_mechanical(label) && i < command.fields.size(); ++i) {
-    if (parts.number_or(command, i, 0.0) != 0.0)
-      parts.fail(command, label + " depends on temperature, which is not supported", "give it at one temperature");
+    if (command.number_or(i, 0.0) != 0.0)
+      command.fail(label + " depends on temperature, which is not supported", "give it at one temperature");
   }
   if (!is_mechanical(label)) return set_property(parts, command, label, 1, 0.0);
-  set_property(parts, command, label, parts.integer_or(command, 1, 1), parts.number_or(command, 2, 0.0));
+  set_property(parts, command, label, command.integer_or(1, 1), command.number_or(2, 0.0));
 }
 
 void read_property_data(Parts& parts, const Command& command) {
@@ -113,17 +112,17 @@ void read_property_data(Parts& parts, const Command& command) {
   const std::size_t at = command.word(0).starts_with("R5.") || command.word(0) == "UNBL" ? 2 : 0;
   const std::string label = command.word(at);
   if (!is_mechanical(label)) return set_property(parts, command, label, 1, 0.0);
-  const long material = parts.integer_or(command, at + 1, 1), place = parts.integer_or(command, at + 2, 1);
-  const double first = place > 1 ? parts.materials[material][label].value : parts.number(command, at + 3);
+  const long material = command.integer_or(at + 1, 1), place = command.integer_or(at + 2, 1);
+  const double first = place > 1 ? parts.materials[material][label].value : command.number(at + 3);
   for (std::size_t i = at + 3; i < command.fields.size(); ++i) {
-    if (!command.blank(i) && parts.number(command, i) != first)
-      parts.fail(command, label + " depends on temperature, which is not supported", "give it at one temperature");
+    if (!command.blank(i) && command.number(i) != first)
+      command.fail(label + " depends on temperature, which is not supported", "give it at one temperature");
   }
   set_property(parts, command, label, material, first);
 }
 
 void read_section_type(Parts& parts, const Command& command) {
-  parts.section = parts.integer(command, 0);
+  parts.section = command.integer(0);
   SectionDefinition section;
   section.type = command.word(1);
   section.subtype = command.word(2);
@@ -135,23 +134,22 @@ void read_section_type(Parts& parts, const Command& command) {
 void read_section_data(Parts& parts, const Command& command) {
   SectionDefinition& section = current_section(parts, command);
   std::vector<double> row;
-  for (std::size_t i = 0; i < command.fields.size(); ++i) row.push_back(parts.number_or(command, i, 0.0));
+  for (std::size_t i = 0; i < command.fields.size(); ++i) row.push_back(command.number_or(i, 0.0));
   section.data.push_back(row);
 }
 
 void read_section_offset(Parts& parts, const Command& command) {
   SectionDefinition& section = current_section(parts, command);
   section.offset = command.word(0).substr(0, 4);
-  section.offset_m = {parts.number_or(command, 1, 0.0), parts.number_or(command, 2, 0.0)};
+  section.offset_m = {command.number_or(1, 0.0), command.number_or(2, 0.0)};
 }
 
 void read_section_control(Parts& parts, const Command& command) {
   (void)current_section(parts, command);
   for (std::size_t i = 0; i < command.fields.size(); ++i) {
-    if (parts.number_or(command, i, 0.0) != 0.0)
-      parts.fail(command,
-                 fmt::format("field {} overrides a stiffness of the section or adds mass, which is not supported", i + 1),
-                 "leave it blank and give the section as ASEC, the mass as MASS21 or density");
+    if (command.number_or(i, 0.0) != 0.0)
+      command.fail(fmt::format("field {} overrides a stiffness of the section or adds mass, which is not supported", i + 1),
+                   "leave it blank and give the section as ASEC, the mass as MASS21 or density");
   }
 }
 

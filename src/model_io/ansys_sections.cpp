@@ -27,24 +27,23 @@ std::string section_name(const Member& member, const SectionDefinition& section)
 
 [[noreturn]] void refuse_section(const Builder& builder, const Member& member, const SectionDefinition& section,
                                  const std::string& problem, const std::string& mend) {
-  builder.parts.fail(section.line, "SECTYPE", fmt::format("section {} {}", member.element.section, problem), mend);
+  builder.parts.at(section.line, "SECTYPE").fail(fmt::format("section {} {}", member.element.section, problem), mend);
 }
 
 /// Constant `i` has to be 0 or blank.
 void require_zero(const Builder& builder, const Member& member, const RealSet& set, std::size_t i, const char* what,
                   const char* mend) {
   if (set.at(i) == 0.0) return;
-  builder.parts.fail(set.line, "R",
-                     fmt::format("constant {} of set {} is {:g}: {} is not supported", i, member.element.real, set.at(i), what),
-                     mend);
+  builder.parts.at(set.line, "R")
+      .fail(fmt::format("constant {} of set {} is {:g}: {} is not supported", i, member.element.real, set.at(i), what), mend);
 }
 
 double positive(const Builder& builder, const Member& member, const RealSet& set, std::size_t i, const char* what) {
   if (set.at(i) > 0.0) return set.at(i);
-  builder.parts.fail(set.line, "R",
-                     fmt::format("constant {} of set {} ({} of {}) is {:g}, expected a value above 0", i, member.element.real,
-                                 what, member.type().name, set.at(i)),
-                     "complete the set");
+  builder.parts.at(set.line, "R")
+      .fail(fmt::format("constant {} of set {} ({} of {}) is {:g}, expected a value above 0", i, member.element.real, what,
+                        member.type().name, set.at(i)),
+            "complete the set");
 }
 
 constexpr const char* give_density = "give the mass by the density or by MASS21";
@@ -90,7 +89,7 @@ fe::Section pipe_of_reals(const Builder& builder, const Member& member, double p
   fe::Section s = profile_section(
       "PIPE", {positive(builder, member, r, 1, "outer diameter") / 2.0, positive(builder, member, r, 2, "wall")}, poisson_ratio,
       problem);
-  if (!problem.empty()) builder.parts.fail(r.line, "R", "is wrong: " + problem, "give the outer diameter and the wall");
+  if (!problem.empty()) builder.parts.at(r.line, "R").fail("is wrong: " + problem, "give the outer diameter and the wall");
   return s;
 }
 
@@ -212,10 +211,10 @@ CrossSection bar_section(Builder& builder, const Member& member) {
   cross.section.name = fmt::format("real_{}", member.element.real);
   if (member.is("LINK180")) {
     require_zero(builder, member, r, 2, "added mass", give_density);
-    if (r.at(3) != 0.0) builder.note_once("LINK180 of tension or compression only is read as a bar that takes both");
+    if (r.at(3) != 0.0) builder.parts.note_once("LINK180 of tension or compression only is read as a bar that takes both");
   } else {
     cross.initial_strain = initial_strain(builder, member, r, 2);
-    if (member.is("LINK10")) builder.note_once("LINK10 is read as a bar that takes tension and compression");
+    if (member.is("LINK10")) builder.parts.note_once("LINK10 is read as a bar that takes tension and compression");
   }
   return cross;
 }

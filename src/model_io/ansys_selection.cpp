@@ -19,8 +19,7 @@ std::set<long> keys_of(const Map& map) {
 }
 
 /// S anew, R from what is selected, A also, U not any more.
-void combine(Parts& parts, const Command& command, Selection& selection, const std::set<long>& everything,
-             const std::set<long>& found) {
+void combine(const Command& command, Selection& selection, const std::set<long>& everything, const std::set<long>& found) {
   const std::string how = command.word(0).empty() ? "S" : command.word(0);
   std::set<long> before = selection.all ? everything : selection.ids;
   selection.all = false;
@@ -33,7 +32,7 @@ void combine(Parts& parts, const Command& command, Selection& selection, const s
     std::erase_if(before, [&](long id) { return found.contains(id) == (how == "U"); });
     selection.ids = before;
   } else {
-    parts.fail(command, fmt::format("'{}' is no way to select", command.fields[0]), "expected S, R, A, U, ALL, NONE or INVE");
+    command.fail(fmt::format("'{}' is no way to select", command.fields[0]), "expected S, R, A, U, ALL, NONE or INVE");
   }
 }
 
@@ -57,10 +56,10 @@ struct Range {
   long step;
 };
 
-Range range_of(Parts& parts, const Command& command, std::size_t field) {
-  const double first = parts.number_or(command, field, 0.0), last = parts.number_or(command, field + 1, first);
-  const long step = parts.integer_or(command, field + 2, 1);
-  if (step < 1) parts.fail(command, fmt::format("step {} is no step", step), "give 1 or more");
+Range range_of(const Command& command, std::size_t field) {
+  const double first = command.number_or(field, 0.0), last = command.number_or(field + 1, first);
+  const long step = command.integer_or(field + 2, 1);
+  if (step < 1) command.fail(fmt::format("step {} is no step", step), "give 1 or more");
   return {first, last, step};
 }
 
@@ -74,8 +73,8 @@ std::set<long> nodes_at(Parts& parts, const Command& command) {
   constexpr double of_value = 0.005, of_zero = 1e-6, of_range = 1e-8;
   const std::string axis = command.word(2);
   if (parts.own_axes || (axis != "X" && axis != "Y" && axis != "Z"))
-    parts.fail(command, "selects by other axes than the global X, Y, Z", "select by those, or by node numbers");
-  const Range range = range_of(parts, command, 3);
+    command.fail("selects by other axes than the global X, Y, Z", "select by those, or by node numbers");
+  const Range range = range_of(command, 3);
   const double tolerance = range.first != range.last ? of_range * (range.last - range.first)
                            : range.first != 0.0      ? of_value * std::abs(range.first)
                                                      : of_zero;
@@ -91,7 +90,7 @@ std::set<long> nodes_at(Parts& parts, const Command& command) {
 
 void read_component(Parts& parts, const Command& command) {
   const std::string entity = command.word(1);
-  if (command.blank(0)) parts.fail(command, "has no name", "write CM,name,NODE or CM,name,ELEM");
+  if (command.blank(0)) command.fail("has no name", "write CM,name,NODE or CM,name,ELEM");
   if (entity != "NODE" && !entity.starts_with("ELEM")) return;  // geometry
   Component component{command.fields[0], entity == "NODE", {}};
   const Selection& selection = component.of_nodes ? parts.selected_nodes : parts.selected_elements;
@@ -102,15 +101,15 @@ void read_component(Parts& parts, const Command& command) {
 void select_component(Parts& parts, const Command& command) {
   parts.selected_component.clear();
   if (command.word(0) == "ALL") return select_all(parts, command);
-  if (command.blank(1)) parts.fail(command, "names no component", "write CMSEL,S,name");
+  if (command.blank(1)) command.fail("names no component", "write CMSEL,S,name");
   const Component* named = parts.component(command.fields[1]);
   if (named == nullptr)
-    parts.fail(command, fmt::format("no component is called '{}'", command.fields[1]), "define it by CMBLOCK or CM before");
+    command.fail(fmt::format("no component is called '{}'", command.fields[1]), "define it by CMBLOCK or CM before");
   if (named->of_nodes) {
-    combine(parts, command, parts.selected_nodes, keys_of(parts.nodes), named->members);
+    combine(command, parts.selected_nodes, keys_of(parts.nodes), named->members);
     if (command.word(0) == "S" || command.word(0).empty()) parts.selected_component = named->name;
   } else {
-    combine(parts, command, parts.selected_elements, keys_of(parts.elements), named->members);
+    combine(command, parts.selected_elements, keys_of(parts.elements), named->members);
   }
 }
 
@@ -122,22 +121,22 @@ void select_nodes(Parts& parts, const Command& command) {
   if (command.word(1) == "LOC") {
     found = nodes_at(parts, command);
   } else if ((command.word(1) == "NODE" || command.blank(1)) && command.blank(2)) {
-    const Range range = range_of(parts, command, 3);
+    const Range range = range_of(command, 3);
     for (const long id : everything) {
       if (holds(range, id)) found.insert(id);
     }
   } else {
-    parts.fail(command, fmt::format("selection by '{}' is not supported", command.fields[1]),
-               "select by NODE or LOC, or write a component");
+    command.fail(fmt::format("selection by '{}' is not supported", command.fields[1]),
+                 "select by NODE or LOC, or write a component");
   }
-  combine(parts, command, parts.selected_nodes, everything, found);
+  combine(command, parts.selected_nodes, everything, found);
 }
 
 void select_elements(Parts& parts, const Command& command) {
   const std::set<long> everything = keys_of(parts.elements);
   if (select_whole(command, parts.selected_elements, everything)) return;
   const std::string by = command.word(1);
-  const Range range = range_of(parts, command, 3);
+  const Range range = range_of(command, 3);
   std::set<long> found;
   for (const auto& [id, element] : parts.elements) {
     const long value = by.empty() || by.starts_with("ELEM") ? id
@@ -147,11 +146,11 @@ void select_elements(Parts& parts, const Command& command) {
                        : by.starts_with("SEC")              ? element.section
                                                             : -1;
     if (value < 0)
-      parts.fail(command, fmt::format("selection by '{}' is not supported", command.fields[1]),
-                 "select by ELEM, TYPE, MAT, REAL or SEC, or write a component");
+      command.fail(fmt::format("selection by '{}' is not supported", command.fields[1]),
+                   "select by ELEM, TYPE, MAT, REAL or SEC, or write a component");
     if (holds(range, value)) found.insert(id);
   }
-  combine(parts, command, parts.selected_elements, everything, found);
+  combine(command, parts.selected_elements, everything, found);
 }
 
 void select_nodes_of_elements(Parts& parts, const Command& command) {
@@ -162,7 +161,7 @@ void select_nodes_of_elements(Parts& parts, const Command& command) {
       found.insert(element.nodes.begin(), element.nodes.end());
   }
   found.erase(0);
-  combine(parts, command, parts.selected_nodes, keys_of(parts.nodes), found);
+  combine(command, parts.selected_nodes, keys_of(parts.nodes), found);
 }
 
 void select_all(Parts& parts, const Command& command) {

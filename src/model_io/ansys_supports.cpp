@@ -19,12 +19,11 @@ std::vector<int> dofs_of(const std::string& label) {
   return {static_cast<int>(found - names.begin())};
 }
 
-std::vector<int> known_dofs(Parts& parts, const Command& command, std::size_t field) {
+std::vector<int> known_dofs(const Command& command, std::size_t field) {
   const std::vector<int> dofs = dofs_of(command.word(field));
   if (dofs.empty())
-    parts.fail(command,
-               fmt::format("'{}' is no degree of freedom of a structure", command.blank(field) ? "" : command.fields[field]),
-               "expected UX, UY, UZ, ROTX, ROTY, ROTZ or ALL");
+    command.fail(fmt::format("'{}' is no degree of freedom of a structure", command.blank(field) ? "" : command.fields[field]),
+                 "expected UX, UY, UZ, ROTX, ROTY, ROTZ or ALL");
   return dofs;
 }
 
@@ -39,13 +38,13 @@ void hold(Parts& parts, const Command& command, long node, const std::vector<int
 void read_support(Parts& parts, const Command& command) {
   // D,node,label,value,value2,end,step,label2 … label6
   constexpr std::size_t first_more = 6, last_more = 10;
-  if (parts.number_or(command, 3, 0.0) != 0.0)
-    parts.fail(command, "prescribes an imaginary displacement, which is not supported", "supports hold at zero");
-  const double size = parts.number_or(command, 2, 0.0);
-  std::vector<int> dofs = known_dofs(parts, command, 1);
+  if (command.number_or(3, 0.0) != 0.0)
+    command.fail("prescribes an imaginary displacement, which is not supported", "supports hold at zero");
+  const double size = command.number_or(2, 0.0);
+  std::vector<int> dofs = known_dofs(command, 1);
   for (std::size_t i = first_more; i <= last_more; ++i) {
     if (command.blank(i)) continue;
-    const std::vector<int> more = known_dofs(parts, command, i);
+    const std::vector<int> more = known_dofs(command, i);
     dofs.insert(dofs.end(), more.begin(), more.end());
   }
   std::string name;
@@ -62,7 +61,7 @@ void read_support(Parts& parts, const Command& command) {
 
 void read_released_support(Parts& parts, const Command& command) {
   // DDELE,node,label,end,step
-  const std::vector<int> dofs = command.blank(1) ? dofs_of("ALL") : known_dofs(parts, command, 1);
+  const std::vector<int> dofs = command.blank(1) ? dofs_of("ALL") : known_dofs(command, 1);
   for (const long node : parts.nodes_of(command, 0, 2)) {
     const auto held = parts.holds.find(node);
     if (held == parts.holds.end()) continue;
@@ -75,17 +74,16 @@ void read_released_support(Parts& parts, const Command& command) {
 
 void read_couple(Parts& parts, const Command& command) {
   // CP,set,label,nodes
-  const long set = parts.integer(command, 0);
+  const long set = command.integer(0);
   std::set<long> nodes;
   if (command.word(2) == "ALL") {
     nodes = parts.nodes_of(command, 2, 2);
   } else {
     for (std::size_t i = 2; i < command.fields.size(); ++i) {
-      if (!command.blank(i)) nodes.insert(parts.integer(command, i));
+      if (!command.blank(i)) nodes.insert(command.integer(i));
     }
   }
-  for (const int dof : known_dofs(parts, command, 1))
-    parts.couples[set].push_back({{nodes.begin(), nodes.end()}, dof, command.line});
+  for (const int dof : known_dofs(command, 1)) parts.couples[set].push_back({{nodes.begin(), nodes.end()}, dof, command.line});
 }
 
 void read_rigid_region(Parts& parts, const Command& command) {
@@ -98,11 +96,11 @@ void read_rigid_region(Parts& parts, const Command& command) {
     if (label == "UXYZ" || label == "RXYZ") continue;
     for (const int dof : dofs_of(label)) tied[static_cast<std::size_t>(dof)] = true;
     if (dofs_of(label).empty())
-      parts.fail(command, fmt::format("'{}' is no degree of freedom of a structure", label),
-                 "expected ALL, UXYZ, RXYZ, UX, UY, UZ, ROTX, ROTY or ROTZ");
+      command.fail(fmt::format("'{}' is no degree of freedom of a structure", label),
+                   "expected ALL, UXYZ, RXYZ, UX, UY, UZ, ROTX, ROTY or ROTZ");
   }
   constexpr std::size_t past_labels = 7;  // a field that the command does not have: one node, no range
-  const long master = parts.integer(command, 0);
+  const long master = command.integer(0);
   for (const long slave : parts.nodes_of(command, 1, past_labels)) {
     if (slave != master) parts.links.push_back({master, slave, command.line, tied});
   }

@@ -46,62 +46,9 @@ std::vector<Eigen::Vector3d> area_vectors(const fe::Model& model, const std::vec
   return area;
 }
 
-}  // namespace
-
-void open_stage(fe::Model& model, bool large) {
-  model.gravity_m_s2 = 0.0;
-  model.prestress.rule = fe::PullRule::given;
-  model.prestress.load_case = "static";
-  model.prestress.shells_and_solids = true;
-  model.prestress.displacements = large ? fe::Displacements::large : fe::Displacements::linear;
-  if (large) model.prestress.load_steps = 10;
-}
-
-std::string settle_displacements(fe::Model& model) {
-  if (model.prestress.displacements == fe::Displacements::linear) return "";
-  const bool moves =
-      std::any_of(model.prestress.loads.begin(), model.prestress.loads.end(), [](const auto& load) { return load.movement; });
-  const bool strains = std::any_of(model.elements.begin(), model.elements.end(),
-                                   [](const fe::Element& e) { return e.free_strain != 0.0 && e.type != fe::ElementType::bar; });
-  if (model.constraints.empty() && !moves && !strains) return "";
-  model.prestress.displacements = fe::Displacements::linear;
-  return fmt::format(
-      "the static displacements are taken as small, though the deck asks for large ones: with {} they are not "
-      "computed",
-      moves     ? "moved supports"
-      : strains ? "temperatures or initial stresses"
-                : "ties or equations");
-}
-
-void add_load(fe::Model& model, int node, int direction, double value) {
-  if (value == 0.0) return;
-  for (fe::Prestress::Load& load : model.prestress.loads)
-    if (load.node == node && load.direction == direction && !load.movement) {
-      load.value += value;
-      return;
-    }
-  model.prestress.loads.push_back({node, direction, value, false});
-}
-
-void add_load(fe::Model& model, int node, const Eigen::Vector3d& force, const Eigen::Vector3d& moment) {
-  for (int d = 0; d < 3; ++d) add_load(model, node, d, force[d]);
-  for (int d = 0; d < 3; ++d) add_load(model, node, 3 + d, moment[d]);
-}
-
-void set_movement(fe::Model& model, int node, int direction, double value) {
-  std::erase_if(model.prestress.loads, [&](const fe::Prestress::Load& load) {
-    return load.node == node && load.direction == direction && load.movement;
-  });
-  if (value != 0.0) model.prestress.loads.push_back({node, direction, value, true});
-}
-
-void add_gravity(fe::Model& model, const Eigen::Vector3d& acceleration) {
-  const Eigen::Vector3d sum = model.gravity_m_s2 * model.gravity_direction + acceleration;
-  model.gravity_m_s2 = sum.norm();
-  if (model.gravity_m_s2 > 0.0) model.gravity_direction = sum.normalized();
-}
-
-std::string add_line_load(fe::Model& model, const fe::Element& member, const LineLoad& load) {
+/// Forces and moments at both ends of a member. @return what stands against it, or ""
+std::string end_loads(const fe::Model& model, const fe::Element& member, const LineLoad& load,
+                      std::array<Eigen::Vector3d, 2>& force, std::array<Eigen::Vector3d, 2>& moment) {
   const bool turns = member.type == fe::ElementType::beam;
   const bool free1 = (member.releases & rotations_of_first) != 0, free2 = (member.releases & rotations_of_second) != 0;
   if (turns && free1 != free2)
@@ -111,7 +58,6 @@ std::string add_line_load(fe::Model& model, const fe::Element& member, const Lin
                                                stage_place(model, member.nodes[1]) + arm[1]};
   const double length = (ends[1] - ends[0]).norm(), part = load.to - load.from;
   const Eigen::Vector3d axis = (ends[1] - ends[0]) / length;
-  std::array<Eigen::Vector3d, 2> force, moment;
   for (auto& v : {&force, &moment}) v->fill(Eigen::Vector3d::Zero());
   for (const StagePoint& point : line_points) {
     const double x = load.from + part * point.at;
@@ -125,20 +71,179 @@ std::string add_line_load(fe::Model& model, const fe::Element& member, const Lin
     moment[0] += length * x * (1.0 - x) * (1.0 - x) * axis.cross(across);
     moment[1] -= length * x * x * (1.0 - x) * axis.cross(across);
   }
-  for (std::size_t end = 0; end < 2; ++end)
-    add_load(model, member.nodes[end], force[end], moment[end] + arm[end].cross(force[end]));
+  for (std::size_t end = 0; end < 2; ++end) moment[end] += arm[end].cross(force[end]);
   return "";
 }
 
-void add_pressure(fe::Model& model, const std::vector<int>& nodes, double pressure) {
-  const std::vector<Eigen::Vector3d> area = area_vectors(model, nodes);
-  for (std::size_t i = 0; i < nodes.size(); ++i) add_load(model, nodes[i], -pressure * area[i], Eigen::Vector3d::Zero());
+/// Large displacements are not computed with constraints, movements of supports, or free strains of other elements than bars.
+/// @return a note of it, or ""
+std::string settle_displacements(fe::Model& model) {
+  if (model.prestress.displacements == fe::Displacements::linear) return "";
+  const bool moves =
+      std::any_of(model.prestress.loads.begin(), model.prestress.loads.end(), [](const auto& load) { return load.movement; });
+  const bool strains = std::any_of(model.elements.begin(), model.elements.end(),
+                                   [](const fe::Element& e) { return e.free_strain != 0.0 && e.type != fe::ElementType::bar; });
+  if (model.constraints.empty() && !moves && !strains) return "";
+  model.prestress.displacements = fe::Displacements::linear;
+  return fmt::format(
+      "the static displacements are taken as small, though the deck asks for large ones: with {} they are not computed",
+      moves     ? "moved supports"
+      : strains ? "temperatures or initial stresses"
+                : "ties or equations");
 }
 
-void add_traction(fe::Model& model, const std::vector<int>& nodes, const Eigen::Vector3d& direction, double traction) {
-  const std::vector<Eigen::Vector3d> area = area_vectors(model, nodes);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    add_load(model, nodes[i], traction * area[i].norm() * direction, Eigen::Vector3d::Zero());
+}  // namespace
+
+DeckStage::DeckStage(DeckModel& deck, bool large, std::string remedy)
+    : deck_(deck), model_(deck.model), large_(large), remedy_(std::move(remedy)) {
+  for (std::size_t i = 0; i < model_.elements.size(); ++i) position_.emplace(model_.elements[i].id, i);
+  model_.gravity_m_s2 = 0.0;
+  fe::Prestress& stage = model_.prestress;
+  stage.rule = fe::PullRule::given;
+  stage.load_case = "static";
+  stage.shells_and_solids = true;
+  stage.displacements = large ? fe::Displacements::large : fe::Displacements::linear;
+  if (large) stage.load_steps = 10;
+}
+
+int DeckStage::node(const DeckPlace& at, long id) const {
+  const auto found = deck_.node_position.find(id);
+  if (found == deck_.node_position.end())
+    at.fail(fmt::format("loads node {}, which no element joins", id), "load a node of the structure");
+  return found->second;
+}
+
+std::vector<fe::Element*> DeckStage::pieces(long id) {
+  std::vector<fe::Element*> found;
+  const auto at = position_.find(id);
+  if (at == position_.end()) return found;
+  const std::size_t count = deck_.pieces.contains(id) ? deck_.pieces.at(id) : 1;
+  for (std::size_t i = 0; i < count; ++i) found.push_back(&model_.elements[at->second + i]);
+  return found;
+}
+
+fe::Element& DeckStage::element(const DeckPlace& at, long id) {
+  if (!position_.contains(id)) at.fail(fmt::format("loads element {}, which is not in the model", id), "mend its number");
+  return *pieces(id).front();
+}
+
+void DeckStage::refuse(const DeckPlace& at, long id, const std::string& what) const {
+  at.fail(fmt::format("{} on element {} stiffens or softens the structure and is not read", what, id), remedy_);
+}
+
+void DeckStage::load(int node, int direction, double value) {
+  if (value == 0.0) return;
+  for (fe::Prestress::Load& load : model_.prestress.loads)
+    if (load.node == node && load.direction == direction && !load.movement) {
+      load.value += value;
+      return;
+    }
+  model_.prestress.loads.push_back({node, direction, value, false});
+}
+
+void DeckStage::load(int node, const Eigen::Vector3d& force, const Eigen::Vector3d& moment) {
+  for (int d = 0; d < 3; ++d) load(node, d, force[d]);
+  for (int d = 0; d < 3; ++d) load(node, 3 + d, moment[d]);
+}
+
+void DeckStage::move(const DeckPlace& at, int node, int direction, double value) {
+  if (direction > 2 && value != 0.0)
+    at.fail("turns a support by an angle that is not zero, which is not read",
+            "load the model by forces, or move its supports along the global axes");
+  std::erase_if(model_.prestress.loads, [&](const fe::Prestress::Load& load) {
+    return load.node == node && load.direction == direction && load.movement;
+  });
+  if (value != 0.0) model_.prestress.loads.push_back({node, direction, value, true});
+}
+
+void DeckStage::accelerate(const Eigen::Vector3d& acceleration) {
+  const Eigen::Vector3d sum = model_.gravity_m_s2 * model_.gravity_direction + acceleration;
+  model_.gravity_m_s2 = sum.norm();
+  if (model_.gravity_m_s2 > 0.0) model_.gravity_direction = sum.normalized();
+}
+
+void DeckStage::accelerate(long id, const Eigen::Vector3d& acceleration) {
+  for (const fe::Element* piece : pieces(id)) {
+    const fe::ElementMatrix mass = fe::element_mass(model_, *piece);
+    Eigen::VectorXd fall = Eigen::VectorXd::Zero(std::ssize(mass.dofs));
+    for (Eigen::Index i = 0; i < fall.size(); ++i)
+      if (const int d = mass.dofs[static_cast<std::size_t>(i)] % 6; d < 3) fall[i] = acceleration[d];
+    const Eigen::VectorXd force = mass.matrix * fall;
+    for (Eigen::Index i = 0; i < fall.size(); ++i) {
+      const int dof = mass.dofs[static_cast<std::size_t>(i)];
+      load(dof / 6, dof % 6, force[i]);
+    }
+  }
+}
+
+void DeckStage::load_line(const DeckPlace& at, long id, const std::function<LineLoad(const fe::Element& piece)>& of) {
+  (void)element(at, id);
+  for (const fe::Element* piece : pieces(id)) {
+    if (piece->type != fe::ElementType::beam && piece->type != fe::ElementType::bar) refuse(at, id, "a load along its length");
+    std::array<Eigen::Vector3d, 2> force, moment;
+    if (const std::string problem = end_loads(model_, *piece, of(*piece), force, moment); !problem.empty())
+      at.fail(fmt::format("element {} {}", id, problem), "write the load as forces and moments of nodes");
+    for (std::size_t end = 0; end < 2; ++end) load(piece->nodes[end], force[end], moment[end]);
+  }
+}
+
+void DeckStage::press_shell(const DeckPlace& at, long id, double pressure) {
+  (void)element(at, id);
+  for (const fe::Element* piece : pieces(id)) {
+    if (piece->type != fe::ElementType::shell) refuse(at, id, "a pressure without a face");
+    press(piece->nodes, -pressure);
+  }
+}
+
+void DeckStage::press_solid(const DeckPlace& at, long id, std::size_t face, double pressure) {
+  const fe::Element& e = element(at, id);
+  if (pieces(id).size() > 1 || e.type != fe::ElementType::solid || face >= solid_faces(e.nodes.size()).size())
+    refuse(at, id, fmt::format("a pressure on face {} (P{})", face + 1, face + 1));
+  std::vector<int> nodes;
+  for (const std::size_t i : solid_faces(e.nodes.size())[face]) nodes.push_back(e.nodes[i]);
+  press(nodes, pressure);
+}
+
+void DeckStage::press(const std::vector<int>& nodes, double pressure) {
+  const std::vector<Eigen::Vector3d> area = area_vectors(model_, nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], -pressure * area[i]);
+}
+
+void DeckStage::draw(const std::vector<int>& nodes, const Eigen::Vector3d& direction, double traction) {
+  const std::vector<Eigen::Vector3d> area = area_vectors(model_, nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], traction * area[i].norm() * direction);
+}
+
+void DeckStage::strain(const DeckPlace& at, long id, double value, bool is_stress) {
+  for (fe::Element* e : pieces(id)) {
+    if (e->type != fe::ElementType::beam && e->type != fe::ElementType::bar)
+      at.fail(fmt::format("strains element {}, and an initial strain or stress is read for beams and bars alone", id),
+              "load the model by forces, imposed movements or temperatures");
+    e->free_strain -= is_stress ? value / model_.materials[fe::slot(e->material)].youngs_modulus_Pa : value;
+  }
+}
+
+void DeckStage::warm(const std::function<double(const fe::Element&, long, const Expansion&)>& rise_K) {
+  for (fe::Element& e : model_.elements) {
+    const auto expansion = deck_.expansion.find(e.material);
+    if (expansion == deck_.expansion.end() || expansion->second.per_K == 0.0) continue;
+    double rise = 0.0, nodes = 0.0;
+    for (const int node : e.nodes) {
+      const long id = model_.nodes[fe::slot(node)].id;
+      if (deck_.made_nodes.contains(id)) continue;
+      rise += rise_K(e, id, expansion->second);
+      nodes += 1.0;
+    }
+    e.free_strain += expansion->second.per_K * (rise / nodes);
+  }
+}
+
+void DeckStage::close(const std::string& of, bool strained) {
+  if (const std::string note = settle_displacements(model_); !note.empty()) deck_.notes.push_back(note);
+  deck_.notes.push_back(fmt::format("the modes are those about the state under the loads of {}{}: {} loads of nodes{}{}", of,
+                                    large_ ? " (in the deformed geometry)" : "", model_.prestress.loads.size(),
+                                    model_.gravity_m_s2 > 0.0 ? ", gravity" : "",
+                                    strained ? ", temperatures or initial stresses" : ""));
 }
 
 Eigen::Matrix3d member_axes(const fe::Model& model, const fe::Element& member) {
@@ -150,10 +255,6 @@ const std::vector<std::vector<std::size_t>>& solid_faces(std::size_t nodes) {
                                                                    {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
                                                      tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   return nodes == 8 ? hexahedron : tetrahedron;
-}
-
-void warm(fe::Element& element, double expansion_per_K, double warming_K) {
-  element.free_strain += expansion_per_K * warming_K;
 }
 
 }  // namespace twindeck::model_io

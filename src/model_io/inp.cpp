@@ -6,12 +6,8 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "model_io/folder_parts.hpp"
 #include "model_io/inp_assign.hpp"
 #include "model_io/inp_attachments.hpp"
-#include "model_io/inp_coupling.hpp"
-#include "model_io/inp_elements.hpp"
-#include "model_io/inp_joints.hpp"
 #include "model_io/inp_links.hpp"
 #include "model_io/inp_materials.hpp"
 #include "model_io/inp_mesh.hpp"
@@ -19,8 +15,6 @@
 #include "model_io/inp_stage.hpp"
 #include "model_io/inp_surfaces.hpp"
 #include "model_io/inp_ties.hpp"
-#include "model_io/model_toml.hpp"
-#include "model_io/node_references.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -76,7 +70,7 @@ bool is_in(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-void refuse_unknown(const InpFile& file, const InpPlan& plan) {
+void refuse_unknown(const InpPlan& plan) {
   std::vector<std::string> known = silent_cards();
   known.insert(known.end(), {"BOUNDARY", "TIE", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "INITIAL CONDITIONS"});
   for (const auto& pass : passes()) {
@@ -92,9 +86,9 @@ void refuse_unknown(const InpFile& file, const InpPlan& plan) {
     } else if (card.keyword == "USER ELEMENT" && upper_case(card.get("TYPE")) == "US3") {
       // announces the three-node shell US3, which *ELEMENT lists
     } else if (card.keyword == "INCLUDE") {
-      file.fail(card, card.line, "unsupported card: other files are not read", "put the text of the file in its place");
+      card.fail("unsupported card: other files are not read", "put the text of the file in its place");
     } else if (!is_in(known, card.keyword) && !is_in(noted_cards(), card.keyword)) {
-      file.fail(card, card.line, "unsupported card" + did_you_mean(card.keyword, known),
+      card.fail("unsupported card" + did_you_mean(card.keyword, known),
                 "leave it out if the model is meant without it; docs/my_model.md lists what is read");
     }
     above = card.keyword;
@@ -105,10 +99,10 @@ void note_loads(InpParts& parts, const InpPlan& plan, const InpStage& stage) {
   std::map<std::string, long> first;
   for (const InpCard* card : stage.unused) {
     if (first.emplace(card->keyword, card->line).second)
-      parts.notes.push_back(fmt::format(
-          "*{} (line {}) is left out: no step asks for modes of the structure under it, as a static step with NLGEOM "
-          "or one before *STEP, PERTURBATION does",
-          card->keyword, card->line));
+      parts.notes.push_back(
+          fmt::format("*{} (line {}) is left out: no step asks for modes of the structure under it, as a static step with "
+                      "NLGEOM or one before *STEP, PERTURBATION does",
+                      card->keyword, card->line));
   }
   first.clear();
   for (const InpReading& reading : plan.readings) {
@@ -138,23 +132,6 @@ void attach_ties(InpParts& parts, const InpPlan& plan) {
   }
 }
 
-/// Nodes that nothing joins: points of reference, of orientations, of plots. Without one a model that holds is refused later.
-void drop_unused_nodes(InpParts& parts) {
-  fe::Model& model = parts.model;
-  std::vector<int> now(model.nodes.size(), -1);
-  for_each_joined_node(model, [&](int& node) { now[static_cast<std::size_t>(node)] = 0; });
-  int kept = 0;
-  for (int& to : now) {
-    if (to >= 0) to = kept++;
-  }
-  const std::size_t unused = now.size() - static_cast<std::size_t>(kept);
-  if (unused == 0) return;
-  parts.notes.push_back(fmt::format("nodes that no element, link or tie uses are left out: {}", unused));
-  renumber_nodes(model, now);
-  for (auto& [id, position] : parts.node_position) position = now[static_cast<std::size_t>(position)];
-  std::erase_if(parts.node_position, [](const auto& entry) { return entry.second < 0; });
-}
-
 void name_points(InpParts& parts) {
   for (const auto& [key, set] : parts.node_sets) {
     if (set.members.size() != 1) continue;
@@ -169,12 +146,12 @@ void name_points(InpParts& parts) {
 ImportedModel read_inp(const std::filesystem::path& path) {
   const InpFile file = InpFile::read(path);
   InpPlan plan = plan_readings(file);
-  refuse_unknown(file, plan);
+  refuse_unknown(plan);
   InpParts parts(file);
   parts.scopes = plan.scopes;
   parts.notes = plan.notes;
   parts.model.source = path.string();
-  const InpStage stage = find_inp_stage(file, plan);
+  const InpStage stage = find_inp_stage(plan);
   for (const InpReading& reading : stage.cards) parts.of_stage.insert(reading.card);
   for (const auto& pass : passes()) {
     for (const InpReading& reading : plan.readings) {
@@ -183,7 +160,7 @@ ImportedModel read_inp(const std::filesystem::path& path) {
       parts.scope = reading.scope;
       if (const auto reader = pass.find(card.keyword); reader != pass.end()) reader->second(parts, card);
     }
-    if (!parts.elements.empty()) parts.last_element_id = std::max(parts.last_element_id, parts.elements.rbegin()->first);
+    if (!parts.elements.empty()) parts.last_element = std::max(parts.last_element, parts.elements.rbegin()->first);
   }
   attach_supports(parts, plan);
   attach_inp_equations(parts);
@@ -191,19 +168,13 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   settle_inp_constraints(parts);
   for (const auto& [id, element] : parts.elements) {
     if (element.used == 0)
-      file.fail(*element.card, element.line, fmt::format("element {} has no section, spring or mass card", id),
-                "give its set one");
+      element.at->fail(fmt::format("element {} has no section, spring or mass card", id), "give its set one");
   }
-  if (parts.model.elements.empty() && parts.model.springs.empty())
-    throw InputError({path.string(), 0, ""}, "holds no element", "expected *ELEMENT cards with their sections");
   note_loads(parts, plan, stage);
-  drop_unused_nodes(parts);
+  parts.drop_unused_nodes();
   read_inp_stage(parts, stage);
   name_points(parts);
-  auto beside = path;
-  beside.replace_extension(".toml");
-  if (std::filesystem::exists(beside)) read_model_toml(beside, parts.model);
-  return {std::move(parts.model), std::move(parts.notes), {path}};
+  return parts.finished({path}, "*ELEMENT cards with their sections");
 }
 
 }  // namespace twindeck::model_io

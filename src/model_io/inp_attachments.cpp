@@ -4,10 +4,6 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "model_io/inp_elements.hpp"
-#include "model_io/inp_joints.hpp"
-
 namespace twindeck::model_io {
 namespace {
 
@@ -21,17 +17,9 @@ std::vector<const InpLine*> filled_lines(const InpCard& card) {
   return lines;
 }
 
-/// Whether the card stands in an instance that is rotated: directions given by number are not sure there.
-bool is_turned(const InpParts& parts) { return parts.scopes[static_cast<std::size_t>(parts.scope)].turned(); }
-
-[[noreturn]] void refuse_turned(const InpParts& parts, const InpCard& card, long line) {
-  parts.file.fail(card, line, "names a direction by its number in an instance that is rotated, which is not read",
-                  "write the card at the level of the assembly, or give a spring an ORIENTATION");
-}
-
 /// "ENCASTRE" … as fixed degrees of freedom; false for another word.
-bool named_support(const std::string& word, std::array<bool, 6>& fixed) {
-  static const std::map<std::string, std::array<bool, 6>> known = {
+bool named_support(const std::string& word, Directions& fixed) {
+  static const std::map<std::string, Directions> known = {
       {"ENCASTRE", {true, true, true, true, true, true}},  {"PINNED", {true, true, true, false, false, false}},
       {"XSYMM", {true, false, false, false, true, true}},  {"YSYMM", {false, true, false, true, false, true}},
       {"ZSYMM", {false, false, true, true, true, false}},  {"XASYMM", {false, true, true, true, false, false}},
@@ -42,134 +30,145 @@ bool named_support(const std::string& word, std::array<bool, 6>& fixed) {
   return true;
 }
 
+bool names_no_set(const InpCard& card) { return (card.keyword == "SPRING" || card.keyword == "DASHPOT") && !card.has("ELSET"); }
+
+/// Whether a *SPRING or *DASHPOT belongs to the *JOINT above it.
+bool is_of_joint(const InpFile& file, const InpCard& card) {
+  const InpCard* at = &card;
+  while (at != file.cards().data() && names_no_set(*at)) --at;
+  return at != &card && at->keyword == "JOINT";
+}
+
+double not_negative(const InpLine& line, std::size_t i) {
+  const double value = line.number(i);
+  if (value < 0.0) line.fail("the constant must not be negative", "check the sign");
+  return value;
+}
+
+/// A spring or dashpot of an element along one of the axes.
+void add_spring(InpParts& parts, const InpCard& card, const InpElement& element, const std::string& name, int dof,
+                const InpOrientation& axes, double value, bool dashpot) {
+  const int node2 = element.nodes.size() > 1 ? parts.node(*element.at, element.nodes[1]) : -1;
+  parts.add_spring(name, parts.group_of(card, element), parts.node(*element.at, element.nodes[0]), node2, dof, axes,
+                   dashpot ? 0.0 : value, dashpot ? value : 0.0);
+}
+
 }  // namespace
 
 InpOrientation inp_axes_of(const InpParts& parts, const InpCard& card) {
   if (!card.has("ORIENTATION")) return InpOrientation::Identity();
   const auto found = parts.orientations.find(parts.find_key(parts.orientations, card.get("ORIENTATION")));
-  if (found == parts.orientations.end()) {
-    parts.file.fail(card, card.line, fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")),
-                    "define it by *ORIENTATION");
-  }
+  if (found == parts.orientations.end())
+    card.fail(fmt::format("orientation '{}' is not defined", card.get("ORIENTATION")), "define it by *ORIENTATION");
   return found->second;
 }
 
 void attach_inp_spring(InpParts& parts, const InpCard& card) {
   if (is_of_joint(parts.file, card)) return;  // read with the joint above it
-  parts.file.allow(card, {"ELSET", "ORIENTATION"});
+  card.allow({"ELSET", "ORIENTATION"});
   const bool dashpot = card.keyword == "DASHPOT";
-  (void)parts.file.required(card, "ELSET");
+  (void)card.required("ELSET");
   const InpOrientation axes = inp_axes_of(parts, card);
-  const bool sure = !is_turned(parts) || card.has("ORIENTATION");
   const auto lines = filled_lines(card);
-  for (const InpElement* element : parts.elements_of(card)) {
-    if (inp_kind(element->type) != (dashpot ? InpKind::dashpot : InpKind::spring))
-      parts.refuse_kind(card, *element, "such an element takes another card");
+  for (const InpElement* element : parts.elements_of(card, dashpot ? InpKind::dashpot : InpKind::spring)) {
     const bool axial = element->type.back() == 'A';
     const std::size_t value_line = axial ? 0 : 1;
-    if (lines.size() <= value_line) {
-      parts.file.fail(card, card.line, "a data line is missing",
-                      axial ? "give the constant" : "give the degree of freedom, then the constant");
-    }
-    if (lines.size() > value_line + 1) {
-      parts.file.fail(card, lines[value_line + 1]->line,
-                      "has more data lines: values that depend on something are not supported", "give one constant");
-    }
-    const std::string group = parts.group_of(card, *element);
-    fe::Spring s;
-    s.name = fmt::format("{}_{}", group, element->id);
-    s.group = group;
-    s.node = parts.node(*element->card, element->line, element->nodes[0]);
-    if (element->nodes.size() > 1) s.node2 = parts.node(*element->card, element->line, element->nodes[1]);
+    if (lines.size() <= value_line)
+      card.fail("a data line is missing", axial ? "give the constant" : "give the degree of freedom, then the constant");
+    if (lines.size() > value_line + 1)
+      lines[value_line + 1]->fail("has more data lines: values that depend on something are not supported",
+                                  "give one constant");
+    const std::string name = fmt::format("{}_{}", parts.group_of(card, *element), element->id);
+    int dof = 0;
+    InpOrientation along = axes;
     if (axial) {
-      s.direction =
-          parts.model.nodes[static_cast<std::size_t>(s.node2)].x_m - parts.model.nodes[static_cast<std::size_t>(s.node)].x_m;
-      if (s.direction.norm() < 1e-12) {
-        parts.file.fail(*element->card, element->line,
-                        fmt::format("{} {} has no length, so no direction", element->type, element->id),
-                        "use SPRING2 with a degree of freedom");
-      }
-      s.direction.normalize();
+      const Eigen::Vector3d line =
+          parts.place(parts.node(*element->at, element->nodes[1])) - parts.place(parts.node(*element->at, element->nodes[0]));
+      if (line.norm() < 1e-12)
+        element->at->fail(fmt::format("{} {} has no length, so no direction", element->type, element->id),
+                          "use SPRING2 with a degree of freedom");
+      along.row(0) = line.normalized();
     } else {
-      const int dof = parts.file.dof(card, *lines[0], 0);
-      if (!sure) refuse_turned(parts, card, lines[0]->line);
-      if (element->nodes.size() > 1 && lines[0]->fields.size() > 1 && parts.file.dof(card, *lines[0], 1) != dof) {
-        parts.file.fail(card, lines[0]->line, "joins two different degrees of freedom, which is not supported",
-                        "give the same one for both nodes");
-      }
-      s.rotation = dof > 2;
-      s.direction = axes.row(dof % 3).transpose();
+      dof = lines[0]->component(0);
+      if (!card.has("ORIENTATION")) parts.refuse_turned(*lines[0]);
+      if (element->nodes.size() > 1 && lines[0]->fields.size() > 1 && lines[0]->component(1) != dof)
+        lines[0]->fail("joins two different degrees of freedom, which is not supported", "give the same one for both nodes");
     }
-    const double value = parts.file.number(card, *lines[value_line], 0);
-    if (value < 0.0) parts.file.fail(card, lines[value_line]->line, "the constant must not be negative", "check the sign");
-    (dashpot ? s.damping : s.stiffness) = value;
-    parts.model.springs.push_back(s);
+    add_spring(parts, card, *element, name, dof, along, not_negative(*lines[value_line], 0), dashpot);
+  }
+}
+
+void attach_inp_joint(InpParts& parts, const InpCard& card) {
+  card.allow({"ELSET", "ORIENTATION"});
+  const InpOrientation axes = inp_axes_of(parts, card);
+  if (!card.has("ORIENTATION")) parts.refuse_turned(card);
+  const std::vector<InpElement*> elements = parts.elements_of(card, InpKind::joint);
+  const InpCard* below = parts.card_after(card);
+  if (below == nullptr || !names_no_set(*below))
+    card.fail("has no *SPRING or *DASHPOT below it", "give one for each degree of freedom that is held");
+  for (; below != nullptr && names_no_set(*below); below = parts.card_after(*below)) {
+    below->allow({});
+    if (below->data.size() != 2)
+      below->fail(fmt::format("has {} data lines, expected two", below->data.size()),
+                  "the degree of freedom, then one constant");
+    const int dof = below->data[0].component(0);
+    if (below->data[0].fields.size() > 1 && below->data[0].component(1) != dof)
+      below->data[0].fail("names no single degree of freedom from 1 to 6", "give the same number for both nodes");
+    const double value = not_negative(below->data[1], 0);
+    for (const InpElement* element : elements)
+      add_spring(parts, card, *element, fmt::format("{}_{}_{}", parts.group_of(card, *element), element->id, dof + 1), dof,
+                 axes, value, below->keyword == "DASHPOT");
   }
 }
 
 void attach_inp_mass(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {"ELSET"});
+  card.allow({"ELSET"});
   const auto lines = filled_lines(card);
   const bool rotary = card.keyword == "ROTARY INERTIA";
-  if (lines.empty()) parts.file.fail(card, card.line, "has no data line", rotary ? "give I11, I22, I33" : "give the mass");
+  if (lines.empty()) card.fail("has no data line", rotary ? "give I11, I22, I33" : "give the mass");
+  (void)card.required("ELSET");
   fe::PointMass mass;
-  (void)parts.file.required(card, "ELSET");
   if (rotary) {
-    for (std::size_t i = 0; i < 6; ++i) {
-      const double value = parts.file.number_or(card, *lines[0], i, 0.0);
-      if (i < 3) mass.inertia_kg_m2[static_cast<int>(i)] = value;
-      if (i > 2 && value != 0.0)
-        parts.file.fail(card, lines[0]->line, "products of inertia are not supported", "turn them to principal axes");
-    }
+    mass.inertia_kg_m2 = lines[0]->vector(0);
+    if (!lines[0]->vector(3).isZero(0.0))
+      lines[0]->fail("products of inertia are not supported", "turn them to principal axes");
   } else {
-    mass.mass_kg = parts.file.number(card, *lines[0], 0);
+    mass.mass_kg = lines[0]->number(0);
   }
   const auto& inertia = mass.inertia_kg_m2;
-  if (is_turned(parts) && (inertia[0] != inertia[1] || inertia[0] != inertia[2])) refuse_turned(parts, card, lines[0]->line);
-  if (mass.mass_kg < 0.0 || mass.inertia_kg_m2.minCoeff() < 0.0)
-    parts.file.fail(card, lines[0]->line, "must not be negative", "check the sign");
-  for (const InpElement* element : parts.elements_of(card)) {
-    if (element->type != (rotary ? "ROTARYI" : "MASS")) parts.refuse_kind(card, *element, "such an element takes another card");
+  if (inertia[0] != inertia[1] || inertia[0] != inertia[2]) parts.refuse_turned(*lines[0]);
+  if (mass.mass_kg < 0.0 || inertia.minCoeff() < 0.0) lines[0]->fail("must not be negative", "check the sign");
+  for (const InpElement* element : parts.elements_of(card, InpKind::mass)) {
+    if (element->type != (rotary ? "ROTARYI" : "MASS"))
+      card.fail(fmt::format("element {} of its set is a {}", element->id, element->type), "such an element takes another card");
     mass.group = parts.group_of(card, *element);
-    mass.node = parts.node(*element->card, element->line, element->nodes[0]);
+    mass.node = parts.node(*element->at, element->nodes[0]);
     parts.model.masses.push_back(mass);
   }
 }
 
 void attach_inp_boundary(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {"OP", "TYPE"});
+  card.allow({"OP", "TYPE"});
   if (upper_case(card.get("TYPE", "DISPLACEMENT")) != "DISPLACEMENT")
-    parts.file.fail(card, card.line, "only TYPE=DISPLACEMENT is supported", "fix displacements and rotations");
+    card.fail("only TYPE=DISPLACEMENT is supported", "fix displacements and rotations");
   for (const InpLine& line : card.data) {
-    if (line.fields.size() < 2)
-      parts.file.fail(card, line.line, "has no degree of freedom", "write node or set, first, last degree of freedom");
-    std::array<bool, 6> fixed{};
+    if (line.fields.size() < 2) line.fail("has no degree of freedom", "write node or set, first, last degree of freedom");
+    Directions fixed{};
     if (!named_support(line.fields[1], fixed)) {
-      const int first = parts.file.dof(card, line, 1);
-      const int last = line.fields.size() > 2 && !line.fields[2].empty() ? parts.file.dof(card, line, 2) : first;
+      const int first = line.component(1), last = line.blank(2) ? first : line.component(2);
       if (last < first)
-        parts.file.fail(card, line.line,
-                        fmt::format("holds degrees of freedom from {} to {}, which are none", first + 1, last + 1),
-                        "write node or set, first, last degree of freedom");
-      for (int dof = first; dof <= last; ++dof) fixed[static_cast<std::size_t>(dof)] = true;
-      if (parts.file.number_or(card, line, 3, 0.0) != 0.0 && !parts.of_stage.contains(&card)) {
-        parts.file.fail(card, line.line, "prescribes a displacement that is not zero, which is not supported",
-                        "supports hold at zero; a static step with NLGEOM or before *STEP, PERTURBATION may move them");
-      }
+        line.fail(fmt::format("holds degrees of freedom from {} to {}, which are none", first + 1, last + 1),
+                  "write node or set, first, last degree of freedom");
+      for (int dof = first; dof <= last; ++dof) fixed[fe::slot(dof)] = true;
+      if (line.number_or(3, 0.0) != 0.0 && !parts.of_stage.contains(&card))
+        line.fail("prescribes a displacement that is not zero, which is not supported",
+                  "supports hold at zero; a static step with NLGEOM or before *STEP, PERTURBATION may move them");
     }
     const bool whole = fixed[0] == fixed[1] && fixed[0] == fixed[2] && fixed[3] == fixed[4] && fixed[3] == fixed[5];
-    if (is_turned(parts) && !whole) refuse_turned(parts, card, line.line);
+    if (!whole) parts.refuse_turned(line);
     const bool set = !parts.is_number(line.fields[0]);
-    for (const long id : parts.nodes_of(card, line, 0)) {
-      const int node = parts.node(card, line.line, id);
-      auto& supports = parts.model.supports;
-      auto found = std::find_if(supports.begin(), supports.end(), [node](const fe::Support& s) { return s.node == node; });
-      if (found == supports.end()) {
-        supports.push_back({set ? line.fields[0] : fmt::format("node_{}", id), node, {}});
-        found = supports.end() - 1;
-      }
-      for (std::size_t i = 0; i < 6; ++i) found->fixed[i] = found->fixed[i] || fixed[i];
-    }
+    for (const long id : parts.nodes_of(line, 0))
+      parts.hold(set ? line.fields[0] : fmt::format("node_{}", id), parts.node(line, id), fixed);
   }
 }
 

@@ -2,10 +2,13 @@
 
 #include "model_io/inp_parts.hpp"
 
-/// Inside of the library: springs, masses and supports of an .inp file.
+/// Inside of the library: springs, joints, masses and supports of an .inp file.
 namespace twindeck::model_io {
 
 void attach_inp_spring(InpParts& parts, const InpCard& card);
+/// *JOINT with the *SPRING and *DASHPOT cards below it, which name no set: a spring and a dashpot for each degree of freedom,
+/// along the axes of ORIENTATION or the global ones.
+void attach_inp_joint(InpParts& parts, const InpCard& card);
 void attach_inp_mass(InpParts& parts, const InpCard& card);
 void attach_inp_boundary(InpParts& parts, const InpCard& card);
 /// Axes of the *ORIENTATION that a card names, or the global ones. @throws InputError for an unknown name

@@ -98,18 +98,18 @@ std::vector<Eigen::Matrix3d> Facet::motion(const Foot& foot, const Eigen::Vector
   return of_nodes;
 }
 
-Facet make_facet(const InpParts& parts, const InpCard& card, long line, const InpFacet& facet) {
+Facet make_facet(const InpParts& parts, const DeckPlace& at, const InpFacet& facet) {
   Facet made;
   made.turning = facet.turning;
   made.middle_m = Eigen::Vector3d::Zero();
   for (const long id : facet.nodes) {
-    made.nodes.push_back(parts.node(card, line, id));
-    made.x_m.push_back(parts.model.nodes[static_cast<std::size_t>(made.nodes.back())].x_m);
+    made.nodes.push_back(parts.node(at, id));
+    made.x_m.push_back(parts.place(made.nodes.back()));
     made.middle_m += made.x_m.back() / static_cast<double>(facet.nodes.size());
   }
   for (const Eigen::Vector3d& x : made.x_m) made.radius_m = std::max(made.radius_m, (x - made.middle_m).norm());
   if (!(made.size_m() > 1e-9 * made.radius_m))
-    parts.file.fail(card, line, fmt::format("a facet of element {} has no area", facet.element), "check the element's nodes");
+    at.fail(fmt::format("a facet of element {} has no area", facet.element), "check the element's nodes");
   return made;
 }
 

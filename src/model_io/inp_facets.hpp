@@ -36,7 +36,7 @@ struct Facet {
 };
 
 /// @throws InputError  for a facet without area
-[[nodiscard]] Facet make_facet(const InpParts& parts, const InpCard& card, long line, const InpFacet& facet);
+[[nodiscard]] Facet make_facet(const InpParts& parts, const DeckPlace& at, const InpFacet& facet);
 
 /// The facet nearest to x within `tolerance`, with its foot.
 [[nodiscard]] std::optional<std::pair<const Facet*, Foot>> nearest_facet(const std::vector<Facet>& facets,

@@ -2,70 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <set>
-
-#include "core/error.hpp"
-#include "model_io/inp_elements.hpp"
-#include "model_io/rigid_arm.hpp"
+#include <map>
 
 namespace twindeck::model_io {
 namespace {
-
-Eigen::Vector3d place(const InpParts& parts, int node) { return parts.model.nodes[static_cast<std::size_t>(node)].x_m; }
-
-/// Whether the equations of a slave make it follow one other node as a rigid body; `turns`: an element holds its rotations.
-bool is_rigid_link(const InpParts& parts, const std::vector<const InpEquation*>& equations, bool turns) {
-  const InpEquation& first = *equations.front();
-  const long master_id = first.terms[1].node;
-  const int slave = parts.node(*first.card, first.line, first.terms[0].node),
-            master = parts.node(*first.card, first.line, master_id);
-  if (slave == master) return false;
-  const Eigen::Vector3d r = place(parts, slave) - place(parts, master);
-  const double small = 1e-6 * (1.0 + r.norm());
-  std::set<int> tied;
-  for (const InpEquation* equation : equations) {
-    const int to = equation->terms[0].dof;
-    const double scale = -equation->terms[0].coefficient;
-    std::array<double, 6> factor{};
-    for (std::size_t i = 1; i < equation->terms.size(); ++i) {
-      const InpEquation::Term& term = equation->terms[i];
-      if (term.node != master_id || scale == 0.0) return false;
-      factor[static_cast<std::size_t>(term.dof)] += term.coefficient / scale;
-    }
-    for (int from = 0; from < 6; ++from) {
-      if (std::abs(factor[static_cast<std::size_t>(from)] - rigid_arm_factor(r, to, from)) > small) return false;
-    }
-    tied.insert(to);
-  }
-  // A slave where only trusses or solids meet has no rotation of its own to tie.
-  return tied.contains(0) && tied.contains(1) && tied.contains(2) && tied.size() == equations.size() &&
-         (tied.size() == 6 || !turns);
-}
-
-/// Any other equation: its first term follows the others.
-void add_equation(InpParts& parts, const InpEquation& equation) {
-  const InpEquation::Term& slave = equation.terms[0];
-  if (slave.coefficient == 0.0)
-    parts.file.fail(*equation.card, equation.line, "the coefficient of the first term is 0, so that nothing follows from it",
-                    "begin with the displacement that depends on the others");
-  fe::Constraint c{fmt::format("equation_{}", parts.model.constraints.size() + 1),
-                   parts.node(*equation.card, equation.line, slave.node),
-                   slave.dof,
-                   {}};
-  for (std::size_t i = 1; i < equation.terms.size(); ++i) {
-    const InpEquation::Term& term = equation.terms[i];
-    if (term.coefficient == 0.0) continue;
-    c.terms.push_back({parts.node(*equation.card, equation.line, term.node), term.dof, -term.coefficient / slave.coefficient});
-  }
-  if (c.terms.empty())
-    parts.file.fail(*equation.card, equation.line, "all coefficients but the first are 0",
-                    "hold the displacement by *BOUNDARY");
-  parts.add_constraint(c, *equation.card, equation.line);
-}
 
 /// Supports of slaves are handed to their masters where both lie at one place, or where all six directions are held.
 void hold_masters(InpParts& parts) {
@@ -79,8 +20,8 @@ void hold_masters(InpParts& parts) {
       const auto found = master.find(support.node);
       if (found == master.end()) continue;
       const bool whole = std::all_of(support.fixed.begin(), support.fixed.end(), [](bool fixed) { return fixed; });
-      const double apart = (place(parts, support.node) - place(parts, found->second)).norm();
-      if (!whole && apart > 1e-9 * (1.0 + place(parts, support.node).norm())) continue;  // refused where links are joined
+      const double apart = (parts.place(support.node) - parts.place(found->second)).norm();
+      if (!whole && apart > 1e-9 * (1.0 + parts.place(support.node).norm())) continue;  // refused where links are joined
       support.node = found->second;
       moved = true;
     }
@@ -97,38 +38,54 @@ void hold_masters(InpParts& parts) {
 }
 
 /// TIE and PIN: two nodes at one place move alike, with or without their rotations.
-void join_alike(InpParts& parts, const InpCard& card, long line, const std::string& type, int slave, int master) {
-  if ((place(parts, slave) - place(parts, master)).norm() > 1e-6 * (1.0 + place(parts, master).norm()))
-    parts.file.fail(card, line,
-                    fmt::format("MPC {} joins two nodes that do not lie at one place, which is not supported", type),
-                    "use BEAM, a rigid link");
+void join_alike(InpParts& parts, const DeckPlace& at, const std::string& type, int slave, int master) {
+  if (!parts.together(slave, master))
+    at.fail(fmt::format("MPC {} joins two nodes that do not lie at one place, which is not supported", type),
+            "use BEAM, a rigid link");
   if (type == "TIE") return parts.add_link(master, slave);
-  for (int d = 0; d < 3; ++d)
-    parts.add_constraint({fmt::format("pin_{}", parts.model.constraints.size() + 1), slave, d, {{master, d, 1.0}}}, card, line);
+  for (int d = 0; d < 3; ++d) parts.add_constraint({parts.numbered("pin"), slave, d, {{master, d, 1.0}}}, at);
+}
+
+/// The range of degrees of freedom that two fields name, added to `chosen`; one alone is itself.
+/// @param first_field all six where it is empty
+void choose_range(const InpLine& line, std::size_t first_field, Directions& chosen) {
+  const long first = line.integer_or(first_field, 1),
+             last = line.integer_or(first_field + 1, line.blank(first_field) ? 6 : first);
+  if (first < 1 || last > 6 || last < first)
+    line.fail(fmt::format("'{}, {}' are no degrees of freedom", first, last),
+              "1-3 displacements, 4-6 rotations; nothing for all");
+  for (long dof = first; dof <= last; ++dof) chosen[static_cast<std::size_t>(dof) - 1] = true;
+}
+
+/// A slave that follows the reference node in some directions: a link where they are all that it has.
+void follow(InpParts& parts, const DeckPlace& at, int master, long slave_id, const Directions& tied) {
+  const int slave = parts.node(at, slave_id);
+  if (slave == master) return;
+  if (parts.is_whole(tied, slave)) return parts.add_link(master, slave);
+  parts.refuse_turned(at);
+  parts.tie_at_arm(
+      at, [&](int) { return parts.numbered("coupling"); }, master, slave, tied);
 }
 
 }  // namespace
 
 void read_inp_equation(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {});
-  if (parts.scopes[static_cast<std::size_t>(parts.scope)].turned())
-    parts.file.fail(card, card.line, "stands in an instance that is rotated, where its directions are not sure",
-                    "write the equation at the level of the assembly, in global directions");
+  card.allow({});
+  parts.refuse_turned(card);
   for (std::size_t row = 0; row < card.data.size();) {
-    InpEquation equation{&card, card.data[row].line, {}};
-    const long terms = parts.file.integer(card, card.data[row], 0);
+    DeckEquation equation{card.data[row], {}};
+    const long terms = card.data[row].integer(0);
     if (terms < 2 || terms > 1000)
-      parts.file.fail(card, equation.line, fmt::format("{} terms are no equation", terms),
-                      "give their number, then node, degree of freedom, coefficient of each");
+      equation.at.fail(fmt::format("{} terms are no equation", terms),
+                       "give their number, then node, degree of freedom, coefficient of each");
     ++row;
     std::size_t field = 0;
     while (static_cast<long>(equation.terms.size()) < terms) {
       if (row >= card.data.size())
-        parts.file.fail(card, equation.line,
-                        fmt::format("the equation ends after {} of {} terms", equation.terms.size(), terms), "complete it");
+        equation.at.fail(fmt::format("the equation ends after {} of {} terms", equation.terms.size(), terms), "complete it");
       const InpLine& line = card.data[row];
-      const long node = parts.node_id(card, line, field);
-      equation.terms.push_back({node, parts.file.dof(card, line, field + 1), parts.file.number(card, line, field + 2)});
+      const int node = parts.node(line, parts.node_id(line, field));
+      equation.terms.push_back({node, line.component(field + 1), line.number(field + 2)});
       field += 3;
       if (field + 2 >= line.fields.size()) {
         ++row;
@@ -141,46 +98,94 @@ void read_inp_equation(InpParts& parts, const InpCard& card) {
 }
 
 void attach_inp_equations(InpParts& parts) {
-  std::map<long, std::vector<const InpEquation*>> by_slave;
-  for (const InpEquation& equation : parts.equations) by_slave[equation.terms[0].node].push_back(&equation);
-  const std::set<long> turning = parts.turning_nodes();
-  for (const auto& [slave_id, equations] : by_slave) {
-    const InpEquation& first = *equations.front();
-    if (is_rigid_link(parts, equations, turning.contains(slave_id))) {
-      parts.add_link(parts.node(*first.card, first.line, first.terms[1].node), parts.node(*first.card, first.line, slave_id));
+  std::map<long, std::vector<const DeckEquation*>> by_slave;
+  for (const DeckEquation& equation : parts.equations)
+    by_slave[parts.model.nodes[fe::slot(equation.terms[0].node)].id].push_back(&equation);
+  for (const auto& [id, equations] : by_slave) {
+    const int slave = equations.front()->terms[0].node, master = equations.front()->terms[1].node;
+    if (parts.is_rigid_link(equations, master, slave)) {
+      parts.add_link(master, slave);
       continue;
     }
-    for (const InpEquation* equation : equations) add_equation(parts, *equation);
+    for (const DeckEquation* equation : equations) parts.follow_first(parts.numbered("equation"), *equation);
   }
 }
 
 void attach_inp_rigid_body(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {"REF NODE", "NSET", "TIE NSET"});
-  const std::string slaves = card.has("TIE NSET") ? card.get("TIE NSET") : parts.file.required(card, "NSET");
+  card.allow({"REF NODE", "NSET", "TIE NSET"});
+  const std::string slaves = card.has("TIE NSET") ? card.get("TIE NSET") : card.required("NSET");
   const int master = parts.reference_node(card);
-  for (const long id : parts.set(parts.node_sets, card, card.line, slaves).members) {
-    if (const int slave = parts.node(card, card.line, id); slave != master) parts.add_link(master, slave);
+  for (const long id : parts.set(parts.node_sets, card, slaves).members) {
+    if (const int slave = parts.node(card, id); slave != master) parts.add_link(master, slave);
   }
 }
 
 void attach_inp_mpc(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {});
+  card.allow({});
   for (const InpLine& line : card.data) {
     const std::string type = line.fields.empty() ? "" : upper_case(line.fields[0]);
     if (type != "BEAM" && type != "TIE" && type != "PIN")
-      parts.file.fail(card, line.line, fmt::format("unsupported MPC type '{}'", type),
-                      "BEAM (a rigid link), TIE and PIN (two nodes at one place) are supported");
-    const std::vector<long> slaves = parts.nodes_of(card, line, 1), masters = parts.nodes_of(card, line, 2);
-    if (masters.size() != 1) parts.file.fail(card, line.line, "names more than one master", "BEAM, slave, master");
-    const int master = parts.node(card, line.line, masters.front());
+      line.fail(fmt::format("unsupported MPC type '{}'", type),
+                "BEAM (a rigid link), TIE and PIN (two nodes at one place) are supported");
+    const std::vector<long> slaves = parts.nodes_of(line, 1), masters = parts.nodes_of(line, 2);
+    if (masters.size() != 1) line.fail("names more than one master", "BEAM, slave, master");
+    const int master = parts.node(line, masters.front());
     for (const long id : slaves) {
-      const int slave = parts.node(card, line.line, id);
+      const int slave = parts.node(line, id);
       if (type == "BEAM")
         parts.add_link(master, slave);
       else
-        join_alike(parts, card, line.line, type, slave, master);
+        join_alike(parts, line, type, slave, master);
     }
     if (type == "BEAM") parts.notes.push_back("*MPC of type BEAM is read as Abaqus means it: a rigid link");
+  }
+}
+
+void attach_inp_coupling(InpParts& parts, const InpCard& card) {
+  card.allow({"CONSTRAINT NAME", "REF NODE", "SURFACE"});
+  const InpSurface& surface = parts.surface(card, card.required("SURFACE"));
+  const int reference = parts.reference_node(card);
+  const InpCard* kind = parts.card_after(card);
+  if (kind == nullptr || (kind->keyword != "KINEMATIC" && kind->keyword != "DISTRIBUTING"))
+    card.fail("is followed by neither *KINEMATIC nor *DISTRIBUTING", "say how the surface is coupled");
+  Directions chosen{};
+  for (const InpLine& line : kind->data) choose_range(line, 0, chosen);
+  if (kind->data.empty()) chosen.fill(true);
+  if (kind->keyword == "KINEMATIC") {
+    kind->allow({});
+    for (const long id : surface.nodes) follow(parts, card, reference, id, chosen);
+    return;
+  }
+  kind->allow({"WEIGHTING METHOD", "COUPLING", "ROTATIONAL COUPLING"});
+  const auto only = [&](const char* parameter, const char* word) {
+    if (upper_case(kind->get(parameter, word)) != word)
+      kind->fail(fmt::format("unsupported {}={}", parameter, kind->get(parameter)), fmt::format("{} is read", word));
+  };
+  only("WEIGHTING METHOD", "UNIFORM");
+  only("COUPLING", "CONTINUUM");
+  only("ROTATIONAL COUPLING", "CONTINUUM");
+  // Displacements of the reference node are coupled whatever the data lines say, as in Abaqus.
+  for (std::size_t d = 0; d < 3; ++d) chosen[d] = true;
+  std::vector<DeckModel::Sample> samples;
+  for (const long id : surface.nodes) {
+    const int node = parts.node(card, id);
+    if (node == reference) card.fail("the reference node lies on its own surface", "take a node beside the surface");
+    for (int d = 0; d < 3; ++d) samples.push_back({node, Eigen::RowVector3d::Unit(d)});
+  }
+  parts.tie_to_mean(
+      card, [&](int) { return parts.numbered("coupling"); }, reference, samples, chosen,
+      "couple nodes that do not lie on one line, or name the degrees of freedom that are coupled");
+  parts.notes.push_back(
+      fmt::format("*DISTRIBUTING (line {}): every node of '{}' has the same weight", kind->line, surface.name));
+}
+
+void attach_inp_kinematic_coupling(InpParts& parts, const InpCard& card) {
+  card.allow({"REF NODE"});
+  const int reference = parts.reference_node(card);
+  for (const InpLine& line : card.data) {
+    Directions chosen{};
+    choose_range(line, 1, chosen);
+    for (const long id : parts.nodes_of(line, 0)) follow(parts, line, reference, id, chosen);
   }
 }
 
@@ -193,10 +198,10 @@ void settle_inp_constraints(InpParts& parts) {
     return found != held.end() && found->second[static_cast<std::size_t>(direction)];
   };
   std::vector<fe::Constraint> kept;
-  std::vector<InpParts::Origin> origins;
+  std::vector<DeckPlace> origins;
   for (std::size_t i = 0; i < parts.model.constraints.size(); ++i) {
     const fe::Constraint& c = parts.model.constraints[i];
-    const InpParts::Origin& at = parts.constraint_origin[i];
+    const DeckPlace& at = parts.constraint_origin[i];
     if (!is_held(c.node, c.direction)) {
       kept.push_back(c);
       origins.push_back(at);
@@ -205,10 +210,9 @@ void settle_inp_constraints(InpParts& parts) {
     const bool all_held = std::all_of(c.terms.begin(), c.terms.end(),
                                       [&](const fe::Constraint::Term& term) { return is_held(term.node, term.direction); });
     if (!all_held)
-      parts.file.fail(*at.card, at.line,
-                      fmt::format("makes node {} follow others in degree of freedom {}, which *BOUNDARY holds",
-                                  parts.node_name(parts.model.nodes[static_cast<std::size_t>(c.node)].id), c.direction + 1),
-                      "take the node out of the support; what it follows may be held");
+      at.fail(fmt::format("makes node {} follow others in degree of freedom {}, which *BOUNDARY holds",
+                          parts.node_name(parts.model.nodes[static_cast<std::size_t>(c.node)].id), c.direction + 1),
+              "take the node out of the support; what it follows may be held");
   }
   parts.model.constraints = std::move(kept);
   parts.constraint_origin = std::move(origins);

@@ -10,6 +10,13 @@ void read_inp_equation(InpParts& parts, const InpCard& card);
 void attach_inp_equations(InpParts& parts);
 void attach_inp_rigid_body(InpParts& parts, const InpCard& card);
 void attach_inp_mpc(InpParts& parts, const InpCard& card);
+/// *COUPLING with the card below it. *KINEMATIC: the nodes of the surface follow the reference node as a rigid body, in the
+/// degrees of freedom that are named (all without a data line). *DISTRIBUTING: the reference node moves as the mean of the
+/// surface's displacements (weighted_mean.hpp), each node with the same weight; its rotations may be left free.
+/// @throws InputError  for a surface that is not there, other weights, local axes, a node that follows something else already
+void attach_inp_coupling(InpParts& parts, const InpCard& card);
+/// *KINEMATIC COUPLING: the older form, whose data lines name nodes, first and last degree of freedom.
+void attach_inp_kinematic_coupling(InpParts& parts, const InpCard& card);
 /// Drops constraints of displacements that are held as all that they follow is. @throws InputError for those that contradict a
 /// support
 void settle_inp_constraints(InpParts& parts);

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "fe/model.hpp"
-#include "model_io/deck_quadratic.hpp"
+#include "model_io/deck_model.hpp"
 #include "model_io/inp_cards.hpp"
+#include "model_io/inp_elements.hpp"
 #include "model_io/inp_scopes.hpp"
 
 /// Inside of the library: what an .inp file says, collected card by card in the numbers and names of the file; resolved into an
@@ -21,26 +22,14 @@ struct InpElement {
   std::string type;  ///< "B31", in upper case
   std::vector<long> nodes;
   const InpCard* card = nullptr;
-  long line = 0;
-  int used = 0;  ///< how many section, spring, dashpot or mass cards speak of it
+  const InpLine* at = nullptr;  ///< its first data line
+  int used = 0;                 ///< how many section, spring, dashpot or mass cards speak of it
 };
 
 struct InpSet {
   std::string name;  ///< as first written
   int scope = 0;     ///< where it was defined
   std::vector<long> members;
-};
-
-/// sum coefficient · displacement = 0; the first term is the dependent one.
-struct InpEquation {
-  struct Term {
-    long node;
-    int dof;  ///< 0-5
-    double coefficient;
-  };
-  const InpCard* card;
-  long line;
-  std::vector<Term> terms;
 };
 
 /// A part of a surface: a face of a solid, a shell, or the edge of one.
@@ -60,44 +49,33 @@ struct InpSurface {
 /// Local axes of *ORIENTATION (rectangular): rows x', y', z' in global axes.
 using InpOrientation = Eigen::Matrix3d;
 
-struct InpParts {
+struct InpParts : DeckModel {
   explicit InpParts(const InpFile& f) : file(f) {}
 
   const InpFile& file;
-  fe::Model model;  ///< nodes and materials; the rest when it is resolved
   std::vector<InpScope> scopes{InpScope{}};
-  int scope = 0;  ///< of the card that is being read
-  std::map<long, int> node_position;
+  int scope = 0;                      ///< of the card that is being read
   std::map<long, int> scope_of_node;  ///< where *NODE defines it
   std::map<long, InpElement> elements;
-  std::map<std::string, InpSet> node_sets, element_sets;  ///< by name in upper case, "INSTANCE.NAME" within an instance
-  std::map<std::string, InpSurface> surfaces;             ///< likewise
-  std::map<std::string, int> materials;                   ///< by name in upper case
-  std::map<int, double> second_shear_moduli;              ///< G13 of the orthotropic materials of beams, by position [Pa]
-  std::map<std::string, InpOrientation> orientations;     ///< by name in upper case, likewise
-  std::vector<InpEquation> equations;
-  std::map<int, double> expansion;                 ///< of materials, by position [1/K]
-  std::map<int, const InpCard*> uneven_expansion;  ///< of those where it is not one number
-  std::map<long, std::size_t> pieces;              ///< elements that became several, which follow one another in the model
-  FaceCentres face_centres;                        ///< of hexahedra with nodes on their edges
-  std::set<const InpCard*> of_stage;               ///< cards of the static stage, which may move supports
-  struct Origin {
-    const InpCard* card;
-    long line;
-  };
-  std::vector<Origin> constraint_origin;  ///< of the model's constraints
-  long last_element_id = 0;               ///< the largest so far, for elements that come out of one with more nodes
-  std::vector<std::string> notes;         ///< what was read over, for people
+  std::map<std::string, InpSet> node_sets,
+      element_sets;                                    ///< by name in upper case, "INSTANCE.NAME" within an instance
+  std::map<std::string, InpSurface> surfaces;          ///< likewise
+  std::map<std::string, int> materials;                ///< by name in upper case
+  std::map<int, double> second_shear_moduli;           ///< G13 of the orthotropic materials of beams, by position [Pa]
+  std::map<std::string, InpOrientation> orientations;  ///< by name in upper case, likewise
+  std::vector<DeckEquation> equations;                 ///< the first term is the dependent one
+  std::map<int, const InpCard*> uneven_expansion;      ///< of materials where it is not one number
+  std::set<const InpCard*> of_stage;                   ///< cards of the static stage, which may move supports
 
   /// Position of a node. @throws InputError if no *NODE defines it
-  [[nodiscard]] int node(const InpCard& card, long line, long id) const;
-  [[noreturn]] void no_node(const InpCard& card, long line, long id) const;
+  [[nodiscard]] int node(const DeckPlace& at, long id) const;
+  [[noreturn]] void no_node(const DeckPlace& at, long id) const;
   /// "17", or "17 of instance BEAM-2": a node as the file names it.
   [[nodiscard]] std::string node_name(long id) const;
   /// The node that a field names in the scope at hand: "17", "BEAM-2.17"; in the model's numbers, defined.
-  [[nodiscard]] long node_id(const InpCard& card, const InpLine& line, std::size_t field) const;
+  [[nodiscard]] long node_id(const InpLine& line, std::size_t field) const;
   /// An element likewise; not necessarily defined.
-  [[nodiscard]] long element_id(const InpCard& card, const InpLine& line, std::size_t field) const;
+  [[nodiscard]] long element_id(const InpLine& line, std::size_t field) const;
   /// Whether a field is the number of a node or element (with its instance) rather than the name of a set.
   [[nodiscard]] bool is_number(const std::string& field) const;
   /// Key of a name that is defined in the scope at hand.
@@ -108,16 +86,14 @@ struct InpParts {
   template <class Map>
   [[nodiscard]] std::string find_key(const Map& map, const std::string& name) const;
   /// Members of a set. @throws InputError for an unknown name
-  [[nodiscard]] const InpSet& set(const std::map<std::string, InpSet>& sets, const InpCard& card, long line,
+  [[nodiscard]] const InpSet& set(const std::map<std::string, InpSet>& sets, const DeckPlace& at,
                                   const std::string& name) const;
   /// @throws InputError for an unknown name
-  [[nodiscard]] const InpSurface& surface(const InpCard& card, long line, const std::string& name) const;
+  [[nodiscard]] const InpSurface& surface(const DeckPlace& at, const std::string& name) const;
   /// A field that holds the number of a node or the name of a set of nodes.
-  [[nodiscard]] std::vector<long> nodes_of(const InpCard& card, const InpLine& line, std::size_t field) const;
+  [[nodiscard]] std::vector<long> nodes_of(const InpLine& line, std::size_t field) const;
   /// Position of the one node that REF NODE= names. @throws InputError if it names none or several
   [[nodiscard]] int reference_node(const InpCard& card) const;
-  /// @throws InputError  for an element in the set of a card that is not for its type
-  [[noreturn]] void refuse_kind(const InpCard& card, const InpElement& element, const std::string& mend) const;
   /// Elements are grouped by the set that their *ELEMENT card names, else by that of the section, spring or mass `card`: many
   /// section cards (one a direction n1) may speak of one group. Where several instances have a set of the name, each has a
   /// group, "INSTANCE.NAME".
@@ -128,15 +104,12 @@ struct InpParts {
   [[nodiscard]] std::string set_name(const std::map<std::string, InpSet>& sets, const InpSet& set) const;
   /// The card below `card`, or null.
   [[nodiscard]] const InpCard* card_after(const InpCard& card) const;
-  /// Elements of the set that ELSET= of the card names, marked as used.
-  [[nodiscard]] std::vector<InpElement*> elements_of(const InpCard& card);
-  /// Nodes whose rotations a beam or a shell holds.
-  [[nodiscard]] std::set<long> turning_nodes() const;
-  void add_link(int master, int slave);
-  void add_constraint(const fe::Constraint& c, const InpCard& card, long line) {
-    model.constraints.push_back(c);
-    constraint_origin.push_back({&card, line});
-  }
+  /// Elements of the set that ELSET= of the card names, marked as used. @throws InputError for one of another kind
+  [[nodiscard]] std::vector<InpElement*> elements_of(const InpCard& card, InpKind kind, InpKind or_kind = InpKind::none);
+  /// Whether the card at hand stands in an instance that is rotated.
+  [[nodiscard]] bool is_turned() const { return scopes[static_cast<std::size_t>(scope)].turned(); }
+  /// @throws InputError where it does: directions given by number are not sure there
+  void refuse_turned(const DeckPlace& at) const;
 };
 
 template <class Map>

@@ -25,22 +25,17 @@ std::size_t end_of_modal_step(const InpFile& file) {
 }
 
 /// *INSTANCE: translation on its first data line; rotation on its second, which comes after the translation.
-void place_instance(const InpFile& file, const InpCard& card, InpScope& scope) {
+void place_instance(const InpCard& card, InpScope& scope) {
   if (card.data.empty()) return;
-  if (card.data.size() > 2)
-    file.fail(card, card.data[2].line, "a third data line is no placement", "give a translation, then a rotation");
-  Eigen::Vector3d shift, a, b;
-  for (std::size_t i = 0; i < 3; ++i) shift[static_cast<int>(i)] = file.number_or(card, card.data[0], i, 0.0);
+  if (card.data.size() > 2) card.data[2].fail("a third data line is no placement", "give a translation, then a rotation");
+  const Eigen::Vector3d shift = card.data[0].vector(0);
   scope.shift_m = shift;
   if (card.data.size() < 2) return;
   const InpLine& turn = card.data[1];
-  for (std::size_t i = 0; i < 3; ++i) {
-    a[static_cast<int>(i)] = file.number(card, turn, i);
-    b[static_cast<int>(i)] = file.number(card, turn, i + 3);
-  }
-  const double angle = file.number(card, turn, 6) * std::numbers::pi / 180.0;
+  const Eigen::Vector3d a = turn.vector(0), b = turn.vector(3);
+  const double angle = turn.number(6) * std::numbers::pi / 180.0;
   if (!((b - a).norm() > 1e-12 * (1.0 + a.norm())))
-    file.fail(card, turn.line, "the two points of the axis of rotation are one", "give points a and b apart, then the angle");
+    turn.fail("the two points of the axis of rotation are one", "give points a and b apart, then the angle");
   if (angle == 0.0) return;
   scope.rotation = Eigen::AngleAxisd(angle, (b - a).normalized()).toRotationMatrix();
   scope.shift_m = a + scope.rotation * (shift - a);
@@ -56,7 +51,7 @@ std::vector<IdRange> ranges_of(const InpPlan& plan, const char* keyword) {
     if (reading.card->keyword != keyword) continue;
     IdRange& range = ranges[static_cast<std::size_t>(reading.scope)];
     for (const InpLine& line : reading.card->data) {
-      if (!InpFile::is_integer(line.fields[0])) continue;  // what is wrong with it is said where it is read
+      if (!is_whole_number(line.fields[0])) continue;  // what is wrong with it is said where it is read
       const long id = std::min(std::stol(line.fields[0]), largest_kept_apart);
       if (range.last < range.first) range = {id, id};
       range = {std::min(range.first, id), std::max(range.last, id)};
@@ -117,7 +112,7 @@ class Planner {
   InpPlan plan() {
     const std::size_t end = end_of_modal_step(file_);
     for (std::size_t i = 0; i < end; ++i) take(file_.cards()[i]);
-    if (open_ != nullptr) file_.fail(*open_, open_->line, "is not closed", "write *END " + open_->keyword);
+    if (open_ != nullptr) open_->fail("is not closed", "write *END " + open_->keyword);
     for (const auto& [name, part] : parts_) {
       if (part.used) continue;
       plan_.notes.push_back(
@@ -149,30 +144,29 @@ class Planner {
   }
 
   void open_part(const InpCard& card) {
-    if (open_ != nullptr) file_.fail(card, card.line, fmt::format("stands inside of *{}", open_->keyword), "close that first");
-    const std::string name = file_.required(card, "NAME");
+    if (open_ != nullptr) card.fail(fmt::format("stands inside of *{}", open_->keyword), "close that first");
+    const std::string name = card.required("NAME");
     const auto [found, is_new] = parts_.emplace(upper_case(name), Part{&card, {}, false});
-    if (!is_new) file_.fail(card, card.line, fmt::format("part '{}' is defined twice", name), "keep one of the two");
+    if (!is_new) card.fail(fmt::format("part '{}' is defined twice", name), "keep one of the two");
     part_ = &found->second;
     open_ = &card;
   }
 
   void open_instance(const InpCard& card) {
-    if (open_ != nullptr) file_.fail(card, card.line, fmt::format("stands inside of *{}", open_->keyword), "close that first");
-    file_.allow(card, {"NAME", "PART"});
+    if (open_ != nullptr) card.fail(fmt::format("stands inside of *{}", open_->keyword), "close that first");
+    card.allow({"NAME", "PART"});
     InpScope scope;
-    scope.name = file_.required(card, "NAME");
+    scope.name = card.required("NAME");
     if (!names_.insert(upper_case(scope.name)).second)
-      file_.fail(card, card.line, fmt::format("a second instance is called '{}'", scope.name), "give each a name of its own");
-    const std::string part = file_.required(card, "PART");
+      card.fail(fmt::format("a second instance is called '{}'", scope.name), "give each a name of its own");
+    const std::string part = card.required("PART");
     const auto found = parts_.find(upper_case(part));
     if (found == parts_.end()) {
       std::vector<std::string> known;
       for (const auto& [key, entry] : parts_) known.push_back(entry.card->get("NAME"));
-      file_.fail(card, card.line, fmt::format("no part above is called '{}'{}", part, did_you_mean(part, known)),
-                 "define it by *PART");
+      card.fail(fmt::format("no part above is called '{}'{}", part, did_you_mean(part, known)), "define it by *PART");
     }
-    place_instance(file_, card, scope);
+    place_instance(card, scope);
     scope_ = static_cast<int>(plan_.scopes.size());
     plan_.scopes.push_back(scope);
     found->second.used = true;
@@ -182,7 +176,7 @@ class Planner {
 
   void close(const InpCard& card) {
     if (open_ == nullptr || card.keyword != "END " + open_->keyword)
-      file_.fail(card, card.line, "closes nothing that is open", "take it out, or open it above");
+      card.fail("closes nothing that is open", "take it out, or open it above");
     open_ = nullptr;
     part_ = nullptr;
     scope_ = 0;

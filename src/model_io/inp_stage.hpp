@@ -20,7 +20,7 @@ struct InpStage {
 };
 
 /// @throws InputError  for initial stresses that no step takes up
-[[nodiscard]] InpStage find_inp_stage(const InpFile& file, const InpPlan& plan);
+[[nodiscard]] InpStage find_inp_stage(const InpPlan& plan);
 
 /// *EXPANSION: the coefficient of the last *MATERIAL.
 void read_inp_expansion(InpParts& parts, const InpCard& card);

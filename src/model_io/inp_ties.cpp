@@ -29,10 +29,6 @@ struct TieCount {
   double widest_m = 0.0;  ///< gap that is bridged
 };
 
-const InpSurface& surface_of(const InpParts& parts, const InpCard& card, const InpLine& line, std::size_t field) {
-  return parts.surface(card, line.line, field < line.fields.size() ? line.fields[field] : "");
-}
-
 /// Half the greatest thickness of the shells of a surface.
 double half_thickness(const InpParts& parts, const InpSurface& surface) {
   std::set<long> shells;
@@ -49,9 +45,8 @@ double half_thickness(const InpParts& parts, const InpSurface& surface) {
 
 double tolerance_of(const InpParts& parts, const Tie& tie, const std::vector<Facet>& facets) {
   if (tie.card.has("POSITION TOLERANCE")) {
-    const InpLine given{tie.card.line, {tie.card.get("POSITION TOLERANCE")}};
-    const double tolerance = parts.file.number(tie.card, given, 0);
-    if (tolerance < 0.0) parts.file.fail(tie.card, tie.card.line, "POSITION TOLERANCE is negative", "give a distance");
+    const double tolerance = tie.card.value("POSITION TOLERANCE").number(0);
+    if (tolerance < 0.0) tie.card.fail("POSITION TOLERANCE is negative", "give a distance");
     return tolerance;
   }
   double size = 0.0;
@@ -61,11 +56,11 @@ double tolerance_of(const InpParts& parts, const Tie& tie, const std::vector<Fac
 
 /// Constraints of one slave node by the facet's nodes.
 void tie_to_facet(InpParts& parts, const Tie& tie, int slave, const Facet& facet, const Foot& foot, bool with_rotations) {
-  const Eigen::Vector3d gap = parts.model.nodes[static_cast<std::size_t>(slave)].x_m - facet.point(foot);
+  const Eigen::Vector3d gap = parts.place(slave) - facet.point(foot);
   const auto add = [&](int direction, std::vector<fe::Constraint::Term> terms) {
     constexpr double nothing = 1e-12;  ///< [-] shape functions at their nodes, rounded
     std::erase_if(terms, [](const fe::Constraint::Term& term) { return std::abs(term.factor) < nothing; });
-    parts.add_constraint({tie.name, slave, direction, std::move(terms)}, tie.card, tie.line.line);
+    parts.add_constraint({tie.name, slave, direction, std::move(terms)}, tie.line);
   };
   const std::vector<Eigen::Matrix3d> of_nodes = facet.motion(foot, facet.turning ? Eigen::Vector3d::Zero() : gap);
   for (int d = 0; d < 3; ++d) {
@@ -91,17 +86,16 @@ struct Followers {
   explicit Followers(const InpParts& parts) {
     for (const fe::RigidLink& link : parts.model.links) linked.insert(link.slave);
     for (std::size_t i = 0; i < parts.model.constraints.size(); ++i)
-      (parts.constraint_origin[i].card->keyword == "TIE" ? tied : linked).insert(parts.model.constraints[i].node);
+      (parts.constraint_origin[i].label == "*TIE" ? tied : linked).insert(parts.model.constraints[i].node);
   }
 };
 
 TieCount tie_nodes(InpParts& parts, const Tie& tie, const std::vector<Facet>& facets) {
   const Followers followers(parts);
-  const std::set<long> turning = parts.turning_nodes();
   TieCount count;
   for (const long id : tie.slave.nodes) {
-    const int slave = parts.node(tie.card, tie.line.line, id);
-    const auto nearest = nearest_facet(facets, parts.model.nodes[static_cast<std::size_t>(slave)].x_m, tie.tolerance);
+    const int slave = parts.node(tie.line, id);
+    const auto nearest = nearest_facet(facets, parts.place(slave), tie.tolerance);
     if (!nearest) {
       ++count.far;
       continue;
@@ -109,14 +103,13 @@ TieCount tie_nodes(InpParts& parts, const Tie& tie, const std::vector<Facet>& fa
     const auto& [facet, foot] = *nearest;
     if (std::find(facet->nodes.begin(), facet->nodes.end(), slave) != facet->nodes.end()) continue;  // one mesh already
     if (followers.linked.contains(slave))
-      parts.file.fail(tie.card, tie.line.line,
-                      fmt::format("slave node {} follows a link or an equation already", parts.node_name(id)),
-                      "take the node out of the slave surface, or exchange slave and master");
+      tie.line.fail(fmt::format("slave node {} follows a link or an equation already", parts.node_name(id)),
+                    "take the node out of the slave surface, or exchange slave and master");
     if (followers.tied.contains(slave)) {
       ++count.earlier;
       continue;
     }
-    const bool turns = turning.contains(id);
+    const bool turns = parts.turning.contains(slave);
     if (turns && !facet->turning) ++count.hinged;
     tie_to_facet(parts, tie, slave, *facet, foot, turns && facet->turning && tie.rotations);
     ++count.tied;
@@ -127,9 +120,8 @@ TieCount tie_nodes(InpParts& parts, const Tie& tie, const std::vector<Facet>& fa
 
 void say_tied(InpParts& parts, const Tie& tie, const TieCount& count) {
   if (count.tied == 0 && count.far > 0)
-    parts.file.fail(tie.card, tie.line.line,
-                    fmt::format("no node of '{}' lies within {:.3g} of '{}'", tie.slave.name, tie.tolerance, tie.master.name),
-                    "check the surfaces and the place of the instances, or give POSITION TOLERANCE");
+    tie.line.fail(fmt::format("no node of '{}' lies within {:.3g} of '{}'", tie.slave.name, tie.tolerance, tie.master.name),
+                  "check the surfaces and the place of the instances, or give POSITION TOLERANCE");
   std::string said =
       fmt::format("tie '{}': {} nodes of '{}' follow the facets of '{}' by interpolation, over gaps of up to {:.3g}", tie.name,
                   count.tied, tie.slave.name, tie.master.name, count.widest_m);
@@ -142,23 +134,23 @@ void say_tied(InpParts& parts, const Tie& tie, const TieCount& count) {
 }  // namespace
 
 void attach_inp_tie(InpParts& parts, const InpCard& card) {
-  parts.file.allow(card, {"NAME", "ADJUST", "POSITION TOLERANCE", "TYPE", "NO ROTATION", "NO THICKNESS"});
+  card.allow({"NAME", "ADJUST", "POSITION TOLERANCE", "TYPE", "NO ROTATION", "NO THICKNESS"});
   const std::string type = upper_case(card.get("TYPE", "SURFACE TO SURFACE"));
   if (type != "SURFACE TO SURFACE" && type != "NODE TO SURFACE")
-    parts.file.fail(card, card.line, fmt::format("unsupported TYPE={}", type), "SURFACE TO SURFACE or NODE TO SURFACE");
-  if (card.data.empty()) parts.file.fail(card, card.line, "has no data line", "write slave, master");
+    card.fail(fmt::format("unsupported TYPE={}", type), "SURFACE TO SURFACE or NODE TO SURFACE");
+  if (card.data.empty()) card.fail("has no data line", "write slave, master");
   for (const InpLine& line : card.data) {
     Tie tie{card,
             line,
             card.get("NAME", fmt::format("tie_{}", card.line)),
             !card.has("NO ROTATION"),
-            surface_of(parts, card, line, 0),
-            surface_of(parts, card, line, 1)};
+            parts.surface(line, line.text(0)),
+            parts.surface(line, line.text(1))};
     if (tie.master.facets.empty())
-      parts.file.fail(card, line.line, fmt::format("the master '{}' is a surface of nodes, which is not read", tie.master.name),
-                      "exchange slave and master, or name the faces of elements");
+      line.fail(fmt::format("the master '{}' is a surface of nodes, which is not read", tie.master.name),
+                "exchange slave and master, or name the faces of elements");
     std::vector<Facet> facets;
-    for (const InpFacet& facet : tie.master.facets) facets.push_back(make_facet(parts, card, line.line, facet));
+    for (const InpFacet& facet : tie.master.facets) facets.push_back(make_facet(parts, line, facet));
     tie.tolerance = tolerance_of(parts, tie, facets);
     say_tied(parts, tie, tie_nodes(parts, tie, facets));
   }

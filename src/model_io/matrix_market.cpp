@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "io/regular_file.hpp"
-#include "model_io/inp_cards.hpp"
+#include "model_io/deck_card.hpp"
 
 namespace twindeck::model_io {
 namespace {

@@ -8,8 +8,7 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "model_io/folder_parts.hpp"
-#include "model_io/inp_cards.hpp"
+#include "model_io/deck_units.hpp"
 #include "model_io/model_toml.hpp"
 #include "model_io/nastran_constraints.hpp"
 #include "model_io/nastran_dmig.hpp"
@@ -21,7 +20,6 @@
 #include "model_io/nastran_springs.hpp"
 #include "model_io/nastran_stage.hpp"
 #include "model_io/nastran_supports.hpp"
-#include "model_io/nastran_units.hpp"
 #include "model_io/node_references.hpp"
 
 namespace twindeck::model_io {
@@ -76,22 +74,22 @@ void refuse_or_note(Parts& parts) {
     const bool is_known = is_read_apart(card.name) || std::find(known.begin(), known.end(), card.name) != known.end();
     if (is_known) {
       if (!card.stray.empty())
-        parts.deck.fail(card, fmt::format("the line '{}' below it is the continuation of another card", card.stray),
-                        "put the continuations of a card below it");
+        card.fail(fmt::format("the line '{}' below it is the continuation of another card", card.stray),
+                  "put the continuations of a card below it");
     } else if (ignored_cards().contains(card.name)) {
       auto& [count, first] = passed_over.try_emplace(card.name, 0, &card).first->second;
       ++count;
     } else if (const auto hint = refused_cards().find(card.name); hint != refused_cards().end()) {
-      parts.deck.fail(card, "this card is not read", hint->second);
+      card.fail("this card is not read", hint->second);
     } else {
-      parts.deck.fail(card, "unknown card" + did_you_mean(card.name, known),
-                      "leave it out if the model is meant without it; docs/import_nastran.md lists what is read");
+      DeckPlace{card.file, card.line, card.name.substr(0, 8)}.fail(
+          "unknown card" + did_you_mean(card.name, known),
+          "leave it out if the model is meant without it; docs/import_nastran.md lists what is read");
     }
   }
   for (const auto& [name, entry] : passed_over)
-    parts.notes.push_back(fmt::format(
-        "{} cards ({}, first in line {} of {}) are left out: they {}", name, entry.first, entry.second->line,
-        parts.deck.files()[static_cast<std::size_t>(entry.second->file)].filename().string(), ignored_cards().at(name)));
+    parts.notes.push_back(fmt::format("{} cards ({}, first in line {} of {}) are left out: they {}", name, entry.first,
+                                      entry.second->line, entry.second->file->filename().string(), ignored_cards().at(name)));
 }
 
 /// What Nastran takes for K6ROT in linear analyses where the deck does not say it, and the share of G t that one unit of it is:
@@ -106,16 +104,16 @@ double read_parameters(Parts& parts) {
   parts.model.formulation.shell_rotary_inertia = false;
   for (const Card& card : parts.deck.cards()) {
     if (card.name != "PARAM") continue;
-    const std::string name = upper_case(Deck::text(card, 0));
-    if (name == "WTMASS") wtmass = parts.deck.number(card, 1);
-    if (name == "K6ROT") k6rot = parts.deck.number(card, 1);
-    if (name == "COUPMASS") parts.model.formulation.lumped_mass = parts.deck.integer(card, 1) <= 0;
-    if (name == "WTMASS" && !(wtmass > 0.0)) parts.deck.fail(card, "is not above 0", "give mass per weight, 1/g");
-    if (name == "NMLOOP" && parts.deck.integer(card, 1) != 0)
-      parts.deck.fail(card, "asks for modes after a nonlinear static loop, which is not read",
-                      "write SOL 103 with a static subcase and STATSUB");
-    if (scales_matrices(name) && parts.deck.number(card, 1) != 1.0)
-      parts.deck.fail(card, "scales the matrices of the structure, which is not read", "leave it out");
+    const std::string name = card.word(0);
+    if (name == "WTMASS") wtmass = card.number(1);
+    if (name == "K6ROT") k6rot = card.number(1);
+    if (name == "COUPMASS") parts.model.formulation.lumped_mass = card.integer(1) <= 0;
+    if (name == "WTMASS" && !(wtmass > 0.0)) card.fail("is not above 0", "give mass per weight, 1/g");
+    if (name == "NMLOOP" && card.integer(1) != 0)
+      card.fail("asks for modes after a nonlinear static loop, which is not read",
+                "write SOL 103 with a static subcase and STATSUB");
+    if (scales_matrices(name) && card.number(1) != 1.0)
+      card.fail("scales the matrices of the structure, which is not read", "leave it out");
   }
   // None at all leaves the rotation to AUTOSPC; here the formulation's own penalty stands in (factor 0).
   parts.model.formulation.drilling_factor = std::max(0.0, k6rot_unit * k6rot);
@@ -126,12 +124,12 @@ double read_parameters(Parts& parts) {
 void sort_nodes(Parts& parts) {
   std::vector<int> now(parts.model.nodes.size());
   int next = 0;
-  for (const auto& [grid, position] : parts.node_position) now[static_cast<std::size_t>(position)] = next++;
+  for (auto& [grid, position] : parts.node_position) position = now[fe::slot(position)] = next++;
   renumber_nodes(parts.model, now);
-  for (auto& [grid, position] : parts.node_position) position = now[static_cast<std::size_t>(position)];
-  const auto used = [&](const auto& grid) { return parts.node_position.contains(grid.first); };
-  const auto unused = std::count_if(parts.grids.begin(), parts.grids.end(), [&](const auto& grid) { return !used(grid); });
-  if (unused > 0) parts.notes.push_back(fmt::format("grids that no element, mass or link uses are left out: {}", unused));
+  const auto used = std::count_if(parts.node_position.begin(), parts.node_position.end(),
+                                  [&](const auto& node) { return parts.grids.contains(node.first); });
+  if (const auto unused = std::ssize(parts.grids) - used; unused > 0)
+    parts.notes.push_back(fmt::format("grids that no element, mass or link uses are left out: {}", unused));
 }
 
 }  // namespace
@@ -176,7 +174,7 @@ ImportedModel read_nastran(const std::filesystem::path& path) {
 
   auto beside = path;
   beside.replace_extension(".toml");
-  nastran::UnitKeys keys;
+  UnitKeys keys;
   const std::size_t own_matrices = parts.model.matrix_elements.size();
   const bool falls = !parts.model.prestress.load_case.empty();
   const double own_gravity = parts.model.gravity_m_s2;
@@ -186,11 +184,11 @@ ImportedModel read_nastran(const std::filesystem::path& path) {
   std::vector<fe::MatrixElement> added(parts.model.matrix_elements.begin() + static_cast<std::ptrdiff_t>(own_matrices),
                                        parts.model.matrix_elements.end());
   parts.model.matrix_elements.resize(own_matrices);
-  const nastran::Units units = nastran::units_of(keys, beside);
-  nastran::to_si(parts.model, units, parts.wtmass);
+  const DeckUnits units = units_of(keys, beside);
+  to_si(parts.model, units, parts.wtmass);
   if (falls && parts.model.gravity_m_s2 == own_gravity) parts.model.gravity_m_s2 *= units.length_m;
   parts.model.matrix_elements.insert(parts.model.matrix_elements.end(), added.begin(), added.end());
-  return {std::move(parts.model), std::move(parts.notes), deck.files()};
+  return {std::move(parts.model), std::move(parts.notes), {deck.files().begin(), deck.files().end()}};
 }
 
 }  // namespace twindeck::model_io

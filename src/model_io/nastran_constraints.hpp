@@ -13,7 +13,7 @@ namespace twindeck::model_io::nastran {
 /// @throws InputError  where the grids do not determine a motion that REFC asks for
 void read_average(Parts& parts, const Card& card);
 /// RBE2 that ties some components only: those follow the independent grid as a rigid body, the others are free (hinges).
-void tie_some(Parts& parts, const Card& card, long independent, long dependent, const std::array<bool, 6>& tied);
+void tie_some(Parts& parts, const Card& card, long independent, long dependent, const Directions& tied);
 /// MPC cards of the set that the case control chooses. The first displacement of each follows the others.
 void read_multipoint(Parts& parts);
 

@@ -6,8 +6,6 @@
 #include <map>
 #include <set>
 
-#include "core/error.hpp"
-#include "model_io/inp_cards.hpp"
 #include "model_io/nastran_properties.hpp"
 #include "model_io/nastran_springs.hpp"
 
@@ -22,20 +20,18 @@ struct Choice {
   double factor = 1.0;
 };
 
-std::vector<Choice> choices_of(const Parts& parts, const CaseControl::Matrices& chosen, const char* key) {
+std::vector<Choice> choices_of(const CaseControl::Matrices& chosen) {
   std::vector<Choice> choices;
   std::string text = chosen.text;
   std::erase(text, ' ');
   std::replace(text.begin(), text.end(), '+', ',');
-  for (std::size_t start = 0, comma = 0; !text.empty() && comma != std::string::npos; start = comma + 1) {
-    comma = text.find(',', start);
-    std::string word = text.substr(start, comma == std::string::npos ? comma : comma - start);
+  for (const std::string& word : text.empty() ? std::vector<std::string>{} : split_at(text, ',')) {
     Choice choice;
     const std::size_t star = word.find('*');
-    const Card at{key, {"", star == std::string::npos ? "1." : word.substr(0, star)}, chosen.file, chosen.line, ""};
-    choice.factor = parts.deck.number(at, 1);
+    const DeckFields at{chosen, {"", star == std::string::npos ? "1." : word.substr(0, star)}};
+    choice.factor = at.number(1);
     choice.name = star == std::string::npos ? word : word.substr(star + 1);
-    if (choice.name.empty()) parts.deck.fail(at, "names no matrix", fmt::format("write {} = NAME, or a*NAME, b*OTHER", key));
+    if (choice.name.empty()) at.fail("names no matrix", fmt::format("write {} = NAME, or a*NAME, b*OTHER", chosen.label));
     choices.push_back(choice);
   }
   return choices;
@@ -50,62 +46,60 @@ struct Direct {
 
 /// Row of a grid and component.
 Eigen::Index row_of(Parts& parts, const Card& card, std::size_t i, Direct& direct) {
-  const long grid = parts.deck.integer(card, i), component = parts.deck.integer_or(card, i + 1, 0);
+  const long grid = card.integer(i), component = card.integer_or(i + 1, 0);
   if (component < 1 || component > 6)
-    parts.deck.fail(card, fmt::format("component {} of point {} is none of 1 to 6", component, grid),
-                    "scalar points are not read; give components of grids");
+    card.fail(fmt::format("component {} of point {} is none of 1 to 6", component, grid),
+              "scalar points are not read; give components of grids");
   const auto [found, is_new] = direct.position.try_emplace(grid, std::ssize(direct.grids));
   if (is_new) {
     (void)parts.node(card, grid);
     direct.grids.push_back(grid);
     if (direct.grids.size() > most_grids)
-      parts.deck.fail(card, fmt::format("the matrix has more than {} grids", most_grids),
-                      "give the whole model as matrices (docs/my_model.md)");
+      card.fail(fmt::format("the matrix has more than {} grids", most_grids),
+                "give the whole model as matrices (docs/my_model.md)");
   }
   return 6 * found->second + component - 1;
 }
 
-void check_header(const Parts& parts, const Card& header) {
-  const long form = parts.deck.integer(header, 2), kind = parts.deck.integer(header, 3);
+void check_header(const Card& header) {
+  const long form = header.integer(2), kind = header.integer(3);
   if (form != 6)
-    parts.deck.fail(header, fmt::format("has form IFO {}, expected 6: symmetric", form),
-                    "stiffness and mass of a structure are symmetric; write one triangle");
+    header.fail(fmt::format("has form IFO {}, expected 6: symmetric", form),
+                "stiffness and mass of a structure are symmetric; write one triangle");
   if (kind != 1 && kind != 2)
-    parts.deck.fail(header, fmt::format("has numbers of type TIN {}, expected 1 or 2: real", kind), "leave the damping out");
+    header.fail(fmt::format("has numbers of type TIN {}, expected 1 or 2: real", kind), "leave the damping out");
 }
 
-Direct read_direct(Parts& parts, const std::string& name, const CaseControl::Matrices& chosen, const char* key) {
+Direct read_direct(Parts& parts, const std::string& name, const CaseControl::Matrices& chosen) {
   Direct direct;
   const Card* header = nullptr;
   for (const Card& card : parts.deck.cards()) {
-    if (card.name != "DMIG" || upper_case(Deck::text(card, 0)) != name) continue;
-    if (Deck::text(card, 1) == "0") {
-      if (header != nullptr) parts.deck.fail(card, "is the second header of this matrix", "give each matrix one");
+    if (card.name != "DMIG" || card.word(0) != name) continue;
+    if (card.text(1) == "0") {
+      if (header != nullptr) card.fail("is the second header of this matrix", "give each matrix one");
       header = &card;
-      check_header(parts, card);
+      check_header(card);
       continue;
     }
-    if (header == nullptr) parts.deck.fail(card, "stands before the header of its matrix", "put DMIG,NAME,0,6,1 above it");
+    if (header == nullptr) card.fail("stands before the header of its matrix", "put DMIG,NAME,0,6,1 above it");
     const Eigen::Index column = row_of(parts, card, 1, direct);
-    for (std::size_t i = 4; i < Deck::size(card); i += 4) {
-      if (Deck::blank(card, i)) continue;
+    for (std::size_t i = 4; i < card.size(); i += 4) {
+      if (card.blank(i)) continue;
       const Eigen::Index row = row_of(parts, card, i, direct);
-      const double value = parts.deck.number(card, i + 2);
+      const double value = card.number(i + 2);
       const bool is_new = direct.entries.emplace(std::pair{row, column}, value).second;
       if (!is_new || (row != column && !direct.entries.emplace(std::pair{column, row}, value).second))
-        parts.deck.fail(
-            card, fmt::format("the term of grid {}, component {} stands twice", Deck::text(card, i), Deck::text(card, i + 1)),
-            "of a symmetric matrix give one triangle, each term once");
+        card.fail(fmt::format("the term of grid {}, component {} stands twice", card.text(i), card.text(i + 1)),
+                  "of a symmetric matrix give one triangle, each term once");
     }
   }
   if (header == nullptr)
-    throw InputError({parts.deck.files()[static_cast<std::size_t>(chosen.file)].string(), chosen.line, key},
-                     fmt::format("chooses the matrix {}, which no DMIG card has", name), "give the cards, or mend the name");
+    chosen.fail(fmt::format("chooses the matrix {}, which no DMIG card has", name), "give the cards, or mend the name");
   return direct;
 }
 
 /// In basic axes.
-Eigen::MatrixXd assembled(Parts& parts, const Direct& direct, const Card& from) {
+Eigen::MatrixXd assembled(Parts& parts, const Direct& direct, const DeckPlace& from) {
   const auto n = static_cast<Eigen::Index>(6 * direct.grids.size());
   Eigen::MatrixXd local = Eigen::MatrixXd::Zero(n, n), turn = Eigen::MatrixXd::Zero(n, n);
   for (const auto& [at, value] : direct.entries) local(at.first, at.second) = value;
@@ -119,14 +113,13 @@ Eigen::MatrixXd assembled(Parts& parts, const Direct& direct, const Card& from) 
   return turned ? Eigen::MatrixXd(turn.transpose() * local * turn) : local;
 }
 
-void add_direct(Parts& parts, const CaseControl::Matrices& chosen, const char* key, bool mass, std::set<std::string>& used) {
-  for (const Choice& choice : choices_of(parts, chosen, key)) {
+void add_direct(Parts& parts, const CaseControl::Matrices& chosen, bool mass, std::set<std::string>& used) {
+  for (const Choice& choice : choices_of(chosen)) {
     used.insert(choice.name);
-    const Direct direct = read_direct(parts, choice.name, chosen, key);
-    const Card from{key, {choice.name}, chosen.file, chosen.line, ""};
-    const Eigen::MatrixXd matrix = choice.factor / (mass ? parts.wtmass : 1.0) * assembled(parts, direct, from);
+    const Direct direct = read_direct(parts, choice.name, chosen);
+    const Eigen::MatrixXd matrix = choice.factor / (mass ? parts.wtmass : 1.0) * assembled(parts, direct, chosen);
     std::vector<int> nodes;
-    for (const long grid : direct.grids) nodes.push_back(parts.node(from, grid));
+    for (const long grid : direct.grids) nodes.push_back(parts.node(chosen, grid));
     add_matrix(parts, "dmig_" + choice.name, nodes, mass ? Eigen::MatrixXd() : matrix, mass ? matrix : Eigen::MatrixXd());
   }
 }
@@ -135,14 +128,14 @@ void add_direct(Parts& parts, const CaseControl::Matrices& chosen, const char* k
 
 void read_direct_matrices(Parts& parts) {
   std::set<std::string> used;
-  add_direct(parts, parts.deck.case_control().k2gg, "K2GG", false, used);
-  add_direct(parts, parts.deck.case_control().m2gg, "M2GG", true, used);
+  add_direct(parts, parts.deck.case_control().k2gg, false, used);
+  add_direct(parts, parts.deck.case_control().m2gg, true, used);
   for (const Card& card : parts.deck.cards()) {
-    if (card.name != "DMIG" || used.contains(upper_case(Deck::text(card, 0)))) continue;
+    if (card.name != "DMIG" || used.contains(card.word(0))) continue;
     if (!parts.deck.case_control().present)
-      parts.deck.fail(card, "is a matrix, but no case control chooses it",
-                      "put \"K2GG = NAME\" (or M2GG) and \"BEGIN BULK\" above the cards");
-    note_once(parts, fmt::format("DMIG cards of {} are left out: neither K2GG nor M2GG chooses them", Deck::text(card, 0)));
+      card.fail("is a matrix, but no case control chooses it",
+                "put \"K2GG = NAME\" (or M2GG) and \"BEGIN BULK\" above the cards");
+    parts.note_once(fmt::format("DMIG cards of {} are left out: neither K2GG nor M2GG chooses them", card.text(0)));
   }
 }
 

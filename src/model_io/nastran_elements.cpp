@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model_io/inp_cards.hpp"
 #include "model_io/nastran_beams.hpp"
 #include "model_io/nastran_properties.hpp"
 
@@ -16,129 +15,107 @@ namespace {
 /// Number and nodes of an element; the rest follows by its kind.
 fe::Element start_element(Parts& parts, const Card& card, fe::ElementType type, std::size_t first, std::size_t count) {
   fe::Element e;
-  e.id = parts.deck.integer(card, 0);
+  e.id = card.integer(0);
   if (!parts.element_ids.insert(e.id).second)
-    parts.deck.fail(card, fmt::format("element {} is defined twice", e.id), "give each element a number of its own");
+    card.fail(fmt::format("element {} is defined twice", e.id), "give each element a number of its own");
   e.type = type;
-  for (std::size_t i = first; i < first + count; ++i) e.nodes.push_back(parts.node(card, parts.deck.integer(card, i)));
+  for (std::size_t i = first; i < first + count; ++i) e.nodes.push_back(parts.node(card, card.integer(i)));
   if (type == fe::ElementType::beam || type == fe::ElementType::shell) parts.turning.insert(e.nodes.begin(), e.nodes.end());
   return e;
 }
 
 /// Where the deck counts the vector and the offsets of a member: three letters, G = displacement system of the end, B = basic.
 /// Old decks have 1 or 2 there (vector or grid), which the fields in front say already.
-std::string frames_of(const Parts& parts, const Card& card) {
-  const std::string word = upper_case(Deck::text(card, 7));
+std::string frames_of(const Card& card) {
+  const std::string word = card.word(7);
   if (word.empty() || word == "0" || word == "1" || word == "2") return "GGG";
   const bool known = word.size() == 3 && word.find_first_not_of("GB") == std::string::npos;
   if (!known)
-    parts.deck.fail(card, fmt::format("OFFT is '{}', of which GGG and its kin with B are read", word),
-                    "give the offsets in the displacement system of the grids");
+    card.fail(fmt::format("OFFT is '{}', of which GGG and its kin with B are read", word),
+              "give the offsets in the displacement system of the grids");
   return word;
 }
 
 /// The vector v of a member in basic axes: by a grid (G0) or by components.
 Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
-  const long a = parts.deck.integer(card, 2);
-  const std::string first = Deck::text(card, 4);
-  if (Deck::is_integer(first) && first != "0" && Deck::blank(card, 5) && Deck::blank(card, 6))
-    return parts.place(card, parts.deck.integer(card, 4)) - parts.place(card, a);
-  const Eigen::Vector3d v = parts.deck.vector(card, 4);
+  const long a = card.integer(2);
+  const std::string first = card.text(4);
+  if (is_whole_number(first) && first != "0" && card.blank(5) && card.blank(6))
+    return parts.grid_place(card, card.integer(4)) - parts.grid_place(card, a);
+  const Eigen::Vector3d v = card.vector(4);
   return frame == 'B' ? v : Eigen::Vector3d(parts.displacement_axes(card, a).transpose() * v);
 }
 
 /// Offset of an end in basic axes.
 Eigen::Vector3d offset_of(Parts& parts, const Card& card, std::size_t i, long grid, char frame) {
-  const Eigen::Vector3d w = parts.deck.vector(card, i);
+  const Eigen::Vector3d w = card.vector(i);
   if (w.isZero(0.0) || frame == 'B') return w;
   return parts.displacement_axes(card, grid).transpose() * w;
 }
 
 /// Pin flags: digits 1 to 6 of local displacements that carry no force.
-std::uint16_t releases_of(const Parts& parts, const Card& card) {
+std::uint16_t releases_of(const Card& card) {
   unsigned bits = 0;
   for (const std::size_t end : {0U, 1U}) {
-    if (Deck::blank(card, 8 + end) || Deck::text(card, 8 + end) == "0") continue;
-    const auto free = components(parts, card, 8 + end);
+    if (card.blank(8 + end) || card.text(8 + end) == "0") continue;
+    const auto free = components(card, 8 + end);
     for (std::size_t i = 0; i < 6; ++i) bits |= free[i] ? 1U << (6 * end + i) : 0U;
   }
   return static_cast<std::uint16_t>(bits);
 }
 
 /// Mass that is not structural, per volume of a rod.
-double rod_added_density(const Parts& parts, const Card& card, std::size_t area, std::size_t mass) {
-  const double a = parts.deck.number(card, area);
-  if (!(a > 0.0)) parts.deck.fail(card, fmt::format("the area is {:g}, expected a value above 0", a), "give the area");
-  return parts.deck.number_or(card, mass, 0.0) / a;
-}
-
-/// Adds a shell or solid, in pieces where it has grids on its edges.
-void add_whole_element(Parts& parts, const fe::Element& whole) {
-  constexpr long above_all = 100'000'000;  ///< numbers of Nastran have eight digits
-  const auto new_node = [&](const Eigen::Vector3d& x) {
-    const long id = std::max(above_all, parts.node_position.rbegin()->first) + 1;
-    parts.node_position.emplace(id, static_cast<int>(parts.model.nodes.size()));
-    parts.model.nodes.push_back({id, x});
-    parts.turning.insert(static_cast<int>(parts.model.nodes.size()) - 1);
-    return static_cast<int>(parts.model.nodes.size()) - 1;
-  };
-  const auto new_element = [&] { return parts.last_element_id = std::max(above_all, parts.last_element_id) + 1; };
-  parts.pieces[whole.id] = add_in_pieces(parts.model, whole, {new_node, new_element, parts.face_centres});
+double rod_added_density(const Card& card, std::size_t area, std::size_t mass) {
+  const double a = card.number(area);
+  if (!(a > 0.0)) card.fail(fmt::format("the area is {:g}, expected a value above 0", a), "give the area");
+  return card.number_or(mass, 0.0) / a;
 }
 
 /// Grids on the edges, in fields `first` and on: all of them, or none; the element has `corners` corners already.
 void add_edge_grids(Parts& parts, const Card& card, std::size_t first, std::size_t count, fe::Element& e) {
   std::size_t given = 0;
-  for (std::size_t i = first; i < first + count; ++i) given += Deck::blank(card, i) || Deck::text(card, i) == "0" ? 0 : 1;
+  for (std::size_t i = first; i < first + count; ++i) given += card.blank(i) || card.text(i) == "0" ? 0 : 1;
   if (given == 0) return;
   if (given < count)
-    parts.deck.fail(card, fmt::format("has {} of {} grids on its edges, which is not read", given, count), "give all, or none");
-  for (std::size_t i = first; i < first + count; ++i) e.nodes.push_back(parts.node(card, parts.deck.integer(card, i)));
-  if (e.type == fe::ElementType::shell) parts.turning.insert(e.nodes.begin(), e.nodes.end());
+    card.fail(fmt::format("has {} of {} grids on its edges, which is not read", given, count), "give all, or none");
+  for (std::size_t i = first; i < first + count; ++i) e.nodes.push_back(parts.node(card, card.integer(i)));
 }
 
 }  // namespace
 
 void read_member(Parts& parts, const Card& card) {
   fe::Element e = start_element(parts, card, fe::ElementType::beam, 2, 2);
-  const long property = parts.deck.integer_or(card, 1, e.id);
+  const long property = card.integer_or(1, e.id);
   const MemberProperty p = card.name == "CBAR" ? bar_property(parts, card, property) : beam_property(parts, card, property);
   e.material = p.material;
   e.section = p.section;
   if (p.section2 >= 0) e.section2 = p.section2;
   e.group = parts.model.sections[static_cast<std::size_t>(p.section)].name;
-  const std::string frames = frames_of(parts, card);
-  const long a = parts.deck.integer(card, 2), b = parts.deck.integer(card, 3);
+  const std::string frames = frames_of(card);
+  const long a = card.integer(2), b = card.integer(3);
   e.offset_m = {offset_of(parts, card, 10, a, frames[1]), offset_of(parts, card, 13, b, frames[2])};
-  e.releases = releases_of(parts, card);
+  e.releases = releases_of(card);
   const Eigen::Vector3d v = plane_vector(parts, card, frames[0]);
-  const Eigen::Vector3d axis = parts.place(card, b) + e.offset_m[1] - parts.place(card, a) - e.offset_m[0];
-  const Eigen::Vector3d z = axis.cross(v);
-  if (!(z.norm() > 1e-6 * axis.norm() * v.norm()))
-    parts.deck.fail(
-        card,
-        fmt::format("its vector ({:g}, {:g}, {:g}) lies along the member, or one of the two has no length", v[0], v[1], v[2]),
-        "give X1, X2, X3 or G0 across the member (plane 1)");
-  e.orientation = z.normalized();
+  const Eigen::Vector3d axis = parts.grid_place(card, b) + e.offset_m[1] - parts.grid_place(card, a) - e.offset_m[0];
+  e.orientation = DeckModel::local_z(card, "the member", axis, v, "give X1, X2, X3 or G0 across the member (plane 1)");
   parts.model.elements.push_back(e);
 }
 
 void read_rod(Parts& parts, const Card& card) {
   const bool own = card.name == "CONROD";
   fe::Element e = start_element(parts, card, fe::ElementType::bar, own ? 1 : 2, 2);
-  const Card& p = own ? card : parts.property(card, parts.deck.integer_or(card, 1, e.id), {"PROD"});
+  const Card& p = own ? card : parts.property(card, card.integer_or(1, e.id), {"PROD"});
   // PROD: PID MID A J C NSM; CONROD: EID G1 G2 MID A J C NSM.
   const std::size_t mid = own ? 3 : 1;
-  const double added = rod_added_density(parts, p, mid + 1, mid + 4), j = parts.deck.number_or(p, mid + 2, 0.0);
-  e.material = parts.material(p, parts.deck.integer(p, mid), added, property_name(p));
+  const double added = rod_added_density(p, mid + 1, mid + 4), j = p.number_or(mid + 2, 0.0);
+  e.material = parts.material(p, p.integer(mid), added, property_name(p));
   fe::Section s;
   s.name = e.group = property_name(p);
-  s.area_m2 = parts.deck.number(p, mid + 1);
-  e.section = parts.section(s);
+  s.area_m2 = p.number(mid + 1);
+  e.section = parts.add_section(s);
   if (j > 0.0) {
-    const auto at = [&](std::size_t i) { return parts.model.nodes[static_cast<std::size_t>(e.nodes[i])].x_m; };
-    const double length = (at(1) - at(0)).norm();
-    if (!(length > 0.0)) parts.deck.fail(card, "its two grids lie at one place", "give grids apart, or take the rod out");
+    const double length = (parts.place(e.nodes[1]) - parts.place(e.nodes[0])).norm();
+    if (!(length > 0.0)) card.fail("its two grids lie at one place", "give grids apart, or take the rod out");
     const double g = parts.model.materials[static_cast<std::size_t>(e.material)].shear_modulus_Pa;
     parts.twists.push_back({&card, e.nodes[0], e.nodes[1], g * j / length});
   }
@@ -157,17 +134,9 @@ void finish_rods(Parts& parts) {
       ++left_out;
       continue;
     }
-    fe::Spring s;
-    s.name = "crod_" + Deck::text(*twist.card, 0) + "_torsion";
-    s.group = "rod_torsion";
-    s.node = twist.a;
-    s.node2 = twist.b;
-    s.direction =
-        (parts.model.nodes[static_cast<std::size_t>(twist.b)].x_m - parts.model.nodes[static_cast<std::size_t>(twist.a)].x_m)
-            .normalized();
-    s.rotation = true;
-    s.stiffness = twist.stiffness;
-    parts.model.springs.push_back(s);
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+    axes.row(0) = (parts.place(twist.b) - parts.place(twist.a)).normalized();
+    parts.add_spring("crod_" + twist.card->text(0) + "_torsion", "rod_torsion", twist.a, twist.b, 3, axes, twist.stiffness);
   }
   if (left_out > 0)
     parts.notes.push_back(
@@ -177,60 +146,56 @@ void finish_rods(Parts& parts) {
 }
 
 void read_shell(Parts& parts, const Card& card) {
-  const Deck& deck = parts.deck;
   const bool quadratic = card.name == "CTRIA6" || card.name == "CQUAD8";
   const std::size_t corners = card.name.starts_with("CTRIA") ? 3 : 4;
   // CTRIA6: THETA, ZOFFS, T1 … behind six grids; CQUAD8: T1 …, THETA, ZOFFS behind eight.
   const std::size_t offset = !quadratic ? 3 + corners : corners == 3 ? 9 : 15, thicknesses = 10;
   fe::Element e = start_element(parts, card, fe::ElementType::shell, 2, corners);
   if (quadratic) add_edge_grids(parts, card, 2 + corners, corners, e);
-  const Card& p = parts.property(card, deck.integer_or(card, 1, e.id), {"PSHELL"});
+  const Card& p = parts.property(card, card.integer_or(1, e.id), {"PSHELL"});
   const std::string name = property_name(p);
-  if (deck.number_or(card, offset, 0.0) != 0.0)
-    deck.fail(card, "has an offset (ZOFFS), which is not read", "put the grids on the middle surface, or join them by RBE2");
-  const double t = deck.number_or(p, 2, 0.0);
-  if (!(t > 0.0)) deck.fail(p, fmt::format("the thickness is {:g}, expected a value above 0", t), "give T in field 4");
+  if (card.number_or(offset, 0.0) != 0.0)
+    card.fail("has an offset (ZOFFS), which is not read", "put the grids on the middle surface, or join them by RBE2");
+  const double t = p.number_or(2, 0.0);
+  if (!(t > 0.0)) p.fail(fmt::format("the thickness is {:g}, expected a value above 0", t), "give T in field 4");
   for (std::size_t i = thicknesses; i < thicknesses + corners; ++i) {
-    if (std::abs(deck.number_or(card, i, t) - t) > 1e-9 * t)
-      deck.fail(card, "has thicknesses at its corners that are not the property's, which is not read",
-                "give PSHELL the thickness");
+    if (std::abs(card.number_or(i, t) - t) > 1e-9 * t)
+      card.fail("has thicknesses at its corners that are not the property's, which is not read", "give PSHELL the thickness");
   }
-  const long membrane = deck.integer(p, 1), bending = deck.integer_or(p, 3, 0);
+  const long membrane = p.integer(1), bending = p.integer_or(3, 0);
   if (bending != membrane)
-    deck.fail(p,
-              bending == 0 ? "has no MID2, so that it is a membrane without bending, which is not read"
-                           : "has MID2 other than MID1, which is not read",
-              "give MID2 the material of MID1");
-  if (deck.integer_or(p, 10, 0) != 0)
-    deck.fail(p, "couples membrane and bending (MID4), which is not read", "leave MID4 blank");
+    p.fail(bending == 0 ? "has no MID2, so that it is a membrane without bending, which is not read"
+                        : "has MID2 other than MID1, which is not read",
+           "give MID2 the material of MID1");
+  if (p.integer_or(10, 0) != 0) p.fail("couples membrane and bending (MID4), which is not read", "leave MID4 blank");
   fe::Section s;
   s.name = e.group = name;
   s.thickness_m = t;
-  s.bending_inertia_ratio = deck.number_or(p, 4, 1.0);
-  e.section = parts.section(s);
-  e.material = parts.material(p, membrane, deck.number_or(p, 7, 0.0) / t, name);
-  if (deck.integer_or(p, 5, 0) != 0)
-    note_once(parts, "shells are thin plates here: the transverse shear that MID3 of PSHELL allows is left out");
-  add_whole_element(parts, e);
+  s.bending_inertia_ratio = p.number_or(4, 1.0);
+  e.section = parts.add_section(s);
+  e.material = parts.material(p, membrane, p.number_or(7, 0.0) / t, name);
+  if (p.integer_or(5, 0) != 0)
+    parts.note_once("shells are thin plates here: the transverse shear that MID3 of PSHELL allows is left out");
+  parts.add_element(e);
 }
 
 void read_solid(Parts& parts, const Card& card) {
   const std::size_t corners = card.name == "CTETRA" ? 4 : 8;
-  if (corners == 4 && Deck::size(card) > 2 + corners)
-    parts.deck.fail(card, "has nodes on its edges (10 in all), which is not read",
-                    "mesh with hexahedra (CHEXA); tetrahedra of 4 nodes are read, but too stiff in bending");
+  if (corners == 4 && card.size() > 2 + corners)
+    card.fail("has nodes on its edges (10 in all), which is not read",
+              "mesh with hexahedra (CHEXA); tetrahedra of 4 nodes are read, but too stiff in bending");
   fe::Element e = start_element(parts, card, fe::ElementType::solid, 2, corners);
   if (corners == 8) {
     // G9 to G12 lie on the bottom, G13 to G16 between, G17 to G20 on the top: here the top comes second.
     add_edge_grids(parts, card, 2 + corners, 12, e);
     if (e.nodes.size() == 20) std::rotate(e.nodes.begin() + 12, e.nodes.begin() + 16, e.nodes.end());
   }
-  const Card& p = parts.property(card, parts.deck.integer_or(card, 1, e.id), {"PSOLID"});
-  if (const std::string kind = upper_case(Deck::text(p, 6)); !kind.empty() && kind != "SMECH")
-    parts.deck.fail(p, fmt::format("is '{}', no solid of the structure", kind), "leave the fluid out");
+  const Card& p = parts.property(card, card.integer_or(1, e.id), {"PSOLID"});
+  if (const std::string kind = p.word(6); !kind.empty() && kind != "SMECH")
+    p.fail(fmt::format("is '{}', no solid of the structure", kind), "leave the fluid out");
   e.group = property_name(p);
-  e.material = parts.material(p, parts.deck.integer(p, 1));
-  add_whole_element(parts, e);
+  e.material = parts.material(p, p.integer(1));
+  parts.add_element(e);
 }
 
 }  // namespace twindeck::model_io::nastran

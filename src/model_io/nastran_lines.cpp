@@ -4,15 +4,12 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "model_io/inp_cards.hpp"
 #include "model_io/nastran_cards.hpp"
 
 /// From the text of a deck and its INCLUDE files to cards: the part of Deck that knows columns.
 namespace twindeck::model_io::nastran {
 
-struct RawLine {
-  int file = 0;
-  long line = 0;
+struct RawLine : DeckPlace {
   std::string text;
 };
 
@@ -26,6 +23,11 @@ namespace {
 
 constexpr std::size_t deepest_include = 20;     ///< files within files; real decks have two or three levels
 constexpr std::size_t most_lines = 20'000'000;  ///< of a deck with all its files, two gigabytes: more is a mistake
+
+constexpr DeckDialect bulk_data = {2, 8, true, "check the columns of the card"};
+
+/// The name of a card, of which messages say no more: what is read need not be a deck.
+std::string short_name(const std::string& name) { return name.substr(0, 8); }
 
 std::string without_comment(const std::string& text) { return text.substr(0, text.find('$')); }
 
@@ -42,11 +44,7 @@ std::string with_tabs_expanded(const std::string& text) {
 
 /// Free field: commas part the fields. @return  false for more of them than a line holds
 bool split_free(const std::string& text, SplitLine& line) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0, comma = 0; comma != std::string::npos; start = comma + 1) {
-    comma = text.find(',', start);
-    parts.push_back(trimmed(text.substr(start, comma == std::string::npos ? comma : comma - start)));
-  }
+  std::vector<std::string> parts = split_at(text, ',');
   line.first = parts[0];
   const std::size_t fields = line.first.ends_with('*') || line.first.starts_with('*') ? 4 : 8;
   while (parts.size() > fields + 2 && parts.back().empty()) parts.pop_back();
@@ -86,8 +84,9 @@ struct DeckReader {
   std::vector<RawLine> lines;
   std::vector<std::filesystem::path> open;  ///< files being read, the deck first
 
-  [[noreturn]] void fail(const RawLine& at, const std::string& key, const std::string& problem, const std::string& mend) const {
-    throw InputError({deck.files_[static_cast<std::size_t>(at.file)].string(), at.line, key}, problem, mend);
+  [[noreturn]] static void fail(const RawLine& at, const std::string& key, const std::string& problem,
+                                const std::string& mend) {
+    DeckPlace{at.file, at.line, key}.fail(problem, mend);
   }
 
   /// The text of a file into `lines`, INCLUDE lines replaced by the lines of their files.
@@ -95,17 +94,16 @@ struct DeckReader {
     std::ifstream stream(path);
     if (!std::filesystem::is_regular_file(path) || !stream)
       throw InputError({path.string(), 0, ""}, "cannot be opened", "give the path of a Nastran deck");
-    const int file = static_cast<int>(deck.files_.size());
-    deck.files_.push_back(path);
+    const std::filesystem::path* file = &deck.files_.emplace_back(path);
     open.push_back(std::filesystem::weakly_canonical(path));
-    RawLine line{file, 0, ""};
+    RawLine line{{file, 0, ""}, ""};
     while (std::getline(stream, line.text)) {
       ++line.line;
       const std::string bare = trimmed(without_comment(line.text));
       if (bare.empty()) continue;
       if (lines.size() >= most_lines) fail(line, "", "the deck has more than 20 million lines", "check its INCLUDE lines");
       if (!upper_case(bare.substr(0, 8)).starts_with("INCLUDE") || bare.find('=') != std::string::npos) {
-        lines.push_back({file, line.line, without_comment(line.text)});
+        lines.push_back({{file, line.line, ""}, without_comment(line.text)});
         continue;
       }
       const RawLine at = line;
@@ -134,6 +132,9 @@ struct DeckReader {
     if (name.empty() || !std::filesystem::is_regular_file(path))
       fail(at, "INCLUDE", fmt::format("the file '{}' is not there", name), "put it beside the deck, or mend its path");
     const auto canonical = std::filesystem::weakly_canonical(path);
+    const auto folder = std::filesystem::weakly_canonical(deck.files_.front()).parent_path();
+    if (std::mismatch(folder.begin(), folder.end(), canonical.begin(), canonical.end()).first != folder.end())
+      fail(at, "INCLUDE", "the file does not lie below the folder of the deck", "copy it there, and include the copy");
     if (open.size() >= deepest_include || std::find(open.begin(), open.end(), canonical) != open.end())
       fail(at, "INCLUDE", fmt::format("the file '{}' includes itself", name), "take one of the INCLUDE lines out");
     expand(path);
@@ -173,7 +174,7 @@ struct DeckReader {
     if (key.starts_with("SUBCASE")) return open_subcase(line, trimmed(key.substr(7) + value));
     choose_loads(line, key, value);
     if (key != "SPC" && key != "MPC") return;
-    if (!Deck::is_integer(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write SPC = 1");
+    if (!is_whole_number(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write SPC = 1");
     std::optional<long>& chosen = key == "SPC" ? deck.case_.spc : deck.case_.mpc;
     const long id = std::stol(value);
     if (chosen && *chosen != id)
@@ -182,7 +183,7 @@ struct DeckReader {
   }
 
   void open_subcase(const RawLine& line, const std::string& number) {
-    if (!Deck::is_integer(number)) fail(line, "SUBCASE", fmt::format("'{}' is no number", number), "write SUBCASE 1");
+    if (!is_whole_number(number)) fail(line, "SUBCASE", fmt::format("'{}' is no number", number), "write SUBCASE 1");
     Subcase subcase;
     if (!deck.case_.subcases.empty() && deck.case_.subcases.front().id == 0) subcase = deck.case_.subcases.front();
     subcase.id = std::stol(number);
@@ -200,7 +201,7 @@ struct DeckReader {
     const bool known = keys.front() == "LOAD" || keys.front() == "DEFORM" || keys.front() == "STATSUB" ||
                        keys.front().starts_with("TEMPERATURE(");
     if (!known || upper_case(value) == "NONE") return;
-    if (!Deck::is_integer(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write LOAD = 1");
+    if (!is_whole_number(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write LOAD = 1");
     if (deck.case_.subcases.empty()) deck.case_.subcases.emplace_back();
     for (const std::string& name : keys) deck.case_.subcases.back().chosen[name] = std::stol(value);
   }
@@ -211,7 +212,7 @@ struct DeckReader {
     if (!chosen.text.empty() && chosen.text != upper_case(value))
       fail(line, key, fmt::format("chooses '{}', another subcase chooses '{}'", value, chosen.text),
            "leave one subcase in the deck");
-    chosen = {upper_case(value), line.file, line.line};
+    chosen = {{line.file, line.line, key}, upper_case(value)};
   }
 
   void read_bulk(std::size_t start) {
@@ -223,7 +224,8 @@ struct DeckReader {
       if (raw.text.find(',') == std::string::npos)
         split_fixed(raw.text, line);
       else if (!split_free(trimmed(raw.text), line))
-        fail(raw, line.first, "has more than ten fields on one line", "let the card go on in a line that begins with a comma");
+        fail(raw, short_name(line.first), "has more than ten fields on one line",
+             "let the card go on in a line that begins with a comma");
       if (line.first.starts_with('='))
         fail(raw, line.first, "repeats the card above, which is not read", "write every card out");
       const bool continues = line.first.empty() || line.first.starts_with('+') || line.first.starts_with('*');
@@ -238,9 +240,9 @@ struct DeckReader {
   void start_card(const RawLine& raw, SplitLine& line) {
     Card card;
     card.name = upper_case(trimmed(line.first.substr(0, line.first.find('*'))));
-    card.file = raw.file;
-    card.line = raw.line;
     card.fields = std::move(line.data);
+    static_cast<DeckPlace&>(card) = {raw.file, raw.line, short_name(card.name) + (card.blank(0) ? "" : " " + card.fields[0])};
+    card.dialect = &bulk_data;
     deck.cards_.push_back(std::move(card));
   }
 

@@ -16,11 +16,10 @@ using MassMatrix = Eigen::Matrix<double, 6, 6>;
 
 /// Axes of the system that a mass is given in: only a rectangular one has the same directions everywhere.
 Eigen::Matrix3d mass_axes(Parts& parts, const Card& card) {
-  const long id = parts.deck.integer_or(card, 2, 0);
+  const long id = card.integer_or(2, 0);
   if (id <= 0) return Eigen::Matrix3d::Identity();
   const System& system = parts.system(card, id);
-  if (system.type != 'R')
-    parts.deck.fail(card, "is given in a system that is not rectangular, which is not read", "use CORD2R");
+  if (system.type != 'R') card.fail("is given in a system that is not rectangular, which is not read", "use CORD2R");
   return system.axes;
 }
 
@@ -40,19 +39,19 @@ void add_mass(Parts& parts, const std::string& name, int node, const MassMatrix&
 
 /// The lower half of a symmetric matrix, row by row from field `first` on.
 template <int n>
-Eigen::Matrix<double, n, n> symmetric(const Parts& parts, const Card& card, std::size_t first) {
+Eigen::Matrix<double, n, n> symmetric(const Card& card, std::size_t first) {
   Eigen::Matrix<double, n, n> m;
   for (int row = 0; row < n; ++row) {
-    for (int column = 0; column <= row; ++column) m(row, column) = m(column, row) = parts.deck.number_or(card, first++, 0.0);
+    for (int column = 0; column <= row; ++column) m(row, column) = m(column, row) = card.number_or(first++, 0.0);
   }
   return m;
 }
 
 /// CONM2: a mass off its grid, with inertia about its own centre.
 MassMatrix offset_mass(Parts& parts, const Card& card) {
-  const double mass = parts.deck.number_or(card, 3, 0.0);
-  Eigen::Vector3d arm = parts.deck.vector(card, 4);
-  Eigen::Matrix3d inertia = symmetric<3>(parts, card, 8);
+  const double mass = card.number_or(3, 0.0);
+  Eigen::Vector3d arm = card.vector(4);
+  Eigen::Matrix3d inertia = symmetric<3>(card, 8);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) inertia(i, j) *= i == j ? 1.0 : -1.0;  // the card has the products as integrals, without sign
   }
@@ -60,9 +59,8 @@ MassMatrix offset_mass(Parts& parts, const Card& card) {
   inertia = (axes.transpose() * inertia * axes).eval();
   arm = (axes.transpose() * arm).eval();
   // CID -1: the centre itself, in basic coordinates.
-  if (parts.deck.integer_or(card, 2, 0) < 0) arm -= parts.place(card, parts.deck.integer(card, 1));
-  if (mass < 0.0 || inertia.diagonal().minCoeff() < 0.0)
-    parts.deck.fail(card, "a mass or an inertia is negative", "check the sign");
+  if (card.integer_or(2, 0) < 0) arm -= parts.grid_place(card, card.integer(1));
+  if (mass < 0.0 || inertia.diagonal().minCoeff() < 0.0) card.fail("a mass or an inertia is negative", "check the sign");
   MassMatrix m = MassMatrix::Zero();
   const Eigen::Matrix3d s = fe::beam::cross_matrix(arm);
   m.topLeftCorner<3, 3>() = mass * Eigen::Matrix3d::Identity();
@@ -75,37 +73,35 @@ MassMatrix offset_mass(Parts& parts, const Card& card) {
 }  // namespace
 
 void read_mass(Parts& parts, const Card& card) {
-  const long grid = parts.deck.integer(card, 1);
+  const long grid = card.integer(1);
   MassMatrix m;
   if (card.name == "CONM1") {
     const Eigen::Matrix3d axes = mass_axes(parts, card);
     MassMatrix turn = MassMatrix::Zero();
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = axes;
-    m = turn.transpose() * symmetric<6>(parts, card, 3) * turn;
+    m = turn.transpose() * symmetric<6>(card, 3) * turn;
   } else {
     m = offset_mass(parts, card);
   }
-  add_mass(parts, fmt::format("{}_{}", card.name == "CONM1" ? "conm1" : "conm2", Deck::text(card, 0)), parts.node(card, grid),
-           m);
+  add_mass(parts, fmt::format("{}_{}", card.name == "CONM1" ? "conm1" : "conm2", card.text(0)), parts.node(card, grid), m);
 }
 
 void read_scalar_mass(Parts& parts, const Card& card) {
-  const Deck& deck = parts.deck;
   double mass = 0.0;
   if (card.name == "CMASS1") {
-    const long id = deck.integer_or(card, 1, deck.integer(card, 0));
+    const long id = card.integer_or(1, card.integer(0));
     const auto found = parts.scalar_masses.find(id);
     if (found == parts.scalar_masses.end())
-      deck.fail(card, fmt::format("property {} is no PMASS of this deck", id), "give the property, or mend its number");
+      card.fail(fmt::format("property {} is no PMASS of this deck", id), "give the property, or mend its number");
     mass = found->second;
   } else {
-    mass = deck.number(card, 1);
+    mass = card.number(1);
   }
-  if (mass < 0.0) deck.fail(card, "the mass is negative", "check the sign");
-  if (!Deck::blank(card, 4) && Deck::text(card, 4) != "0")
-    deck.fail(card, "is a mass between two grids, which is not read", "give a mass to ground at one grid");
-  const long grid = deck.integer(card, 2);
-  const int component = component_at(parts, card, 3);
+  if (mass < 0.0) card.fail("the mass is negative", "check the sign");
+  if (!card.blank(4) && card.text(4) != "0")
+    card.fail("is a mass between two grids, which is not read", "give a mass to ground at one grid");
+  const long grid = card.integer(2);
+  const int component = card.component(3);
   const Eigen::Matrix3d axes = parts.displacement_axes(card, grid);
   MassMatrix& m = parts.added_mass.try_emplace(parts.node(card, grid), MassMatrix::Zero()).first->second;
   const Eigen::Vector3d direction = axes.row(component % 3).transpose();

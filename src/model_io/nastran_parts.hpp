@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "fe/model.hpp"
-#include "model_io/deck_quadratic.hpp"
+#include "model_io/deck_model.hpp"
 #include "model_io/nastran_cards.hpp"
 
-/// Inside of the library: what a Nastran deck says, in the deck's own units until nastran_units.hpp turns the finished model
+/// Inside of the library: what a Nastran deck says, in the deck's own units until deck_units.hpp turns the finished model
 /// into SI. Cards are indexed first, since each may refer to one further down.
 namespace twindeck::model_io::nastran {
 
@@ -26,12 +26,10 @@ struct System {
   [[nodiscard]] Eigen::Matrix3d axes_at(const Eigen::Vector3d& basic) const;
 };
 
-struct Parts {
-  explicit Parts(const Deck& d) : deck(d) {}
+struct Parts : DeckModel {
+  explicit Parts(const Deck& d) : deck(d) { last_node = last_element = 100'000'000; }  // the deck's numbers have eight digits
 
   const Deck& deck;
-  fe::Model model;
-  std::vector<std::string> notes;
 
   std::map<long, const Card*> grids, system_cards, materials;
   std::map<long, std::array<long, 3>> first_kind;          ///< CORD1x: its three grids by the system's number
@@ -44,18 +42,9 @@ struct Parts {
   std::map<long, Eigen::Vector3d> places;  ///< of the grids asked for so far
   std::map<long, System> systems;          ///< resolved so far
   std::set<long> resolving;                ///< systems on the way to being resolved
-  std::map<long, int> node_position;       ///< grids that something joins, in the order met
   std::set<long> element_ids;
-  std::set<int> turning;  ///< nodes whose rotations a beam or a shell holds
-  std::map<std::string, int> section_position, material_position;
+  std::map<std::string, int> material_position;
   std::map<int, Eigen::Matrix<double, 6, 6>> added_mass;  ///< CMASS1, CMASS2 by node, basic axes
-  FaceCentres face_centres;                               ///< of hexahedra with grids on their edges
-  long last_element_id = 0;                               ///< of the pieces of such elements, above all numbers of the deck
-  std::map<long, std::size_t> pieces;                     ///< how many elements follow one another in place of a shell or solid
-  struct Expansion {
-    double per_K, reference_K;
-  };
-  std::map<int, Expansion> expansion;  ///< of materials, by position
   struct Twist {
     const Card* card;
     int a, b;
@@ -66,23 +55,21 @@ struct Parts {
 
   // nastran_grids.cpp
   /// @throws InputError for a grid that no GRID card defines
-  [[nodiscard]] Eigen::Vector3d place(const Card& from, long grid);
-  [[nodiscard]] const System& system(const Card& from, long id);
+  [[nodiscard]] Eigen::Vector3d grid_place(const DeckPlace& from, long grid);
+  [[nodiscard]] const System& system(const DeckPlace& from, long id);
   /// Directions in which the displacements of a grid are counted (CD), rows in basic axes.
-  [[nodiscard]] Eigen::Matrix3d displacement_axes(const Card& from, long grid);
+  [[nodiscard]] Eigen::Matrix3d displacement_axes(const DeckPlace& from, long grid);
   /// Position of the grid's node in the model, which is made when the first part asks for it.
-  [[nodiscard]] int node(const Card& from, long grid);
+  [[nodiscard]] int node(const DeckPlace& from, long grid) { return add_node(grid, grid_place(from, grid)); }
   /// Grids from field `start` on, with THRU. @param exact  false: a range may pass over numbers that are no grids (SPC1)
   [[nodiscard]] std::vector<long> grid_list(const Card& card, std::size_t start, bool exact) const;
 
   // nastran_properties.cpp
   /// The property that an element names. @throws InputError if it is none of `kinds`
-  [[nodiscard]] const Card& property(const Card& element, long id, const std::vector<std::string>& kinds) const;
+  [[nodiscard]] const Card& property(const DeckPlace& element, long id, const std::vector<std::string>& kinds) const;
   /// Position of MAT1 `id` in the model; `added_density` (mass per volume, not structural) makes a material of its own for
   /// `owner`.
-  [[nodiscard]] int material(const Card& from, long id, double added_density = 0.0, const std::string& owner = "");
-  /// Position of a section, added under its name where that is new.
-  int section(const fe::Section& s);
+  [[nodiscard]] int material(const DeckPlace& from, long id, double added_density = 0.0, const std::string& owner = "");
 };
 
 /// Section and material that a member takes from its property, at both ends.

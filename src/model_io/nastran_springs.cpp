@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "fe/beam_frame.hpp"
-#include "model_io/inp_cards.hpp"
 #include "model_io/names.hpp"
 #include "model_io/nastran_properties.hpp"
 
@@ -24,10 +23,10 @@ struct ScalarEnd {
 };
 
 ScalarEnd scalar_end(Parts& parts, const Card& card, std::size_t i) {
-  if (Deck::blank(card, i) || Deck::text(card, i) == "0") return {};
-  const long grid = parts.deck.integer(card, i);
+  if (card.blank(i) || card.text(i) == "0") return {};
+  const long grid = card.integer(i);
   const Eigen::Matrix3d axes = parts.displacement_axes(card, grid);
-  const int component = component_at(parts, card, i + 1);
+  const int component = card.component(i + 1);
   return {parts.node(card, grid), axes.row(component % 3).transpose(), component > 2};
 }
 
@@ -42,19 +41,19 @@ Eigen::VectorXd unit_motion(const ScalarEnd& end, Eigen::Index first) {
 std::array<double, 6> bush_stiffness(Parts& parts, const Card& p) {
   std::array<double, 6> k{};
   for (std::size_t row = 0; row < p.fields.size(); row += 8) {
-    const std::string key = upper_case(Deck::text(p, row + 1));
+    const std::string key = p.word(row + 1);
     if (key == "K") {
-      for (std::size_t i = 0; i < 6; ++i) k[i] = parts.deck.number_or(p, row + 2 + i, 0.0);
+      for (std::size_t i = 0; i < 6; ++i) k[i] = p.number_or(row + 2 + i, 0.0);
     } else if (key == "B") {
-      note_once(parts, property_name(p) + ": its damping (B) is left out; a damper goes into springs.csv of the model folder");
+      parts.note_once(property_name(p) + ": its damping (B) is left out; a damper goes into springs.csv of the model folder");
     } else if (key == "M") {
-      parts.deck.fail(p, "has a mass (M), which is not read", "give the mass by CONM2");
+      p.fail("has a mass (M), which is not read", "give the mass by CONM2");
     } else if (!key.empty() && key != "GE" && key != "RCV") {
-      parts.deck.fail(p, fmt::format("has a row '{}', expected K, B, GE or RCV", key), "check the columns of the card");
+      p.fail(fmt::format("has a row '{}', expected K, B, GE or RCV", key), "check the columns of the card");
     }
   }
   for (const double value : k) {
-    if (value < 0.0) parts.deck.fail(p, "a stiffness is negative", "check the sign");
+    if (value < 0.0) p.fail("a stiffness is negative", "check the sign");
   }
   return k;
 }
@@ -62,22 +61,20 @@ std::array<double, 6> bush_stiffness(Parts& parts, const Card& p) {
 /// Element axes of a CBUSH, rows in basic axes. @param apart  the grids lie apart; `axial_only`: no stiffness but along x is
 /// there
 Eigen::Matrix3d bush_axes(Parts& parts, const Card& card, bool apart, bool axial_only) {
-  const long a = parts.deck.integer(card, 2);
-  if (!Deck::blank(card, 7)) return parts.system(card, parts.deck.integer(card, 7)).axes_at(parts.place(card, a));
-  if (!apart) parts.deck.fail(card, "has no system CID, and its grids do not lie apart", "give CID (0: the basic axes)");
+  const long a = card.integer(2);
+  if (!card.blank(7)) return parts.system(card, card.integer(7)).axes_at(parts.grid_place(card, a));
+  if (!apart) card.fail("has no system CID, and its grids do not lie apart", "give CID (0: the basic axes)");
   Eigen::Matrix3d axes;
-  const Eigen::Vector3d x = (parts.place(card, parts.deck.integer(card, 3)) - parts.place(card, a)).normalized();
-  Eigen::Vector3d v = parts.deck.vector(card, 4);
-  if (Deck::is_integer(Deck::text(card, 4)) && Deck::blank(card, 5) && Deck::blank(card, 6) && Deck::text(card, 4) != "0")
-    v = parts.place(card, parts.deck.integer(card, 4)) - parts.place(card, a);
+  const Eigen::Vector3d x = (parts.grid_place(card, card.integer(3)) - parts.grid_place(card, a)).normalized();
+  Eigen::Vector3d v = card.vector(4);
+  if (is_whole_number(card.text(4)) && card.blank(5) && card.blank(6) && card.text(4) != "0")
+    v = parts.grid_place(card, card.integer(4)) - parts.grid_place(card, a);
   else
     v = (parts.displacement_axes(card, a).transpose() * v).eval();
   if (v.isZero(0.0) && axial_only) v = x.unitOrthogonal();
-  const Eigen::Vector3d z = x.cross(v);
-  if (!(z.norm() > 1e-6 * v.norm()))
-    parts.deck.fail(card, "has no vector across its line, which its stiffnesses K2, K3, K5, K6 need",
-                    "give X1, X2, X3, G0 or CID");
-  axes << x.transpose(), z.normalized().cross(x).transpose(), z.normalized().transpose();
+  const Eigen::Vector3d z =
+      DeckModel::local_z(card, "its line", x, v, "K2, K3, K5, K6 need a vector: give X1, X2, X3, G0 or CID");
+  axes << x.transpose(), z.cross(x).transpose(), z.transpose();
   return axes;
 }
 
@@ -86,15 +83,8 @@ void add_bush_springs(Parts& parts, const Card& card, const std::string& group, 
                       const Eigen::Matrix3d& axes, int a, int b) {
   for (std::size_t i = 0; i < 6; ++i) {
     if (k[i] == 0.0) continue;
-    fe::Spring s;
-    s.name = fmt::format("cbush_{}_{}", Deck::text(card, 0), direction_names()[i]);
-    s.group = group;
-    s.node = a;
-    s.node2 = b;
-    s.direction = axes.row(static_cast<Eigen::Index>(i % 3)).transpose();
-    s.rotation = i > 2;
-    s.stiffness = k[i];
-    parts.model.springs.push_back(s);
+    parts.add_spring(fmt::format("cbush_{}_{}", card.text(0), direction_names()[i]), group, a, b, static_cast<int>(i), axes,
+                     k[i]);
   }
 }
 
@@ -122,60 +112,51 @@ void add_matrix(Parts& parts, const std::string& name, const std::vector<int>& n
 }
 
 void read_scalar_spring(Parts& parts, const Card& card) {
-  const Deck& deck = parts.deck;
   double k = 0.0;
-  std::string group = "celas2_" + Deck::text(card, 0);
+  std::string group = "celas2_" + card.text(0);
   if (card.name == "CELAS1") {
-    const long id = deck.integer_or(card, 1, deck.integer(card, 0));
+    const long id = card.integer_or(1, card.integer(0));
     const auto found = parts.spring_constants.find(id);
     if (found == parts.spring_constants.end())
-      deck.fail(card, fmt::format("property {} is no PELAS of this deck", id), "give the property, or mend its number");
+      card.fail(fmt::format("property {} is no PELAS of this deck", id), "give the property, or mend its number");
     k = found->second;
     group = fmt::format("pelas_{}", id);
   } else {
-    k = deck.number(card, 1);
+    k = card.number(1);
   }
   ScalarEnd a = scalar_end(parts, card, 2), b = scalar_end(parts, card, 4);
   if (a.node < 0) std::swap(a, b);
-  if (a.node < 0) deck.fail(card, "joins nothing: both grids are blank", "give G1 and C1");
-  const std::string name = fmt::format("{}_{}", card.name == "CELAS1" ? "celas1" : "celas2", Deck::text(card, 0));
+  if (a.node < 0) card.fail("joins nothing: both grids are blank", "give G1 and C1");
+  const std::string name = fmt::format("{}_{}", card.name == "CELAS1" ? "celas1" : "celas2", card.text(0));
   const bool same = b.node < 0 || (a.rotation == b.rotation && (a.direction - b.direction).norm() < 1e-9);
   if (same && k >= 0.0 && a.node != b.node) {
-    fe::Spring s;
-    s.name = name;
-    s.group = group;
-    s.node = a.node;
-    s.node2 = b.node;
-    s.direction = a.direction;
-    s.rotation = a.rotation;
-    s.stiffness = k;
-    parts.model.springs.push_back(s);
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+    axes.row(0) = a.direction;
+    parts.add_spring(name, group, a.node, b.node, a.rotation ? 3 : 0, axes, k);
     return;
   }
-  if (k < 0.0) deck.fail(card, fmt::format("the stiffness is {:g}, expected 0 or more", k), "check the sign");
-  if (a.node == b.node) deck.fail(card, "joins two components of one grid, which is not read", "join two grids");
+  if (k < 0.0) card.fail(fmt::format("the stiffness is {:g}, expected 0 or more", k), "check the sign");
+  if (a.node == b.node) card.fail("joins two components of one grid, which is not read", "join two grids");
   const Eigen::VectorXd motion = unit_motion(a, 0) - unit_motion(b, 6);
   add_matrix(parts, name, {a.node, b.node}, k * motion * motion.transpose(), {});
 }
 
 void read_bush(Parts& parts, const Card& card) {
-  const Deck& deck = parts.deck;
-  const Card& p = parts.property(card, deck.integer_or(card, 1, deck.integer(card, 0)), {"PBUSH"});
+  const Card& p = parts.property(card, card.integer_or(1, card.integer(0)), {"PBUSH"});
   const std::array<double, 6> k = bush_stiffness(parts, p);
   const bool axial_only = k[1] == 0.0 && k[2] == 0.0 && k[4] == 0.0 && k[5] == 0.0;
-  if (deck.integer_or(card, 9, -1) >= 0)
-    deck.fail(card, "has its spring beside the line of its grids (OCID), which is not read",
-              "put a grid there, joined by RBE2");
-  const long first = deck.integer(card, 2);
-  const bool grounded = Deck::blank(card, 3);
-  const Eigen::Vector3d xa = parts.place(card, first), xb = grounded ? xa : parts.place(card, deck.integer(card, 3));
+  if (card.integer_or(9, -1) >= 0)
+    card.fail("has its spring beside the line of its grids (OCID), which is not read", "put a grid there, joined by RBE2");
+  const long first = card.integer(2);
+  const bool grounded = card.blank(3);
+  const Eigen::Vector3d xa = parts.grid_place(card, first), xb = grounded ? xa : parts.grid_place(card, card.integer(3));
   const bool apart = (xb - xa).norm() > coincident * (1.0 + xa.norm());
   const Eigen::Matrix3d axes = bush_axes(parts, card, apart, axial_only);
-  const int a = parts.node(card, first), b = grounded ? -1 : parts.node(card, deck.integer(card, 3));
+  const int a = parts.node(card, first), b = grounded ? -1 : parts.node(card, card.integer(3));
   const bool along = apart && std::abs(axes.row(0).dot((xb - xa).normalized())) > 1.0 - 1e-9;
   if (!apart || (axial_only && along)) return add_bush_springs(parts, card, property_name(p), k, axes, a, b);
   // The spring sits at the share S of the line; rigid arms lead to it.
-  const Eigen::Vector3d at = xa + deck.number_or(card, 8, 0.5) * (xb - xa);
+  const Eigen::Vector3d at = xa + card.number_or(8, 0.5) * (xb - xa);
   Eigen::Matrix<double, 6, 12> motion = Eigen::Matrix<double, 6, 12>::Zero();
   motion.block<3, 3>(0, 0) = -axes;
   motion.block<3, 3>(0, 3) = axes * fe::beam::cross_matrix(at - xa);
@@ -184,7 +165,7 @@ void read_bush(Parts& parts, const Card& card) {
   motion.block<3, 3>(3, 3) = -axes;
   motion.block<3, 3>(3, 9) = axes;
   const Eigen::Map<const Eigen::Matrix<double, 6, 1>> stiffness(k.data());
-  add_matrix(parts, "cbush_" + Deck::text(card, 0), {a, b}, motion.transpose() * stiffness.asDiagonal() * motion, {});
+  add_matrix(parts, "cbush_" + card.text(0), {a, b}, motion.transpose() * stiffness.asDiagonal() * motion, {});
 }
 
 }  // namespace twindeck::model_io::nastran

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "io/regular_file.hpp"
-#include "model_io/inp_cards.hpp"
+#include "model_io/deck_card.hpp"
 #include "model_io/op4_binary.hpp"
 #include "model_io/op4_entries.hpp"
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "model_io/inp_cards.hpp"
+#include "model_io/deck_card.hpp"
 
 namespace twindeck::model_io {
 namespace {

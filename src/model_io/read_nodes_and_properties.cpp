@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "model_io/inp_cards.hpp"
+#include "model_io/deck_card.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -58,7 +58,7 @@ int NameIndex::node(const io::CsvTable& table, std::size_t row, const std::strin
 std::pair<int, int> NameIndex::displacement(const std::string& text) const {
   const auto colon = text.find(':');
   const std::string node = text.substr(0, colon);
-  const auto found = InpFile::is_integer(node) ? nodes.find(std::stol(node)) : nodes.end();
+  const auto found = is_whole_number(node) ? nodes.find(std::stol(node)) : nodes.end();
   return {found == nodes.end() ? -1 : found->second,
           colon == std::string::npos ? -1 : position_of(text.substr(colon + 1), direction_names())};
 }

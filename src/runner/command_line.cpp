@@ -11,6 +11,7 @@
 #include "io/atomic.hpp"
 #include "model_io/ansys.hpp"
 #include "model_io/nastran.hpp"
+#include "model_io/sap2000.hpp"
 
 namespace twindeck::runner {
 namespace fs = std::filesystem;
@@ -76,7 +77,7 @@ void add_common_options(CLI::App& app, CommandLine& line, Words& words) {
   app.add_option("--results", words.results,
                  "root that results of earlier steps are read from (default: the folder above --out)")
       ->type_name("DIR");
-  app.add_option("--model", words.model, "model folder, or .inp, Nastran or ANSYS file, to use instead of the study's")
+  app.add_option("--model", words.model, "model folder, or .inp, Nastran, ANSYS or SAP2000 file, to use instead of the study's")
       ->type_name("DIR");
   app.add_option("--campaign", words.campaign, "campaign folder (raw records) to use instead of the study's")->type_name("DIR");
   app.add_option("--modes", words.modes, "folder with measured modes.csv to use instead of the study's")->type_name("DIR");
@@ -190,7 +191,8 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
                      "name the folder to write, for example --out results/x/" + step.token);
   }
   if (!line.model || !fs::is_regular_file(*line.model) ||
-      (line.model->extension() != ".inp" && !model_io::is_nastran_file(*line.model) && !model_io::is_ansys_deck(*line.model)))
+      (line.model->extension() != ".inp" && !model_io::is_sap2000_file(*line.model) &&
+       !model_io::is_nastran_file(*line.model) && !model_io::is_ansys_deck(*line.model)))
     check_folder("--model", line.model);
   check_folder("--campaign", line.campaign);
   check_folder("--modes", line.modes);

@@ -24,7 +24,7 @@ struct StudyFile {
         .text("model.file", file, "what the generator reads")
         .text("model.mesh", study.model_mesh, "mesh of the generator by name (ponte: full, medium, coarse); empty: its own")
         .text("model.folder", model_folder, "a model folder, instead of a generator")
-        .text("model.inp", inp, "an .inp file of CalculiX or Abaqus, or a Nastran deck, instead of a generator or a folder");
+        .text("model.inp", inp, "a deck of CalculiX, Abaqus, Nastran, ANSYS or SAP2000, instead of a generator or a folder");
     return table;
   }
 };

@@ -8,6 +8,7 @@
 #include "model_io/inp.hpp"
 #include "model_io/nastran.hpp"
 #include "model_io/printed_mass.hpp"
+#include "model_io/sap2000.hpp"
 #include "ponte/generator.hpp"
 #include "runner/study.hpp"
 
@@ -15,16 +16,17 @@ namespace twindeck::steps {
 
 namespace {
 
-/// Reads a file of CalculiX, Abaqus, ANSYS or Nastran, registers it with the files that belong to it, and reports what it
-/// cannot use, and the mass, centre and inertia of the whole: a lost part, a wrong density or unit shows there first.
+/// Reads a file of CalculiX, Abaqus, ANSYS, Nastran or SAP2000, registers it with the files that belong to it, and reports what
+/// it cannot use, and the mass, centre and inertia of the whole: a lost part, a wrong density or unit shows there first.
 dynamics::ReadModel import_file(runner::StepContext& context, const std::filesystem::path& file) {
   context.input(file);
   auto beside = file;
   beside.replace_extension(".toml");
   if (std::filesystem::exists(beside)) context.input(beside);
-  model_io::ImportedModel imported = model_io::is_nastran_file(file) ? model_io::read_nastran(file)
-                                     : model_io::is_ansys_deck(file) ? model_io::read_ansys(file)
-                                                                     : model_io::read_inp(file);
+  model_io::ImportedModel imported = model_io::is_sap2000_file(file)   ? model_io::read_sap2000(file)
+                                     : model_io::is_nastran_file(file) ? model_io::read_nastran(file)
+                                     : model_io::is_ansys_deck(file)   ? model_io::read_ansys(file)
+                                                                       : model_io::read_inp(file);
   for (const std::filesystem::path& read : imported.files) context.input(read);
   for (const std::string& note : imported.notes) context.say(note);
   dynamics::ReadModel model = dynamics::valid_model(std::move(imported.model));

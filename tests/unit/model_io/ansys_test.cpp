@@ -10,7 +10,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
-#include "model_io/ansys_expression.hpp"
+#include "model_io/deck_expression.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test::ansys_reading {
@@ -298,14 +298,14 @@ TEST(AnsysDeck, IsToldFromOtherPrograms) {
 }
 
 TEST(AnsysExpression, IsPlainArithmetic) {
-  const ansys::Parameters known = {{"A", 3.0}};
+  const Parameters known = {{"A", 3.0}};
   const std::vector<std::pair<std::string, double>> sound = {{"0.375/2", 0.1875}, {"2*a**2+1", 19.0}, {"-(a-1)*2", -4.0},
                                                              {"1.E-002", 0.01},   {"2D3", 2000.0},    {" +4 ", 4.0},
                                                              {"1/2/2", 0.25}};
-  for (const auto& [text, value] : sound) EXPECT_DOUBLE_EQ(ansys::evaluate(text, known).value_or(-1.0), value) << text;
+  for (const auto& [text, value] : sound) EXPECT_DOUBLE_EQ(evaluate(text, known).value_or(-1.0), value) << text;
   const std::vector<std::string> broken = {"",   "b",   "a(1)", "sqrt(4)", "1+",  "(1",
                                            "1)", "1/0", "'1'",  "%a%",     "1 2", std::string(9999, '(')};
-  for (const std::string& text : broken) EXPECT_FALSE(ansys::evaluate(text, known).has_value()) << text;
+  for (const std::string& text : broken) EXPECT_FALSE(evaluate(text, known).has_value()) << text;
 }
 
 }  // namespace

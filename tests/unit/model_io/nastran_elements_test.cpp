@@ -246,7 +246,7 @@ TEST(NastranElements, EveryRefusalNamesItsLine) {
       {"CTETRA,1,2,1,2,3,4,5,6\n,7,8,9,10", "nodes on its edges (10 in all)"},
       {"CTRIA6,1,2,1,2,1,2,2", "2 of 3 grids on its edges"},
       {"CPENTA,1,2,1,2,3,4,5,6", "hexahedra"},
-      {"RBE3,1,,1,456,1.,123,2", "do not determine component 4 of grid 1"},
+      {"RBE3,1,,1,456,1.,123,2", "do not determine component 4 of node 1"},
       {"RBE3,1,,1,123,1,123,2", "a weight is '1'"},
       {"RBE3,1,,1,123,1.,123,2\n,UM,2,1", "UM"},
       {"RBE3,1,,1,123,1.,123,7", "grid 7 is not defined"},

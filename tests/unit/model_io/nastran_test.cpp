@@ -208,6 +208,20 @@ TEST(Nastran, IncludedFiles) {
             std::string::npos);
 }
 
+TEST(NastranReader, IncludesStayBelowTheFolderAndMessagesEchoNamesAlone) {
+  const TestFolder folder;
+  std::filesystem::create_symlink("/proc/self/environ", folder.path() / "inside.inc");
+  for (const char* outside : {"/proc/self/environ", "../../proc/self/environ", "inside.inc"}) {
+    const std::string said =
+        message_of([&] { (void)import_deck(folder, fmt::format("BEGIN BULK\nINCLUDE '{}'\nENDDATA\n", outside)); });
+    EXPECT_NE(said.find("deck.bdf:2: INCLUDE: the file does not lie below the folder of the deck"), std::string::npos) << said;
+  }
+  folder.write("shadow.inc", "username:secretword:19000,fieldtwo,fieldthree\n");
+  const std::string said = message_of([&] { (void)import_deck(folder, "BEGIN BULK\nINCLUDE 'shadow.inc'\nENDDATA\n"); });
+  EXPECT_NE(said.find("shadow.inc:1: USERNAME: unknown card"), std::string::npos) << said;
+  for (const char* of_the_file : {"secret", "SECRET", "field"}) EXPECT_EQ(said.find(of_the_file), std::string::npos) << said;
+}
+
 TEST(Nastran, FilesAreKnownByTheirNames) {
   const TestFolder folder;
   folder.write("a.dat", "$ a comment\nGRID,1,,0.,0.,0.\n");

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace twindeck::model_io::ansys {
+namespace twindeck::model_io {
 
 /// Scalar parameters of a deck, by name in upper case.
 using Parameters = std::map<std::string, double>;
@@ -13,4 +13,4 @@ using Parameters = std::map<std::string, double>;
 /// usual precedence. None for everything else: text, functions, arrays, unknown parameters, values that are not finite.
 [[nodiscard]] std::optional<double> evaluate(const std::string& text, const Parameters& parameters);
 
-}  // namespace twindeck::model_io::ansys
+}  // namespace twindeck::model_io

@@ -1,12 +1,10 @@
-#include "model_io/ansys_expression.hpp"
+#include "model_io/deck_expression.hpp"
 
 #include <cctype>
 #include <charconv>
 #include <cmath>
 
-#include "model_io/inp_cards.hpp"
-
-namespace twindeck::model_io::ansys {
+namespace twindeck::model_io {
 namespace {
 
 /// Recursive descent over one expression; `failed` is set by whatever is not understood.
@@ -133,4 +131,4 @@ std::optional<double> evaluate(const std::string& text, const Parameters& parame
   return Parser(text, parameters).value();
 }
 
-}  // namespace twindeck::model_io::ansys
+}  // namespace twindeck::model_io

@@ -1,0 +1,129 @@
+#include "model_io/deck_card.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "model_io/deck_expression.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+constexpr DeckDialect counted_from_one;
+
+/// "3.0+7" and "3.0D7" as "3.0e7"; a leading plus goes.
+std::optional<double> fortran_number(const std::string& field) {
+  std::string written;
+  bool exponent = false;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    char c = field[i];
+    if (c == 'd' || c == 'D' || c == 'e' || c == 'E') {
+      c = 'e';
+      exponent = true;
+    } else if ((c == '+' || c == '-') && i > 0 && !exponent) {
+      written += 'e';
+      exponent = true;
+    }
+    if (c != '+') written += c;
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), value);
+  if (error != std::errc() || end != written.data() + written.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+bool is_whole_number(const std::string& field) {
+  const std::size_t sign = !field.empty() && (field[0] == '-' || field[0] == '+') ? 1 : 0;
+  return field.size() > sign && field.size() < 18 && field.find_first_not_of("0123456789", sign) == std::string::npos;
+}
+
+std::vector<std::string> split_at(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0, end = 0; end != std::string::npos; start = end + 1) {
+    end = text.find(separator, start);
+    parts.push_back(trimmed(text.substr(start, end == std::string::npos ? end : end - start)));
+  }
+  return parts;
+}
+
+void DeckPlace::fail(const std::string& problem, const std::string& mend) const {
+  throw InputError({file == nullptr ? "" : file->string(), line, label}, problem, mend);
+}
+
+std::size_t DeckFields::size() const {
+  const auto last = std::find_if(fields.rbegin(), fields.rend(), [](const std::string& f) { return !f.empty(); });
+  return static_cast<std::size_t>(fields.rend() - last);
+}
+
+std::string DeckFields::place_of_field(std::size_t i) const {
+  const DeckDialect& counts = dialect == nullptr ? counted_from_one : *dialect;
+  if (counts.fields_a_line == 0 || i < counts.fields_a_line) return fmt::format("field {}", i + counts.first_field);
+  return fmt::format("field {} of its line {}", i % counts.fields_a_line + counts.first_field, i / counts.fields_a_line + 1);
+}
+
+double DeckFields::number_or(std::size_t i, double fallback) const {
+  if (blank(i)) return fallback;
+  const auto value = parameters == nullptr ? fortran_number(fields[i]) : evaluate(fields[i], *parameters);
+  if (!value || !(parameters != nullptr || std::abs(*value) <= largest_number))
+    fail(fmt::format("{} is '{}', expected a number", place_of_field(i), fields[i]),
+         (dialect == nullptr ? counted_from_one : *dialect).mend);
+  return *value;
+}
+
+double DeckFields::number(std::size_t i) const {
+  if (blank(i)) fail(place_of_field(i) + " is missing, expected a number", "complete the card");
+  return number_or(i, 0.0);
+}
+
+long DeckFields::integer_or(std::size_t i, long fallback) const {
+  constexpr double largest_whole = 1e15;  // beyond, a double skips whole numbers
+  if (blank(i)) return fallback;
+  const bool digits = is_whole_number(fields[i]);
+  const double value = digits || !(dialect != nullptr && dialect->reals_have_points) ? number_or(i, 0.0) : 0.5;
+  if (value != std::floor(value) || std::abs(value) > largest_whole)
+    fail(fmt::format("{} is '{}', expected a whole number", place_of_field(i), fields[i]),
+         (dialect == nullptr ? counted_from_one : *dialect).mend);
+  return digits ? std::stol(fields[i]) : static_cast<long>(value);
+}
+
+long DeckFields::integer(std::size_t i) const {
+  if (blank(i)) fail(place_of_field(i) + " is missing, expected a whole number", "complete the card");
+  return integer_or(i, 0);
+}
+
+Eigen::Vector3d DeckFields::vector(std::size_t i) const {
+  return {number_or(i, 0.0), number_or(i + 1, 0.0), number_or(i + 2, 0.0)};
+}
+
+int DeckFields::component(std::size_t i) const {
+  const long component = integer(i);
+  if (component < 1 || component > 6)
+    fail(fmt::format("component {} is none of 1 to 6", component), "1-3 displacements, 4-6 rotations");
+  return static_cast<int>(component) - 1;
+}
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,205 @@
+#include "model_io/deck_model.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "model_io/inp_profiles.hpp"
+#include "model_io/model_toml.hpp"
+#include "model_io/node_references.hpp"
+#include "model_io/rigid_arm.hpp"
+#include "model_io/weighted_mean.hpp"
+
+namespace twindeck::model_io {
+
+bool DeckModel::together(int a, int b, double tolerance) const {
+  return (place(a) - place(b)).norm() <= tolerance * (1.0 + place(b).norm());
+}
+
+void DeckModel::note_once(const std::string& note) {
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
+int DeckModel::add_node(long id, const Eigen::Vector3d& x) {
+  const auto [entry, is_new] = node_position.emplace(id, static_cast<int>(model.nodes.size()));
+  if (is_new) model.nodes.push_back({id, x});
+  return entry->second;
+}
+
+int DeckModel::add_section(const fe::Section& section) { return find_or_add_section(model.sections, section); }
+
+long DeckModel::next_node() {
+  if (!node_position.empty()) last_node = std::max(last_node, node_position.rbegin()->first);
+  return ++last_node;
+}
+
+void DeckModel::add_element(const fe::Element& whole) {
+  const auto new_node = [&](const Eigen::Vector3d& x) {
+    made_nodes.insert(next_node());
+    const int node = add_node(last_node, x);
+    if (whole.type == fe::ElementType::shell) turning.insert(node);
+    return node;
+  };
+  if (whole.type == fe::ElementType::shell) turning.insert(whole.nodes.begin(), whole.nodes.end());
+  const std::size_t count = add_in_pieces(model, whole, {new_node, [&] { return ++last_element; }, face_centres_});
+  if (count > 1) pieces[whole.id] = count;
+}
+
+void DeckModel::add_beam(const fe::Element& whole,
+                         const std::function<void(fe::Element& piece, const Eigen::Vector3d& axis)>& turn) {
+  turning.insert(whole.nodes.begin(), whole.nodes.end());
+  for (std::size_t i = 0; i + 1 < whole.nodes.size(); ++i) {
+    fe::Element piece = whole;
+    piece.nodes = {whole.nodes[i], whole.nodes[i + 1]};
+    turn(piece, place(piece.nodes[1]) - place(piece.nodes[0]));
+    if (i > 0) piece.id = ++last_element;
+    model.elements.push_back(std::move(piece));
+  }
+  if (whole.nodes.size() > 2) pieces[whole.id] = whole.nodes.size() - 1;
+}
+
+Eigen::Vector3d DeckModel::local_z(const DeckPlace& at, const std::string& member, const Eigen::Vector3d& axis,
+                                   const Eigen::Vector3d& in_plane, const std::string& mend) {
+  constexpr double least_across = 1e-6;  // [-] part of the vector that has to lie across the member
+  const Eigen::Vector3d z = axis.cross(in_plane);
+  if (!(z.norm() > least_across * axis.norm() * in_plane.norm()))
+    at.fail(fmt::format("its vector ({:g}, {:g}, {:g}) lies along {}, or one of the two has no length", in_plane[0],
+                        in_plane[1], in_plane[2], member),
+            mend);
+  return z.normalized();
+}
+
+void DeckModel::check_poisson_ratio(const DeckPlace& at, double ratio) {
+  if (!(ratio > -1.0 && ratio < 0.5))
+    at.fail(fmt::format("Poisson's ratio is {}, expected a value in ]-1, 0.5[", ratio),
+            "nu is 0.3 for steel, 0.2 for concrete");
+}
+
+void DeckModel::add_link(int master, int slave, const std::string& name) {
+  model.links.push_back({name.empty() ? fmt::format("link_{}", model.links.size() + 1) : name, master, slave});
+}
+
+void DeckModel::add_constraint(const fe::Constraint& c, const DeckPlace& at) {
+  model.constraints.push_back(c);
+  constraint_origin.push_back(at);
+}
+
+std::string DeckModel::numbered(const std::string& kind) const {
+  return fmt::format("{}_{}", kind, model.constraints.size() + 1);
+}
+
+bool DeckModel::is_whole(const Directions& tied, int slave) const {
+  return tied[0] && tied[1] && tied[2] && ((tied[3] && tied[4] && tied[5]) || !turning.contains(slave));
+}
+
+void DeckModel::tie_at_arm(const DeckPlace& at, const std::function<std::string(int)>& name, int master, int slave,
+                           const Directions& tied) {
+  for (int d = 0; d < 6; ++d) {
+    if (tied[fe::slot(d)]) add_constraint(at_rigid_arm(name(d), model, master, slave, d), at);
+  }
+}
+
+void DeckModel::follow_first(const std::string& name, const DeckEquation& equation) {
+  const fe::Constraint::Term& slave = equation.terms[0];
+  if (slave.factor == 0.0)
+    equation.at.fail("the coefficient of the first term is 0, so that nothing follows from it",
+                     "begin with the displacement that depends on the others");
+  fe::Constraint c{name, slave.node, slave.direction, {}};
+  for (std::size_t i = 1; i < equation.terms.size(); ++i) {
+    const fe::Constraint::Term& term = equation.terms[i];
+    if (term.factor != 0.0) c.terms.push_back({term.node, term.direction, -term.factor / slave.factor});
+  }
+  if (c.terms.empty()) equation.at.fail("all coefficients but the first are 0", "hold the displacement by a support");
+  add_constraint(c, equation.at);
+}
+
+bool DeckModel::is_rigid_link(const std::vector<const DeckEquation*>& equations, int master, int slave) const {
+  constexpr double rounding = 1e-6;  // [-] of coefficients that are printed with nine digits
+  const Eigen::Vector3d arm = place(slave) - place(master);
+  Directions tied{};
+  for (const DeckEquation* equation : equations) {
+    const auto of_slave = [&](const fe::Constraint::Term& term) { return term.node == slave; };
+    const auto own = std::find_if(equation->terms.begin(), equation->terms.end(), of_slave);
+    if (std::count_if(equation->terms.begin(), equation->terms.end(), of_slave) != 1 || own->factor == 0.0) return false;
+    std::array<double, 6> factors{};
+    for (const fe::Constraint::Term& term : equation->terms) {
+      if (term.node == slave) continue;
+      if (term.node != master) return false;
+      factors[fe::slot(term.direction)] -= term.factor / own->factor;
+    }
+    for (int from = 0; from < 6; ++from) {
+      if (std::abs(factors[fe::slot(from)] - rigid_arm_factor(arm, own->direction, from)) > rounding * (1.0 + arm.norm()))
+        return false;
+    }
+    tied[fe::slot(own->direction)] = true;
+  }
+  return is_whole(tied, slave);
+}
+
+void DeckModel::tie_to_mean(const DeckPlace& at, const std::function<std::string(int)>& name, int reference,
+                            const std::vector<Sample>& samples, const Directions& wanted, const std::string& mend) {
+  constexpr double nothing = 1e-12;  // [-] of the largest factor: rounding
+  std::vector<MeanSample> motions;
+  for (const Sample& s : samples) motions.push_back({s.direction, place(s.node) - place(reference), s.rotation, s.weight});
+  const WeightedMean mean = weighted_mean(motions);
+  for (int d = 0; d < 6; ++d) {
+    if (!wanted[fe::slot(d)]) continue;
+    if (!mean.determined[fe::slot(d)])
+      at.fail(fmt::format("its nodes do not determine component {} of node {}", d + 1, model.nodes[fe::slot(reference)].id),
+              mend);
+    fe::Constraint c{name(d), reference, d, {}};
+    const double largest = mean.of_samples.row(d).cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double factor = mean.of_samples(d, static_cast<Eigen::Index>(i));
+      for (int k = 0; k < 3 && std::abs(factor) > nothing * largest; ++k) {
+        if (std::abs(samples[i].direction[k]) > nothing)
+          c.terms.push_back({samples[i].node, (samples[i].rotation ? 3 : 0) + k, factor * samples[i].direction[k]});
+      }
+    }
+    add_constraint(c, at);
+  }
+}
+
+void DeckModel::hold(const std::string& name, int node, const Directions& fixed) {
+  const auto [entry, is_new] = support_position_.emplace(node, model.supports.size());
+  if (is_new) model.supports.push_back({name, node, {}});
+  Directions& held = model.supports[entry->second].fixed;
+  for (std::size_t d = 0; d < 6; ++d) held[d] = held[d] || fixed[d];
+}
+
+void DeckModel::add_spring(const std::string& name, const std::string& group, int node, int node2, int direction,
+                           const Eigen::Matrix3d& axes, double stiffness, double damping) {
+  fe::Spring s{name, group, node, node2, axes.row(direction % 3).transpose(), direction > 2};
+  s.stiffness = stiffness;
+  s.damping = damping;
+  model.springs.push_back(s);
+}
+
+void DeckModel::drop_unused_nodes() {
+  std::vector<int> now(model.nodes.size(), -1);
+  for_each_joined_node(model, [&](int& node) { now[fe::slot(node)] = 0; });
+  int kept = 0;
+  for (int& to : now) {
+    if (to >= 0) to = kept++;
+  }
+  const std::size_t unused = now.size() - fe::slot(kept);
+  if (unused == 0) return;
+  notes.push_back(fmt::format("nodes that no element, link or tie uses are left out: {}", unused));
+  renumber_nodes(model, now);
+  for (auto& [id, position] : node_position) position = now[fe::slot(position)];
+  std::erase_if(node_position, [](const auto& entry) { return entry.second < 0; });
+}
+
+ImportedModel DeckModel::finished(std::vector<std::filesystem::path> files, const std::string& expected) {
+  if (model.elements.empty() && model.springs.empty() && model.matrix_elements.empty())
+    throw InputError({files.front().string(), 0, ""}, "holds no element", "expected " + expected);
+  auto beside = files.front();
+  beside.replace_extension(".toml");
+  if (std::filesystem::exists(beside)) read_model_toml(beside, model);
+  return {std::move(model), std::move(notes), std::move(files)};
+}
+
+}  // namespace twindeck::model_io

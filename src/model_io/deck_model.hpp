@@ -1,0 +1,110 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fe/model.hpp"
+#include "model_io/deck_card.hpp"
+#include "model_io/deck_quadratic.hpp"
+#include "model_io/inp.hpp"
+
+/// Inside of the library: the neutral deck, from which a model is built once. A dialect parses its cards and says here what
+/// they mean: nodes, sections, elements, ties, springs, supports. Numbers are those of the deck, in its units.
+namespace twindeck::model_io {
+
+using Directions = std::array<bool, 6>;  ///< x y z rx ry rz
+
+/// sum factor · displacement = 0; nodes by their positions in the model.
+struct DeckEquation {
+  DeckPlace at;
+  std::vector<fe::Constraint::Term> terms;
+};
+
+/// Expansion of a material.
+struct Expansion {
+  double per_K = 0.0;
+  double reference_K = 0.0;  ///< temperature without strain
+};
+
+struct DeckModel {
+  fe::Model model;
+  std::vector<std::string> notes;            ///< for people: what was read over or interpreted
+  std::map<long, int> node_position;         ///< by the number that the deck or we gave
+  std::set<int> turning;                     ///< nodes whose rotations a beam or a shell holds
+  std::map<long, std::size_t> pieces;        ///< elements of the deck that several of the model follow one another for
+  std::vector<DeckPlace> constraint_origin;  ///< of the model's constraints
+  std::set<long> made_nodes;                 ///< nodes that the deck does not have
+  std::map<int, Expansion> expansion;        ///< of materials, by position
+  long last_node = 0,
+       last_element = 0;  ///< what is made here is numbered above these and the deck's own
+
+  [[nodiscard]] const Eigen::Vector3d& place(int node) const { return model.nodes[fe::slot(node)].x_m; }
+  /// Whether two nodes lie at one place, but for `tolerance` [-] of their distance from the origin.
+  [[nodiscard]] bool together(int a, int b, double tolerance = 1e-6) const;
+  void note_once(const std::string& note);
+  int add_node(long id, const Eigen::Vector3d& x);
+  /// Position of a section of these numbers and this name; its name gets a number where another section has it.
+  int add_section(const fe::Section& section);
+
+  /// Adds an element other than a beam. A shell of eight nodes becomes four about a node in its centre, one of six nodes four
+  /// triangles, a hexahedron of twenty nodes eight (deck_quadratic.hpp). Pieces follow one another; the first has the number.
+  void add_element(const fe::Element& whole);
+  /// Adds a beam of the nodes first, (middle,) last: two where it has a middle one. `turn` gives a piece its orientation and
+  /// offsets, from the vector between its nodes.
+  void add_beam(const fe::Element& whole, const std::function<void(fe::Element& piece, const Eigen::Vector3d& axis)>& turn);
+  /// Local z of a member from a vector in its x-y plane. @throws InputError at `at` where that lies along the axis
+  [[nodiscard]] static Eigen::Vector3d local_z(const DeckPlace& at, const std::string& member, const Eigen::Vector3d& axis,
+                                               const Eigen::Vector3d& in_plane, const std::string& mend);
+  /// @throws InputError for a ratio out of ]-1, 0.5[
+  static void check_poisson_ratio(const DeckPlace& at, double ratio);
+
+  /// A rigid link, "link_7" without a name.
+  void add_link(int master, int slave, const std::string& name = "");
+  void add_constraint(const fe::Constraint& c, const DeckPlace& at);
+  /// "coupling_7": the next constraint of that kind.
+  [[nodiscard]] std::string numbered(const std::string& kind) const;
+  /// Whether these are all directions in which the node has stiffness of its own: a node of solids and bars alone has no
+  /// rotation.
+  [[nodiscard]] bool is_whole(const Directions& tied, int slave) const;
+  /// The slave follows the master at the end of a rigid arm in some directions, a constraint each. @param name by direction
+  void tie_at_arm(const DeckPlace& at, const std::function<std::string(int)>& name, int master, int slave,
+                  const Directions& tied);
+  /// The first term follows the others. @throws InputError for one that has the factor 0, or follows nothing
+  void follow_first(const std::string& name, const DeckEquation& equation);
+  /// Whether the equations say what `slave` does as part of `master`, each one direction, all of them together.
+  [[nodiscard]] bool is_rigid_link(const std::vector<const DeckEquation*>& equations, int master, int slave) const;
+  /// A displacement or rotation of a node that a mean counts (weighted_mean.hpp).
+  struct Sample {
+    int node = -1;
+    Eigen::RowVector3d direction;  ///< unit, global axes
+    bool rotation = false;
+    double weight = 1.0;
+  };
+  /// The reference node moves as the mean of the samples in the directions that are asked for. @param mend where these do not
+  /// determine one
+  void tie_to_mean(const DeckPlace& at, const std::function<std::string(int)>& name, int reference,
+                   const std::vector<Sample>& samples, const Directions& wanted, const std::string& mend);
+
+  /// Holds a node; what holds it already stays.
+  void hold(const std::string& name, int node, const Directions& fixed);
+  /// A spring given by the node's own directions 0-5 in `axes` (rows).
+  void add_spring(const std::string& name, const std::string& group, int node, int node2, int direction,
+                  const Eigen::Matrix3d& axes, double stiffness, double damping = 0.0);
+  /// Leaves out nodes that nothing joins; without one a model that holds is refused later.
+  void drop_unused_nodes();
+  /// The model, with the keys of the TOML file of the same stem beside the deck. @throws InputError where it has no element
+  [[nodiscard]] ImportedModel finished(std::vector<std::filesystem::path> files, const std::string& expected);
+
+ private:
+  long next_node();
+  FaceCentres face_centres_;  ///< of hexahedra with nodes on their edges
+  std::map<int, std::size_t> support_position_;
+};
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,341 @@
+#include "model_io/sap2000.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/error.hpp"
+#include "model_io/deck_model.hpp"
+#include "model_io/deck_units.hpp"
+#include "model_io/sap2000_tables.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+const std::array<std::string, 6> joint_directions = {"U1", "U2", "U3", "R1", "R2", "R3"};
+
+/// Tables of the structure that are read, and beginnings of names of tables that say nothing about stiffness and mass.
+const std::set<std::string>& sap_tables_read() {
+  static const std::set<std::string> names = {"JOINT COORDINATES",
+                                              "JOINT RESTRAINT ASSIGNMENTS",
+                                              "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED",
+                                              "JOINT ADDED MASS ASSIGNMENTS",
+                                              "CONNECTIVITY - FRAME",
+                                              "CONNECTIVITY - AREA",
+                                              "FRAME SECTION ASSIGNMENTS",
+                                              "FRAME SECTION PROPERTIES 01 - GENERAL",
+                                              "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL",
+                                              "FRAME RELEASE ASSIGNMENTS 1 - GENERAL",
+                                              "AREA SECTION ASSIGNMENTS",
+                                              "AREA SECTION PROPERTIES",
+                                              "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES",
+                                              "MASS SOURCE",
+                                              "MASSES 1 - MASS SOURCE"};
+  return names;
+}
+
+bool says_nothing(const std::string& table) {
+  static const std::vector<std::string> starts = {"JOINT LOADS",
+                                                  "JOINT PATTERN",
+                                                  "FRAME LOADS",
+                                                  "FRAME OUTPUT",
+                                                  "FRAME DESIGN",
+                                                  "FRAME AUTO MESH",
+                                                  "FRAME SECTION PROPERTIES 02",
+                                                  "FRAME SECTION PROPERTIES 03",
+                                                  "AREA LOADS",
+                                                  "AREA AUTO MESH",
+                                                  "AREA DESIGN",
+                                                  "AREA SECTION PROPERTY DESIGN",
+                                                  "MATERIAL LIST",
+                                                  "MATERIAL PROPERTIES",
+                                                  "MASSES 2",
+                                                  "AREA EDGE",
+                                                  "AREA LOCAL AXES"};  // isotropic
+  return std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return table.starts_with(start); });
+}
+
+void refuse_what_is_not_carried(const SapTables& tables) {
+  static const std::vector<std::string> structural = {"JOINT ", "FRAME ", "AREA ", "CONNECTIVITY", "CABLE ",    "TENDON ",
+                                                      "SOLID ", "LINK ",  "MASS",  "CONSTRAINT",   "MATERIAL ", "NONLINEAR"};
+  for (const auto& [name, rows] : tables.all()) {
+    const bool of_structure =
+        std::any_of(structural.begin(), structural.end(), [&, &table = name](const auto& s) { return table.starts_with(s); });
+    if (rows.empty() || !of_structure || sap_tables_read().contains(name) || says_nothing(name)) continue;
+    rows.front().fail("this table is not carried, and the structure would be another without it",
+                      "take it out of the model, or say the same by joints, frames, areas, restraints, springs and masses");
+  }
+  for (const SapRow& row : tables.rows("LOAD CASE DEFINITIONS"))
+    if (upper_case(row.get("Type")) == "LINMODAL" && upper_case(row.get("InitialCond", "Zero")) != "ZERO")
+      row.fail("asks for modes about the state of another case, which is not read", "start the modal case from zero");
+  for (const SapRow& row : tables.rows("MASS SOURCE"))
+    if (row.yes("Loads") || upper_case(row.get("Elements", "Yes")) == "NO")
+      row.fail("takes masses from loads, or none from elements, which is not read", "take them from elements and added masses");
+  for (const SapRow& row : tables.rows("MASSES 1 - MASS SOURCE"))
+    if (upper_case(row.get("MassFrom", "Elements")) != "ELEMENTS")
+      row.fail("takes masses from loads, which is not read", "take them from elements and added masses");
+}
+
+class SapReader {
+ public:
+  explicit SapReader(const std::filesystem::path& file) : tables_(file) { deck_.model.source = file.string(); }
+
+  ImportedModel read(const std::filesystem::path& file) {
+    refuse_what_is_not_carried(tables_);
+    fe::Formulation& formulation = deck_.model.formulation;
+    formulation.lumped_mass = true;
+    formulation.beam_rotary_inertia = formulation.shell_rotary_inertia = false;
+    const DeckUnits units = units_of_file();
+    read_joints();
+    read_frames();
+    read_areas();
+    read_attachments();
+    hold_inactive();
+    deck_.drop_unused_nodes();
+    to_si(deck_.model, units, 1.0);
+    return deck_.finished({file}, "frames or areas");
+  }
+
+ private:
+  [[nodiscard]] DeckUnits units_of_file() const {
+    const auto& control = tables_.rows("PROGRAM CONTROL");
+    const DeckPlace at = control.empty() ? tables_.whole("PROGRAM CONTROL") : static_cast<const DeckPlace&>(control.front());
+    std::vector<std::string> names = split_at(control.empty() ? "" : control.front().get("CurrUnits"), ',');
+    names.resize(2);
+    return units_of(names[1], names[0], {at, at}, "write CurrUnits=\"KN, m, C\" into the table PROGRAM CONTROL");
+  }
+
+  /// The number that a name is; a number of its own for a name that is none.
+  static long number_of_name(const std::string& name, long& last) {
+    constexpr long above_names = 100'000'000;
+    if (is_whole_number(name) && std::stol(name) > 0 && std::stol(name) < above_names) return std::stol(name);
+    return last = std::max(last, above_names) + 1;
+  }
+
+  void read_joints() {
+    for (const SapRow& row : tables_.rows("JOINT COORDINATES")) {
+      const std::string name = row.required("Joint");
+      const bool global = row.has("GlobalX") && row.has("GlobalY") && row.has("GlobalZ");
+      if (!global && (upper_case(row.get("CoordType", "Cartesian")) != "CARTESIAN" ||
+                      upper_case(row.get("CoordSys", "GLOBAL")) != "GLOBAL"))
+        row.fail("is given in other axes than the global ones", "export the columns GlobalX, GlobalY, GlobalZ");
+      const Eigen::Vector3d x =
+          global ? Eigen::Vector3d(row.number_of("GlobalX"), row.number_of("GlobalY"), row.number_of("GlobalZ"))
+                 : Eigen::Vector3d(row.number_of("XorR"), row.number_of("Y", 0.0), row.number_of("Z", 0.0));
+      if (!joints_.emplace(name, deck_.add_node(number_of_name(name, deck_.last_node), x)).second)
+        row.fail(fmt::format("joint {} is defined twice", name), "keep one of the two rows");
+    }
+  }
+
+  int joint(const SapRow& row, const std::string& key) const {
+    const auto found = joints_.find(row.required(key));
+    if (found == joints_.end()) row.fail(fmt::format("joint {} is not defined", row.get(key)), "give it in JOINT COORDINATES");
+    return found->second;
+  }
+
+  /// The row of a table whose `key` is `name`. @throws InputError at `from` where there is none
+  const SapRow& row_of(const DeckPlace& from, const std::string& table, const std::string& key, const std::string& name) const {
+    for (const SapRow& row : tables_.rows(table))
+      if (upper_case(row.get(key)) == upper_case(name)) return row;
+    from.fail(fmt::format("'{}' is in no row of the table {}", name, table), "give the row");
+  }
+
+  int material(const SapRow& section) {
+    const std::string name = section.required("Material");
+    if (const auto known = materials_.find(name); known != materials_.end()) return known->second;
+    const SapRow& row = row_of(section, "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES", "Material", name);
+    if (row.has("E2")) row.fail("is not isotropic, which is not read", "give E1, G12 and U12 of an isotropic material");
+    fe::Material m;
+    m.name = name;
+    m.youngs_modulus_Pa = row.number_of("E1");
+    m.poisson_ratio = row.number_of("U12", 0.0);
+    m.shear_modulus_Pa = row.number_of("G12", m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio)));
+    m.density_kg_m3 = row.number_of("UnitMass", 0.0);
+    DeckModel::check_poisson_ratio(row, m.poisson_ratio);
+    if (!(m.youngs_modulus_Pa > 0.0) || !(m.shear_modulus_Pa > 0.0) || m.density_kg_m3 < 0.0)
+      row.fail("a modulus is not above 0, or a mass is negative", "check E1, G12 and UnitMass");
+    deck_.model.materials.push_back(m);
+    return materials_[name] = static_cast<int>(deck_.model.materials.size()) - 1;
+  }
+
+  /// @throws InputError  for a factor that is not 1
+  static void refuse_factors(const SapRow& row, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys)
+      if (row.number_of(key, 1.0) != 1.0)
+        row.fail(fmt::format("{} is {}, and a factor on area or mass is not carried", key, row.get(key)),
+                 "give the section or the material the value itself");
+  }
+
+  int frame_section(const SapRow& row) {
+    refuse_factors(row, {"AMod", "MMod"});
+    if (row.number_of("I23", 0.0) != 0.0)
+      row.fail("has a product of inertia I23, which is not read", "turn the section to its principal axes");
+    fe::Section s;
+    s.name = row.get("SectionName");
+    s.area_m2 = row.number_of("Area");
+    s.inertia_z_m4 = row.number_of("I33") * row.number_of("I3Mod", 1.0);
+    s.inertia_y_m4 = row.number_of("I22") * row.number_of("I2Mod", 1.0);
+    s.torsion_m4 = row.number_of("TorsConst") * row.number_of("JMod", 1.0);
+    s.shear_area_y_m2 = row.number_of("AS2", 0.0) * row.number_of("A2Mod", 1.0);
+    s.shear_area_z_m2 = row.number_of("AS3", 0.0) * row.number_of("A3Mod", 1.0);
+    if (!(std::min({s.area_m2, s.inertia_z_m4, s.inertia_y_m4, s.torsion_m4}) > 0.0))
+      row.fail("Area, I33, I22 or TorsConst is not above 0", "complete the section; a nonprismatic one is not read");
+    return deck_.add_section(s);
+  }
+
+  fe::Element element(const SapRow& row, const std::string& kind, fe::ElementType type, const SapRow& section) {
+    fe::Element e;
+    e.id = number_of_name(row.required(kind), deck_.last_element);
+    while (!element_ids_.insert(e.id).second) e.id = ++deck_.last_element;  // frames and areas are counted apart
+    e.type = type;
+    e.material = material(section);
+    e.group = section.get(kind == "Frame" ? "SectionName" : "Section");
+    return e;
+  }
+
+  std::uint16_t releases(const std::string& frame) const {
+    unsigned bits = 0;
+    for (const SapRow& row : tables_.rows("FRAME RELEASE ASSIGNMENTS 1 - GENERAL")) {
+      if (row.get("Frame") != frame) continue;
+      if (row.yes("PartialFix")) row.fail("has a partial fixity, which is not read", "release it, or do not");
+      static const std::array<std::string, 6> forces = {"P", "V2", "V3", "T", "M2", "M3"};
+      for (std::size_t i = 0; i < 12; ++i)
+        if (row.yes(forces[i % 6] + (i < 6 ? "I" : "J"))) bits |= 1U << i;
+    }
+    return static_cast<std::uint16_t>(bits);
+  }
+
+  void read_frames() {
+    constexpr std::uint16_t bending = 0b110000'110000;  // M2 and M3 of both ends: a bar
+    for (const SapRow& row : tables_.rows("CONNECTIVITY - FRAME")) {
+      if (row.yes("IsCurved")) row.fail("is curved, which is not read", "divide it into straight frames");
+      const std::string frame = row.required("Frame");
+      const SapRow& assigned = row_of(row, "FRAME SECTION ASSIGNMENTS", "Frame", frame);
+      if (upper_case(assigned.get("MatProp", "Default")) != "DEFAULT")
+        assigned.fail("overwrites the material of its section, which is not read", "give it a section of that material");
+      const SapRow& section =
+          row_of(assigned, "FRAME SECTION PROPERTIES 01 - GENERAL", "SectionName", assigned.required("AnalSect"));
+      fe::Element e = element(row, "Frame", fe::ElementType::beam, section);
+      e.section = frame_section(section);
+      e.nodes = {joint(row, "JointI"), joint(row, "JointJ")};
+      e.releases = releases(frame);
+      if ((e.releases & bending) == bending) {
+        e.releases = 0;
+        e.type = fe::ElementType::bar;
+        deck_.add_element(e);
+        continue;
+      }
+      deck_.add_beam(e, [&](fe::Element& piece, const Eigen::Vector3d& axis) { turn_frame(row, frame, piece, axis); });
+    }
+  }
+
+  /// Local 2 of a frame lies in the vertical plane through it, of a vertical one along global X, and is turned by the angle.
+  void turn_frame(const SapRow& row, const std::string& frame, fe::Element& piece, const Eigen::Vector3d& axis) const {
+    constexpr double upright = 1e-3;  // [-] sine of the angle to global Z below which a frame is vertical
+    const bool vertical = axis.head<2>().norm() <= upright * axis.norm();
+    piece.orientation =
+        DeckModel::local_z(row, "the frame", axis, vertical ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ(),
+                           "give its two joints places apart");
+    for (const SapRow& turned : tables_.rows("FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL")) {
+      if (turned.get("Frame") != frame) continue;
+      if (turned.yes("AdvanceAxes")) turned.fail("has advanced axes, which are not read", "give the angle");
+      piece.orientation =
+          Eigen::AngleAxisd(turned.number_of("Angle", 0.0) * std::numbers::pi / 180.0, axis.normalized()) * piece.orientation;
+    }
+  }
+
+  void read_areas() {
+    for (const SapRow& row : tables_.rows("CONNECTIVITY - AREA")) {
+      const SapRow& assigned = row_of(row, "AREA SECTION ASSIGNMENTS", "Area", row.required("Area"));
+      const SapRow& section = row_of(assigned, "AREA SECTION PROPERTIES", "Section", assigned.required("Section"));
+      const std::string type = upper_case(section.get("Type", "Shell-Thin"));
+      if (!type.starts_with("SHELL-TH") && !type.starts_with("SHELLTH"))
+        section.fail(fmt::format("is of type {}, of which Shell-Thin and Shell-Thick are read", section.get("Type")),
+                     "make it a shell");
+      if (type.ends_with("THICK"))
+        deck_.note_once("shells are thin plates here: the transverse shear of Shell-Thick is left out");
+      refuse_factors(section, {"F11Mod", "F22Mod", "F12Mod", "M11Mod", "M22Mod", "M12Mod", "V13Mod", "V23Mod", "MMod"});
+      fe::Section s;
+      s.name = section.get("Section");
+      s.thickness_m = section.number_of("Thickness");
+      if (!(s.thickness_m > 0.0)) section.fail("the thickness is not above 0", "give it");
+      s.bending_inertia_ratio = std::pow(section.number_of("BendThick", s.thickness_m) / s.thickness_m, 3);
+      fe::Element e = element(row, "Area", fe::ElementType::shell, section);
+      e.section = deck_.add_section(s);
+      for (int i = 1; i <= 4 && row.has(fmt::format("Joint{}", i)); ++i)
+        e.nodes.push_back(joint(row, fmt::format("Joint{}", i)));
+      if (e.nodes.size() < 3 || row.has("Joint5")) row.fail("is no area of three or four joints", "divide it");
+      deck_.add_element(e);
+    }
+  }
+
+  void read_attachments() {
+    for (const SapRow& row : tables_.rows("JOINT RESTRAINT ASSIGNMENTS")) {
+      Directions fixed{};
+      for (std::size_t d = 0; d < 6; ++d) fixed[d] = row.yes(joint_directions[d]);
+      deck_.hold("joint_" + row.get("Joint"), joint(row, "Joint"), fixed);
+    }
+    for (const SapRow& row : tables_.rows("JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED"))
+      for (int d = 0; d < 6; ++d) {
+        const std::string &key = joint_directions[fe::slot(d)], group = "joint_" + row.get("Joint");
+        const double stiffness = row.number_of(key, 0.0);
+        if (stiffness < 0.0) row.fail(key + " is negative", "check the sign");
+        if (stiffness > 0.0)
+          deck_.add_spring(group + "_" + lower_case(key), group, joint(row, "Joint"), -1, d, Eigen::Matrix3d::Identity(),
+                           stiffness);
+      }
+    for (const SapRow& row : tables_.rows("JOINT ADDED MASS ASSIGNMENTS")) read_mass(row);
+  }
+
+  /// A point mass, or a matrix where the three masses differ.
+  void read_mass(const SapRow& row) {
+    const auto vector = [&](const char* key) {
+      return Eigen::Vector3d(row.number_of(fmt::format("{}1", key), 0.0), row.number_of(fmt::format("{}2", key), 0.0),
+                             row.number_of(fmt::format("{}3", key), 0.0));
+    };
+    const Eigen::Vector3d mass = vector("Mass"), inertia = vector("MMI");
+    if (mass.minCoeff() < 0.0 || inertia.minCoeff() < 0.0) row.fail("a mass is negative", "check the sign");
+    const std::string group = "joint_" + row.get("Joint");
+    const int node = joint(row, "Joint");
+    if (mass[0] == mass[1] && mass[0] == mass[2]) return deck_.model.masses.push_back({group, node, mass[0], inertia});
+    fe::MatrixElement element;
+    element.name = element.group = group + "_mass";
+    Eigen::Matrix<double, 6, 1> diagonal;
+    diagonal << mass, inertia;
+    for (int d = 0; d < 6; ++d) element.dofs.push_back({node, d});
+    element.mass = diagonal.asDiagonal();
+    deck_.model.matrix_elements.push_back(element);
+  }
+
+  /// Directions that the analysis leaves out are held at every joint.
+  void hold_inactive() {
+    static const std::array<std::string, 6> names = {"UX", "UY", "UZ", "RX", "RY", "RZ"};
+    for (const SapRow& row : tables_.rows("ACTIVE DEGREES OF FREEDOM")) {
+      Directions inactive{};
+      for (std::size_t d = 0; d < 6; ++d) inactive[d] = upper_case(row.get(names[d], "Yes")) == "NO";
+      if (inactive == Directions{}) continue;
+      for (const auto& [name, node] : joints_) deck_.hold("inactive", node, inactive);
+    }
+  }
+
+  SapTables tables_;
+  DeckModel deck_;
+  std::map<std::string, int> joints_, materials_;
+  std::set<long> element_ids_;
+};
+
+}  // namespace
+
+bool is_sap2000_file(const std::filesystem::path& file) {
+  const std::string ending = upper_case(file.extension().string());
+  return ending == ".S2K" || ending == ".$2K";
+}
+
+ImportedModel read_sap2000(const std::filesystem::path& path) { return SapReader(path).read(path); }
+
+}  // namespace twindeck::model_io

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model_io/deck_card.hpp"
+
+/// Inside of the library: the tables of a text file of SAP2000.
+namespace twindeck::model_io {
+
+/// One row: `Joint=1   XorR=0   Y=0`. Keys are compared in upper case, values stand as written, without their quotes.
+struct SapRow : DeckFields {
+  std::vector<std::string> keys;
+
+  [[nodiscard]] bool has(const std::string& key) const { return position(key) < keys.size(); }
+  /// Value of a key, or `fallback`.
+  [[nodiscard]] std::string get(const std::string& key, const std::string& fallback = "") const;
+  /// Value of a key that must be there.
+  [[nodiscard]] std::string required(const std::string& key) const;
+  [[nodiscard]] double number_of(const std::string& key) const;
+  [[nodiscard]] double number_of(const std::string& key, double fallback) const;
+  [[nodiscard]] bool yes(const std::string& key) const;
+
+ private:
+  [[nodiscard]] std::size_t position(const std::string& key) const;
+};
+
+/// The rules of the format: `TABLE:  "NAME"` opens a table, each line is a row, a line that ends with ` _` goes on in the next.
+class SapTables {
+ public:
+  /// @throws InputError  if it cannot be opened, or a row stands above the first table
+  explicit SapTables(const std::filesystem::path& file);
+
+  /// Rows of a table; none for one that the file does not have.
+  [[nodiscard]] const std::vector<SapRow>& rows(const std::string& table) const;
+  [[nodiscard]] const std::map<std::string, std::vector<SapRow>>& all() const { return tables_; }
+  [[nodiscard]] DeckPlace whole(const std::string& table) const { return {&files_.front(), 0, table}; }
+
+ private:
+  std::deque<std::filesystem::path> files_;  ///< the file; rows point to it
+  std::map<std::string, std::vector<SapRow>> tables_;
+};
+
+}  // namespace twindeck::model_io
