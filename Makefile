@@ -32,7 +32,6 @@ STEP ?= $(word 2,$(MAKECMDGOALS))
 $(filter-out why,$(MAKECMDGOALS)): why ; @:
 else
 include $(PRODUCT)workflows/steps.mk
-include $(PRODUCT)workflows/virtual.mk
 endif
 
 .PHONY: bench-places check compare decks baseline moves prose checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
@@ -54,7 +53,7 @@ help: ## the targets that a user needs
 help-all: ## every target
 	@$(call LISTED,[a-z_-]*)
 
-all: report verify ## everything of the study and its virtual campaign: install, build, steps, tables, figures, report, check against the paper
+all: report verify ## everything of the study, and of the one of simulated records beside it: install, build, steps, tables, figures, report, check against the paper
 
 deps: ## packages and versions; what is missing is installed (apt, as root or with sudo)
 	@workflows/deps.sh $(if $(filter deps,$(MAKECMDGOALS)),--report)
@@ -74,7 +73,7 @@ build: deps ## compile into build/
 
 test: build ## unit tests, laws, verification, steps, architecture, the study and its check against the paper
 	@cmake --build $(BUILD) -j $(JOBS)
-	@$(MAKE) --no-print-directory s3 $(if $(SCORE),score) NO_BUILD=1
+	@$(MAKE) --no-print-directory $(if $(SCORE)$(VIRTUAL),score,s3) NO_BUILD=1
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 	@$(MAKE) --no-print-directory all
 
@@ -86,8 +85,8 @@ steps: $(STEP_MANIFESTS) ## every step of the study
 check: $(STEPS:%=$(BIN)/%) ## validate every input of every step, and tell what would run and how long; nothing is computed or written
 	@failed=0; $(foreach step,$(STEPS),$(call CHECKED,$(step)) || failed=2;) exit $$failed
 
-score: $(SCORE) ## diagnosis of the study's virtual campaign, held against what was hidden in it (the scorer alone reads the truth)
-	@$(if $(SCORE),:,echo "score: study $(STUDY) has no virtual campaign (workflows/$(STUDY)_virtual)" >&2; exit 2)
+score: $(SCORE) ## diagnosis and updating on simulated records, held against what was hidden in them (the scorer alone reads the truth)
+	$(if $(VIRTUAL),+@$(OF_VIRTUAL) score,@$(if $(SCORE),:,echo "score: study $(STUDY) has no simulated records: no s0_campaign with s9_diagnosis, no workflows/$(STUDY)_virtual" >&2; exit 2))
 
 tables: $(RESULTS)/tables/manifest.json ## tables as CSV, TeX, HTML
 figures: $(RESULTS)/figures/manifest.json ## figures as PDF, PNG and their data
@@ -97,10 +96,10 @@ report: $(RESULTS)/report/report.html ## one self-contained page; refused where 
 REPORT_SOURCES := $(wildcard $(call PLAIN,$(shell find $(PRODUCT)paper data/$(STUDY) -type f -not -path '*/__pycache__/*' -not -path '*paper/article/*' 2>/dev/null)))
 REPORT_ARGUMENTS = --study $(STUDY) --results $(RESULTS) --data $(PAPER)
 
-$(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(PRODUCT)workflows/python.sh
+$(RESULTS)/tables/manifest.json: $(STEP_MANIFESTS) $(VIRTUAL_PAGE) $(REPORT_SOURCES) $(PRODUCT)workflows/python.sh
 	@$(REPORT) tables $(REPORT_ARGUMENTS)
 
-$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(REPORT_SOURCES) $(call FILES,results/scoring/*.csv) $(PRODUCT)workflows/python.sh
+$(RESULTS)/figures/manifest.json: $(STEP_MANIFESTS) $(VIRTUAL_PAGE) $(REPORT_SOURCES) $(call FILES,results/scoring/*.csv) $(PRODUCT)workflows/python.sh
 	@$(REPORT) figures $(REPORT_ARGUMENTS)
 
 $(RESULTS)/report/report.html: $(RESULTS)/tables/manifest.json $(RESULTS)/figures/manifest.json $(wildcard results/check_power/power.csv) $(SCORE)

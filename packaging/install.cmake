@@ -23,7 +23,7 @@ install(TARGETS ${executables} RUNTIME DESTINATION bin COMPONENT twindeck)
 install(PROGRAMS packaging/twindeck DESTINATION bin COMPONENT twindeck)
 install(FILES ${manuals} DESTINATION share/man/man1 COMPONENT twindeck)
 install(FILES Makefile DESTINATION ${share} COMPONENT twindeck)
-install(FILES workflows/names.mk workflows/steps.mk workflows/study_steps.mk workflows/virtual.mk DESTINATION ${share}/workflows COMPONENT twindeck)
+install(FILES workflows/names.mk workflows/steps.mk workflows/study_steps.mk DESTINATION ${share}/workflows COMPONENT twindeck)
 install(PROGRAMS workflows/python.sh workflows/check_names.sh workflows/new.sh workflows/recorded_inputs.sh workflows/study_steps.sh workflows/why.sh DESTINATION ${share}/workflows COMPONENT twindeck)
 install(DIRECTORY workflows/common workflows/template DESTINATION ${share}/workflows COMPONENT twindeck PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY data/template data/wind DESTINATION ${share}/data COMPONENT twindeck PATTERN __pycache__ EXCLUDE)
@@ -44,7 +44,7 @@ foreach(study ${studies})
 endforeach()
 install(DIRECTORY data/ponte_del_mare DESTINATION ${share}/data COMPONENT data)
 install(FILES data/SHA256SUMS DESTINATION ${share}/data COMPONENT data)
-install(FILES tests/steps/diagnosis_score.py DESTINATION ${share}/tests/steps COMPONENT data)  # scores the study's virtual campaign
+install(FILES tests/steps/diagnosis_score.py tests/steps/parameter_score.py DESTINATION ${share}/tests/steps COMPONENT data)  # scores the study's virtual campaign
 install(FILES LICENSE DESTINATION share/doc/twindeck-data RENAME copyright COMPONENT data)
 
 set(CPACK_GENERATOR DEB)

@@ -6,7 +6,7 @@
 set -eu
 results=$1 steps=$2
 set --
-for manifest in "$results"/*/manifest.json "$results"_virtual/s9_diagnosis/manifest.json; do
+for manifest in "$results"/*/manifest.json; do
   case $manifest in *[!A-Za-z0-9_./-]*) continue ;; esac # no folder that a step or a rule of a study writes
   [ ! -f "$manifest" ] || set -- "$@" "$manifest"
 done

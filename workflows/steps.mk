@@ -21,6 +21,8 @@ ifneq ($(shell grep -s '^features *=.*s3_identification/features' $(WORKFLOW)/st
 READS_s4_refinement += s3_identification
 READS_s6_updating += s3_identification
 READS_s9_diagnosis += s3_identification
+# study.toml names them where results usually lie.
+ELSEWHERE := $(if $(filter-out results/$(STUDY),$(RESULTS)),--features $(RESULTS)/s3_identification/features)
 endif
 
 # What a step reads of the study's data beside STUDY_INPUTS.
@@ -42,8 +44,8 @@ endif
 
 # Somebody's own measured modes: make s6 MODES=dir
 MEASURED := $(if $(MODES),--modes '$(MODES)') $(if $(FEATURES),--features '$(FEATURES)')
-OPTIONS_s4_refinement := $(MEASURED)
-OPTIONS_s6_updating := $(MEASURED)
+OPTIONS_s4_refinement := $(or $(strip $(MEASURED)),$(ELSEWHERE))
+OPTIONS_s6_updating := $(or $(strip $(MEASURED)),$(ELSEWHERE))
 # Which modes the results rest on is kept beside them, so that the steps run again when that changes, and only then. It is written by a
 # recipe, so that `make -n` writes nothing.
 MEASURED_STAMP := $(RESULTS)/.measured
@@ -58,7 +60,37 @@ endif
 
 # What a study has of its own, such as a campaign made of records that lie elsewhere.
 -include $(WORKFLOW)/study.mk
-OPTIONS_s9_diagnosis += $(if $(FEATURES),--features '$(FEATURES)')
+
+# A study of simulated records, workflows/<study>_virtual, is a study like every other, and another one shows its results. What is read of
+# it is made first: step 0, whose wind events step 8 compares with, then its page, which needs all the rest. One after the other, as two
+# makes at once would write the same files.
+VIRTUAL := $(if $(wildcard $(WORKFLOW)_virtual/study.toml),$(STUDY)_virtual)
+ifneq ($(VIRTUAL),)
+OF_VIRTUAL = $(MAKE) --no-print-directory -f $(PRODUCT)Makefile STUDY=$(VIRTUAL) RESULTS=$(RESULTS)_virtual FEATURES= MODES=
+VIRTUAL_EVENTS := $(RESULTS)_virtual/s0_campaign/manifest.json
+VIRTUAL_PAGE := $(RESULTS)_virtual/report/report.html
+INPUTS_s8_validation += $(VIRTUAL_EVENTS)
+OPTIONS_s8_validation := --campaign $(RESULTS)_virtual/s0_campaign
+$(VIRTUAL_EVENTS) $(VIRTUAL_PAGE): FORCE $(if $(NO_BUILD),,build)
+	+@$(OF_VIRTUAL) $@ $(if $(filter executables,$(EXECUTABLES)),NO_BUILD=1)
+$(VIRTUAL_PAGE): $(VIRTUAL_EVENTS)
+# Steps that it alone has: make s3
+OF_VIRTUAL_ALONE := $(filter-out $(STEPS),$(shell $(PRODUCT)workflows/study_steps.sh $(WORKFLOW)_virtual))
+OF_VIRTUAL_ALONE += $(foreach step,$(OF_VIRTUAL_ALONE),$(firstword $(subst _, ,$(step))))
+.PHONY: $(OF_VIRTUAL_ALONE)
+$(OF_VIRTUAL_ALONE):
+	+@$(OF_VIRTUAL) $@
+else ifneq ($(and $(filter s0_campaign,$(STEPS)),$(filter s9_diagnosis,$(STEPS))),)
+OPTIONS_s8_validation := --campaign $(RESULTS)/s0_campaign
+# Its truth is known. The scorer, which alone reads it, holds diagnosis and updating against what was hidden.
+SCORE := $(RESULTS)/score/score.json
+SCORED := $(filter s0_campaign s4_refinement s6_updating s9_diagnosis,$(STEPS))
+$(SCORE): $(SCORED:%=$(RESULTS)/%/manifest.json) $(PRODUCT)tests/steps/diagnosis_score.py $(PRODUCT)tests/steps/parameter_score.py
+	@$(PRODUCT)workflows/python.sh $(PRODUCT)tests/steps/diagnosis_score.py --campaign $(RESULTS)/s0_campaign --imposed $(WORKFLOW)/s0_campaign.toml \
+	  --diagnosis $(RESULTS)/s9_diagnosis --out $(RESULTS)/score \
+	  $(if $(filter s6_updating,$(SCORED)),--updating $(RESULTS)/s6_updating --model $(RESULTS)/s4_refinement/model)
+endif
+OPTIONS_s9_diagnosis += $(or $(if $(FEATURES),--features '$(FEATURES)'),$(ELSEWHERE))
 
 # An executable is as new as its last link: ninja leaves it alone when nothing changed, and then no step runs.
 # NO_BUILD=1 takes the executables as they are.

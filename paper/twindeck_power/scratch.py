@@ -76,11 +76,11 @@ class Scratch:
         (self.root / "results" / step).symlink_to(self.origin / "results" / step)
 
     def _changed(self, step: str) -> bool:
-        """Files that are links, or lie in a step's folder that is one, are the originals."""
+        """Files that are links, or lie in a step's folder that is one, are the originals; a link to a file of this copy is not."""
         return any(self._own(self.root / name) and sha256(self.root / name) != digest for name, digest in self.inputs(step).items())
 
     def _own(self, path: Path) -> bool:
-        return path.is_file() and not path.is_symlink() and not any(p.is_symlink() for p in path.parents if p.is_relative_to(self.root))
+        return path.is_file() and path.resolve().is_relative_to(self.root.resolve())
 
 
 def link_tree(origin: Path, to: Path) -> None:
@@ -90,5 +90,6 @@ def link_tree(origin: Path, to: Path) -> None:
         here = to / Path(folder).relative_to(origin)
         here.mkdir(parents=True, exist_ok=True)
         for name in files:
-            (here / name).symlink_to(Path(folder) / name)
+            file = Path(folder) / name  # a link within the tree, two studies on one file, stays one
+            (here / name).symlink_to(file.readlink() if file.is_symlink() and not file.readlink().is_absolute() else file)
 

@@ -23,12 +23,17 @@ from .unchanged import changed_steps, step_folders
 # file of a step -> (name of the table, what it shows)
 TABLES = {
     "s1_model/modes.csv": ("modes", "Modes of the model"),
+    "s2_sensors/setups.csv": ("setups", "Sensor setups, and the modes that each finds in a blind test of its own"),
     "s3_identification/modes.csv": ("identified_modes", "Modes identified from the records"),
     "s4_refinement/comparison.csv": ("comparison", "Model and measurement, before updating"),
     "s5_sensitivity/selection.csv": ("selection", "What the frequencies can tell about each parameter"),
     "s6_updating/parameters.csv": ("parameters", "Parameters after updating"),
     "s6_updating/comparison.csv": ("updated_comparison", "Model and measurement, before and after updating"),
+    "s6_updating/leave_one_out.csv": ("left_out", "Each pair left out of the updating and predicted"),
+    "s7_aerodynamics/critical.csv": ("critical", "Critical wind speeds"),
+    "s8_validation/rms.csv": ("accelerations", "RMS of accelerations in wind, against the records"),
 }
+WHERE_ASKED = ("s6_updating/leave_one_out.csv",)  # files that a step writes where its configuration asks for it
 NOT_OF_ANY_STUDY = ("published",)  # columns of a step's table that only a study with a paper fills
 STATED_PAIRS = {"published": "stated"}  # how step 4 names pairs that study.toml or the configuration states
 LONG_TEXT = 30  # letters; a cell with more of them gets room, so that its row does not become a tower
@@ -50,9 +55,9 @@ def write_own_tables(study: Study) -> list:
     folder = study.results / "tables"
     folder.mkdir(parents=True, exist_ok=True)
     for file, (name, title) in TABLES.items():
-        if file.split("/")[0] not in study.steps():
+        if not _has(study, file):
             continue
-        table = study.step_csv(file).astype(object)
+        table = CHANGES.get(file, lambda _, rows: rows)(study, study.step_csv(file)).astype(object)
         table = table.where(table.notna(), "").loc[:, lambda t: [c for c in t.columns if (t[c].astype(str) != "").any() and c not in NOT_OF_ANY_STUDY]]
         if "pairing" in table:
             table["pairing"] = table["pairing"].replace(STATED_PAIRS)
@@ -68,6 +73,27 @@ def write_own_tables(study: Study) -> list:
         names.append("identified_by_condition")
     write_manifest("tables", folder, study.used, written, started)
     return names
+
+
+def _has(study: Study, file: str) -> bool:
+    return file.split("/")[0] in study.steps() and (file not in WHERE_ASKED or (study.results / file).is_file())
+
+
+def _with_blind_test(study: Study, setups):
+    """Modes found by each setup that was tested, of how many, and what it found that is none."""
+    tests = study.step_csv("s2_sensors/blind_test.csv", ["setup", "mode", "found"])
+    modes = tests[tests["mode"] != "spurious"].groupby("setup")["found"]
+    wrong = tests[tests["mode"] == "spurious"].groupby("setup").size()
+    setups = setups[["setup", "family", "channels", "R_k", "rank"]]
+    tested = setups["setup"].isin(modes.groups)
+    found = setups["setup"].map(modes.sum()).where(tested)
+    missed = tests[(tests["mode"] != "spurious") & (tests["found"] == 0)].groupby("setup")["mode"].agg(lambda m: " ".join(map(str, m)))
+    return setups.assign(modes_found=found, of_modes=setups["setup"].map(modes.size()).where(tested), modes_missed=setups["setup"].map(missed).where(tested),
+                         found_that_is_none=setups["setup"].map(wrong).where(tested).fillna(0).where(tested))
+
+
+# What is left of a file in its table, and what joins it.
+CHANGES = {"s2_sensors/setups.csv": _with_blind_test, "s8_validation/rms.csv": lambda _, rows: rows[rows["error_pct"].notna()]}
 
 
 def _by_condition(study: Study):
@@ -98,8 +124,7 @@ def _cell(value) -> str:
 
 def write_own_report(study: Study):
     settings = study.read_toml(study.workflow / "study.toml")
-    declared = study.steps()
-    tables = [text(study, f"tables/{name}.html") for file, (name, _) in TABLES.items() if file.split("/")[0] in declared]
+    tables = [text(study, f"tables/{name}.html") for file, (name, _) in TABLES.items() if _has(study, file)]
     if (study.results / "tables/identified_by_condition.html").is_file():
         tables.append(text(study, "tables/identified_by_condition.html"))
     figures = [{"name": f.NAME, "title": FIGURES[f.NAME][0], "caption": FIGURES[f.NAME][1], "png": image(study, f.NAME)}

@@ -15,7 +15,8 @@ def find_stale(study: Study, tolerances: Tolerances) -> list:
     """[(file, what is wrong)] over tables/ and every step's folder."""
     tables = study.results / "tables"
     found = [(path, problem + _edited(study, path, tolerances)) for path, problem in stale_outputs(tables)]
-    return found + changed_steps(study) + stale_inputs([*step_folders(study), tables])
+    studies = [study, *([study.virtual()] if study.virtual() is not None else [])]
+    return found + [finding for each in studies for finding in changed_steps(each) + stale_inputs(step_folders(each))] + stale_inputs([tables])
 
 
 def _edited(study: Study, path, tolerances: Tolerances) -> str:

@@ -56,13 +56,17 @@ def left_out(study: Study) -> dict | None:
                                                              "parameters_on_bounds", "converged"])
     means = {name: float(table[column].abs().mean()) for name, column in ERRORS.items()}
     closer = int((table["error_predicted_pct"].abs() < table["error_before_pct"].abs()).sum())
-    return {"rows": table.to_dict("records"), "means": means, "closer": closer, "pairs": len(table), "regularised": _regularised(study)}
+    return {"rows": table.to_dict("records"), "means": means, "closer": closer, "pairs": len(table), "regularised": _another(study, "regularised"),
+            "selected": _another(study, "selected")}
 
 
-def _regularised(study: Study) -> dict | None:
-    """Predictions of the update that is held to the parameters' ranges; None where step 6 had no reason to make one."""
-    name = "s6_updating/leave_one_out_regularised.csv"
-    if not (study.results / name).is_file():
+def _another(study: Study, name: str) -> dict | None:
+    """Predictions of the update that is held to the parameters' ranges (regularised), or of that of the parameters which step 5 selected; None where
+    step 6 made none."""
+    file = f"s6_updating/leave_one_out_{name}.csv"
+    if not (study.results / file).is_file():
         return None
-    errors = study.step_csv(name, ["error_predicted_pct"])["error_predicted_pct"]
-    return {"errors": list(errors), "mean": float(errors.abs().mean())}
+    errors = study.step_csv(file, ["error_fitted_pct", "error_predicted_pct"])
+    names = study.step_csv(f"s6_updating/{name}.csv", ["parameter"])["parameter"]
+    return {"errors": list(errors["error_predicted_pct"]), "mean": float(errors["error_predicted_pct"].abs().mean()),
+            "fitted": float(errors["error_fitted_pct"].abs().mean()), "parameters": list(names)}

@@ -10,8 +10,9 @@ int main(int argc, char** argv) {
   step.token = "s0_campaign";
   step.summary = "Simulates the test campaign on the virtual bridge and writes its records as loggers would.";
   step.examples = {
-      "s0_campaign --study workflows/ponte_del_mare --out results/ponte_del_mare/s0_campaign",
-      "s0_campaign --study workflows/ponte_del_mare --out results/calibration/s0_campaign --set 'corrections=\"\"' --calibrate",
+      "s0_campaign --study workflows/ponte_del_mare_virtual --out results/ponte_del_mare_virtual/s0_campaign",
+      "s0_campaign --study workflows/ponte_del_mare_virtual --out results/calibration/s0_campaign --set 'corrections=\"\"' "
+      "--calibrate",
   };
   step.fields = settings.fields();
   step.flags = {{"calibrate", false, "only find the corrections that bring the named frequencies about: corrections.csv"}};

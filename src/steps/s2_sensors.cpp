@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
   step.token = "s2_sensors";
   step.summary = "Scores sensor setups by AutoMAC, searches for better ones and tests them blindly on simulated records.";
   step.examples = {
-      "s2_sensors --study workflows/ponte_del_mare --out results/ponte_del_mare/s2_sensors",
+      "s2_sensors --study workflows/ponte_del_mare_virtual --out results/ponte_del_mare_virtual/s2_sensors",
       "s2_sensors --model my_bridge/model --out my_bridge/sensors --set points=my_points.csv --set setups=my_setups.csv",
   };
   step.fields = config.fields();

@@ -59,8 +59,8 @@ int main(int argc, char** argv) {
   step.examples = {
       "s3_identification --campaign my_campaign --out results/my_bridge/s3_identification --set setup=ST1 --set decimation=8",
       "s3_identification --inspect measurement.csv",
-      "s3_identification --study workflows/ponte_del_mare --results results/ponte_del_mare --out "
-      "results/ponte_del_mare/s3_identification"};
+      "s3_identification --study workflows/ponte_del_mare_virtual --results results/ponte_del_mare_virtual --out "
+      "results/ponte_del_mare_virtual/s3_identification"};
   step.flags = {{"inspect", true, "tell what a record file holds (CSV, NPY, MAT, HDF5, universal file) and end",
                  [](const std::string& file) { return records::describe(records::inspect(file)); }}};
   step.fields = config.fields();

@@ -11,37 +11,36 @@
 #include "updating/twins.hpp"
 
 namespace {
-
 using namespace twindeck;
-
 Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& read, runner::StepContext& context) {
   // 1. The refined model and the measured modes.
-  const auto& [model, measured, active, published] = read;
+  const auto& [model, measured, active, selected, published] = read;
   const dynamics::LoadedModel before = dynamics::solvable(model);
   if (!before.state.status.converged) return before.state.status;
 
   // 2. Which measured mode belongs to which computed one.
-  const dynamics::EigenModes modes_before =
-      dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
+  const auto modes_before = dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
   dynamics::judge_units(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
-  const matching::Pairing pairing = updating::pair_for_updating(context, config, before, modes_before, measured);
-  const updating::MeasuredRows rows = updating::weighed_rows(config, measured, pairing, before, modes_before);
+  const auto pairing = updating::pair_for_updating(context, config, before, modes_before, measured);
+  const auto rows = updating::weighed_rows(config, measured, pairing, before, modes_before);
   if (!rows.given())
     updating::warn_of_twins(context, updating::indistinct_parameters(before, modes_before, active, measured, pairing),
                             measured.modes.has_shapes());
 
   // 3. The update.
-  const updating::UpdatingOptions options = config.options(context.seed, published);
-  const updating::UpdatingResult result = updating::update(
-      before.system, updating::prestress_refresh(before), active, updating::frequency_targets(measured, pairing), options,
-      [&](int done, int of) { context.progress("starts", done, of); }, rows);
+  const auto targets = updating::frequency_targets(measured, pairing);
+  const auto progress = [&](int done, int of) { context.progress("starts", done, of); };
+  const auto update = [&](const std::vector<int>& chosen, const std::vector<Eigen::VectorXd>& elsewhere) {
+    return updating::update(before.system, updating::prestress_refresh(before), chosen, targets,
+                            config.options(context.seed, elsewhere), progress, rows);
+  };
+  const updating::UpdatingResult result = update(active, published);
   if (result.starts.empty() || result.mode_after.empty()) return result.status;
 
   // 4. The updated model, in balance, with its modes and the same pairs.
   const dynamics::LoadedModel after = dynamics::with_values(before, result.theta);
-  const dynamics::EigenModes modes_after =
-      dynamics::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
+  const auto modes_after = dynamics::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
   const matching::Pairing followed = updating::followed_pairing(config, pairing, result, after, modes_after, measured);
   const matching::PairingAccount account = updating::account_after(context, followed, modes_after, measured);
   std::vector<matching::ComparisonRow> comparison = matching::compare("before", measured, modes_before.frequency_Hz, pairing);
@@ -49,6 +48,7 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
 
   // 5. Tables, the model, and the outcome in words.
   steps::write_updating(before.system.parameters, active, comparison, config.common_pairs, result, context);
+  if (!selected.empty()) steps::write_selected(before.system.parameters, selected, comparison, update(selected, {}), context);
   steps::write_mac(measured, followed, context.out);
   model_io::write_modes(model_io::published_modes(after.fe_model(), after.system, modes_after), context.out);
   model_io::save_model(before, result.theta, context.out / "model");

@@ -13,6 +13,7 @@ namespace twindeck::updating {
 struct UpdatingSettings {
   std::string parameters_from = "list";   ///< "list" | "s5_sensitivity"
   std::vector<std::string> parameters;    ///< empty: all that have a range
+  bool beside_selection = false;          ///< the same update of the parameters that s5_sensitivity selects, beside the list's
   std::vector<std::string> pairs;         ///< "7X-8N", where no shape was measured; empty: by order
   std::vector<std::string> common_pairs;  ///< experimental modes of the second mean; empty: none
   std::string condition;                  ///< of the measured features

@@ -63,7 +63,12 @@ def score_of(folder, **changes):
                                    "low": 4.7e6, "high": 6.4e6, "inside": False}]},
                        {"what": "The stays S1 and S2 vibrate.", "causes": ["barstays"], "location": "global", "answer": "missed", "probability": None,
                         "sizes": []}],
-            "not_hidden": [], "also": "Hidden too: another mesh."} | changes
+            "not_hidden": [], "also": "Hidden too: another mesh.",
+            "parameters": {"words": "1 of 1 updated parameters came closer to the bridge's own value; 1 have no counterpart there",
+                           "rows": [{"parameter": "E_s", "unit": "Pa", "initial_value": 210e9, "updated_value": 200e9, "lower": 199e9, "upper": 221e9,
+                                     "true_value": 190e9, "true_least": 150e9, "true_largest": 300e9, "true_within_bounds": 0, "error_before_pct": 10.526,
+                                     "error_after_pct": 5.263, "closer": 1},
+                                    {"parameter": "C", "unit": "-", "initial_value": 1.0, "updated_value": 1.1, "lower": 0.9, "upper": 1.1}]}} | changes
 
 
 def add_virtual(workflow, results, told=None):

@@ -54,7 +54,8 @@ class FirstScreen(unittest.TestCase):
             "mode 1 windy 0.7480 Hz 0.6900 Hz 0.7400 Hz", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
             "How much better", made_up_answer.SENTENCES["how_much_better"], "What next", made_up_answer.SENTENCES["next"], "What was hidden",
             "In the set. Friction: the dampers C1 and C2 stand still below 500 N each.", "hidden 500 N, found 434 N (181 N to 608 N, 90 %); the interval holds it",
-            "hidden 10 MN/m, found 5.4 MN/m (4.7 MN/m to 6.4 MN/m, 90 %); the interval misses it", "Missed. The stays S1 and S2 vibrate.")]
+            "hidden 10 MN/m, found 5.4 MN/m (4.7 MN/m to 6.4 MN/m, 90 %); the interval misses it", "Missed. The stays S1 and S2 vibrate.",
+            "Updating: 1 of 1 updated parameters came closer", "E_s 210 GPa 200 GPa 190 GPa (150 GPa to 300 GPa) +10.5 % +5.3 % closer", "C 1 1.1 no counterpart")]
         self.assertEqual(order, sorted(order))
         self.assertNotIn("node:725", virtual, "a place has words on the first screen")
 

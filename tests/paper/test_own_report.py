@@ -13,6 +13,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
@@ -20,6 +21,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 import browser  # noqa: E402
 import made_up_study  # noqa: E402
 from made_up_case import MadeUpCase  # noqa: E402
+from twindeck_report import own_study  # noqa: E402
 from twindeck_report.figures import updating_history  # noqa: E402
 from twindeck_report.page import answer, chart, complexity, mac, marks, quality, spectra  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
@@ -234,6 +236,16 @@ class Numbers(unittest.TestCase):
         self.write("s3_identification/channels.csv", ["channel", "quantity", "unit", "gain"],
                    [["a", "acceleration", "mg", 9.80665e-3], ["v", "velocity", "mm/s", 1e-3], ["u", "acceleration", "V", 1], ["n", "", "g", 9.80665]])
         self.assertEqual(quality._units(self.study), {"a": "m/s²", "v": "m/s", "u": "V", "n": "m/s²"})
+
+    def test_setups_stand_beside_their_own_blind_tests(self):
+        """S1 finds two of three modes and one that is none, S2 none at all; S3 was not tested."""
+        setups = pd.DataFrame({"setup": ["S1", "S2", "S3"], "family": "string", "channels": 4, "R_k": [0.1, 0.2, 0.3], "rank": [1, 2, 3], "draws": 9})
+        self.write("s2_sensors/blind_test.csv", ["setup", "mode", "found"], [["S1", 1, 1], ["S1", 2, 0], ["S1", 3, 1], ["S1", "spurious", 0],
+                                                                             ["S2", 1, 0], ["S2", 2, 0], ["S2", 3, 0]])
+        table = own_study._with_blind_test(self.study, setups)
+        self.assertEqual(list(table.columns), ["setup", "family", "channels", "R_k", "rank", "modes_found", "of_modes", "modes_missed", "found_that_is_none"])
+        told = table[["modes_found", "of_modes", "modes_missed", "found_that_is_none"]].astype(object).where(table[table.columns[-4:]].notna(), "")
+        self.assertEqual(told.to_numpy().tolist(), [[2, 3, "2", 1], [0, 3, "1 2 3", 0], ["", "", "", ""]])
 
     def test_a_channel_may_be_called_na(self):
         """NA, nan and null are names too: a channel at the north abutment, for one."""

@@ -1,11 +1,15 @@
-"""Scores the diagnosis of a virtual campaign against what the campaign hid; nothing else reads the campaign's truth.
+"""Scores the diagnosis of a virtual campaign against what the campaign hid, and the updated parameters against its bridge; nothing else reads
+the campaign's truth.
 
-    python3 tests/steps/diagnosis_score.py --campaign results/ponte_del_mare/s0_campaign --imposed workflows/ponte_del_mare/s0_campaign.toml \\
-        --diagnosis results/ponte_del_mare_virtual/s9_diagnosis --out results/ponte_del_mare_virtual/score
+    python3 tests/steps/diagnosis_score.py --campaign results/ponte_del_mare_virtual/s0_campaign \\
+        --imposed workflows/ponte_del_mare_virtual/s0_campaign.toml --diagnosis results/ponte_del_mare_virtual/s9_diagnosis \\
+        --updating results/ponte_del_mare_virtual/s6_updating --model results/ponte_del_mare_virtual/s4_refinement/model \\
+        --out results/ponte_del_mare_virtual/score
 
 Hidden is what the campaign's settings impose and the diagnosed model lacks: friction and mounts of the dampers of each make, stays that vibrate.
 `truth/dampers.csv` says which dampers there are and how long each slides. score.json then holds what was hidden, what was answered, the sizes with
-their intervals. Without a truth folder it says so, and nothing is scored.
+their intervals; with --updating, parameters.csv the parameters before and after it (parameter_score.py). Without a truth folder it says so, and
+nothing is scored.
 """
 import argparse
 import csv
@@ -14,6 +18,9 @@ import json
 import pathlib
 import sys
 import tomllib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import parameter_score  # noqa: E402
 
 UNITS = {"N": 1.0, "kN": 1e3, "MN": 1e6, "N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "GN/m": 1e9}
 SIZES = {"Fc_N": ("force at which each begins to slide", "N"), "k_lock_N_m": ("stiffness of each while it is held", "N/m")}
@@ -118,14 +125,23 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name in ("campaign", "imposed", "diagnosis", "out"):
         parser.add_argument(f"--{name}", type=pathlib.Path, required=True)
+    for name in ("updating", "model"):
+        parser.add_argument(f"--{name}", type=pathlib.Path)
     options = parser.parse_args(arguments)
+    rows = []
     try:
         found = score(options.campaign, options.imposed, options.diagnosis)
+        if options.updating and found["scored"]:
+            rows = parameter_score.score_parameters(options.campaign / "truth/model", options.model, options.updating / "parameters.csv")
+            found["parameters"] = {"words": parameter_score.in_words(rows), "rows": rows}
     except (OSError, KeyError, ValueError) as problem:
         print(f"diagnosis_score: {problem}; run `make s9` and `make s0` of the study first", file=sys.stderr)
         return 2
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "score.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    if rows:
+        parameter_score.write_parameters(rows, options.out / "parameters.csv")
+        print(f"score: {found['parameters']['words']}")
     for h in found.get("hidden", []):
         sizes = "; ".join(f"{s['words']} {s['truth']:g} {s['unit']}" + (f", found {s['value']:.3g} ({s['low']:.3g} to {s['high']:.3g})" if s["value"] else "")
                           for s in h["sizes"])

@@ -17,7 +17,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
-STUDY = ROOT / "workflows" / "ponte_del_mare"
+STUDY = ROOT / "workflows" / "ponte_del_mare_virtual"
 RECORDS = """
 [[record]]
 setup = "ST1"

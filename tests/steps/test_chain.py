@@ -78,7 +78,7 @@ class WhatIsCompiled(unittest.TestCase):
         self.assertEqual(self.compiled("look"), {"s1_model"})
 
     def test_a_step_and_those_before_it(self):
-        self.assertEqual(self.compiled("s2", "s6"), {"s1_model", "s2_sensors", "s4_refinement", "s5_sensitivity", "s6_updating"})
+        self.assertEqual(self.compiled("s2", "s6", "STUDY=smoke"), {"s1_model", "s2_sensors", "s4_refinement", "s5_sensitivity", "s6_updating"})
 
     def test_a_dry_run_writes_nothing(self):
         """Not even which measured modes were asked for; what it prints is what a run would do."""

@@ -57,7 +57,7 @@ class Names(unittest.TestCase):
             self.refused("s3_identification", rf"{folder}/campaign\.toml:8: record\[1\]\.setup: ", "--campaign", folder)
 
     def test_setups_conditions_and_stays_of_the_virtual_campaign(self):
-        text = (ROOT / "workflows/ponte_del_mare/s0_campaign.toml").read_text()
+        text = (ROOT / "workflows/ponte_del_mare_virtual/s0_campaign.toml").read_text()
         study = self.folder / "study"
         study.mkdir()
         (study / "study.toml").write_text((ROOT / "workflows/smoke/study.toml").read_text())

@@ -27,7 +27,7 @@ from campaign_score import rows  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin")).resolve()
-STUDY = ROOT / "workflows" / "ponte_del_mare"
+STUDY = ROOT / "workflows" / "ponte_del_mare_virtual"
 SCORING = ROOT / "results" / "scoring"
 STATES = ("without_dampers", "with_dampers", "with_dampers_high")
 # Behind each limit: what the 30 campaigns gave, and the law by which one in a thousand exceeds the limit.

@@ -28,7 +28,7 @@ class VirtualDiagnosis(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.told = json.loads((STEP / "diagnosis.json").read_text(encoding="utf-8"))
-        cls.imposed = tomllib.loads((ROOT / "workflows/ponte_del_mare/s0_campaign.toml").read_text(encoding="utf-8"))
+        cls.imposed = tomllib.loads((ROOT / "workflows/ponte_del_mare_virtual/s0_campaign.toml").read_text(encoding="utf-8"))
 
     def effect(self, cause):
         found = [e for e in self.told["effects"] if e["cause"] == cause]
@@ -46,7 +46,7 @@ class VirtualDiagnosis(unittest.TestCase):
         self.assertGreater(self.told["gain"]["modes_explained_after"], self.told["gain"]["modes_explained_before"])
 
     def test_sizes_of_friction_lie_in_their_intervals(self):
-        with open(RESULTS / "ponte_del_mare/s0_campaign/truth/dampers.csv", newline="", encoding="utf-8") as stream:
+        with open(RESULTS / "ponte_del_mare_virtual/s0_campaign/truth/dampers.csv", newline="", encoding="utf-8") as stream:
             sliding = {(r["condition"], r["damper"]): float(r["sliding_pct"]) for r in csv.DictReader(stream)}
         self.assertEqual(sliding["with_dampers", "C1"], 0.0)
         self.assertGreater(sliding["with_dampers_high", "C1"], 50.0)

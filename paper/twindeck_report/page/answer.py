@@ -115,7 +115,21 @@ def _score(study: Study, diagnosis) -> dict | None:
         return None
     if score.get("diagnosis_sha256") != sha256(diagnosis):
         raise InputError(f"{path}: it scores another run than {diagnosis}; run `make score`")
-    return {"hidden": [_hidden(h) for h in score["hidden"]], "not_hidden": score["not_hidden"], "also": score["also"]}
+    return {"hidden": [_hidden(h) for h in score["hidden"]], "not_hidden": score["not_hidden"], "also": score["also"],
+            "parameters": _parameters(score["parameters"]) if score.get("parameters") else None}
+
+
+def _parameters(found: dict) -> dict:
+    """The updated parameters beside those of the bridge that the records are of, ready to be shown."""
+    rows = []
+    for r in found["rows"]:
+        known = r.get("true_value") is not None
+        spread = f" ({physical(r['true_least'], r['unit'])} to {physical(r['true_largest'], r['unit'])})" if known and r["true_least"] < r["true_largest"] else ""
+        rows.append([r["parameter"], *(physical(r[name], r["unit"]) for name in ("initial_value", "updated_value")),
+                     physical(r["true_value"], r["unit"]) + spread if known else "no counterpart",
+                     *(f"{r[name]:+.1f} %" if known else "" for name in ("error_before_pct", "error_after_pct")),
+                     ("closer" if r["closer"] else "further off") if known else ""])
+    return {"words": found["words"], "rows": rows}
 
 
 def _hidden(hidden: dict) -> dict:

@@ -9,8 +9,10 @@
 #include "aero_io/turbulence_sets.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "fe/assembly_parameters.hpp"
 #include "io/csv.hpp"
 #include "io/npy.hpp"
+#include "model_io/write_model.hpp"
 #include "steps/campaign/campaign_files.hpp"
 #include "steps/layout/layout_files.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
@@ -175,6 +177,7 @@ Status run_test_campaign(runner::StepContext& context, const virtual_bridge::Cam
 
   // 3. What is true, and what a reader needs.
   const std::map<std::string, Amplitude> amplitudes = write_truth(context, settings, read, models, simulated, stays);
+  model_io::write_model(fe::with_parameters(bridge.undivided, read.theta), context.out / "truth" / "model");
   write_campaign_files(settings, read.layout, stays, read.files, amplitudes, context.out);
   return {};
 }

@@ -20,7 +20,7 @@ namespace {
 std::vector<std::string> selected_by_sensitivity(runner::StepContext& context) {
   const std::filesystem::path file = context.results / "s5_sensitivity" / "selection.csv";
   if (!std::filesystem::is_regular_file(file)) {
-    throw InputError({file.string(), 0, ""}, "is not there, but parameters_from is \"s5_sensitivity\"",
+    throw InputError({file.string(), 0, ""}, "is not there, but parameters_from or beside_selection asks for it",
                      "run s5_sensitivity first, or list the parameters");
   }
   const io::CsvTable table = io::CsvTable::read(context.input(file), {"parameter", "selected"}, {}, true);
@@ -33,21 +33,13 @@ std::vector<std::string> selected_by_sensitivity(runner::StepContext& context) {
 
 bool has_range(const fe::Parameter& parameter) { return parameter.lower < parameter.upper; }
 
-/// Positions of the parameters to update: as listed, as s5_sensitivity selected them, or all that have a range.
+/// Positions of the parameters of these names.
 /// @throws InputError  for a name that is no parameter, is listed twice or has no range
-std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics::ReadModel& model,
-                                   runner::StepContext& context) {
+std::vector<int> positions_of(const std::vector<std::string>& names, const dynamics::ReadModel& model) {
   const std::vector<fe::Parameter>& parameters = model.parameters();
   std::vector<std::string> known;
   for (const fe::Parameter& parameter : parameters) known.push_back(parameter.name);
-  const bool from_s5 = config.parameters_from == "s5_sensitivity";
-  const std::vector<std::string> names = from_s5 ? selected_by_sensitivity(context) : config.parameters;
   std::vector<int> active;
-  if (names.empty() && !from_s5) {
-    for (std::size_t p = 0; p < parameters.size(); ++p) {
-      if (has_range(parameters[p])) active.push_back(static_cast<int>(p));
-    }
-  }
   for (const std::string& name : names) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end()) {
@@ -64,6 +56,20 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics:
                        "give it a range in the model, or take it off the list");
     }
     active.push_back(p);
+  }
+  return active;
+}
+
+/// Positions of the parameters to update: as listed, as s5_sensitivity selected them, or all that have a range.
+/// @throws InputError  as positions_of; where there is none
+std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics::ReadModel& model,
+                                   runner::StepContext& context) {
+  const bool from_s5 = config.parameters_from == "s5_sensitivity";
+  std::vector<int> active = positions_of(from_s5 ? selected_by_sensitivity(context) : config.parameters, model);
+  if (active.empty() && !from_s5) {
+    for (std::size_t p = 0; p < model.parameters().size(); ++p) {
+      if (has_range(model.parameters()[p])) active.push_back(static_cast<int>(p));
+    }
   }
   if (active.empty()) {
     throw InputError({model.source, 0, "parameter"}, "no parameter to update: none is listed or selected, or none has a range",
@@ -113,6 +119,7 @@ UpdatingInputs read_updating(const UpdatingConfig& config, runner::StepContext& 
   matching::check_pairing(read.measured, read.model, config.pairs, {"", 0, "pairs"}, config.n_modes, config.sensor_tolerance_m);
   if (config.weighs_shapes()) updating::refuse_unweighable_shapes(read.measured);
   read.active = active_parameters(config, read.model, context);
+  if (config.beside_selection) read.selected = positions_of(selected_by_sensitivity(context), read.model);
   read.published = published_values(config, read.model.parameters(), read.active, context);
   return read;
 }

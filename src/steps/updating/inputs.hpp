@@ -16,6 +16,7 @@ struct UpdatingInputs {
   matching::Measured measured;
   std::vector<int>
       active;  ///< positions of the parameters to update: as listed, as s5_sensitivity selected them, or all with a range
+  std::vector<int> selected;               ///< with beside_selection: positions of those that s5_sensitivity selected
   std::vector<Eigen::VectorXd> published;  ///< their values in somebody else's result, where one is given
 };
 /// @throws InputError  where no modes were measured; for a name that is no parameter, is listed twice or has no range

@@ -1,6 +1,7 @@
 #include "steps/updating/outputs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,13 @@ std::vector<std::string> with_parameter_names(std::vector<std::string> columns, 
 
 double error_left_out_pct(const updating::LeftOut& left, double measured_Hz) {
   return 100.0 * (left.frequency_Hz / measured_Hz - 1.0);
+}
+
+double mean_left_out_pct(const updating::UpdatingResult& result, const std::vector<matching::ComparisonRow>& comparison) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < result.left_out.size(); ++i)
+    sum += std::abs(error_left_out_pct(result.left_out[i], comparison.at(i).measured_Hz));
+  return sum / static_cast<double>(result.left_out.size());
 }
 
 // Position of a start's optimum among the distinct ones, from 1; 0 where it did not converge.
@@ -146,12 +154,7 @@ void write_updating_summary(const std::vector<matching::ComparisonRow>& comparis
     csv.row({"mean_abs_error_common_after_pct", matching::mean_abs_error_pct(alike, "after"), "%"});
     csv.row({"pairs_common", alike.size() / 2, "-"});
   }
-  if (!result.left_out.empty()) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < result.left_out.size(); ++i)
-      sum += std::abs(error_left_out_pct(result.left_out[i], comparison.at(i).measured_Hz));
-    csv.row({"mean_abs_error_left_out_pct", sum / static_cast<double>(result.left_out.size()), "%"});
-  }
+  if (!result.left_out.empty()) csv.row({"mean_abs_error_left_out_pct", mean_left_out_pct(result, comparison), "%"});
   const updating::StartResult& best = result.starts.at(static_cast<std::size_t>(result.best));
   csv.row({"cost", best.cost, "-"});
   csv.row({"projected_gradient_relative", best.relative_projected_gradient, "-"});
@@ -175,31 +178,26 @@ void write_updating_summary(const std::vector<matching::ComparisonRow>& comparis
 // How much each predicts, in a sentence.
 std::string words_of_regularised(const std::vector<matching::ComparisonRow>& comparison,
                                  const updating::UpdatingResult& result) {
-  double before = 0.0, fit = 0.0, held = 0.0;
-  const std::size_t pairs = result.left_out.size();
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const auto n = static_cast<double>(pairs);
-    before += std::abs(comparison[i].error_pct()) / n;
-    fit += std::abs(error_left_out_pct(result.left_out[i], comparison[i].measured_Hz)) / n;
-    held += std::abs(error_left_out_pct(result.regularised->left_out[i], comparison[i].measured_Hz)) / n;
-  }
   const double error = 100.0 * result.regularised->model_error;
   return fmt::format(
       "the update predicts worse than none: pairs that are left out of it are {:.2f} % off in the mean, without updating "
       "{:.2f} "
       "%. Held to the ranges (maximum a posteriori{}) it is {:.2f} %: regularised.csv, regularised_model",
-      fit, before, error > 0.0 ? fmt::format(", model error {:.1f} %", error) : "", held);
+      mean_left_out_pct(result, comparison), matching::mean_abs_error_pct(comparison, "before"),
+      error > 0.0 ? fmt::format(", model error {:.1f} %", error) : "", mean_left_out_pct(*result.regularised, comparison));
 }
 
-void write_regularised(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                       const std::vector<matching::ComparisonRow>& comparison, const updating::UpdatingResult& regularised,
-                       const std::filesystem::path& folder) {
-  write_parameters(parameters, active, regularised, folder / "regularised.csv");
+// Another update of the same pairs: `name`.csv and leave_one_out_`name`.csv. Returns the comparison with its frequencies.
+std::vector<matching::ComparisonRow> write_another(const std::string& name, const std::vector<fe::Parameter>& parameters,
+                                                   const std::vector<int>& active,
+                                                   const std::vector<matching::ComparisonRow>& comparison,
+                                                   const updating::UpdatingResult& other, const std::filesystem::path& folder) {
+  write_parameters(parameters, active, other, folder / (name + ".csv"));
   std::vector<matching::ComparisonRow> own = comparison;
   const std::size_t pairs = own.size() / 2;
-  for (std::size_t i = 0; i < pairs; ++i)
-    own[pairs + i].computed_Hz = regularised.frequency_after_Hz(static_cast<Eigen::Index>(i));
-  write_leave_one_out(own, pairs, regularised, folder / "leave_one_out_regularised.csv");
+  for (std::size_t i = 0; i < pairs; ++i) own[pairs + i].computed_Hz = other.frequency_after_Hz(static_cast<Eigen::Index>(i));
+  write_leave_one_out(own, pairs, other, folder / ("leave_one_out_" + name + ".csv"));
+  return own;
 }
 
 }  // namespace
@@ -216,10 +214,26 @@ void write_updating(const std::vector<fe::Parameter>& parameters, const std::vec
   write_costs(result, folder / "costs.csv");
   write_leave_one_out(comparison, comparison.size() / 2, result, folder / "leave_one_out.csv");
   if (result.regularised) {
-    write_regularised(parameters, active, comparison, *result.regularised, folder);
+    write_another("regularised", parameters, active, comparison, *result.regularised, folder);
     context.warn(words_of_regularised(comparison, result));
   }
   write_updating_summary(comparison, common, result, folder / "summary.csv");
+}
+
+void write_selected(const std::vector<fe::Parameter>& parameters, const std::vector<int>& selected,
+                    const std::vector<matching::ComparisonRow>& comparison, const updating::UpdatingResult& result,
+                    runner::StepContext& context) {
+  if (result.starts.empty() || result.mode_after.empty()) {
+    context.warn("the update of the parameters that s5_sensitivity selected did not end: " + result.status.message);
+    return;
+  }
+  const auto own = write_another("selected", parameters, selected, comparison, result, context.out);
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < selected.size(); ++j) names.push_back(parameter_at(parameters, selected, j).name);
+  const std::string left_out =
+      result.left_out.empty() ? "" : fmt::format(", {:.2f} % where left out", mean_left_out_pct(result, own));
+  context.say(fmt::format("with the parameters that s5_sensitivity selected ({}): mean |error| {:.2f} %{}",
+                          fmt::join(names, ", "), matching::mean_abs_error_pct(own, "after"), left_out));
 }
 
 void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,

@@ -39,6 +39,13 @@ void write_updating(const std::vector<fe::Parameter>& parameters, const std::vec
                     const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                     const updating::UpdatingResult& result, runner::StepContext& context);
 
+/// The same update of the parameters that s5_sensitivity selected, beside that of a list: `selected.csv`, as parameters.csv,
+/// and `leave_one_out_selected.csv`; says how far off it is.
+/// @param comparison  of the list's update, in the order of the targets
+void write_selected(const std::vector<fe::Parameter>& parameters, const std::vector<int>& selected,
+                    const std::vector<matching::ComparisonRow>& comparison, const updating::UpdatingResult& result,
+                    runner::StepContext& context);
+
 /// Warns of what a good fit of frequencies hides (matching/hollow_fit.hpp), parameters on their bounds among it.
 void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,
                  const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,

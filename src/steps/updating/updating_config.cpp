@@ -31,6 +31,9 @@ io::FieldTable UpdatingConfig::fields() {
       .choice("parameters_from", parameters_from, {"list", "s5_sensitivity"},
               "which parameters are updated: those of `parameters`, or those that s5_sensitivity selected")
       .texts("parameters", parameters, "names of the parameters to update; empty: all that have a range")
+      .boolean("beside_selection", beside_selection,
+               "beside the parameters listed, the same update of those that s5_sensitivity selected (selected.csv, "
+               "leave_one_out_selected.csv)")
       .texts("pairs", pairs, "published assignment such as \"7X-8N\", used where no shape was measured; empty: by order")
       .texts("common_pairs", common_pairs,
              "measured modes (\"7X\") of a second mean error, over pairs that an earlier table has too")
