@@ -194,7 +194,10 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
       aero_io::read_turbulence_set(context.input(validation.turbulence_file), validation.turbulence_set);
   std::vector<aero::DeckAerodynamics> data = read_deck_aerodynamics(aerodynamics, context);
   const double level = fitted_level(context, validation.set);
-  for (const std::string& model : config.models) static_cast<void>(buffeting::deployment_of(aerodynamics, model));
+  std::vector<std::string> models = config.models;
+  for (const std::string& model : models) static_cast<void>(buffeting::deployment_of(aerodynamics, model));
+  if (models.empty())
+    for (const aero::Deployment& deployment : aerodynamics.deployments()) models.push_back(deployment.name);
   static_cast<void>(buffeting::deployment_of(aerodynamics, config.response_model));
   dynamics::ReadModel model = load_model(context, context.results / "s6_updating" / "model");
   static_cast<void>(aero::aero_nodes_of(aerodynamics, model.fe_model(), model.source));
@@ -205,8 +208,17 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
       read_wind_law(config.wind_law, aerodynamics.direction_deg, validation.height_m, context);
 
   Inputs inputs = random_inputs(config, aerodynamics.structural_damping, !walls.empty(), model.parameters(), context);
-  return {std::move(aerodynamics), std::move(validation),    std::move(turbulence),        std::move(data),  level,
-          std::move(model),        std::move(inputs.random), std::move(inputs.parameters), std::move(walls), std::move(law)};
+  return {std::move(aerodynamics),
+          std::move(models),
+          std::move(validation),
+          std::move(turbulence),
+          std::move(data),
+          level,
+          std::move(model),
+          std::move(inputs.random),
+          std::move(inputs.parameters),
+          std::move(walls),
+          std::move(law)};
 }
 
 }  // namespace twindeck::steps

@@ -19,6 +19,7 @@ namespace twindeck::steps {
 /// What the step reads.
 struct ReliabilityInputs {
   AerodynamicsConfig aerodynamics;  ///< of step 7
+  std::vector<std::string> models;  ///< whose critical speeds are asked for
   ValidationConfig validation;      ///< of step 8
   wind::TurbulenceSet turbulence;
   std::vector<aero::DeckAerodynamics> data;

@@ -13,7 +13,7 @@ namespace twindeck::steps {
 /// random.csv: `name,law,mean,deviation,low,high,label,source`, each input in its own unit.
 void write_random(const reliability::RandomVector& random, const std::filesystem::path& folder);
 
-/// Which structure a row is of. Its columns are `years,dampers,fault`: dampers off or on, fault empty or "held C1".
+/// Which structure a row is of. Its columns are `years,dampers,fault`: dampers off or on, fault empty or "C1 held".
 struct Case {
   double years = 0.0;
   bool dampers = false;

@@ -158,7 +158,7 @@ void find_critical(const ReliabilityConfig& config, const ReliabilityInputs& rea
   }
   const reliability::VariedStructure varied(s.bridge.loaded, aero::bare_structure(model, read.aerodynamics.structural_damping),
                                             model.motions, model.modes.shapes, read.parameters);
-  for (const std::string& name : config.models)
+  for (const std::string& name : read.models)
     add(reliability::critical_speed(s.uncertain, read.aerodynamics, model, varied,
                                     buffeting::deployment_of(read.aerodynamics, name), false));
 }
@@ -344,7 +344,7 @@ std::vector<std::pair<Case, fe::Model>> cases_of(const ReliabilityConfig& config
   out.push_back({{years, true, ""}, model});
   for (const StatedFault& fault : config.faults) {
     const auto kind = fault.kind == "lost" ? reliability::DamperFault::lost : reliability::DamperFault::held;
-    out.push_back({{years, true, fault.kind + " " + fault.damper},
+    out.push_back({{years, true, fault.damper + " " + fault.kind},
                    reliability::with_damper_fault(model, fault.damper, kind, config.held_stiffness_N_m)});
   }
   return out;

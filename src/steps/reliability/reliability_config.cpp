@@ -72,7 +72,7 @@ io::FieldTable ReliabilityConfig::fields() {
   const io::Range variation = {0.0, 2.0};
   io::FieldTable t;
   t.numbers("speeds", speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true}, "mean wind speeds of the fragility curves")
-      .texts("models", models, "deployments of Table 11 (or hybrid) whose critical speeds are asked for")
+      .texts("models", models, "deployments whose critical speeds are asked for; empty: all that step 7 has")
       .text("response_model", response_model, "deployment of the response to turbulence")
       .number("duration", duration_s, "s", {0.0, io::longest_record_s, true}, "time in which a limit may be exceeded")
       .integer("samples", samples, {100.0, 1000000.0}, "samples of the random inputs for the spread of probabilities")

@@ -45,7 +45,7 @@ struct StatedWindLaw {
 /// reduction and comfort limits those of s8_validation.toml.
 struct ReliabilityConfig {
   std::vector<double> speed_m_s = {10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0};
-  std::vector<std::string> models = {"A", "C", "D", "G", "H", "I"};
+  std::vector<std::string> models;
   std::string response_model = "A";
   double duration_s = 600.0;
   long samples = 2000;
