@@ -79,6 +79,24 @@ class Reliability(unittest.TestCase):
                 ends.append(float([row for row in self.read("crossings.csv", "fixed") if row["limit_state"] == "own vertical"][0]["vanmarcke"]))
             self.assertAlmostEqual(found / abs(math.log(ends[1] / ends[0])), 1.0, delta=0.05, msg=name)
 
+    def test_rare_excursions_by_three_ways(self):
+        # The mean over samples, FORM (of first order) and subset simulation of one excursion, whose limit is 5 deviations.
+        alone = ["--set", 'speeds=["8 m/s"]', "--set", 'models=["A"]', "--set", "samples=20000", "--set", "damping_variation=0.05", "--set",
+                 "level_variation=0.02", "--set", "turbulence_variation=0.02"]
+        self.step("s10_reliability", *alone)
+        deviation = max(float(row["deviation"]) for row in self.read("responses.csv", "s10_reliability") if row["direction"] == "vertical")
+        config = self.folder / "study/s10_reliability.toml"
+        config.write_text(f'rare = ["own vertical"]\n[[comfort]]\nname = "own"\nvertical = {5 * deviation!r}\n')
+        self.step("s10_reliability", *alone)
+        mean = float([row for row in self.read("crossings.csv", "s10_reliability") if row["limit_state"] == "own vertical"][0]["vanmarcke"])
+        found = {row["method"]: row for row in self.read("rare.csv", "s10_reliability")}
+        subset = found["subset"]
+        self.assertAlmostEqual(float(subset["probability"]) / mean, 1.0, delta=3.5 * float(subset["variation"]))
+        self.assertAlmostEqual(float(found["form"]["probability"]) / mean, 1.0, delta=0.3)  # curvature of the limit state
+        self.assertLess(float(subset["variation"]), 0.35)
+        config.write_text(f'rare = ["own vertical"]\n[[comfort]]\nname = "own"\nvertical = {50 * deviation!r}\n')
+        self.assertIn("always or never", self.step("s10_reliability", *alone, status=2))
+
     def section(self):
         with open(self.folder / "model/sections.csv", newline="", encoding="utf-8") as file:
             return next(csv.DictReader(file))["section"]

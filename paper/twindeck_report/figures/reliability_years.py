@@ -16,7 +16,7 @@ def draw(study: Study):
     importance = study.step_csv("s10_reliability/importance.csv", ["model", "years", "dampers", "input", "importance"])
     years = study.step_csv("s10_reliability/years.csv", ["years", "dampers", "quantity", "place", "value", "low", "high"])
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(10.4, 3.9))
-    figure.subplots_adjust(0.15, 0.14, 0.99, 0.92, wspace=0.28)
+    figure.subplots_adjust(0.15, 0.23, 0.99, 0.92, wspace=0.28)
     first = importance[(importance["years"] == importance["years"].min()) & (importance["dampers"] == "off")]
     shares = first.pivot_table(index="input", columns="model", values="importance", sort=False)
     shares = shares[shares.max(axis=1) > LEAST_SHARE] if len(shares) else shares
@@ -38,7 +38,7 @@ def draw(study: Study):
     middle.set_xlabel("years in service")
     middle.set_ylabel("critical speed (m/s)")
     if len(speeds):
-        middle.legend(frameon=False, fontsize=7, loc="center")
+        middle.legend(frameon=False, fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=4, columnspacing=1.0, handlelength=1.2)
     middle.set_title("without dampers", loc="left")
     modes = years[years["quantity"] == "frequency"].pivot_table(index="place", columns="years", values="value", sort=False)
     change = 100.0 * (modes[modes.columns.max()] / modes[modes.columns.min()] - 1.0)

@@ -92,6 +92,16 @@ void write_years(const std::vector<YearRow>& rows, const std::filesystem::path& 
   csv.save(folder / "years.csv");
 }
 
+void write_rare(const std::vector<RareRow>& rows, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"limit_state", "model", "years", "dampers", "fault", "speed_m_s", "method", "probability", "beta",
+                     "variation", "calls", "note"});
+  for (const RareRow& row : rows) {
+    csv.row({row.limit_state, row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.method,
+             row.probability, row.beta, row.variation, row.calls, row.note});
+  }
+  csv.save(folder / "rare.csv");
+}
+
 void write_fatigue(const std::vector<FatigueRow>& rows, const std::filesystem::path& folder) {
   io::CsvWriter csv({"stay", "model", "years", "dampers", "fault", "speed_m_s", "stress_deviation_Pa", "damage_per_hour",
                      "narrow_band_per_hour"});

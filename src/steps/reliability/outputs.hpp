@@ -71,6 +71,21 @@ struct YearRow {
 };
 void write_years(const std::vector<YearRow>& rows, const std::filesystem::path& folder);
 
+/// rare.csv, where the configuration asks for it:
+/// `limit_state,model,CASE,speed_m_s,method,probability,beta,variation,calls,note`, FORM and subset simulation of an excursion,
+/// each with what speaks against it.
+struct RareRow {
+  std::string limit_state, model;
+  Case of;
+  double speed_m_s = 0.0;
+  std::string method;
+  double probability = 0.0;
+  std::optional<double> beta, variation;
+  int calls = 0;
+  std::string note;
+};
+void write_rare(const std::vector<RareRow>& rows, const std::filesystem::path& folder);
+
 /// fatigue.csv: `stay,model,CASE,speed_m_s,stress_deviation_Pa,damage_per_hour,narrow_band_per_hour`. annual.csv, only where
 /// the configuration gives a wind law: `quantity,CASE,place,value,upper,unit`: hours and probabilities per year, and damage of
 /// stays per year with its narrow-band bound in `upper`.

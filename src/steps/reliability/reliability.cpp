@@ -8,7 +8,9 @@
 
 #include "reliability/annual.hpp"
 #include "reliability/fatigue.hpp"
+#include "reliability/form.hpp"
 #include "reliability/member_rows.hpp"
+#include "reliability/subset_simulation.hpp"
 #include "steps/reliability/outputs.hpp"
 
 namespace twindeck::steps {
@@ -85,6 +87,8 @@ struct Found {
   std::vector<ResponseRow> responses;
   std::vector<FatigueRow> fatigue;
   std::vector<YearRow> years;
+  std::vector<RareRow> rare;
+  Status rare_status;
   struct First {
     Case of;
     double speed_m_s;
@@ -186,6 +190,35 @@ void add_responses(const ReliabilityConfig& config, const Structure& s, double s
     add(s.dampers.names[i], "stroke", "m", static_cast<Index>(s.first_damper() + i));
 }
 
+/// [-] probabilities at the inputs' medians between which an excursion is a rare event that both methods can find.
+constexpr double kLeastRare = 1e-12, kLargestRare = 0.5;
+
+/// An excursion by FORM and by subset simulation, where it is neither nearly certain nor out of reach.
+void add_rare(const FragilityRow& row, const reliability::UncertainMoments& moments, std::size_t k, double duration_s,
+              std::uint64_t seed, Found& found) {
+  const double there = reliability::first_excursion(moments.mean[moments.varied[k]], row.limit, duration_s).vanmarcke;
+  if (there < kLeastRare || there > kLargestRare) return;
+  const reliability::LimitState g = reliability::excursion_limit_state(moments, k, row.limit, duration_s);
+  const Index n = moments.variance_slope[k].size() + 1;
+  reliability::FormOptions form_options;
+  reliability::SubsetOptions subset_options;
+  form_options.seed = subset_options.seed = seed;
+  const reliability::FormResult points = reliability::form(g, n, form_options);
+  const reliability::SubsetResult subset = reliability::subset_simulation(g, n, subset_options);
+  for (const Status& status : {points.status, subset.status}) {
+    if (!status.converged)
+      found.rare_status = {false, fmt::format("{} at {:g} m/s: {}", row.limit_state, row.speed_m_s, status.message)};
+  }
+  if (!points.status.converged || !subset.status.converged) return;
+  const reliability::DesignPoint& nearest = points.points.front();
+  found.rare.push_back({row.limit_state, row.model, row.of, row.speed_m_s, "form", points.probability, nearest.beta,
+                        std::nullopt, points.calls,
+                        points.strong_maximum ? "" : "a further point of like importance is not ruled out"});
+  found.rare.push_back({row.limit_state, row.model, row.of, row.speed_m_s, "subset", subset.probability, std::nullopt,
+                        subset.variation, subset.calls,
+                        reliability::hidden_region(subset, nearest.u, nearest.beta) ? "misses FORM's region" : ""});
+}
+
 void add_limit_states(const ReliabilityConfig& config, const Structure& s, double speed,
                       const reliability::UncertainMoments& moments, std::uint64_t seed, Found& found) {
   const auto add = [&](const std::string& name, std::size_t k, double limit, const std::string& place,
@@ -194,6 +227,8 @@ void add_limit_states(const ReliabilityConfig& config, const Structure& s, doubl
     found.fragility.push_back(
         {name, config.response_model, s.of, speed, place, limit, std::sqrt(moments.mean[moments.varied[k]].variance), unit,
          reliability::excursion(moments, k, limit, config.duration_s, static_cast<int>(config.samples), seed)});
+    if (std::find(config.rare.begin(), config.rare.end(), name) != config.rare.end())
+      add_rare(found.fragility.back(), moments, k, config.duration_s, seed, found);
   };
   const auto node = [&](std::size_t k) {
     return node_name(s.bridge, (moments.varied[k] - 3 * s.bridge.sensors.points.size()) / 2);
@@ -370,12 +405,21 @@ Status run_reliability(const ReliabilityConfig& config, const ReliabilityInputs&
     }
   }
 
+  if (!found.rare_status.converged) return found.rare_status;
+  for (const std::string& name : config.rare) {
+    if (std::none_of(found.rare.begin(), found.rare.end(), [&](const RareRow& row) { return row.limit_state == name; }))
+      throw InputError({"", 0, "rare"},
+                       "names '" + name + "', which is exceeded always or never, or is no limit state, at all speeds",
+                       "name a limit state of crossings.csv, and give speeds in which its probability lies between");
+  }
+
   // 2. Tables, and the outcome in words.
   write_random(read.random, context.out);
   write_critical(found.critical, read.random, read.aerodynamics.design_speed_m_s, context.out);
   write_fragility(found.fragility, context.out);
   write_responses(found.responses, context.out);
   write_years(found.years, context.out);
+  if (!config.rare.empty()) write_rare(found.rare, context.out);
   write_fatigue(found.fatigue, context.out);
   if (read.law) write_annual(annual_rows(*read.law, found), context.out);
   for (const CriticalRow& row : found.critical) {

@@ -21,7 +21,9 @@ io::FieldTable wall_fields(ReliabilityConfig& config) {
 }
 
 void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
-  t.numbers("years", config.years, "", {0.0, 1000.0}, "years in service that are computed, the first of them 0")
+  t.texts("rare", config.rare,
+          "limit states of crossings.csv whose excursion is also found by FORM and by subset simulation (rare.csv)")
+      .numbers("years", config.years, "", {0.0, 1000.0}, "years in service that are computed, the first of them 0")
       .tables(
           "wall", [&config] { return wall_fields(config); }, "sections that lose thickness")
       .tables(

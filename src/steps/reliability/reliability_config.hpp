@@ -52,6 +52,7 @@ struct ReliabilityConfig {
   double damping_variation = 0.2, level_variation = 0.1, damper_variation = 0.05, turbulence_variation = 0.1,
          corrosion_variation = 0.3;
   std::vector<StatedInput> random;
+  std::vector<std::string> rare;
   std::vector<double> years = {0.0};
   std::vector<StatedWall> walls;
   std::vector<StatedFault> faults;
