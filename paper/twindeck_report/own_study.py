@@ -6,7 +6,7 @@ import time
 import pandas as pd
 
 from .cells import csv_text, number
-from .figures import figures_of
+from .figures import figures_of, fragility, reliability_years
 from .manifests import stale_inputs, stale_outputs, write_manifest
 from .page.complexity import complexity
 from .page.layout import layout
@@ -41,6 +41,8 @@ LONG_TEXT = 30  # letters; a cell with more of them gets room, so that its row d
 FIGURES = {
     "sensitivity_map": ("Sensitivities", "Relative sensitivities d ln f / d ln p of the model's modes, exact derivatives. Parameters in blue were selected for updating; "
                         "the bars show each parameter's score."),
+    "fragility": ("Fragility in wind", fragility.CAPTION),
+    "reliability_years": ("Importance, and the years", reliability_years.CAPTION),
     "updating_history": ("The updating", "Cost and parameters, divided by the sizes of their initial values (by their ranges where those are 0), over the iterations of the best start. Grey: outside the bounds; red: parameters "
                          "that end on one. Dashed lines: the prestress was computed anew."),
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <vector>
 
 #include "aero/aeroelastic_system.hpp"
 #include "wind/field.hpp"
@@ -22,6 +23,21 @@ struct SpectralOptions {
   std::function<double(double f_Hz)> admittance;
 };
 
+/// -omega² + i omega C + K of the system at one frequency, Maxwell units as their complex stiffness. @param air  self-excited
+[[nodiscard]] Eigen::MatrixXcd impedance(const aero::AeroelasticSystem& system, const aero::AeroelasticSystem::Block& air,
+                                         double omega_rad_s);
+
+/// First-order change of a system and of its loads with one input, in the system's own coordinates.
+struct SystemSlope {
+  Eigen::MatrixXd mass, damping, stiffness;  ///< (m × m) the air's part included
+  double maxwell = 0.0;                      ///< relative change of the Maxwell units' stiffness and damping
+  Eigen::MatrixXd load;                      ///< (m × 2 n_strips); may be empty
+  double turbulence = 0.0;                   ///< relative change of the standard deviations of v' and w'
+};
+/// Change of the impedance. @return (m × m)
+[[nodiscard]] Eigen::MatrixXcd impedance_slope(const aero::AeroelasticSystem& system, const SystemSlope& slope,
+                                               double omega_rad_s);
+
 /// Frequencies to the cutoff [Hz]. The trapezoid rule over a resonance of damping xi errs by exp(-2 pi xi f / spacing): 0.3 %
 /// for the first mode at 0.5 %, and less for the wider ones above it.
 [[nodiscard]] Eigen::VectorXd spectral_frequencies(double cutoff_Hz);
@@ -36,6 +52,15 @@ struct SpectralOptions {
                                                const Eigen::Ref<const Eigen::MatrixXd>& sensors,
                                                const Eigen::Ref<const Eigen::VectorXd>& f_Hz,
                                                const SpectralOptions& options = {});
+
+/// First-order change of the spectra of few sensors with each of the slopes: dT = -O Z⁻¹ dZ Z⁻¹ R + O Z⁻¹ dR. The cost of all
+/// slopes together is that of a few spectra.
+/// @param options  with frozen_omega > 0, of which the air in `slopes` is
+/// @return [unit²/Hz] for each sensor (n_frequencies × n_slopes)
+[[nodiscard]] std::vector<Eigen::MatrixXd> response_spectra_slopes(
+    const aero::AeroelasticSystem& system, double speed_m_s, const Eigen::Ref<const Eigen::MatrixXd>& load,
+    const wind::FieldDefinition& along, const wind::FieldDefinition& vertical, const Eigen::Ref<const Eigen::MatrixXd>& sensors,
+    const Eigen::Ref<const Eigen::VectorXd>& f_Hz, const std::vector<SystemSlope>& slopes, const SpectralOptions& options);
 
 /// Square root of the integral over the frequencies (trapezoid). @return (n_columns)
 [[nodiscard]] Eigen::VectorXd band_rms(const Eigen::Ref<const Eigen::VectorXd>& f_Hz,

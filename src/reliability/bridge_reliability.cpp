@@ -1,7 +1,9 @@
 #include "reliability/bridge_reliability.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "aero/stability.hpp"
@@ -9,7 +11,6 @@
 #include "buffeting/spectral.hpp"
 #include "core/distributions.hpp"
 #include "core/error.hpp"
-#include "core/parallel.hpp"
 #include "core/random.hpp"
 
 namespace twindeck::reliability {
@@ -23,45 +24,109 @@ namespace {
 /// [Hz] derivatives are those of this frequency below it, as in step 8.
 constexpr double kLowestDerivatives_Hz = 0.2;
 
-aero::AeroelasticSystem varied_system(const UncertainBridge& bridge, const aero::WindModel& model,
-                                      const VariedStructure::Varied& varied, const WindVariation& variation,
-                                      const aero::Wind& wind, const aero::Deployment& deployment) {
-  return {varied.structure, bridge.sections(variation.aerodynamic_factor), model.strips, varied.motions, wind, deployment};
-}
-
-/// Moments of every row; empty where the bridge is unstable.
-std::vector<SpectralMoments> moments_at(const UncertainBridge& bridge, const WindResponse& response, const MatrixXd& rows,
-                                        double speed_m_s, const VectorXd& u) {
-  const WindVariation variation = bridge.variation(u);
-  const VariedStructure::Varied varied = response.structure.at(variation);
-  const aero::AeroelasticSystem system =
-      varied_system(bridge, response.bridge.model, varied, variation, response.bridge.aerodynamics.wind(), response.deployment);
-  const double turn = 2.0 * std::numbers::pi, frozen = response.bridge.frozen_omega;
-  const aero::DerivativeFrequencies frequencies{frozen, {turn * kLowestDerivatives_Hz, turn * response.settings.cutoff_Hz}};
-  if (aero::find_growth(system, speed_m_s, frequencies)) return {};
-  const MatrixXd load = buffeting::load_matrix(system, speed_m_s, response.settings.equation_choice());
-  const auto field = [&](wind::Component component) {
-    wind::FieldDefinition out = buffeting::field_at_nodes(response.bridge, response.turbulence, response.settings.height_m,
-                                                          speed_m_s, component, response.settings.frozen);
-    out.sigma_m_s *= variation.turbulence_factor;
-    return out;
-  };
-  buffeting::SpectralOptions options;
-  options.derivative = response.derivative;
-  options.frozen_omega = frozen;
-  options.lowest_omega = turn * kLowestDerivatives_Hz;
-  const VectorXd f = buffeting::spectral_frequencies(response.settings.cutoff_Hz);
-  const MatrixXd spectra = buffeting::response_spectra(system, speed_m_s, load, field(wind::Component::along),
-                                                       field(wind::Component::vertical), rows * varied.turn, f, options);
-  std::vector<SpectralMoments> out;
-  for (Index row = 0; row < spectra.cols(); ++row) out.push_back(spectral_moments(f, spectra.col(row)));
-  return out;
-}
-
 VectorXd unit(Index n, Index i, double value) {
   VectorXd u = VectorXd::Zero(n);
   u[i] = value;
   return u;
+}
+
+/// Half of the logarithm of a ratio of positive numbers; 0 for equal ones.
+double half_log(double above, double below) { return above == below ? 0.0 : 0.5 * std::log(above / below); }
+
+/// A bridge with its inputs at their medians, and where the air's forces are taken.
+struct AtMedians {
+  const UncertainBridge& bridge;
+  const aero::WindModel& model;
+  const VariedStructure& structure;
+  aero::Wind wind;
+  const aero::Deployment& deployment;
+  WindVariation variation;
+  VariedStructure::Varied varied;
+
+  AtMedians(const UncertainBridge& of, const aero::WindModel& in, const VariedStructure& on, const aero::Wind& blows,
+            const aero::Deployment& by)
+      : bridge(of),
+        model(in),
+        structure(on),
+        wind(blows),
+        deployment(by),
+        variation(of.variation(VectorXd::Zero(of.random.dimension()))),
+        varied(on.at(variation)) {}
+  /// @param factor  of the aerodynamic level beside its median
+  [[nodiscard]] aero::AeroelasticSystem system(double factor = 1.0) const {
+    return {varied.structure, bridge.sections(factor * variation.aerodynamic_factor), model.strips, varied.motions, wind,
+            deployment};
+  }
+};
+
+/// [-] of the aerodynamic level: step of its central difference. Forces are linear in it, or nearly so.
+constexpr double kLevelStep = 1e-3;
+
+/// What each number of u changes, to first order. @param equations  of the buffeting loads; nothing: no loads are asked for
+std::vector<buffeting::SystemSlope> system_slopes(const AtMedians& at, double speed_m_s, double omega,
+                                                  std::optional<aero::Equations> equations) {
+  const aero::AeroelasticSystem above = at.system(std::exp(kLevelStep)), below = at.system(std::exp(-kLevelStep));
+  const aero::AeroelasticSystem::Block high = above.self_excited(speed_m_s, omega), low = below.self_excited(speed_m_s, omega);
+  const double per_log = 0.5 / kLevelStep;
+  MatrixXd load;
+  if (equations)
+    load =
+        per_log * (buffeting::load_matrix(above, speed_m_s, *equations) - buffeting::load_matrix(below, speed_m_s, *equations));
+  std::vector<buffeting::SystemSlope> out;
+  for (const UncertainBridge::Change& change : at.bridge.changes()) {
+    VariedStructure::Slope of_structure = at.structure.slope(at.varied, change.parameters, change.damping);
+    buffeting::SystemSlope slope{std::move(of_structure.mass),
+                                 std::move(of_structure.damping),
+                                 std::move(of_structure.stiffness),
+                                 change.dampers,
+                                 {},
+                                 change.turbulence};
+    if (at.varied.structure.viscous.size() > 0) slope.damping += change.dampers * at.varied.structure.viscous;
+    if (change.aerodynamic != 0.0) {
+      slope.damping -= change.aerodynamic * per_log * (high.damping - low.damping);
+      slope.stiffness -= change.aerodynamic * per_log * (high.stiffness - low.stiffness);
+      if (equations) slope.load = change.aerodynamic * load;
+    }
+    out.push_back(std::move(slope));
+  }
+  return out;
+}
+
+/// [-] step of the central differences of the impedance by speed and frequency.
+constexpr double kImpedanceStep = 1e-4;
+
+/// Slopes of ln V_cr at a crossing.
+VectorXd crossing_slopes(const aero::AeroelasticSystem& system, const aero::CriticalPoint& point,
+                         const std::vector<buffeting::SystemSlope>& slopes) {
+  VectorXd out = VectorXd::Zero(std::ssize(slopes));
+  // A mode without damping in still air crosses nothing: whatever the inputs are, it grows from the first speed on.
+  if (point.bracket_m_s == point.speed_m_s) return out;
+  const double speed = point.speed_m_s, omega = point.motion.lambda.imag(), h = kImpedanceStep;
+  const auto impedance = [&](double v, double w) { return buffeting::impedance(system, system.self_excited(v, w), w); };
+  const Eigen::VectorXcd& right = point.motion.vector;
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> factor(impedance(speed, omega).transpose());
+  Eigen::VectorXcd left = right.conjugate();
+  for (int i = 0; i < 3; ++i) left = factor.solve(left).normalized();
+  const auto between = [&](const Eigen::MatrixXcd& z) { return (left.transpose() * z * right)(0); };
+  const std::complex<double> by_omega = between(impedance(speed, omega * (1.0 + h)) - impedance(speed, omega * (1.0 - h))) /
+                                        (2.0 * h * omega),
+                             by_speed = between(impedance(speed * (1.0 + h), omega) - impedance(speed * (1.0 - h), omega)) /
+                                        (2.0 * h * speed);
+  Eigen::Matrix2d both;
+  both << by_omega.real(), by_speed.real(), by_omega.imag(), by_speed.imag();
+  const Eigen::Matrix2d inverse = both.inverse();
+  for (Index i = 0; i < out.size(); ++i) {
+    const std::complex<double> change = between(buffeting::impedance_slope(system, slopes[static_cast<std::size_t>(i)], omega));
+    out[i] = -(inverse * Eigen::Vector2d(change.real(), change.imag()))[1] / speed;
+  }
+  return out;
+}
+
+/// Moments of a row's spectrum: of its second derivative where it is an acceleration.
+SpectralMoments row_moments(const WindResponse& response, const VectorXd& f, std::size_t row, const VectorXd& spectrum) {
+  if (static_cast<Index>(row) >= response.accelerations) return spectral_moments(f, spectrum);
+  const Eigen::ArrayXd omega = 2.0 * std::numbers::pi * f.array();
+  return spectral_moments(f, (spectrum.array() * omega.pow(4)).matrix());
 }
 
 }  // namespace
@@ -83,10 +148,25 @@ WindVariation UncertainBridge::variation(const VectorXd& u) const {
       out.damper_factor = value;
     else if (name == kTurbulence)
       out.turbulence_factor = value;
+    else if (name == kCorrosion)
+      out.corrosion_factor = value;
     else {
       const int p = parameters[static_cast<std::size_t>(parameter)];
       out.parameter_change[parameter++] = value - loaded.theta[p];
     }
+  }
+  return out;
+}
+
+std::vector<UncertainBridge::Change> UncertainBridge::changes() const {
+  std::vector<Change> out;
+  const Index n = random.dimension();
+  for (Index i = 0; i < n; ++i) {
+    const WindVariation above = variation(unit(n, i, 1.0)), below = variation(unit(n, i, -1.0));
+    out.push_back(
+        {0.5 * (above.parameter_change - below.parameter_change), half_log(above.damping_ratio, below.damping_ratio),
+         half_log(above.aerodynamic_factor, below.aerodynamic_factor), half_log(above.damper_factor, below.damper_factor),
+         half_log(above.turbulence_factor, below.turbulence_factor), half_log(above.corrosion_factor, below.corrosion_factor)});
   }
   return out;
 }
@@ -100,58 +180,90 @@ double CriticalSpeed::probability_below(double speed) const {
   return normal_probability(distance / deviation);
 }
 
+bool CriticalSpeed::stable_nearby(double speed) const {
+  if (!speed_m_s) return true;
+  const double nearest = speed_m_s->slope.size() > 0 ? speed_m_s->slope.cwiseAbs().maxCoeff() : 0.0;
+  return speed < speed_m_s->value * std::exp(-nearest);
+}
+
 CriticalSpeed critical_speed(const UncertainBridge& bridge, const aero::WindSettings& settings, const aero::WindModel& model,
                              const VariedStructure& structure, const aero::Deployment& deployment, bool dampers) {
-  const auto speed_at = [&](const VectorXd& u) -> std::optional<double> {
-    const WindVariation variation = bridge.variation(u);
-    const aero::Instability found = aero::first_instability(
-        settings, varied_system(bridge, model, structure.at(variation), variation, settings.wind(), deployment));
-    return found.point ? std::optional<double>(found.point->speed_m_s) : std::nullopt;
-  };
+  const AtMedians at(bridge, model, structure, settings.wind(), deployment);
+  const aero::AeroelasticSystem system = at.system();
   CriticalSpeed out{deployment.name, dampers, std::nullopt};
-  const Index n = bridge.random.dimension();
-  std::vector<std::optional<double>> at(static_cast<std::size_t>(2 * n + 1));
-  parallel_for(2 * n + 1, [&](long k) {
-    at[static_cast<std::size_t>(k)] =
-        speed_at(k == 0 ? VectorXd(VectorXd::Zero(n)) : unit(n, (k - 1) / 2, k % 2 == 1 ? 1.0 : -1.0));
-  });
-  if (std::any_of(at.begin(), at.end(), [](const auto& each) { return !each; })) return out;
-  LogLinear linear{*at[0], VectorXd(n)};
-  for (Index i = 0; i < n; ++i) {
-    linear.slope[i] = 0.5 * std::log(*at[static_cast<std::size_t>(2 * i + 1)] / *at[static_cast<std::size_t>(2 * i + 2)]);
-  }
-  out.speed_m_s = linear;
+  const std::optional<aero::CriticalPoint> point = aero::first_instability(settings, system).point;
+  if (!point) return out;
+  out.speed_m_s = LogLinear{
+      point->speed_m_s,
+      crossing_slopes(system, *point, system_slopes(at, point->speed_m_s, point->motion.lambda.imag(), std::nullopt))};
   return out;
 }
 
 UncertainMoments uncertain_moments(
     const UncertainBridge& bridge, const WindResponse& response, double speed_m_s,
     const std::function<std::vector<std::size_t>(const std::vector<SpectralMoments>& mean)>& choose) {
-  const Index n = bridge.random.dimension();
+  const AtMedians at(bridge, response.bridge.model, response.structure, response.bridge.aerodynamics.wind(),
+                     response.deployment);
+  const aero::AeroelasticSystem system = at.system();
+  const double turn = 2.0 * std::numbers::pi, frozen = response.bridge.frozen_omega;
   UncertainMoments out;
-  out.mean = moments_at(bridge, response, response.rows, speed_m_s, VectorXd::Zero(n));
-  out.stable = !out.mean.empty();
+  const aero::DerivativeFrequencies frequencies{frozen, {turn * kLowestDerivatives_Hz, turn * response.settings.cutoff_Hz}};
+  out.stable = !aero::find_growth(system, speed_m_s, frequencies);
   if (!out.stable) return out;
+
+  const aero::Equations equations = response.settings.equation_choice();
+  const MatrixXd load = buffeting::load_matrix(system, speed_m_s, equations);
+  const auto field = [&](wind::Component component) {
+    wind::FieldDefinition made = buffeting::field_at_nodes(response.bridge, response.turbulence, response.settings.height_m,
+                                                           speed_m_s, component, response.settings.frozen);
+    made.sigma_m_s *= at.variation.turbulence_factor;
+    return made;
+  };
+  const wind::FieldDefinition along = field(wind::Component::along), vertical = field(wind::Component::vertical);
+  buffeting::SpectralOptions options;
+  options.derivative = 0;
+  options.frozen_omega = frozen;
+  options.lowest_omega = turn * kLowestDerivatives_Hz;
+  const VectorXd f = buffeting::spectral_frequencies(response.settings.cutoff_Hz);
+  const MatrixXd rows = response.rows * at.varied.turn;
+  const MatrixXd spectra = buffeting::response_spectra(system, speed_m_s, load, along, vertical, rows, f, options);
+  for (Index row = 0; row < spectra.cols(); ++row)
+    out.mean.push_back(row_moments(response, f, static_cast<std::size_t>(row), spectra.col(row)));
+
   out.varied = choose(out.mean);
-  MatrixXd rows(static_cast<Index>(out.varied.size()), response.rows.cols());
-  for (std::size_t k = 0; k < out.varied.size(); ++k)
-    rows.row(static_cast<Index>(k)) = response.rows.row(static_cast<Index>(out.varied[k]));
+  const std::vector<Index> chosen(out.varied.begin(), out.varied.end());
+  const Index n = bridge.random.dimension();
   out.variance_slope.assign(out.varied.size(), VectorXd::Zero(n));
   out.rate_slope = out.bandwidth_slope = out.variance_slope;
-  for (Index i = 0; i < n; ++i) {
-    const std::vector<SpectralMoments> above = moments_at(bridge, response, rows, speed_m_s, unit(n, i, 1.0));
-    const std::vector<SpectralMoments> below = moments_at(bridge, response, rows, speed_m_s, unit(n, i, -1.0));
-    if (above.empty() || below.empty()) {  // a deviation away it is unstable: its moments have no first-order spread
-      out.stable = false;
-      return out;
-    }
-    for (std::size_t k = 0; k < out.varied.size(); ++k) {
-      out.variance_slope[k][i] = 0.5 * std::log(above[k].variance / below[k].variance);
-      out.rate_slope[k][i] = 0.5 * std::log(above[k].mean_rate_Hz() / below[k].mean_rate_Hz());
-      out.bandwidth_slope[k][i] = 0.5 * std::log(above[k].bandwidth() / below[k].bandwidth());
+  if (n == 0 || chosen.empty()) return out;
+  const std::vector<MatrixXd> slopes =
+      buffeting::response_spectra_slopes(system, speed_m_s, load, along, vertical, rows(chosen, Eigen::all), f,
+                                         system_slopes(at, speed_m_s, frozen, equations), options);
+  for (std::size_t k = 0; k < out.varied.size(); ++k) {
+    const SpectralMoments& m = out.mean[out.varied[k]];
+    if (!(m.variance > 0.0 && m.second > 0.0)) continue;
+    const double centre = m.first * m.first / (m.variance * m.second);  // 1 - delta²
+    for (Index i = 0; i < n; ++i) {
+      const SpectralMoments d = row_moments(response, f, out.varied[k], slopes[k].col(i));
+      const double zero = d.variance / m.variance, one = d.first / m.first, two = d.second / m.second;
+      out.variance_slope[k][i] = zero;
+      out.rate_slope[k][i] = 0.5 * (two - zero);
+      if (centre < 1.0) out.bandwidth_slope[k][i] = -0.5 * centre * (2.0 * one - zero - two) / (1.0 - centre);
     }
   }
   return out;
+}
+
+void UncertainMoments::add_corrosion(const UncertainMoments& earlier, const std::vector<UncertainBridge::Change>& change) {
+  for (std::size_t k = 0; k < varied.size(); ++k) {
+    const SpectralMoments &now = mean[varied[k]], &then = earlier.mean[varied[k]];
+    if (!(now.variance > 0.0 && then.variance > 0.0)) continue;
+    for (std::size_t i = 0; i < change.size(); ++i) {
+      const auto at = static_cast<Index>(i);
+      variance_slope[k][at] += change[i].corrosion * std::log(now.variance / then.variance);
+      rate_slope[k][at] += change[i].corrosion * std::log(now.mean_rate_Hz() / then.mean_rate_Hz());
+    }
+  }
 }
 
 SpectralMoments UncertainMoments::at(std::size_t k, const VectorXd& u) const {
@@ -185,6 +297,14 @@ Excursion excursion(const UncertainMoments& moments, std::size_t k, double limit
   out.low = found[static_cast<std::size_t>(0.05 * samples)];
   out.high = found[static_cast<std::size_t>(0.95 * samples)];
   return out;
+}
+
+LimitState excursion_limit_state(const UncertainMoments& moments, std::size_t k, double limit, double duration_s) {
+  return [&moments, k, limit, duration_s](const VectorXd& u) {
+    const Index n = u.size() - 1;
+    const double p = first_excursion(moments.at(k, u.head(n)), limit, duration_s).vanmarcke;
+    return u[n] - normal_quantile(std::clamp(p, 1e-300, 1.0 - 1e-16));
+  };
 }
 
 }  // namespace twindeck::reliability

@@ -9,6 +9,7 @@
 #include "aero/wind_study.hpp"
 #include "buffeting/bridge_in_wind.hpp"
 #include "reliability/crossings.hpp"
+#include "reliability/limit_state.hpp"
 #include "reliability/random_inputs.hpp"
 #include "reliability/varied_structure.hpp"
 
@@ -16,7 +17,7 @@ namespace twindeck::reliability {
 
 /// Names of the random inputs beside the model's parameters, which are called "parameter:NAME".
 inline const std::string kDamping = "structural_damping", kSlope = "aerodynamic_level", kDampers = "damper_constants",
-                         kTurbulence = "turbulence_intensity";
+                         kTurbulence = "turbulence_intensity", kCorrosion = "corrosion_rate";
 
 /// A bridge in wind whose random inputs are x.
 struct UncertainBridge {
@@ -28,11 +29,18 @@ struct UncertainBridge {
 
   /// What the inputs' values change. @param u (dimension) standard normal numbers
   [[nodiscard]] WindVariation variation(const Eigen::VectorXd& u) const;
+
+  /// Mean change of the inputs over one standard deviation of a number of u to either side: of parameters in their units, of
+  /// all others of the logarithm.
+  struct Change {
+    Eigen::VectorXd parameters;
+    double damping = 0.0, aerodynamic = 0.0, dampers = 0.0, turbulence = 0.0, corrosion = 0.0;
+  };
+  [[nodiscard]] std::vector<Change> changes() const;
 };
 
-/// A quantity as a function of u, by its value and its slopes in u = 0 of its logarithm (central differences over one standard
-/// deviation to either side). Quantities of vibration depend on dampings and stiffnesses by powers, so that the logarithm is
-/// close to linear.
+/// A quantity as a function of u, by its value and its exact slopes in u = 0 of its logarithm. Quantities of vibration depend
+/// on dampings and stiffnesses by powers, so that the logarithm is close to linear.
 struct LogLinear {
   double value = 0.0;     ///< at u = 0
   Eigen::VectorXd slope;  ///< (dimension) d ln(value) / d u_i
@@ -44,24 +52,30 @@ struct LogLinear {
 struct CriticalSpeed {
   std::string model;
   bool dampers = false;
-  std::optional<LogLinear>
-      speed_m_s;  ///< empty: stable to the highest speed at the mean of all inputs, or at one of the differences
+  std::optional<LogLinear> speed_m_s;  ///< empty: stable to the highest speed at the medians of all inputs
   /// P(V_cr < V): Phi((ln V - ln V_cr)/deviation), the first-order reliability method on the logarithm.
   [[nodiscard]] double probability_below(double speed_m_s) const;
+  /// Whether the bridge is stable in this wind, at the medians and with each input one deviation away.
+  [[nodiscard]] bool stable_nearby(double speed_m_s) const;
 };
+/// The slopes are those of the complex eigenvalue's crossing of the imaginary axis: w'(Z_omega d omega + Z_V dV + dZ) v = 0
+/// with the left and right vectors w and v of the impedance Z there.
 [[nodiscard]] CriticalSpeed critical_speed(const UncertainBridge& bridge, const aero::WindSettings& settings,
                                            const aero::WindModel& model, const VariedStructure& structure,
                                            const aero::Deployment& deployment, bool dampers);
 
 /// Spectral moments of responses in a mean wind: of all rows at u = 0, of some of them as functions of u.
 struct UncertainMoments {
-  bool stable = true;  ///< at u = 0 and one standard deviation of each input to either side; else nothing but this holds
+  bool stable = true;                 ///< at u = 0; else nothing but this holds
   std::vector<SpectralMoments> mean;  ///< (n_rows) at u = 0
   std::vector<std::size_t> varied;    ///< (n_varied) the rows that the following are of
   std::vector<Eigen::VectorXd> variance_slope, rate_slope,
       bandwidth_slope;  ///< (n_varied) (dimension) of ln lambda_0, ln nu, ln delta
   /// @param k  position in `varied`  @param u (dimension)
   [[nodiscard]] SpectralMoments at(std::size_t k, const Eigen::VectorXd& u) const;
+  /// Slopes on the rate of corrosion: to first order what it changed since an earlier year grows in proportion to it.
+  /// @param earlier  the same rows in the year 0  @param change  see UncertainBridge::Change
+  void add_corrosion(const UncertainMoments& earlier, const std::vector<UncertainBridge::Change>& change);
 };
 
 /// What a response is asked of: the reduced bridge, its turbulence, a deployment, rows of sensors.
@@ -71,8 +85,8 @@ struct WindResponse {
   const buffeting::WindEventSettings& settings;
   const wind::TurbulenceSet& turbulence;
   aero::Deployment deployment;
-  Eigen::MatrixXd rows;  ///< (n_rows × m) motion of each sensor per unit of each coordinate
-  int derivative = 2;    ///< 2: accelerations
+  Eigen::MatrixXd rows;            ///< (n_rows × m) of each sensor per unit of each coordinate
+  Eigen::Index accelerations = 0;  ///< so many rows are accelerations of what they measure; those below them are not derived
 };
 /// @param choose  the rows whose spread is asked for, from the moments of all rows at u = 0
 [[nodiscard]] UncertainMoments uncertain_moments(
@@ -88,5 +102,10 @@ struct Excursion {
 /// @param samples  of u that spread is taken over  @param seed  of these samples
 [[nodiscard]] Excursion excursion(const UncertainMoments& moments, std::size_t k, double limit, double duration_s, int samples,
                                   std::uint64_t seed);
+
+/// Limit state of an excursion over (dimension + 1) numbers: the last one decides whether it happens, g = u_last -
+/// Phi^-1(P(excursion | u)).
+/// Reference: Wen and Chen (1987), Prob. Eng. Mech. 2, 156-162.
+[[nodiscard]] LimitState excursion_limit_state(const UncertainMoments& moments, std::size_t k, double limit, double duration_s);
 
 }  // namespace twindeck::reliability

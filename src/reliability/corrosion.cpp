@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "core/error.hpp"
 
@@ -27,6 +28,13 @@ double Corrosion::loss_m(double years) const {
   if (exposed <= kPowerLawYears) return first_year_m * std::pow(exposed, exponent);
   return first_year_m * (std::pow(kPowerLawYears, exponent) +
                          exponent * std::pow(kPowerLawYears, exponent - 1.0) * (exposed - kPowerLawYears));
+}
+
+std::optional<double> first_year_loss_m(const std::string& category) {
+  static const std::map<std::string, double> middle_um = {{"C1", 0.65}, {"C2", 13.15}, {"C3", 37.5},
+                                                          {"C4", 65.0}, {"C5", 140.0}, {"CX", 450.0}};
+  const auto at = middle_um.find(category);
+  return at == middle_um.end() ? std::nullopt : std::optional<double>(1e-6 * at->second);
 }
 
 double remaining_share(double thickness_m, double loss_m, int exposed_sides) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 namespace twindeck::reliability {
 
 /// Atmospheric corrosion of a steel surface: loss D(t) = r t^b up to 20 years, then on with the slope of that time, r b
@@ -12,6 +15,10 @@ struct Corrosion {
   /// Loss of one surface after so many years in service [m].
   [[nodiscard]] double loss_m(double years) const;
 };
+
+/// First year's loss of carbon steel in a category of atmosphere, C1 … C5 and CX: the middle of its range.
+/// Reference: ISO 9223:2012, table 2.  @return nothing for an unknown name
+[[nodiscard]] std::optional<double> first_year_loss_m(const std::string& category);
 
 /// What is left of a thin-walled section whose walls lose thickness: area, bending inertia and torsion constant go with the
 /// thickness.

@@ -12,6 +12,11 @@ struct SpectralMoments {
   double fourth = 0.0;    ///< lambda_4 [unit² rad⁴/s⁴]
   /// Upward crossings of the mean [1/s]: sqrt(lambda_2/lambda_0)/(2 pi).
   [[nodiscard]] double mean_rate_Hz() const;
+  /// Those of the response times a factor.
+  [[nodiscard]] SpectralMoments scaled(double factor) const {
+    const double square = factor * factor;
+    return {square * variance, square * first, square * second, square * fourth};
+  }
   /// Vanmarcke's bandwidth [-]: sqrt(1 - lambda_1²/(lambda_0 lambda_2)), 0 for a single frequency.
   [[nodiscard]] double bandwidth() const;
 };

@@ -30,6 +30,15 @@ std::vector<double> turning_points(const Eigen::Ref<const VectorXd>& history) {
   return points;
 }
 
+/// Mean damage of a cycle whose range has this density.
+template <typename Density>
+double mean_damage(const SpectralMoments& moments, const FatigueCurve& curve, const Density& density) {
+  const auto each = [&](double range) { return density(range) * curve.damage(range); };
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
+  const double end = kLargestRange * std::sqrt(moments.variance), knee = std::min(curve.category_Pa, end);
+  return Rule::integrate(each, 0.0, knee, 12, 1e-9) + (knee < end ? Rule::integrate(each, knee, end, 12, 1e-9) : 0.0);
+}
+
 }  // namespace
 
 std::vector<Cycle> rainflow(const Eigen::Ref<const VectorXd>& history) {
@@ -83,10 +92,14 @@ double dirlik_density(const SpectralMoments& moments, double range) {
 double damage_rate_Hz(const SpectralMoments& moments, const FatigueCurve& curve) {
   if (!(moments.variance > 0.0 && moments.second > 0.0)) return 0.0;
   const double peaks = std::sqrt(moments.fourth / moments.second) / (2.0 * std::numbers::pi);
-  const auto each = [&](double range) { return dirlik_density(moments, range) * curve.damage(range); };
-  using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-  const double end = kLargestRange * std::sqrt(moments.variance), knee = std::min(curve.category_Pa, end);
-  return peaks * (Rule::integrate(each, 0.0, knee, 12, 1e-9) + (knee < end ? Rule::integrate(each, knee, end, 12, 1e-9) : 0.0));
+  return peaks * mean_damage(moments, curve, [&](double range) { return dirlik_density(moments, range); });
+}
+
+double narrow_band_damage_rate_Hz(const SpectralMoments& moments, const FatigueCurve& curve) {
+  if (!(moments.variance > 0.0 && moments.second > 0.0)) return 0.0;
+  const double quarter = 1.0 / (4.0 * moments.variance);  // range = 2 amplitudes
+  return moments.mean_rate_Hz() *
+         mean_damage(moments, curve, [&](double range) { return quarter * range * std::exp(-0.5 * quarter * range * range); });
 }
 
 }  // namespace twindeck::reliability

@@ -47,4 +47,31 @@ VariedStructure::Varied VariedStructure::at(const WindVariation& variation) cons
   return out;
 }
 
+VariedStructure::Slope VariedStructure::slope(const Varied& at, const Eigen::VectorXd& parameter_change,
+                                              double log_damping) const {
+  const Index m = structure_.size();
+  const Eigen::VectorXd &omega = at.structure.omega_rad_s, &ratio = at.structure.damping_ratio;
+  Slope out{MatrixXd::Zero(m, m), MatrixXd::Zero(m, m), MatrixXd::Zero(m, m)};
+  if (!parameter_change.isZero(0.0)) {
+    MatrixXd mass = out.mass, stiffness = out.mass;
+    for (std::size_t p = 0; p < stiffness_.size(); ++p) {
+      mass += parameter_change[static_cast<Index>(p)] * mass_[p];
+      stiffness += parameter_change[static_cast<Index>(p)] * stiffness_[p];
+    }
+    out.mass = at.turn.transpose() * mass * at.turn;
+    out.stiffness = at.turn.transpose() * stiffness * at.turn;
+    // With S² = A = M^-1/2 K M^-1/2:  dS_ij (omega_i + omega_j) = dA_ij, where M = 1 and K is diagonal.
+    for (Index i = 0; i < m; ++i) {
+      for (Index j = 0; j < m; ++j) {
+        const double sum = omega[i] + omega[j];
+        if (sum == 0.0) continue;
+        const double square = out.stiffness(i, j) - 0.5 * out.mass(i, j) * (omega[i] * omega[i] + omega[j] * omega[j]);
+        out.damping(i, j) = 2.0 * ratio[i] * (square / sum + 0.5 * out.mass(i, j) * sum);
+      }
+    }
+  }
+  out.damping.diagonal() += log_damping * 2.0 * ratio.cwiseProduct(omega);
+  return out;
+}
+
 }  // namespace twindeck::reliability

@@ -15,6 +15,7 @@ struct WindVariation {
   double aerodynamic_factor = 1.0;   ///< [-] of the aerodynamic set's level
   double damper_factor = 1.0;        ///< [-] of each damper's stiffness and damping
   double turbulence_factor = 1.0;    ///< [-] of the standard deviations of v' and w'
+  double corrosion_factor = 1.0;     ///< [-] of the rate of corrosion: the loss of years is in the model already
 };
 
 /// A reduced structure whose parameters change within its own basis V:
@@ -34,6 +35,14 @@ class VariedStructure {
     Eigen::MatrixXd turn;  ///< (m × m) old coordinates by the new ones: rows of sensors are multiplied by it
   };
   [[nodiscard]] Varied at(const WindVariation& variation) const;
+
+  /// First-order change of M, C and K in the coordinates of a `Varied`: structural damping stays the same share of critical
+  /// damping in every mode, C = 2 xi M^1/2 (M^-1/2 K M^-1/2)^1/2 M^1/2.
+  struct Slope {
+    Eigen::MatrixXd mass, damping, stiffness;  ///< (m × m)
+  };
+  /// @param parameter_change  in the parameters' units  @param log_damping  relative change of the damping ratio
+  [[nodiscard]] Slope slope(const Varied& at, const Eigen::VectorXd& parameter_change, double log_damping) const;
 
  private:
   aero::ReducedStructure structure_;

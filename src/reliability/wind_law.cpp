@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -42,7 +44,7 @@ double WindLaw::exceedance(double speed) const {
 }
 
 double WindLaw::average(const std::function<double(double)>& of_speed, double step_m_s) const {
-  TWINDECK_ASSERT(of_all_means() && step_m_s > 0.0);
+  TWINDECK_ASSERT(step_m_s > 0.0);
   double sum = 0.0;
   if (kind == Kind::table) {
     for (std::size_t i = 0; i < speed_m_s.size(); ++i) sum += probability[i] * of_speed(speed_m_s[i]);
@@ -52,6 +54,18 @@ double WindLaw::average(const std::function<double(double)>& of_speed, double st
     sum += (exceedance(low) - exceedance(low + step_m_s)) * of_speed(low + 0.5 * step_m_s);
   }
   return sum;
+}
+
+std::optional<double> roughness_factor(const std::string& terrain, double height_m) {
+  struct Terrain {
+    double length_m, least_height_m;
+  };
+  static const std::map<std::string, Terrain> table = {
+      {"0", {0.003, 1.0}}, {"I", {0.01, 1.0}}, {"II", {0.05, 2.0}}, {"III", {0.3, 5.0}}, {"IV", {1.0, 10.0}}};
+  const auto at = table.find(terrain);
+  if (at == table.end()) return std::nullopt;
+  const Terrain& of = at->second;
+  return 0.19 * std::pow(of.length_m / 0.05, 0.07) * std::log(std::max(height_m, of.least_height_m) / of.length_m);
 }
 
 void check_wind_law(const WindLaw& law) {

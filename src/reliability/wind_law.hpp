@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,14 @@ struct WindLaw {
   [[nodiscard]] bool of_all_means() const { return kind == Kind::weibull || kind == Kind::table; }
   /// P(V > v): of a ten-minute mean, or of the largest of a year.
   [[nodiscard]] double exceedance(double speed_m_s) const;
-  /// Mean over the ten-minute means of what a speed gives, by classes of `step_m_s` (the table's own classes for a table).
-  /// @pre of_all_means()
+  /// Mean over the law's speeds of what a speed gives, by classes of `step_m_s` (the table's own classes for a table).
   [[nodiscard]] double average(const std::function<double(double speed_m_s)>& of_speed, double step_m_s = 0.5) const;
 };
+
+/// Mean speed at a height over the basic speed, c_r = 0.19 (z0/0.05)^0.07 ln(z/z0), constant below the least height, in a
+/// terrain of category 0, I, II, III or IV. Reference: EN 1991-1-4:2005, 4.3.2 and table 4.1.  @return nothing for an unknown
+/// category
+[[nodiscard]] std::optional<double> roughness_factor(const std::string& terrain, double height_m);
 
 /// @throws InputError  with the key: a scale that is not positive, a table whose probabilities do not sum to one (within 1e-3)
 /// or are negative

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "updating/twins.hpp"
@@ -165,17 +166,25 @@ void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& p
   for (const std::string& sentence : rival_sentences(weighed)) reporter.warn(sentence);
 }
 
-void say_flat_frequencies(Reporter& reporter, const Weighed& weighed) {
+std::optional<Posterior> posterior_of_frequencies(const Weighed& weighed) {
   Linearised at = weighed.result.at_optimum;
+  double chi_squared = 0.0;
   for (Index i = 0; i < at.jacobian.rows(); ++i) {
     const Index mode = weighed.pairing.pairs[static_cast<std::size_t>(i)].experimental;
     const double deviations = weighed.measured.modes.frequency_Hz[mode] / weighed.measured.modes.frequency_std_Hz[mode];
+    if (!std::isfinite(deviations)) return std::nullopt;
+    chi_squared += at.residual[i] * at.residual[i] * deviations * deviations;
     at.jacobian.row(i) *= deviations;
     at.residual[i] /= deviations;  // the gradient stays as it is, and with it what the bounds hold
   }
-  const Posterior linearised = posterior(at, weighed.normalised(), weighed.result.box, weighed.result.scale);
+  Posterior out = posterior(at, weighed.normalised(), weighed.result.box, weighed.result.scale);
+  out.chi_squared = chi_squared;
+  return out;
+}
+
+void say_flat_frequencies(Reporter& reporter, const Weighed& weighed, const Posterior& posterior) {
   for (const bool several : {false, true})
-    for (const std::string& sentence : flat_sentences(weighed, linearised, several, "the paired frequencies"))
+    for (const std::string& sentence : flat_sentences(weighed, posterior, several, "the paired frequencies"))
       reporter.say(sentence);
 }
 

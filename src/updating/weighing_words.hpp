@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,14 @@ struct WeighedRow {
 /// they cannot rule out, as lines and warnings.
 void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& posterior);
 
+/// Covariance of the parameters of an update by Eq. (5), whose rows weigh alike: the frequencies count by the standard
+/// deviations that are stated for them, what the bounds hold is that of the update.
+/// @return nothing where a paired frequency has no standard deviation
+[[nodiscard]] std::optional<Posterior> posterior_of_frequencies(const Weighed& weighed);
+
 /// Directions that relative frequencies hardly limit, counted in the frequencies' standard deviations, as lines: an update by
 /// Eq. (5) gives their values as exactly as any other.
-void say_flat_frequencies(Reporter& reporter, const Weighed& weighed);
+/// @param posterior  of `posterior_of_frequencies`
+void say_flat_frequencies(Reporter& reporter, const Weighed& weighed, const Posterior& posterior);
 
 }  // namespace twindeck::updating

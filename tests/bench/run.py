@@ -2,13 +2,14 @@
 
     python3 tests/bench/run.py BIN OUT [RUNS]
 
-BIN: folder of the executables; OUT: where modes.csv, identification.csv, wind.csv and all of them as bench.csv go; RUNS: how many runs
+BIN: folder of the executables; OUT: where modes.csv, identification.csv, wind.csv, reliability.csv and all of them as bench.csv go; RUNS: how many runs
 a median is of (5). Peers do the same work in the same run of this script; seconds are processor time unless the row says otherwise.
 """
 import pathlib
 import sys
 
 import modes
+import reliability
 import sysid
 import table
 import wind_field
@@ -19,7 +20,7 @@ def main():
     runs = int(sys.argv[3]) if len(sys.argv) > 3 else 5
     out.mkdir(parents=True, exist_ok=True)
     everything = []
-    for name, part in (("modes", modes), ("identification", sysid), ("wind", wind_field)):
+    for name, part in (("modes", modes), ("identification", sysid), ("wind", wind_field), ("reliability", reliability)):
         print(f"bench: {name} …", file=sys.stderr, flush=True)
         rows = part.rows(binaries, runs)
         table.write(rows, out / f"{name}.csv")

@@ -17,6 +17,7 @@ STEPS = {
     "s7_aerodynamics": ("aeroelastic stability", "5.1", "7"),
     "s8_validation": ("wind response\nagainst events", "5.2, 6", "8"),
     "s9_diagnosis": ("what is wrong, why, gain", "ours", ""),
+    "s10_reliability": ("reliability in wind,\nover years", "ours", ""),
 }
 # The same in the words of a study of one's own, which has neither a preliminary model nor as-built changes.
 OWN_WORDS = {"s1_model": "FE model, dead load,\nmodes", "s4_refinement": "pairing of modes\nwith measurement"}

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "aero_io/turbulence_sets.hpp"
 #include "buffeting/bridge_in_wind.hpp"
@@ -27,13 +28,13 @@ Posterior read_posterior(runner::StepContext& context, const std::vector<fe::Par
   Posterior out;
   if (context.model || !std::filesystem::exists(file)) {
     context.warn(
-        "step 6 wrote no posterior of the parameters (it does so where measured deviations weigh the update): they are taken "
-        "as "
-        "known; state their scatter by [[random]] tables with name = \"parameter:NAME\"");
+        "step 6 wrote no posterior of the parameters (it does so where the measured frequencies have standard deviations): "
+        "they "
+        "are taken as known; state their scatter by [[random]] tables with name = \"parameter:NAME\"");
     return out;
   }
   const io::CsvTable table =
-      io::CsvTable::read(context.input(file), {"parameter", "final_value", "std_with_misfit", "held"}, {}, true);
+      io::CsvTable::read(context.input(file), {"parameter", "final_value", "std_with_misfit", "held", "label"}, {}, true);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (table.text(row, "held") == "1") continue;
     const std::string name = table.text(row, "parameter");
@@ -41,7 +42,7 @@ Posterior read_posterior(runner::StepContext& context, const std::vector<fe::Par
     if (at == parameters.end())
       table.fail(row, "parameter", "is '" + name + "', which the model does not have", "run step 6 again");
     out.inputs.push_back({kParameter + name, reliability::LawKind::normal, table.number(row, "final_value"),
-                          table.number(row, "std_with_misfit"), at->lower, at->upper, "identified",
+                          table.number(row, "std_with_misfit"), at->lower, at->upper, table.text(row, "label"),
                           "s6_updating/posterior.csv"});
   }
   const auto n = static_cast<Eigen::Index>(out.inputs.size());
@@ -77,6 +78,107 @@ reliability::RandomInput stated(const StatedInput& input) {
   return out;
 }
 
+std::vector<reliability::Wall> walls_of(const ReliabilityConfig& config) {
+  std::vector<reliability::Wall> out;
+  for (const StatedWall& wall : config.walls) {
+    const double first = wall.first_year_m > 0.0 ? wall.first_year_m : *reliability::first_year_loss_m(wall.category);
+    out.push_back(
+        {wall.sections, wall.thickness_m, static_cast<int>(wall.sides), {first, wall.exponent, wall.coating_life_years}});
+  }
+  return out;
+}
+
+/// Winds of a table from the study's side, each speed with the share of the time in its sector; all other winds as calm.
+void read_wind_table(const StatedWindLaw& stated, double direction_deg, runner::StepContext& context,
+                     reliability::WindLaw& law) {
+  if (stated.file.empty())
+    throw InputError({"", 0, "wind_law.file"}, "is not given, and a law of kind table is a file", "give wind_law.file");
+  const io::CsvTable table =
+      io::CsvTable::read(context.input(context.resolved(stated.file)), {"speed_m_s", "direction_deg", "probability"});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double apart = std::abs(std::remainder(table.number(row, "direction_deg") - direction_deg, 180.0));
+    law.speed_m_s.push_back(apart <= 0.5 * stated.sector_deg ? table.number(row, "speed_m_s") : 0.0);
+    law.probability.push_back(table.number(row, "probability"));
+  }
+}
+
+std::optional<reliability::WindLaw> read_wind_law(const StatedWindLaw& stated, double direction_deg, double height_m,
+                                                  runner::StepContext& context) {
+  using Kind = reliability::WindLaw::Kind;
+  if (stated.kind == "none") return std::nullopt;
+  reliability::WindLaw law;
+  law.kind = stated.kind == "weibull"  ? Kind::weibull
+             : stated.kind == "table"  ? Kind::table
+             : stated.kind == "gumbel" ? Kind::gumbel
+                                       : Kind::code;
+  law.scale_m_s = stated.scale_m_s;
+  law.shape = stated.shape;
+  law.mode_m_s = stated.mode_m_s;
+  law.gumbel_scale_m_s = stated.gumbel_scale_m_s;
+  law.basic_m_s = stated.basic_m_s;
+  law.label = law.kind == Kind::code ? "code" : "user";
+  if (law.kind == Kind::code) law.exposure = *reliability::roughness_factor(stated.terrain, height_m);
+  if (law.kind == Kind::table) read_wind_table(stated, direction_deg, context, law);
+  reliability::check_wind_law(law);
+  return law;
+}
+
+/// Refuses years without a first one, and walls and faults that the model cannot have, before anything is computed.
+void check_years_and_faults(const ReliabilityConfig& config, const std::vector<reliability::Wall>& walls,
+                            const fe::Model* model) {
+  if (config.years.empty() || config.years.front() != 0.0 || !std::is_sorted(config.years.begin(), config.years.end()))
+    throw InputError({"", 0, "years"}, "do not begin with 0 and rise: all changes are told against the year 0",
+                     "write years = [0, 25, 50]");
+  if (model == nullptr) return;
+  static_cast<void>(reliability::worn_model(*model, walls, config.years.back()));
+  for (const StatedFault& fault : config.faults)
+    static_cast<void>(reliability::with_damper_fault(*model, fault.damper, reliability::DamperFault::lost, 0.0));
+}
+
+/// All random inputs: step 6's, then the step's own, then those that the configuration states.
+struct Inputs {
+  reliability::RandomVector random;
+  std::vector<int> parameters;
+};
+Inputs random_inputs(const ReliabilityConfig& config, double structural_damping, bool corrodes,
+                     const std::vector<fe::Parameter>& of_model, runner::StepContext& context) {
+  Posterior posterior = read_posterior(context, of_model);
+  std::vector<reliability::RandomInput> inputs = posterior.inputs;
+  inputs.push_back(
+      scattered(reliability::kDamping, structural_damping, config.damping_variation, "assumed", "damping_variation"));
+  inputs.push_back(scattered(reliability::kSlope, 1.0, config.level_variation, "assumed", "level_variation"));
+  inputs.push_back(scattered(reliability::kDampers, 1.0, config.damper_variation, "paper", "Table 1"));
+  inputs.push_back(scattered(reliability::kTurbulence, 1.0, config.turbulence_variation, "assumed", "turbulence_variation"));
+  if (corrodes)
+    inputs.push_back(scattered(reliability::kCorrosion, 1.0, config.corrosion_variation, "assumed", "corrosion_variation"));
+  std::vector<int> parameters;
+  for (const StatedInput& own : config.random) {
+    const auto at = std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.name == own.name; });
+    if (at != inputs.end())
+      *at = stated(own);
+    else
+      inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(posterior.inputs.size()), stated(own));
+  }
+  std::vector<std::string> known = {reliability::kDamping, reliability::kSlope, reliability::kDampers, reliability::kTurbulence,
+                                    reliability::kCorrosion};
+  const auto own_inputs = static_cast<std::ptrdiff_t>(known.size());
+  for (const fe::Parameter& parameter : of_model) known.push_back(kParameter + parameter.name);
+  for (const reliability::RandomInput& input : inputs) {
+    const auto at = std::find(known.begin(), known.end(), input.name);
+    if (at == known.end())
+      throw InputError({"", 0, "random"},
+                       "names '" + input.name + "', which is no random input" + did_you_mean(input.name, known),
+                       "write \"parameter:NAME\" with a parameter of model.toml, or structural_damping, aerodynamic_level, "
+                       "damper_constants, turbulence_intensity, corrosion_rate");
+    if (at - known.begin() >= own_inputs) parameters.push_back(static_cast<int>(at - known.begin() - own_inputs));
+  }
+  const auto n = static_cast<Eigen::Index>(inputs.size());
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
+  if (posterior.correlation.size() > 0)
+    correlation.topLeftCorner(posterior.correlation.rows(), posterior.correlation.cols()) = posterior.correlation;
+  return {reliability::RandomVector(inputs, correlation), parameters};
+}
+
 }  // namespace
 
 ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runner::StepContext& context) {
@@ -92,50 +194,31 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
       aero_io::read_turbulence_set(context.input(validation.turbulence_file), validation.turbulence_set);
   std::vector<aero::DeckAerodynamics> data = read_deck_aerodynamics(aerodynamics, context);
   const double level = fitted_level(context, validation.set);
-  for (const std::string& model : config.models) static_cast<void>(buffeting::deployment_of(aerodynamics, model));
+  std::vector<std::string> models = config.models;
+  for (const std::string& model : models) static_cast<void>(buffeting::deployment_of(aerodynamics, model));
+  if (models.empty())
+    for (const aero::Deployment& deployment : aerodynamics.deployments()) models.push_back(deployment.name);
   static_cast<void>(buffeting::deployment_of(aerodynamics, config.response_model));
   dynamics::ReadModel model = load_model(context, context.results / "s6_updating" / "model");
   static_cast<void>(aero::aero_nodes_of(aerodynamics, model.fe_model(), model.source));
 
-  Posterior posterior = read_posterior(context, model.parameters());
-  std::vector<reliability::RandomInput> inputs = posterior.inputs;
-  inputs.push_back(scattered(reliability::kDamping, aerodynamics.structural_damping, config.damping_variation, "assumed",
-                             "damping_variation"));
-  inputs.push_back(scattered(reliability::kSlope, 1.0, config.level_variation, "assumed", "level_variation"));
-  inputs.push_back(scattered(reliability::kDampers, 1.0, config.damper_variation, "paper", "Table 1"));
-  inputs.push_back(scattered(reliability::kTurbulence, 1.0, config.turbulence_variation, "assumed", "turbulence_variation"));
-  std::vector<int> parameters;
-  for (const StatedInput& own : config.random) {
-    const auto at = std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.name == own.name; });
-    if (at != inputs.end())
-      *at = stated(own);
-    else
-      inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(posterior.inputs.size()), stated(own));
-  }
-  std::vector<std::string> known = {reliability::kDamping, reliability::kSlope, reliability::kDampers,
-                                    reliability::kTurbulence};
-  for (const fe::Parameter& parameter : model.parameters()) known.push_back(kParameter + parameter.name);
-  for (const reliability::RandomInput& input : inputs) {
-    const auto at = std::find(known.begin(), known.end(), input.name);
-    if (at == known.end())
-      throw InputError({"", 0, "random"},
-                       "names '" + input.name + "', which is no random input" + did_you_mean(input.name, known),
-                       "write \"parameter:NAME\" with a parameter of model.toml, or structural_damping, aerodynamic_level, "
-                       "damper_constants, turbulence_intensity");
-    if (at - known.begin() >= 4) parameters.push_back(static_cast<int>(at - known.begin()) - 4);
-  }
-  const auto n = static_cast<Eigen::Index>(inputs.size());
-  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
-  if (posterior.correlation.size() > 0)
-    correlation.topLeftCorner(posterior.correlation.rows(), posterior.correlation.cols()) = posterior.correlation;
+  std::vector<reliability::Wall> walls = walls_of(config);
+  check_years_and_faults(config, walls, model.fe_model());
+  std::optional<reliability::WindLaw> law =
+      read_wind_law(config.wind_law, aerodynamics.direction_deg, validation.height_m, context);
+
+  Inputs inputs = random_inputs(config, aerodynamics.structural_damping, !walls.empty(), model.parameters(), context);
   return {std::move(aerodynamics),
+          std::move(models),
           std::move(validation),
           std::move(turbulence),
           std::move(data),
           level,
           std::move(model),
-          reliability::RandomVector(inputs, correlation),
-          parameters};
+          std::move(inputs.random),
+          std::move(inputs.parameters),
+          std::move(walls),
+          std::move(law)};
 }
 
 }  // namespace twindeck::steps

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "dynamics/loaded_model.hpp"
 #include "reliability/random_inputs.hpp"
+#include "reliability/wind_law.hpp"
+#include "reliability/worn_model.hpp"
 #include "runner/run_step.hpp"
 #include "steps/reliability/reliability_config.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
@@ -16,6 +19,7 @@ namespace twindeck::steps {
 /// What the step reads.
 struct ReliabilityInputs {
   AerodynamicsConfig aerodynamics;  ///< of step 7
+  std::vector<std::string> models;  ///< whose critical speeds are asked for
   ValidationConfig validation;      ///< of step 8
   wind::TurbulenceSet turbulence;
   std::vector<aero::DeckAerodynamics> data;
@@ -23,6 +27,8 @@ struct ReliabilityInputs {
   dynamics::ReadModel model;
   reliability::RandomVector random;
   std::vector<int> parameters;  ///< of the model, in the order of the inputs "parameter:NAME"
+  std::vector<reliability::Wall> walls;
+  std::optional<reliability::WindLaw> law;
 };
 /// The parameters' laws are those of step 6's posterior.csv and correlations.csv where it wrote them; a note says where it did
 /// not.

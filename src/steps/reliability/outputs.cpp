@@ -7,6 +7,14 @@
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
+namespace {
+
+std::string dampers(const Case& of) { return of.dampers ? "on" : "off"; }
+
+/// Deviations of the 5 and 95 % quantiles.
+double reach() { return two_sided_normal_quantile(0.9); }
+
+}  // namespace
 
 void write_random(const reliability::RandomVector& random, const std::filesystem::path& folder) {
   io::CsvWriter csv({"name", "law", "mean", "deviation", "low", "high", "label", "source"});
@@ -17,55 +25,98 @@ void write_random(const reliability::RandomVector& random, const std::filesystem
 }
 
 void write_fragility(const std::vector<FragilityRow>& rows, const std::filesystem::path& folder) {
-  io::CsvWriter crossings({"limit_state", "model", "dampers", "speed_m_s", "channel", "limit_m_s2", "deviation_m_s2",
-                           "crossing_rate_Hz", "poisson", "vanmarcke", "low", "high"});
-  io::CsvWriter fragility({"limit_state", "model", "dampers", "speed_m_s", "probability", "low", "high"});
+  io::CsvWriter crossings({"limit_state", "model", "years", "dampers", "fault", "speed_m_s", "place", "limit", "deviation",
+                           "unit", "crossing_rate_Hz", "poisson", "vanmarcke", "low", "high"});
+  io::CsvWriter fragility({"limit_state", "model", "years", "dampers", "fault", "speed_m_s", "probability", "low", "high"});
   for (const FragilityRow& row : rows) {
     const reliability::Excursion& e = row.excursion;
-    fragility.row({row.limit_state, row.model, row.dampers ? "on" : "off", row.speed_m_s, e.mean, e.low, e.high});
-    if (row.channel.empty()) continue;
-    crossings.row({row.limit_state, row.model, row.dampers ? "on" : "off", row.speed_m_s, row.channel, row.limit_m_s2,
-                   row.deviation_m_s2, e.crossing_rate_Hz, e.poisson, e.mean, e.low, e.high});
+    fragility.row(
+        {row.limit_state, row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, e.mean, e.low, e.high});
+    if (row.place.empty()) continue;
+    crossings.row({row.limit_state, row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.place, row.limit,
+                   row.deviation, row.unit, e.crossing_rate_Hz, e.poisson, e.mean, e.low, e.high});
   }
   crossings.save(folder / "crossings.csv");
   fragility.save(folder / "fragility.csv");
 }
 
 void write_responses(const std::vector<ResponseRow>& rows, const std::filesystem::path& folder) {
-  io::CsvWriter csv({"model", "dampers", "speed_m_s", "channel", "direction", "deviation_m_s2", "mean_rate_Hz", "bandwidth"});
+  io::CsvWriter csv({"model", "years", "dampers", "fault", "speed_m_s", "channel", "direction", "deviation", "unit",
+                     "mean_rate_Hz", "bandwidth"});
   for (const ResponseRow& row : rows) {
-    csv.row({row.model, row.dampers ? "on" : "off", row.speed_m_s, row.channel, row.direction, std::sqrt(row.moments.variance),
-             row.moments.mean_rate_Hz(), row.moments.bandwidth()});
+    csv.row({row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.channel, row.direction,
+             std::sqrt(row.moments.variance), row.unit, row.moments.mean_rate_Hz(), row.moments.bandwidth()});
   }
   csv.save(folder / "responses.csv");
 }
 
-void write_critical(const std::vector<reliability::CriticalSpeed>& speeds, const reliability::RandomVector& random,
-                    double design_speed_m_s, const std::filesystem::path& folder) {
-  const double reach = two_sided_normal_quantile(0.9);
-  io::CsvWriter critical({"model", "dampers", "speed_m_s", "low_m_s", "high_m_s", "deviation_pct", "design_speed_m_s",
-                          "probability_below_design", "beta"});
-  io::CsvWriter importance({"model", "dampers", "input", "slope_per_deviation_pct", "importance"});
-  for (const reliability::CriticalSpeed& each : speeds) {
+void write_critical(const std::vector<CriticalRow>& speeds, const reliability::RandomVector& random, double design_speed_m_s,
+                    const std::filesystem::path& folder) {
+  io::CsvWriter critical({"model", "years", "dampers", "fault", "speed_m_s", "low_m_s", "high_m_s", "deviation_pct",
+                          "design_speed_m_s", "probability_below_design", "beta"});
+  io::CsvWriter importance({"model", "years", "dampers", "fault", "input", "slope_per_deviation_pct", "importance"});
+  for (const CriticalRow& row : speeds) {
+    const std::optional<reliability::LogLinear>& found = row.speed.speed_m_s;
     std::optional<double> speed, low, high, deviation, probability, beta;
-    if (each.speed_m_s) {
-      const double spread = each.speed_m_s->deviation();
-      speed = each.speed_m_s->value;
-      low = *speed * std::exp(-reach * spread);
-      high = *speed * std::exp(reach * spread);
+    if (found) {
+      const double spread = found->deviation();
+      speed = found->value;
+      low = *speed * std::exp(-reach() * spread);
+      high = *speed * std::exp(reach() * spread);
       deviation = 100.0 * spread;
-      probability = each.probability_below(design_speed_m_s);
+      probability = row.speed.probability_below(design_speed_m_s);
       if (spread > 0.0) beta = std::log(*speed / design_speed_m_s) / spread;
-      for (Eigen::Index i = 0; i < each.speed_m_s->slope.size(); ++i) {
-        const double slope = each.speed_m_s->slope[i];
-        importance.row(
-            {each.model, each.dampers ? "on" : "off", random.name(i), 100.0 * slope, slope * slope / (spread * spread)});
+      for (Eigen::Index i = 0; i < found->slope.size() && spread > 0.0; ++i) {
+        const double slope = found->slope[i];
+        importance.row({row.speed.model, row.of.years, dampers(row.of), row.of.fault, random.name(i), 100.0 * slope,
+                        slope * slope / (spread * spread)});
       }
     }
-    critical.row({each.model, each.dampers ? "on" : "off", speed, low, high, deviation, design_speed_m_s, probability, beta});
+    critical.row({row.speed.model, row.of.years, dampers(row.of), row.of.fault, speed, low, high, deviation, design_speed_m_s,
+                  probability, beta});
   }
   critical.save(folder / "critical.csv");
   importance.save(folder / "importance.csv");
+}
+
+void write_years(const std::vector<YearRow>& rows, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"years", "dampers", "fault", "quantity", "place", "value", "low", "high", "unit"});
+  for (const YearRow& row : rows) {
+    std::optional<double> low, high;
+    if (row.spread) {
+      low = row.value * std::exp(-reach() * *row.spread);
+      high = row.value * std::exp(reach() * *row.spread);
+    }
+    csv.row({row.of.years, dampers(row.of), row.of.fault, row.quantity, row.place, row.value, low, high, row.unit});
+  }
+  csv.save(folder / "years.csv");
+}
+
+void write_rare(const std::vector<RareRow>& rows, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"limit_state", "model", "years", "dampers", "fault", "speed_m_s", "method", "probability", "beta",
+                     "variation", "calls", "note"});
+  for (const RareRow& row : rows) {
+    csv.row({row.limit_state, row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.method,
+             row.probability, row.beta, row.variation, row.calls, row.note});
+  }
+  csv.save(folder / "rare.csv");
+}
+
+void write_fatigue(const std::vector<FatigueRow>& rows, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"stay", "model", "years", "dampers", "fault", "speed_m_s", "stress_deviation_Pa", "damage_per_hour",
+                     "narrow_band_per_hour"});
+  for (const FatigueRow& row : rows) {
+    csv.row({row.stay, row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.stress_deviation_Pa,
+             row.damage_per_hour, row.narrow_band_per_hour});
+  }
+  csv.save(folder / "fatigue.csv");
+}
+
+void write_annual(const std::vector<AnnualRow>& rows, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"quantity", "years", "dampers", "fault", "place", "value", "upper", "unit"});
+  for (const AnnualRow& row : rows)
+    csv.row({row.quantity, row.of.years, dampers(row.of), row.of.fault, row.place, row.value, row.upper, row.unit});
+  csv.save(folder / "annual.csv");
 }
 
 }  // namespace twindeck::steps

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,37 +13,95 @@ namespace twindeck::steps {
 /// random.csv: `name,law,mean,deviation,low,high,label,source`, each input in its own unit.
 void write_random(const reliability::RandomVector& random, const std::filesystem::path& folder);
 
+/// Which structure a row is of. Its columns are `years,dampers,fault`: dampers off or on, fault empty or "C1 held".
+struct Case {
+  double years = 0.0;
+  bool dampers = false;
+  std::string fault;
+  [[nodiscard]] bool same_but_years(const Case& other) const { return dampers == other.dampers && fault == other.fault; }
+};
+
 /// A probability of a limit state in a mean wind.
 struct FragilityRow {
-  std::string limit_state;  ///< comfort_vertical, comfort_lateral, stability
+  std::string
+      limit_state;  ///< stability, comfort_vertical, comfort_lateral, those of further guidelines, stay_slack, damper_stroke
   std::string model;
-  bool dampers = false;
+  Case of;
   double speed_m_s = 0.0;
-  std::string channel;                            ///< with the largest probability; empty for stability
-  double limit_m_s2 = 0.0, deviation_m_s2 = 0.0;  ///< of the acceleration; 0 for stability
+  std::string place;                    ///< with the largest response; empty for stability
+  double limit = 0.0, deviation = 0.0;  ///< of the response
+  std::string unit;
   reliability::Excursion excursion;
 };
-/// crossings.csv: `model,dampers,speed_m_s,channel,limit_m_s2,deviation_m_s2,crossing_rate_Hz,poisson,vanmarcke,low,high`: the
-/// channel of each limit state with the largest probability. fragility.csv:
-/// `limit_state,model,dampers,speed_m_s,probability,low,high`.
+/// crossings.csv: `limit_state,model,CASE,speed_m_s,place,limit,deviation,unit,crossing_rate_Hz,poisson,vanmarcke,low,high`:
+/// the place of each limit state with the largest response. fragility.csv:
+/// `limit_state,model,CASE,speed_m_s,probability,low,high`.
 void write_fragility(const std::vector<FragilityRow>& rows, const std::filesystem::path& folder);
 
-/// responses.csv: `model,dampers,speed_m_s,channel,direction,deviation_m_s2,mean_rate_Hz,bandwidth`: accelerations at all
-/// inputs' medians, at the monitoring points in x, y, z and at every third aerodynamic node across the deck and vertically.
+/// responses.csv: `model,CASE,speed_m_s,channel,direction,deviation,unit,mean_rate_Hz,bandwidth`: accelerations at all inputs'
+/// medians, at the monitoring points in x, y, z and at every third aerodynamic node across the deck and vertically; forces of
+/// stays and strokes of dampers.
 struct ResponseRow {
   std::string model;
-  bool dampers = false;
+  Case of;
   double speed_m_s = 0.0;
-  std::string channel, direction;
+  std::string channel, direction, unit;
   reliability::SpectralMoments moments;
 };
 void write_responses(const std::vector<ResponseRow>& rows, const std::filesystem::path& folder);
 
-/// critical.csv: `model,dampers,speed_m_s,low_m_s,high_m_s,deviation_pct,design_speed_m_s,probability_below_design,beta`, low
-/// and high the 5 and 95 % quantiles; empty where the bridge is stable. importance.csv:
-/// `model,dampers,input,slope_per_deviation_pct,importance`: the share of the variance of ln V_cr, which is the squared
-/// direction cosine of FORM's design point.
-void write_critical(const std::vector<reliability::CriticalSpeed>& speeds, const reliability::RandomVector& random,
-                    double design_speed_m_s, const std::filesystem::path& folder);
+struct CriticalRow {
+  Case of;
+  reliability::CriticalSpeed speed;
+};
+/// critical.csv: `model,CASE,speed_m_s,low_m_s,high_m_s,deviation_pct,design_speed_m_s,probability_below_design,beta`, low and
+/// high the 5 and 95 % quantiles; empty where the bridge is stable. importance.csv:
+/// `model,CASE,input,slope_per_deviation_pct,importance`: the share of the variance of ln V_cr, which is the squared direction
+/// cosine of FORM's design point.
+void write_critical(const std::vector<CriticalRow>& speeds, const reliability::RandomVector& random, double design_speed_m_s,
+                    const std::filesystem::path& folder);
+
+/// years.csv: `CASE,quantity,place,value,low,high,unit`: frequencies, critical speeds, static forces of stays, what is left of
+/// each section. low and high are the 5 and 95 % quantiles, empty where no spread was computed.
+struct YearRow {
+  Case of;
+  std::string quantity, place, unit;
+  double value = 0.0;
+  std::optional<double> spread;  ///< deviation of the logarithm
+};
+void write_years(const std::vector<YearRow>& rows, const std::filesystem::path& folder);
+
+/// rare.csv, where the configuration asks for it:
+/// `limit_state,model,CASE,speed_m_s,method,probability,beta,variation,calls,note`, FORM and subset simulation of an excursion,
+/// each with what speaks against it.
+struct RareRow {
+  std::string limit_state, model;
+  Case of;
+  double speed_m_s = 0.0;
+  std::string method;
+  double probability = 0.0;
+  std::optional<double> beta, variation;
+  int calls = 0;
+  std::string note;
+};
+void write_rare(const std::vector<RareRow>& rows, const std::filesystem::path& folder);
+
+/// fatigue.csv: `stay,model,CASE,speed_m_s,stress_deviation_Pa,damage_per_hour,narrow_band_per_hour`. annual.csv, only where
+/// the configuration gives a wind law: `quantity,CASE,place,value,upper,unit`: hours and probabilities per year, and damage of
+/// stays per year with its narrow-band bound in `upper`.
+struct FatigueRow {
+  std::string stay, model;
+  Case of;
+  double speed_m_s = 0.0, stress_deviation_Pa = 0.0, damage_per_hour = 0.0, narrow_band_per_hour = 0.0;
+};
+void write_fatigue(const std::vector<FatigueRow>& rows, const std::filesystem::path& folder);
+struct AnnualRow {
+  std::string quantity;
+  Case of;
+  std::string place, unit;
+  double value = 0.0;
+  std::optional<double> upper;
+};
+void write_annual(const std::vector<AnnualRow>& rows, const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

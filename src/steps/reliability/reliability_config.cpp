@@ -4,12 +4,77 @@
 
 namespace twindeck::steps {
 
+namespace {
+
+io::FieldTable wall_fields(ReliabilityConfig& config) {
+  StatedWall& wall = config.walls.emplace_back();
+  io::FieldTable w;
+  w.texts("sections", wall.sections, "sections of sections.csv that corrode alike")
+      .number("thickness", wall.thickness_m, "m", {0.0, 10.0},
+              "thickness of the wall; 0: round ropes or rods, or a shell's own")
+      .integer("sides", wall.sides, {1.0, 2.0}, "surfaces of the wall that corrode")
+      .choice("category", wall.category, {"C1", "C2", "C3", "C4", "C5", "CX"}, "category of the atmosphere, ISO 9223")
+      .number("first_year", wall.first_year_m, "m", {0.0, 0.1}, "loss of the first year; 0: the middle of the category's range")
+      .number("exponent", wall.exponent, "", {0.0, 1.0, true}, "b of D = r t^b, ISO 9224: 0.523, upper bound 0.575")
+      .number("coating_life_years", wall.coating_life_years, "", {0.0, 1000.0}, "years until the coating is gone");
+  return w;
+}
+
+void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
+  t.texts("rare", config.rare,
+          "limit states of crossings.csv whose excursion is also found by FORM and by subset simulation (rare.csv)")
+      .numbers("years", config.years, "", {0.0, 1000.0}, "years in service that are computed, the first of them 0")
+      .tables(
+          "wall", [&config] { return wall_fields(config); }, "sections that lose thickness")
+      .tables(
+          "fault",
+          [&config] {
+            StatedFault& fault = config.faults.emplace_back();
+            io::FieldTable f;
+            f.text("damper", fault.damper, "name of the damper in springs.csv", true)
+                .choice("kind", fault.kind, {"held", "lost"}, "held by static friction, or taken out");
+            return f;
+          },
+          "one damper at fault: a further case with dampers")
+      .tables(
+          "comfort",
+          [&config] {
+            StatedComfort& limit = config.comfort.emplace_back();
+            io::FieldTable c;
+            c.text("name", limit.name, "of the guideline or of your own", true)
+                .number("vertical", limit.vertical_m_s2, "m/s2", {0.0, 100.0}, "limit of the vertical acceleration; 0: none")
+                .number("lateral", limit.lateral_m_s2, "m/s2", {0.0, 100.0}, "limit of the lateral acceleration; 0: none");
+            return c;
+          },
+          "comfort limits beside those of step 8", "name")
+      .choice("wind_law.kind", config.wind_law.kind, {"none", "weibull", "table", "gumbel", "code"},
+              "your law of the mean wind at the deck: weibull and table hold all ten-minute means, gumbel and code the largest "
+              "of a year; none: no annual figure")
+      .number("wind_law.scale", config.wind_law.scale_m_s, "m/s", io::non_negative(), "weibull: scale")
+      .number("wind_law.shape", config.wind_law.shape, "", io::positive(), "weibull: shape")
+      .number("wind_law.mode", config.wind_law.mode_m_s, "m/s", io::non_negative(), "gumbel: mode")
+      .number("wind_law.gumbel_scale", config.wind_law.gumbel_scale_m_s, "m/s", io::non_negative(), "gumbel: scale")
+      .number("wind_law.basic_speed", config.wind_law.basic_m_s, "m/s", io::non_negative(),
+              "code: basic wind speed v_b of EN 1991-1-4")
+      .choice("wind_law.terrain", config.wind_law.terrain, {"0", "I", "II", "III", "IV"}, "code: category of the terrain")
+      .text("wind_law.file", config.wind_law.file,
+            "table: file with speed_m_s, direction_deg (where the wind blows to, as step 7's), "
+            "probability")
+      .number("wind_law.sector", config.wind_law.sector_deg, "", {1.0, 360.0},
+              "table: winds within half this angle of step 7's direction or its opposite count, others as calm, degrees");
+}
+
+}  // namespace
+
 io::FieldTable ReliabilityConfig::fields() {
+  walls.reserve(256);
+  faults.reserve(256);
+  comfort.reserve(256);
   random.reserve(256);  // rows are bound to their fields, so they must not move
   const io::Range variation = {0.0, 2.0};
   io::FieldTable t;
   t.numbers("speeds", speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true}, "mean wind speeds of the fragility curves")
-      .texts("models", models, "deployments of Table 11 (or hybrid) whose critical speeds are asked for")
+      .texts("models", models, "deployments whose critical speeds are asked for; empty: all that step 7 has")
       .text("response_model", response_model, "deployment of the response to turbulence")
       .number("duration", duration_s, "s", {0.0, io::longest_record_s, true}, "time in which a limit may be exceeded")
       .integer("samples", samples, {100.0, 1000000.0}, "samples of the random inputs for the spread of probabilities")
@@ -40,7 +105,16 @@ io::FieldTable ReliabilityConfig::fields() {
                 .text("source", input.source, "where they come from");
             return r;
           },
-          "a random input of your own: it replaces the one of the same name, or adds a parameter of the model", "name");
+          "a random input of your own: it replaces the one of the same name, or adds a parameter of the model", "name")
+      .number("corrosion_variation", corrosion_variation, "", variation,
+              "coefficient of variation of the rate of corrosion (lognormal about 1); assumed")
+      .number("held_stiffness", held_stiffness_N_m, "N/m", {0.0, 1e12, true},
+              "stiffness of a held damper that has no spring in series: of its mounts; assumed")
+      .number("damper_stroke", damper_stroke_m, "m", {0.0, 10.0}, "largest stroke of a damper to either side; 0: not asked")
+      .choice("stay_class", stay_class, {"bar", "coil_rope", "spiral_strand", "parallel"},
+              "fatigue category of the stays, EN 1993-1-11:2006, table 9.1: bars 105 MPa, locked coil ropes and spiral strands "
+              "150 MPa, parallel wires and strands 160 MPa");
+  add_tables(*this, t);
   return t;
 }
 

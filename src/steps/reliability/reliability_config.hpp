@@ -17,16 +17,50 @@ struct StatedInput {
   bool bounded = false;
 };
 
+/// Sections that corrode alike.
+struct StatedWall {
+  std::vector<std::string> sections;
+  double thickness_m = 0.0;
+  long sides = 1;
+  std::string category = "C3";
+  double first_year_m = 0.0, exponent = 0.523, coating_life_years = 0.0;
+};
+
+/// Comfort limits of a guideline; 0: none in that direction.
+struct StatedComfort {
+  std::string name;
+  double vertical_m_s2 = 0.0, lateral_m_s2 = 0.0;
+};
+
+struct StatedFault {
+  std::string damper, kind = "held";
+};
+
+struct StatedWindLaw {
+  std::string kind = "none", terrain = "II", file;
+  double scale_m_s = 0.0, shape = 2.0, mode_m_s = 0.0, gumbel_scale_m_s = 0.0, basic_m_s = 0.0, sector_deg = 90.0;
+};
+
 /// Configuration of s10_reliability. Decks, data and wind direction are those of s7_aerodynamics.toml; height, turbulence,
 /// reduction and comfort limits those of s8_validation.toml.
 struct ReliabilityConfig {
   std::vector<double> speed_m_s = {10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0};
-  std::vector<std::string> models = {"A", "C", "D", "G", "H", "I"};
+  std::vector<std::string> models;
   std::string response_model = "A";
   double duration_s = 600.0;
   long samples = 2000;
-  double damping_variation = 0.2, level_variation = 0.1, damper_variation = 0.05, turbulence_variation = 0.1;
+  double damping_variation = 0.2, level_variation = 0.1, damper_variation = 0.05, turbulence_variation = 0.1,
+         corrosion_variation = 0.3;
   std::vector<StatedInput> random;
+  std::vector<std::string> rare;
+  std::vector<double> years = {0.0};
+  std::vector<StatedWall> walls;
+  std::vector<StatedFault> faults;
+  double held_stiffness_N_m = 1e7;
+  std::vector<StatedComfort> comfort;
+  std::string stay_class = "spiral_strand";
+  double damper_stroke_m = 0.0;
+  StatedWindLaw wind_law;
 
   [[nodiscard]] io::FieldTable fields();
 };

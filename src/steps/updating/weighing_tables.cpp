@@ -20,14 +20,14 @@ const fe::Parameter& parameter_of(const updating::Weighed& weighed, Index j) {
 
 void write_posterior(const updating::Weighed& weighed, const updating::Posterior& posterior,
                      const std::filesystem::path& file) {
-  io::CsvWriter csv({"parameter", "unit", "final_value", "std", "std_with_misfit", "prior_std", "held"});
+  io::CsvWriter csv({"parameter", "unit", "final_value", "std", "std_with_misfit", "prior_std", "held", "label"});
   for (Index j = 0; j < posterior.std.size(); ++j) {
     const fe::Parameter& parameter = parameter_of(weighed, j);
     const bool held = posterior.is_held[static_cast<std::size_t>(j)];
     const std::optional<double> std = held ? std::nullopt : std::optional<double>(posterior.std[j]);
     csv.row({parameter.name, parameter.unit, weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]), std,
              held ? std::nullopt : std::optional<double>(posterior.std[j] * posterior.misfit()), posterior.prior_std[j],
-             held ? 1 : 0});
+             held ? 1 : 0, weighed.rows.given() ? "identified" : "assumed"});
   }
   csv.save(file);
 }
@@ -72,10 +72,14 @@ void report_weighing(runner::StepContext& context, const updating::Weighed& weig
   updating::warn_of_undetermined(context, weighed);
   const updating::UpdatingResult& result = weighed.result;
   if (result.at_optimum.jacobian.size() == 0) return;
-  if (!weighed.rows.given()) return updating::say_flat_frequencies(context, weighed);
-  const updating::Posterior posterior = updating::posterior(result.at_optimum, weighed.normalised(), result.box, result.scale);
+  const std::optional<updating::Posterior> found =
+      weighed.rows.given() ? updating::posterior(result.at_optimum, weighed.normalised(), result.box, result.scale)
+                           : updating::posterior_of_frequencies(weighed);
+  if (!found) return;
+  const updating::Posterior& posterior = *found;
   write_posterior(weighed, posterior, context.out / "posterior.csv");
   write_correlations(weighed, posterior, context.out / "correlations.csv");
+  if (!weighed.rows.given()) return updating::say_flat_frequencies(context, weighed, posterior);
   write_rows(weighed, context.out / "weighed_rows.csv");
   write_weighing(weighed, posterior, context.out / "weighing.csv");
   updating::say_weighing(context, weighed, posterior);

@@ -124,6 +124,23 @@ TEST(SayWeighing, LeavesOutFlatDirectionsThatAreToldAlready) {
   EXPECT_TRUE(holds(h.heard().warned, "moving left by +0.2 and right by +0.4 together"));
 }
 
+// A residual of 0.001 is 0.04 of 40 deviations a unit. With the prior deviation 1/sqrt(12) of a range of 1 and a slope of 0.5,
+// which is 20 deviations: C = 1/(400 + 12).
+TEST(PosteriorOfFrequencies, CountsTheDeviationsThatAreStated) {
+  ByHand h;
+  h.active = {0};
+  h.result.scale = Eigen::VectorXd::Ones(1);
+  h.result.box = {Eigen::VectorXd::Constant(1, 0.5), Eigen::VectorXd::Constant(1, 1.5)};
+  h.result.at_optimum = {Eigen::VectorXd::Constant(1, 1e-3), Eigen::MatrixXd::Constant(1, 1, 0.5), {}, 0};
+  const Weighed weighed{h.model, h.active, h.measured, h.pairing, {}, h.result};
+  const std::optional<Posterior> found = posterior_of_frequencies(weighed);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->std[0], 1.0 / std::sqrt(412.0), 1e-12);
+  EXPECT_NEAR(found->chi_squared, 0.04 * 0.04, 1e-15);
+  h.measured.modes.frequency_std_Hz[0] = 0.0;
+  EXPECT_FALSE(posterior_of_frequencies(weighed));
+}
+
 // A frequency of 4 Hz ± 0.1 Hz has 40 deviations. A slope of 0.05 over a range of 1, whose deviation is 1/sqrt(12), is 0.58 of
 // them; one of 0.5 is 5.8.
 TEST(SayFlatFrequencies, CountsRelativeResidualsInTheirDeviations) {
@@ -132,7 +149,10 @@ TEST(SayFlatFrequencies, CountsRelativeResidualsInTheirDeviations) {
   h.result.at_optimum = {Eigen::VectorXd::Constant(1, 1e-3), Eigen::RowVector2d(0.5, 0.0), {}, 0};
   const auto said = [&] {
     HeardReporter reporter;
-    say_flat_frequencies(reporter, {h.model, h.active, h.measured, h.pairing, {}, h.result});
+    const Weighed weighed{h.model, h.active, h.measured, h.pairing, {}, h.result};
+    const std::optional<Posterior> posterior = posterior_of_frequencies(weighed);
+    if (posterior) say_flat_frequencies(reporter, weighed, *posterior);
+    EXPECT_TRUE(posterior);
     EXPECT_TRUE(reporter.warned.empty());
     return reporter.said;
   };
